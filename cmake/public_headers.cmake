@@ -31,8 +31,9 @@ set(ROVERNET_PUBLIC_HEADERS
     scene/materials/material.hpp scene/materials/p2040.hpp
     scene/occupancy.hpp scene/scene.hpp scene/scene_change.hpp scene/storeys.hpp
     sim/error.hpp sim/fate.hpp sim/fields.hpp sim/geometry.hpp sim/ids.hpp sim/leg.hpp
-    sim/link_layer.hpp sim/math.hpp sim/message.hpp sim/random.hpp sim/record.hpp
-    sim/record_kind.hpp sim/router.hpp sim/routing_protocol.hpp sim/sieve.hpp sim/sink.hpp sim/time.hpp sim/units.hpp
+    sim/link_layer.hpp sim/math.hpp sim/message.hpp sim/random.hpp sim/reception.hpp sim/record.hpp
+    sim/record_field.hpp sim/record_kind.hpp sim/robot_record.hpp
+    sim/router.hpp sim/routing_protocol.hpp sim/sieve.hpp sim/sink.hpp sim/time.hpp sim/units.hpp
     study/statistics/interval.hpp study/statistics/interval_method.hpp
     study/statistics/metric_bounds.hpp study/statistics/summary.hpp
     traces/fingerprint.hpp traces/metric_values.hpp

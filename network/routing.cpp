@@ -180,6 +180,9 @@ void Routing::send_now(const QueuedFrame& frame) {
         world_.release(frame.frame);
         return;
     }
+    if (frame.frame.next_hop != everyone && world_.records.wants<Routed>()) {
+        world_.emit(Routed{world_.now, frame.frame, frame.heard_from});
+    }
     mac_.send(frame);
 }
 

@@ -3,9 +3,11 @@
 
 #include "sim/fate.hpp"
 #include "sim/ids.hpp"
-#include "sim/leg.hpp"
 #include "sim/message.hpp"
+#include "sim/reception.hpp"
+#include "sim/record_field.hpp"
 #include "sim/record_kind.hpp"
+#include "sim/robot_record.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 
@@ -30,27 +32,6 @@ namespace rovernet {
 
 class Legs;
 
-/// Reception of one transmission at one receiver that could decode it without interference.
-/// Medium::find_receivers sets node and time when the frame starts, whatever moves later; reception
-/// model and routing protocol set the other fields when the frame ends.
-struct Reception {
-    /// Time at which the frame ends at this receiver.
-    Time time;
-    NodeId node;
-    /// Fate of the copy at this receiver.
-    Fate fate = Fate::waiting;
-    /// True if the application gets the message: it is the node's first copy, and the node is a
-    /// destination.
-    bool delivered = false;
-    /// True if the receiver locked onto the frame. For a lost frame `sinr` sets whether it did.
-    bool locked = true;
-
-    /// Order in which the receptions of a transmission are served: by time, then by node.
-    friend bool operator<(const Reception& a, const Reception& b) {
-        return a.time != b.time ? a.time < b.time : a.node < b.node;
-    }
-};
-
 /// An application passes a message to the routing protocol, or to the MAC if it is sent over one
 /// hop. Control packets of a protocol have no Sent. Applications emit it before any other record of
 /// the message.
@@ -67,6 +48,14 @@ struct Sent {
     /// set only if a sink requests it (see kind_reachable, kind_cheap_reachable). It is the largest
     /// number that any protocol could reach if no robot moved.
     std::optional<std::uint32_t> reachable;
+
+    static constexpr std::string_view name = "Sent";
+    static constexpr auto fields() {
+        return describe(field("time", &Sent::time), field("node", &Sent::node),
+                        field<with_origin>("message", &Sent::message), field("ttl", &Sent::ttl),
+                        field("robots", &Sent::robots),
+                        field<not_hashed>("reachable", &Sent::reachable));
+    }
 };
 
 /// A node starts to transmit a frame of a message. A frame that csma repeats has one record for
@@ -76,6 +65,12 @@ struct Transmitted {
     Frame frame;
     /// Node from which the sender received the frame, if the sender forwards it.
     std::optional<NodeId> heard_from;
+
+    static constexpr std::string_view name = "Transmitted";
+    static constexpr auto fields() {
+        return describe(field("time", &Transmitted::time), field("frame", &Transmitted::frame),
+                        field("heard_from", &Transmitted::heard_from));
+    }
 };
 
 /// A frame of a message ends at some of its receivers: a broadcast at all of them at once, or in
@@ -91,6 +86,15 @@ struct Received {
     std::uint32_t header = 0;
     /// Received power [dBm] of each reception; empty unless a sink asks for it (see kind_levels).
     std::span<const Dbm> levels = {};
+
+    static constexpr std::string_view name = "Received";
+    static constexpr auto fields() {
+        return describe(field("frame", &Received::frame),
+                        field<not_hashed>("reserved", &Received::reserved),
+                        field<not_hashed>("header", &Received::header),
+                        field("receptions", &Received::receptions),
+                        field<not_hashed | not_recorded>("levels", &Received::levels));
+    }
 };
 
 /// A routing protocol passes a unicast frame to the MAC, once for each hop. A broadcast has none:
@@ -100,6 +104,12 @@ struct Routed {
     Frame frame;
     /// Node from which the sender received the frame, if the sender forwards it.
     std::optional<NodeId> heard_from;
+
+    static constexpr std::string_view name = "Routed";
+    static constexpr auto fields() {
+        return describe(field("time", &Routed::time), field("frame", &Routed::frame),
+                        field("heard_from", &Routed::heard_from));
+    }
 };
 
 /// A node loses a copy outside a reception: while the copy waits, or before it is transmitted.
@@ -123,58 +133,12 @@ struct Dropped {
         const LossReason listed = reason_of(reason);
         return reason == DropReason::own ? LossReason{own_code, listed.layer} : listed;
     }
-};
 
-/// A node starts a new leg, which gives its position from `time` on. The first leg starts with the
-/// run, or when the robot is added. A robot that is switched off or on, or put to another place,
-/// also starts a leg.
-struct Moved {
-    Time time;
-    NodeId node;
-    /// Leg that begins at `time`.
-    Leg leg;
-};
-
-/// A node has reached the end of its movement and rests until it gets a new one. Motion emits it
-/// when the movement model returns AtRest.
-struct Arrived {
-    Time time;
-    NodeId node;
-};
-
-/// A node found no path around the walls to its goal, and stops. Motion emits it when the movement
-/// model returns Blocked.
-struct NoWay {
-    Time time;
-    NodeId node;
-    /// Goal that could not be reached [m].
-    Vec3 goal;
-};
-
-/// Node `to` can hear `from` from now on. Links are directed: the opposite direction is a second
-/// link. LinkMonitor emits LinkUp and LinkDown at the instant of the change, if a sink wants them.
-struct LinkUp {
-    Time time;
-    /// Robot that is heard (transmitter).
-    NodeId from;
-    /// Robot that hears (receiver).
-    NodeId to;
-};
-
-/// Node `to` cannot hear `from` any more.
-struct LinkDown {
-    Time time;
-    NodeId from;
-    NodeId to;
-};
-
-/// A node's radio is switched on or off. Robots are on when they are added, without a record.
-/// Engine::switch_robot emits it, before the records of its consequences.
-struct Switched {
-    Time time;
-    NodeId node;
-    /// True if the radio is on from now on.
-    bool on;
+    static constexpr std::string_view name = "Dropped";
+    static constexpr auto fields() {
+        return describe(field("time", &Dropped::time), field("node", &Dropped::node),
+                        field("frame", &Dropped::frame), field("reason", &Dropped::reason));
+    }
 };
 
 /// The MAC starts to transmit a frame: a data frame, directly after its Transmitted record, or a
@@ -187,6 +151,12 @@ struct AirSent {
     std::uint32_t bytes;
     /// Bytes that the access model adds to a frame of a message.
     std::uint32_t header = 0;
+
+    static constexpr std::string_view name = "AirSent";
+    static constexpr auto fields() {
+        return describe(field("time", &AirSent::time), field("air", &AirSent::air),
+                        field("bytes", &AirSent::bytes));
+    }
 };
 
 /// A control frame ends at its destination, if that is on. Other stations that overhear it have no
@@ -198,11 +168,19 @@ struct ControlReceived {
     Reception reception;
     /// Size of the control frame [bytes].
     std::uint32_t bytes;
+
+    static constexpr std::string_view name = "ControlReceived";
+    static constexpr auto fields() {
+        return describe(field("air", &ControlReceived::air),
+                        field("reception", &ControlReceived::reception),
+                        field("bytes", &ControlReceived::bytes));
+    }
 };
 
+template <class... R>
+std::variant<R...> variant_of(RecordList<R...>);
 /// Any record. A lost packet is a record: never an exception, never a line in a log.
-using Record = std::variant<Sent, Transmitted, Received, Dropped, Moved, Arrived, NoWay, Switched,
-                            LinkUp, LinkDown, AirSent, ControlReceived>;
+using Record = decltype(variant_of(RecordKinds{}));
 
 /// State of the network that a sink may read while it handles a record.
 struct RecordContext {

@@ -26,6 +26,10 @@ namespace rovernet {
 /// where a frame is: uid 8, sender 4, ttl 2, hops 2. Times in [ns], positions in micrometres [um]
 /// rounded to nearest. Data that depends on the sinks (`reachable`), and the division of a
 /// transmission's receptions into records, are not included.
+///
+/// The table follows from the fields of the records (sim/record.hpp), in their order: all kinds but
+/// those of kind_unhashed, all fields but those that are marked not_hashed. Other real numbers are
+/// rounded as positions; an optional begins with a byte that is 1 if it has a value.
 /// Example: examples/fingerprint.cpp.
 class Fingerprint {
   public:
@@ -34,10 +38,7 @@ class Fingerprint {
     Fingerprint& operator=(Fingerprint&&) noexcept;
     ~Fingerprint();
 
-    KindMask kinds() const {
-        return kind_of<Sent>() | kind_of<Transmitted>() | kind_of<Received>() | kind_of<Dropped>() |
-               kind_of<Moved>();
-    }
+    KindMask kinds() const { return kind_all & ~kind_unhashed; }
     void on(const Record& record, const RecordContext& context);
 
     /// Fingerprint of the records so far.

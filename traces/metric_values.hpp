@@ -33,7 +33,7 @@ struct LatencyValues {
 /// MetricValues::drops. DUP is first, the others follow in the order of sim/fate.hpp.
 inline constexpr auto loss_codes = [] {
     struct Codes {
-        std::array<std::string_view, 16> of{};
+        std::array<std::string_view, 24> of{};
         std::size_t count = 0;
         constexpr std::size_t place(std::string_view code) const {
             std::size_t i = 0;

@@ -90,7 +90,7 @@ void Metrics::count_parts(const Message& message, std::uint64_t others, bool is_
 }
 
 void Metrics::count(const Dropped& dropped, const RecordContext& context) {
-    if (!counts(dropped.frame, context)) return;
+    if (dropped.protocol_decides || !counts(dropped.frame, context)) return;
     ++drops_[dropped.reason];
     if (dropped.reason != DropReason::cut_off) return;
     const MessageState& state = state_of(dropped.frame.message, context);

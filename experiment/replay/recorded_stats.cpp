@@ -172,6 +172,7 @@ void RecordedCounter::receive(const Reception& rx, bool is_unicast, Known& messa
 }
 
 bool RecordedCounter::count(const Dropped& r) {
+    if (r.protocol_decides) return add_packets(1);
     ++drops_[static_cast<std::size_t>(r.reason)];
     if (const Known* message = known(r.frame.message)) {
         counter_.lost(r.node, message->sending.flow, r.time);

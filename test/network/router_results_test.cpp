@@ -77,8 +77,8 @@ struct Log {
     Time last = start_of_run;
     bool ordered = true;
 
-    KindMask kinds() const { return kind_of<Received>() | kind_of<Dropped>() | kind_of<AirSent>(); }
-    void on(const Record& record, const RecordContext&) {
+    KindMask kinds() const { return kind_of<Received>() | kind_of<Dropped>() | kind_of<Routed>() | kind_of<AirSent>(); }
+    void on(const Record& record, const RecordContext& context) {
         if (const auto* r = std::get_if<Received>(&record)) {
             for (const Reception& each : r->receptions) {
                 note(each.time, "r" + std::to_string(each.node.value));
@@ -86,6 +86,9 @@ struct Log {
         } else if (const auto* d = std::get_if<Dropped>(&record)) {
             note(d->time, "D" + std::to_string(d->node.value) + " " + std::string(d->loss().code) +
                               (d->protocol_decides ? "?" : ""));
+        } else if (const auto* f = std::get_if<Routed>(&record)) {
+            const bool begins = context.messages[f->frame.message].origin == f->frame.sender;
+            note(f->time, (begins ? "s" : "f") + std::to_string(f->frame.sender.value));
         } else if (const auto* a = std::get_if<AirSent>(&record)) {
             note(a->time, "air " + std::to_string(a->bytes));
         }
@@ -176,6 +179,7 @@ TEST_CASE("salvage: a packet that is sent again is counted nowhere as lost") {
     CHECK(m.deliveries == 1);
     for (const DropCount& each : m.drops) CHECK(each.count == 0);
     CHECK(row.lines("D") == Lines{"D0 RET?"});  // one attempt at a link
+    CHECK(row.lines("sf") == Lines{"s0", "s0"});
 }
 
 TEST_CASE("take_queued: after retries it gives back all frames for the hop that is gone") {

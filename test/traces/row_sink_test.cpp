@@ -58,30 +58,74 @@ TEST_CASE("rows: each record of a flood by hand is a row, each reception one of 
     stream.receive(frame(m, b, 1, 2),
                    {{at(3'000), a, Fate::duplicate, false}, {at(3'100), c, Fate::ttl, true}});
 
-    REQUIRE(rows->of<SentRow>().size() == 1);
-    const SentRow& sent = rows->of<SentRow>()[0];
-    CHECK(sent.t_ns == at(1'000).time_since_epoch().count());
-    CHECK(sent.robot == 0);
-    CHECK(sent.to == -1);
-    CHECK(sent.size == 64);
-    CHECK(sent.ttl == 2);
-    REQUIRE(rows->of<TransmittedRow>().size() == 2);
-    CHECK(rows->of<TransmittedRow>()[0].heard_from == -1);
-    CHECK(rows->of<TransmittedRow>()[1].heard_from == 0);
-    CHECK(rows->of<TransmittedRow>()[1].next_hop == -1);
-    REQUIRE(rows->of<ReceivedRow>().size() == 2);
-    const ReceivedRow& lost = rows->of<ReceivedRow>()[0];
-    const ReceivedRow& last = rows->of<ReceivedRow>()[1];
-    CHECK(text(lost.reason) == "DUP");
-    CHECK_FALSE(lost.delivered);
-    CHECK(std::isnan(lost.level));
-    CHECK(last.t_ns == at(3'100).time_since_epoch().count());
-    CHECK(last.robot == 2);
-    CHECK(last.sender == 1);
-    CHECK(last.origin == 0);
-    CHECK(last.hops == 2);
-    CHECK(text(last.reason) == "TTL");
-    CHECK(last.delivered);
+    const RowSink::Table sent = rows->table(kind_of<Sent>());
+    REQUIRE(sent.size() == 1);
+    CHECK(cell<std::int64_t>(sent, 0, "t_ns") == at(1'000).time_since_epoch().count());
+    CHECK(cell<std::int32_t>(sent, 0, "robot") == 0);
+    CHECK(cell<std::int32_t>(sent, 0, "to") == -1);
+    CHECK(cell<std::int32_t>(sent, 0, "size") == 64);
+    CHECK(cell<std::int32_t>(sent, 0, "ttl") == 2);
+    const RowSink::Table transmitted = rows->table(kind_of<Transmitted>());
+    REQUIRE(transmitted.size() == 2);
+    CHECK(cell<std::int32_t>(transmitted, 0, "heard_from") == -1);
+    CHECK(cell<std::int32_t>(transmitted, 1, "heard_from") == 0);
+    CHECK(cell<std::int32_t>(transmitted, 1, "robot") == 1);
+    CHECK(cell<std::int32_t>(transmitted, 1, "next_hop") == -1);
+    const RowSink::Table received = rows->table(kind_of<Received>());
+    REQUIRE(received.size() == 2);
+    CHECK(text(cell<CodeCell>(received, 0, "reason")) == "DUP");
+    CHECK_FALSE(cell<bool>(received, 0, "delivered"));
+    CHECK(std::isnan(cell<double>(received, 0, "level")));
+    CHECK(cell<std::int64_t>(received, 1, "t_ns") == at(3'100).time_since_epoch().count());
+    CHECK(cell<std::int32_t>(received, 1, "robot") == 2);
+    CHECK(cell<std::int32_t>(received, 1, "sender") == 1);
+    CHECK(cell<std::int32_t>(received, 1, "origin") == 0);
+    CHECK(cell<std::int32_t>(received, 1, "hops") == 2);
+    CHECK(text(cell<CodeCell>(received, 1, "reason")) == "TTL");
+    CHECK(cell<bool>(received, 1, "delivered"));
+}
+
+TEST_CASE("rows: the columns of each kind, and the formats of their cells") {
+    const char* const expected[] = {
+        "t_ns<i8 robot<i4 uid<i8 to<i4 size<i4 flow<i4 ttl<i4",
+        "t_ns<i8 robot<i4 uid<i8 origin<i4 heard_from<i4 next_hop<i4 ttl<i4 hops<i4",
+        "t_ns<i8 robot<i4 uid<i8 origin<i4 sender<i4 ttl<i4 hops<i4 level<f8 reason<U4 delivered?",
+        "t_ns<i8 robot<i4 uid<i8 origin<i4 sender<i4 ttl<i4 hops<i4 reason<U4",
+        "t_ns<i8 end_ns<i8 robot<i4 x<f8 y<f8 z<f8 vx<f8 vy<f8 vz<f8 heading<f8 turning<f8",
+        "t_ns<i8 robot<i4",
+        "t_ns<i8 robot<i4 x<f8 y<f8 z<f8",
+        "t_ns<i8 robot<i4 on?",
+        "t_ns<i8 robot<i4 sender<i4",
+        "t_ns<i8 robot<i4 sender<i4",
+        "t_ns<i8 robot<i4 next_hop<i4 kind<U4 attempt<i4 bytes<i4 reserved_ns<i8",
+        "t_ns<i8 robot<i4 sender<i4 kind<U4 bytes<i4 reason<U4",
+    };
+    const RowSink rows(kind_all);
+    for (std::size_t kind = 0; kind < std::size(expected); ++kind) {
+        const RowSink::Table table = rows.table(KindMask{1} << kind);
+        std::string columns;
+        for (const RowColumn& column : table.columns) {
+            columns += (columns.empty() ? "" : " ") + column.name + std::string(column.format);
+        }
+        CHECK(columns == expected[kind]);
+    }
+}
+
+TEST_CASE("rows: links are told from their receiver, and legs at the time of the record") {
+    const auto rows = std::make_shared<RowSink>(kind_all);
+    Stream stream;
+    stream.sinks = {rows};
+    stream.emit(LinkUp{at(5), a, b});
+    stream.emit(
+        Moved{at(2'000'000'000), c, Leg{.start = at(1'000'000'000), .velocity = {3, 0, 0}}});
+    const RowSink::Table up = rows->table(kind_of<LinkUp>());
+    REQUIRE(up.size() == 1);
+    CHECK(cell<std::int32_t>(up, 0, "robot") == 1);
+    CHECK(cell<std::int32_t>(up, 0, "sender") == 0);
+    const RowSink::Table moved = rows->table(kind_of<Moved>());
+    REQUIRE(moved.size() == 1);
+    CHECK(cell<double>(moved, 0, "x") == 3);
+    CHECK(cell<double>(moved, 0, "vx") == 3);
 }
 
 TEST_CASE("rows: a table tells the places of its cells") {

@@ -100,6 +100,8 @@ class Ns2Trace::Writer {
 
     void lines(const Sent&, const RecordContext&);
     void lines(const Transmitted&, const RecordContext&);
+    void lines(const Routed&, const RecordContext&);
+    void router_line(Time, const Frame&, std::optional<NodeId> heard_from, const RecordContext&);
     void lines(const Received&, const RecordContext&);
     void lines(const Dropped&, const RecordContext&);
     void lines(const Moved&, const RecordContext&);
@@ -160,12 +162,22 @@ void Ns2Trace::Writer::lines(const Sent& r, const RecordContext& context) {
     packet(line, context);
 }
 
+/// A routed unicast has one line for each hop, by its Routed, and not one for each attempt.
 void Ns2Trace::Writer::lines(const Transmitted& r, const RecordContext& context) {
-    const NodeId origin = context.messages[r.frame.message].origin;
-    const char op = r.frame.sender == origin ? 's' : 'f';
-    const MacHeader mac = r.heard_from ? ip_header(*r.heard_from) : MacHeader{};
-    packet({{op, r.time, r.frame.sender, "RTR", "---", mac}, r.frame.message, r.frame.ttl},
-           context);
+    const bool is_routed = context.messages[r.frame.message].is_routed;
+    if (is_routed && r.frame.next_hop != everyone) return;
+    router_line(r.time, r.frame, r.heard_from, context);
+}
+
+void Ns2Trace::Writer::lines(const Routed& r, const RecordContext& context) {
+    router_line(r.time, r.frame, r.heard_from, context);
+}
+
+void Ns2Trace::Writer::router_line(Time time, const Frame& frame, std::optional<NodeId> heard_from,
+                                   const RecordContext& context) {
+    const char op = frame.sender == context.messages[frame.message].origin ? 's' : 'f';
+    const MacHeader mac = heard_from ? ip_header(*heard_from) : MacHeader{};
+    packet({{op, time, frame.sender, "RTR", "---", mac}, frame.message, frame.ttl}, context);
 }
 
 void Ns2Trace::Writer::lines(const Received& r, const RecordContext& context) {
@@ -199,7 +211,7 @@ void Ns2Trace::Writer::lines(const Received& r, const RecordContext& context) {
 void Ns2Trace::Writer::lines(const Dropped& r, const RecordContext& context) {
     MacHeader mac;
     if (r.frame.sender != r.node) mac = ip_header(r.frame.sender, r.frame.next_hop);
-    const auto [code, layer] = reason_of(r.reason);
+    const auto [code, layer] = r.loss();
     if (layer == "MAC" && mac_ == MacTrace::off) return;
     packet({{'D', r.time, r.node, layer, code, mac}, r.frame.message, r.frame.ttl}, context);
 }

@@ -70,7 +70,7 @@ class Ns2Trace {
     KindMask kinds() const {
         const KindMask of_mac = kind_of<AirSent>() | kind_of<ControlReceived>();
         return kind_of<Sent>() | kind_of<Transmitted>() | kind_of<Received>() | kind_of<Dropped>() |
-               kind_of<Moved>() | (mac_ == MacTrace::on ? of_mac : 0);
+               kind_of<Moved>() | kind_of<Routed>() | (mac_ == MacTrace::on ? of_mac : 0);
     }
     /// @throws RunError if the file cannot be written (disk full, for example); it is then removed
     void on(const Record& record, const RecordContext& context);

@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "traces/recorded/record_code.hpp"
 
+#include "traces/record_walk.hpp"
+
+#include <array>
+#include <bit>
 #include <cmath>
+#include <concepts>
 #include <limits>
+#include <optional>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -36,107 +43,159 @@ std::uint8_t parts_of(const Leg& leg) {
     return parts;
 }
 
+/// Largest value of an enumeration in a record.
+constexpr unsigned last_of(Fate) { return static_cast<unsigned>(last_fate); }
+constexpr unsigned last_of(DropReason) { return static_cast<unsigned>(last_drop_reason); }
+/// Control frames as a trace names them; their size is in the records.
+constexpr std::array<ControlFrame, 4> control_frames{
+    {{"RTS", 0}, {"CTS", 0}, {"ACK", 0}, {"CTL", 0}}};
+
 /// Encodes the fields of a record.
 class Encoder {
   public:
     Encoder(ByteWriter& to, Time time) : to_(to), time_(time) {}
 
-    void operator()(const Sent& r) {
-        put(r.node), put(r.message), put(r.ttl), put(r.robots);
-        put(r.reachable ? std::uint64_t{*r.reachable} + 1 : 0);
+    template <DescribedPart Part>
+    void put(const Part& part) {
+        for_each_recorded<Part>([&]<class Field>(const Field& f) {
+            const auto& value = part.*f.member;
+            if constexpr ((Field::use & or_everyone) != 0) {
+                put_optional(value);
+            } else {
+                put(value);
+            }
+        });
     }
-    void operator()(const Transmitted& r) {
-        put(r.frame);
-        put_optional(r.heard_from.value_or(everyone));
-    }
-    void operator()(const Received& r) {
-        put(r.frame);
-        to_.signed_varint(r.reserved.count());
-        put(r.header), put(r.receptions.size());
-        char* at = to_.room(r.receptions.size() * (2 * longest_varint + 1));
-        Time time = time_;
-        for (const Reception& rx : r.receptions) {
-            at = write_varint(at, folded((rx.time - std::exchange(time, rx.time)).count()));
-        }
-        std::int64_t node = r.frame.sender.value;
-        for (const Reception& rx : r.receptions) {
-            const std::int64_t here = rx.node.value;
-            at = write_varint(at, folded(here - std::exchange(node, here)));
-        }
-        for (const Reception& rx : r.receptions) *at++ = static_cast<char>(packed_fate(rx));
-        to_.end_at(at);
-    }
-    void operator()(const Dropped& r) {
-        put(r.node), put(r.frame);
-        to_.fixed(static_cast<std::uint8_t>(r.reason));
-    }
-    void operator()(const Moved& r) {
-        const Leg& leg = r.leg;
+    void put(const Leg& leg) {
         const std::uint8_t parts = parts_of(leg);
-        put(r.node);
-        to_.signed_varint((leg.start - time_).count());
-        put(leg.end == never ? 0 : folded((leg.end - leg.start).count()) + 1);
+        put(leg.start);
+        to_.varint(leg.end == never ? 0 : folded((leg.end - leg.start).count()) + 1);
         put(leg.from);
         to_.fixed(parts);
         if (parts & moves) put(leg.velocity), put(leg.to);
-        if (parts & heads) to_.real(leg.heading);
-        if (parts & turns) to_.real(leg.turning);
+        if (parts & heads) put(leg.heading);
+        if (parts & turns) put(leg.turning);
     }
-    void operator()(const Arrived& r) { put(r.node); }
-    void operator()(const NoWay& r) { put(r.node), put(r.goal); }
-    void operator()(const Switched& r) {
-        put(r.node);
-        to_.fixed(static_cast<std::uint8_t>(r.on));
+    void put(const Frame& frame) {
+        sender_ = frame.sender;
+        put<Frame>(frame);
     }
-    void operator()(const LinkUp& r) { put(r.from), put(r.to); }
-    void operator()(const LinkDown& r) { put(r.from), put(r.to); }
-    void operator()(const AirSent& r) { put(r.air), put(r.bytes); }
-    void operator()(const ControlReceived& r) {
-        put(r.air), put(r.reception.node);
-        to_.fixed(packed_fate(r.reception));
-        put(r.bytes);
+    void put(const Reception& rx) {
+        put(rx.node);
+        to_.fixed(packed_fate(rx));
+    }
+    void put(std::span<const Reception> receptions) {
+        to_.varint(receptions.size());
+        char* at = to_.room(receptions.size() * (2 * longest_varint + 1));
+        Time time = time_;
+        for (const Reception& rx : receptions) {
+            at = write_varint(at, folded((rx.time - std::exchange(time, rx.time)).count()));
+        }
+        std::int64_t node = sender_.value;
+        for (const Reception& rx : receptions) {
+            const std::int64_t here = rx.node.value;
+            at = write_varint(at, folded(here - std::exchange(node, here)));
+        }
+        for (const Reception& rx : receptions) *at++ = static_cast<char>(packed_fate(rx));
+        to_.end_at(at);
     }
 
   private:
-    void put(std::uint64_t value) { to_.varint(value); }
-    void put(NodeId node) { put(node.value); }
-    void put(MessageId message) { put(message.value); }
-    void put_optional(NodeId node) { put(node.value + 1U); }
-    void put(Vec3 v) { to_.real(v.x), to_.real(v.y), to_.real(v.z); }
-    void put(const Frame& frame) {
-        put(frame.message), put(frame.sender), put(frame.ttl), put(frame.hops);
-        put_optional(frame.next_hop);
+    template <OneByte T>
+    void put(T value) {
+        to_.fixed(static_cast<std::uint8_t>(value));
     }
-    void put(const AirFrame& air) {
-        put(air.frame);
-        put_optional(air.heard_from.value_or(everyone));
-        to_.fixed(static_cast<std::uint8_t>(air.kind));
-        to_.fixed(air.attempt);
-        put(air.number);
-        to_.signed_varint(air.reserved.count());
+    template <std::unsigned_integral T>
+    requires(!OneByte<T>) void put(T value) { to_.varint(value); }
+    template <std::signed_integral T>
+    void put(T value) {
+        to_.signed_varint(value);
     }
+    void put(NodeId node) { to_.varint(node.value); }
+    void put(MessageId message) { to_.varint(message.value); }
+    void put(Time time) { put(time - time_); }
+    void put(Duration duration) { to_.signed_varint(duration.count()); }
+    void put(const ControlFrame* control) { to_.fixed(number_of(control)); }
+    void put(double value) { to_.real(value); }
+    void put(Vec3 v) { put(v.x), put(v.y), put(v.z); }
+    template <Quantitative T>
+    void put(T quantity) {
+        put(quantity.value);
+    }
+    void put(std::optional<NodeId> node) { put_optional(node.value_or(everyone)); }
+    template <std::unsigned_integral T>
+    void put(std::optional<T> value) {
+        to_.varint(value ? std::uint64_t{*value} + 1 : 0);
+    }
+    void put_optional(NodeId node) { to_.varint(node.value + 1U); }
 
     ByteWriter& to_;
     Time time_;
+    NodeId sender_{0};  // of the record's frame
 };
 
 /// Decodes the fields of a record. A value out of its range counts as missing bytes.
 class Decoder {
   public:
-    Decoder(std::string_view bytes, Time time, std::vector<Reception>& receptions)
-        : from_(bytes), time_(time), receptions_(receptions) {}
+    Decoder(std::string_view bytes, Time time, unsigned format, std::vector<Reception>& receptions)
+        : from_(bytes), time_(time), format_(format), receptions_(receptions) {}
 
-    template <class R>
-    R record();
     bool is_done() const { return from_.is_done() && in_range_; }
 
-  private:
-    template <class Integer>
-    Integer whole() {
-        const std::uint64_t value = from_.varint();
-        if (value > std::numeric_limits<Integer>::max()) in_range_ = false;
-        return static_cast<Integer>(value);
+    template <DescribedPart Part>
+    void take(Part& part) {
+        if constexpr (requires { part.time; }) part.time = time_;
+        for_each_recorded<Part>([&]<class Field>(const Field& f) {
+            auto& value = part.*f.member;
+            if (first_format(Field::use) > format_) return;
+            if constexpr ((Field::use & or_everyone) != 0) {
+                value = node_or_everyone();
+            } else {
+                take(value);
+            }
+        });
     }
+    void take(Leg& leg) {
+        take(leg.start);
+        const auto end = from_.varint();
+        if (end > 0) leg.end = after(leg.start, unfolded(end - 1));
+        if (leg.end < leg.start) in_range_ = false;
+        take(leg.from);
+        leg.to = leg.from;
+        const auto parts = byte(moves | heads | turns);
+        if (parts & moves) take(leg.velocity), take(leg.to);
+        if (parts & heads) take(leg.heading);
+        if (parts & turns) take(leg.turning);
+    }
+    void take(Frame& frame) {
+        take<Frame>(frame);
+        sender_ = frame.sender;
+    }
+    void take(Reception& rx) {
+        rx.time = time_;
+        take(rx.node);
+        take_fate(rx);
+    }
+    void take(std::span<const Reception>& receptions) {
+        const auto n = from_.varint();
+        // A reception takes at least three bytes; larger counts are damage and get no memory.
+        receptions_.resize(n <= from_.left() / 3 ? n : 0);
+        if (receptions_.size() != n) in_range_ = false;
+        Time time = time_;
+        for (Reception& rx : receptions_) rx.time = time = after(time, from_.signed_varint());
+        auto node = std::int64_t{sender_.value};
+        for (Reception& rx : receptions_) {
+            const std::int64_t step = from_.signed_varint();
+            constexpr std::int64_t end = everyone.value;
+            if (step < -node || step >= end - node) in_range_ = false;
+            node = in_range_ ? node + step : 0;
+            rx.node = NodeId{static_cast<std::uint32_t>(node)};
+        }
+        for (Reception& rx : receptions_) take_fate(rx);
+        receptions = receptions_;
+    }
+
+  private:
     std::uint8_t byte(unsigned last) {
         const auto value = from_.fixed<std::uint8_t>();
         if (value > last) in_range_ = false;
@@ -151,173 +210,84 @@ class Decoder {
         }
         return before + Duration{ns};
     }
-    NodeId node() {
-        const NodeId node{whole<std::uint32_t>()};
+    template <class Enum>
+    requires std::is_enum_v<Enum>
+    void take(Enum& value) { value = static_cast<Enum>(byte(last_of(value))); }
+    void take(bool& value) { value = byte(1) != 0; }
+    void take(const ControlFrame*& control) {
+        const std::uint8_t number = byte(control_frames.size());
+        control = number > 0 && in_range_ ? &control_frames[number - 1U] : nullptr;
+    }
+    void take(std::uint8_t& value) { value = byte(255); }
+    template <std::integral T>
+    void take(T& value) {
+        const auto number = std::is_signed_v<T> ? from_.signed_varint() : from_.varint();
+        value = static_cast<T>(number);
+        if (!std::in_range<T>(number)) in_range_ = false;
+    }
+    void take(NodeId& node) {
+        take(node.value);
         if (node == everyone) in_range_ = false;
-        return node;
     }
-    NodeId node_or_everyone() { return {whole<std::uint32_t>() - 1U}; }
-    std::optional<NodeId> node_or_none() {
-        const NodeId node = node_or_everyone();
-        return node == everyone ? std::nullopt : std::optional(node);
-    }
-    MessageId message() { return {whole<std::uint32_t>()}; }
+    void take(MessageId& message) { take(message.value); }
+    void take(Time& time) { time = after(time_, from_.signed_varint()); }
+    void take(Duration& duration) { duration = Duration{from_.signed_varint()}; }
     /// Number that is valid as a position or a speed, as in a Network.
-    double real() {
+    void take(double& value) {
         constexpr double largest = 1e15;
-        const double value = from_.real();
+        value = from_.real();
         if (!(std::abs(value) <= largest)) in_range_ = false;
-        return value;
     }
-    Vec3 vector() {
-        const double x = real(), y = real(), z = real();
-        return {x, y, z};
+    void take(Vec3& v) { take(v.x), take(v.y), take(v.z); }
+    template <Quantitative T>
+    void take(T& quantity) {
+        take(quantity.value);
     }
-    Frame frame() {
-        Frame frame{.message = message(), .sender = node()};
-        frame.ttl = whole<Hops>();
-        frame.hops = whole<Hops>();
-        frame.next_hop = node_or_everyone();
-        return frame;
+    void take(std::optional<NodeId>& node) {
+        const NodeId found = node_or_everyone();
+        node = found == everyone ? std::nullopt : std::optional(found);
     }
-    AirFrame air() {
-        AirFrame air{.frame = frame(), .heard_from = node_or_none()};
-        air.kind = static_cast<AirFrame::Kind>(byte(AirFrame::ack));
-        air.attempt = byte(255);
-        air.number = whole<std::uint32_t>();
-        air.reserved = Duration{from_.signed_varint()};
-        return air;
+    template <std::unsigned_integral T>
+    void take(std::optional<T>& value) {
+        const std::uint64_t number = from_.varint();
+        value = number > 0 ? std::optional(static_cast<T>(number - 1)) : std::nullopt;
+        if (number > 0 && !std::in_range<T>(number - 1)) in_range_ = false;
+    }
+    NodeId node_or_everyone() {
+        std::uint32_t number = 0;
+        take(number);
+        return {number - 1U};
     }
     void take_fate(Reception& rx) {
         const std::uint8_t fate = byte(2 * static_cast<unsigned>(last_fate) + 1);
         rx.fate = static_cast<Fate>(fate / 2);
         rx.delivered = fate % 2 != 0;
     }
-    void take_receptions(NodeId sender) {
-        const auto n = from_.varint();
-        // A reception takes at least three bytes; larger counts are damage and get no memory.
-        receptions_.resize(n <= from_.left() / 3 ? n : 0);
-        if (receptions_.size() != n) in_range_ = false;
-        Time time = time_;
-        for (Reception& rx : receptions_) rx.time = time = after(time, from_.signed_varint());
-        auto node = std::int64_t{sender.value};
-        for (Reception& rx : receptions_) {
-            const std::int64_t step = from_.signed_varint();
-            constexpr std::int64_t end = everyone.value;
-            if (step < -node || step >= end - node) in_range_ = false;
-            node = in_range_ ? node + step : 0;
-            rx.node = NodeId{static_cast<std::uint32_t>(node)};
-        }
-        for (Reception& rx : receptions_) take_fate(rx);
-    }
 
     ByteReader from_;
     Time time_;
+    unsigned format_;
     std::vector<Reception>& receptions_;
+    NodeId sender_{0};  // of the record's frame
     bool in_range_ = true;
 };
 
-template <>
-Sent Decoder::record<Sent>() {
-    Sent r{.time = time_,
-           .node = node(),
-           .message = message(),
-           .ttl = whole<Hops>(),
-           .robots = 0,
-           .reachable = {}};
-    r.robots = whole<std::uint32_t>();
-    const auto reachable = from_.varint();
-    if (reachable > 0) r.reachable = static_cast<std::uint32_t>(reachable - 1);
-    if (reachable > std::uint64_t{1} << 32) in_range_ = false;
-    return r;
-}
-template <>
-Transmitted Decoder::record<Transmitted>() {
-    return {.time = time_, .frame = frame(), .heard_from = node_or_none()};
-}
-template <>
-Received Decoder::record<Received>() {
-    Received r{.frame = frame(), .receptions = {}};
-    r.reserved = Duration{from_.signed_varint()};
-    r.header = whole<std::uint32_t>();
-    take_receptions(r.frame.sender);
-    r.receptions = receptions_;
-    return r;
-}
-template <>
-Dropped Decoder::record<Dropped>() {
-    return {.time = time_,
-            .node = node(),
-            .frame = frame(),
-            .reason = static_cast<DropReason>(byte(static_cast<unsigned>(last_drop_reason)))};
-}
-template <>
-Moved Decoder::record<Moved>() {
-    Moved r{.time = time_, .node = node(), .leg = {}};
-    Leg& leg = r.leg;
-    leg.start = after(time_, from_.signed_varint());
-    const auto end = from_.varint();
-    if (end > 0) leg.end = after(leg.start, unfolded(end - 1));
-    if (leg.end < leg.start) in_range_ = false;
-    leg.from = leg.to = vector();
-    const auto parts = byte(moves | heads | turns);
-    if (parts & moves) {
-        leg.velocity = vector();
-        leg.to = vector();
-    }
-    if (parts & heads) leg.heading = real();
-    if (parts & turns) leg.turning = real();
-    return r;
-}
-template <>
-Arrived Decoder::record<Arrived>() {
-    return {.time = time_, .node = node()};
-}
-template <>
-NoWay Decoder::record<NoWay>() {
-    return {.time = time_, .node = node(), .goal = vector()};
-}
-template <>
-Switched Decoder::record<Switched>() {
-    return {.time = time_, .node = node(), .on = byte(1) != 0};
-}
-template <>
-LinkUp Decoder::record<LinkUp>() {
-    return {.time = time_, .from = node(), .to = node()};
-}
-template <>
-LinkDown Decoder::record<LinkDown>() {
-    return {.time = time_, .from = node(), .to = node()};
-}
-template <>
-AirSent Decoder::record<AirSent>() {
-    return {.time = time_, .air = air(), .bytes = whole<std::uint32_t>()};
-}
-template <>
-ControlReceived Decoder::record<ControlReceived>() {
-    ControlReceived r{.air = air(), .reception = {.time = time_, .node = node()}, .bytes = 0};
-    take_fate(r.reception);
-    r.bytes = whole<std::uint32_t>();
-    return r;
-}
-
-/// Calls visit<R>() for the type R with that index in Record.
-template <class Visit, std::size_t... index>
-bool with_kind(std::size_t place, Visit visit, std::index_sequence<index...>) {
-    return ((index == place &&
-             visit(std::type_identity<std::variant_alternative_t<index, Record>>{})) ||
-            ...);
-}
-
 }  // namespace
+
+std::uint8_t number_of(const ControlFrame* control) {
+    if (!control) return 0;
+    std::uint8_t number = 1;
+    while (number < control_frames.size() && control_frames[number - 1U].name != control->name)
+        ++number;
+    return number;
+}
 
 Time time_of(const Record& record, Time otherwise) {
     return std::visit(
         [&](const auto& r) -> Time {
-            using R = std::decay_t<decltype(r)>;
-            if constexpr (std::is_same_v<R, Received>) {
+            if constexpr (requires { r.receptions; }) {
                 return r.receptions.empty() ? otherwise : r.receptions.front().time;
-            } else if constexpr (std::is_same_v<R, ControlReceived>) {
+            } else if constexpr (requires { r.reception; }) {
                 return r.reception.time;
             } else {
                 return r.time;
@@ -327,7 +297,7 @@ Time time_of(const Record& record, Time otherwise) {
 }
 
 void encode(const Record& record, Time time, ByteWriter& to) {
-    std::visit(Encoder(to, time), record);
+    std::visit([&](const auto& r) { Encoder(to, time).put(r); }, record);
 }
 
 void encode(const Message& message, MessageId slot, Time time, ByteWriter& to) {
@@ -347,14 +317,17 @@ void encode(const Message& message, MessageId slot, Time time, ByteWriter& to) {
 }
 
 bool decode(std::uint16_t channel, Time time, std::string_view bytes,
-            std::vector<Reception>& receptions, Record& record) {
-    const auto take = [&](auto kind) {
-        Decoder from(bytes, time, receptions);
-        record = from.record<typename decltype(kind)::type>();
-        return from.is_done();
+            std::vector<Reception>& receptions, Record& record, unsigned format) {
+    Decoder from(bytes, time, format, receptions);
+    std::uint16_t its_channel = channel_of(0);
+    const auto take = [&]<class R>(std::type_identity<R>) {
+        if (channel == its_channel++) from.take(record.emplace<R>());
     };
-    constexpr auto kinds = std::make_index_sequence<std::variant_size_v<Record>>();
-    return channel >= channel_of(0) && with_kind(channel - channel_of(0), take, kinds);
+    const auto take_any = [&]<class... R>(RecordList<R...>) {
+        (take(std::type_identity<R>{}), ...);
+    };
+    take_any(RecordKinds{});
+    return channel >= channel_of(0) && channel < its_channel && from.is_done();
 }
 
 bool decode(Time time, std::string_view bytes, MessageId& slot, Message& message,

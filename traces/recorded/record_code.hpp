@@ -4,8 +4,8 @@
 #include "sim/record.hpp"
 #include "traces/recorded/bytes.hpp"
 
-#include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -18,45 +18,22 @@
 
 namespace rovernet {
 
-/// Version of the layouts of records in a recorded trace; a reader refuses any other version.
-inline constexpr std::uint32_t recorded_format = 1;
+/// Version of the layouts of records in a recorded trace; a reader refuses any later version. A
+/// field that is added to the records of an earlier version is described with since(VERSION).
+inline constexpr std::uint32_t recorded_format = 2;
+
+/// Number of a kind of frame on air: 0 for data, 1 RTS, 2 CTS, 3 ACK, 4 for any other control frame.
+std::uint8_t number_of(const ControlFrame* control);
 
 /// Kind of message in a recorded trace: its topic, and the layout of its bytes.
 struct RecordedKind {
     std::string_view topic;
-    std::string_view layout;
+    std::string layout;
 };
 
-/// Layout of a Frame; `message` is a slot that an earlier Message has defined.
-#define ROVERNET_FRAME "message:v sender:v ttl:v hops:v next_hop:node?"
-
 /// Kinds of messages in a recorded trace, at index channel - 1: first the definition of a message,
-/// then the records in the order of their bits.
-inline constexpr std::array<RecordedKind, 1 + std::variant_size_v<Record>> recorded_kinds{{
-    {"Message",
-     "slot:v uid:v origin:v number:v to:node? size:v created:z(before this time) flow:v "
-     "is_routed:b kind:s payload:s"},
-    {"Sent", "node:v message:v ttl:v robots:v reachable:v(0 unknown, else + 1)"},
-    {"Transmitted", ROVERNET_FRAME " heard_from:node?"},
-    {"Received", ROVERNET_FRAME
-     " reserved:z header:v n:v n*time:z(after the one before, the first after this time) "
-     "n*node:z(after the one before, the first after the sender) n*fate:b(2 fate + delivered)"},
-    {"Dropped", "node:v " ROVERNET_FRAME " reason:b"},
-    {"Moved",
-     "node:v start:z(after this time) end:v(0 never, else + 1 - start) from:3d "
-     "parts:b(1 velocity:3d to:3d, 2 heading:d, 4 turning:d; what is left out is 0, `to` is "
-     "`from`)"},
-    {"Arrived", "node:v"},
-    {"NoWay", "node:v goal:3d"},
-    {"Switched", "node:v on:b"},
-    {"LinkUp", "from:v to:v"},
-    {"LinkDown", "from:v to:v"},
-    {"AirSent", ROVERNET_FRAME " heard_from:node? kind:b attempt:b number:v reserved:z bytes:v"},
-    {"ControlReceived",
-     ROVERNET_FRAME " heard_from:node? kind:b attempt:b number:v reserved:z node:v "
-                    "fate:b(2 fate + delivered) bytes:v"},
-}};
-#undef ROVERNET_FRAME
+/// then the records in the order of their bits. The layouts follow from the fields of the records.
+std::vector<RecordedKind> recorded_kinds();
 
 /// Channel of the definitions of messages; and channel of the records with this index in Record.
 inline constexpr std::uint16_t message_channel = 1;
@@ -75,9 +52,10 @@ void encode(const Message& message, MessageId slot, Time time, ByteWriter& to);
 
 /// Decodes a record from its bytes, on the channel of its kind.
 /// @param receptions  receives the receptions of a Received, to which the record then points
+/// @param format      version of the layouts of the trace
 /// @return whether the bytes are a valid record: of the right length, with all values in range
 bool decode(std::uint16_t channel, Time time, std::string_view bytes,
-            std::vector<Reception>& receptions, Record& record);
+            std::vector<Reception>& receptions, Record& record, unsigned format = recorded_format);
 /// Decodes the definition of a message from its bytes.
 /// @param kind  receives the text of Message::kind, which the caller has to store
 /// @return whether the bytes are a valid definition

@@ -3,6 +3,7 @@
 
 #include "sim/error.hpp"
 #include "sim/legs.hpp"
+#include "traces/record_walk.hpp"
 #include "traces/recorded/record_code.hpp"
 
 #include <fmt/format.h>
@@ -36,32 +37,6 @@ std::vector<std::string> lines_of(std::string_view text) {
 }
 
 constexpr std::string_view names_file = "robots.txt";
-
-/// Calls visit(robot) for each robot in the record, including senders and destinations of frames;
-/// `everyone` may be among them.
-template <class Visit>
-void for_each_robot(const Record& record, Visit visit) {
-    const auto visit_frame = [&](const Frame& frame) {
-        visit(frame.sender);
-        visit(frame.next_hop);
-    };
-    std::visit(
-        [&](const auto& r) {
-            if constexpr (requires { r.node; }) visit(r.node);
-            if constexpr (requires { r.to; }) visit(r.from), visit(r.to);
-            if constexpr (requires { r.frame; }) visit_frame(r.frame);
-            if constexpr (requires { r.heard_from; }) visit(r.heard_from.value_or(everyone));
-            if constexpr (requires { r.air; }) {
-                visit_frame(r.air.frame);
-                visit(r.air.heard_from.value_or(everyone));
-            }
-            if constexpr (requires { r.reception; }) visit(r.reception.node);
-            if constexpr (requires { r.receptions; }) {
-                for (const Reception& rx : r.receptions) visit(rx.node);
-            }
-        },
-        record);
-}
 
 }  // namespace
 
@@ -125,7 +100,9 @@ void RecordedReader::read_metadata(std::string_view content) {
         if (key == "scenario") run_.scenario = value;
         if (key == "seed") run_.seed = number_in<std::uint64_t>(value);
         if (key == "replication") run_.replication = number_in<std::uint32_t>(value);
-        if (key == "format" && number_in<std::uint32_t>(value) != recorded_format) {
+        if (key != "format") continue;
+        format_ = number_in<std::uint32_t>(value);
+        if (format_ == 0 || format_ > recorded_format) {
             fail(fmt::format("a recorded trace of format {}; this version reads format {}", value,
                              recorded_format));
         }
@@ -222,7 +199,8 @@ bool RecordedReader::take_message(std::string_view content) {
     const std::string_view bytes = from.take(from.left());
     has_record_ = channel != message_channel;
     if (!has_record_) return define(bytes);
-    if (!decode(channel, now_, bytes, receptions_, record_) || !has_message(record_)) return false;
+    if (!decode(channel, now_, bytes, receptions_, record_, format_) || !has_message(record_))
+        return false;
     meet(record_);
     ++records_;
     if (const auto* moved = std::get_if<Moved>(&record_)) {
@@ -231,14 +209,10 @@ bool RecordedReader::take_message(std::string_view content) {
     }
     std::visit(
         [&](auto& r) {
-            const auto ours = [&](MessageId& slot) { slot = *slots_[slot.index()]; };
-            if constexpr (requires { r.message; }) ours(r.message);
-            if constexpr (requires { r.frame; }) ours(r.frame.message);
-            if constexpr (requires { r.air; }) {
-                if (r.air.kind == AirFrame::data) ours(r.air.frame.message);
-            }
+            for_each_in<MessageId>(r, [&](MessageId& slot) { slot = *slots_[slot.index()]; });
         },
         record_);
+    complete(record_);
     return true;
 }
 
@@ -282,25 +256,27 @@ void RecordedReader::meet(NodeId robot) {
     while (legs_.size() <= robot.index()) legs_.add({});
 }
 
-void RecordedReader::meet(const Record& record) {
-    for_each_robot(record, [&](NodeId robot) { meet(robot); });
+/// Completes a record of format 1, which has only the size of a frame with its header.
+void RecordedReader::complete(Record& record) const {
+    auto* sent = std::get_if<AirSent>(&record);
+    if (format_ > 1 || !sent || sent->air.control) return;
+    const std::uint32_t size = messages_[sent->air.frame.message].size;
+    sent->header = sent->bytes - std::min(size, sent->bytes);
 }
 
-/// Whether the record's message, if it has one, was defined.
+void RecordedReader::meet(const Record& record) {
+    std::visit([&](const auto& r) { for_each_in<NodeId>(r, [&](NodeId robot) { meet(robot); }); },
+               record);
+}
+
+/// Whether all messages of the record were defined.
 bool RecordedReader::has_message(const Record& record) const {
-    const auto is_message = [&](MessageId slot) {
-        return slot.index() < slots_.size() && slots_[slot.index()];
+    bool has_all = true;
+    const auto look_for = [&](MessageId slot) {
+        has_all = has_all && slot.index() < slots_.size() && slots_[slot.index()];
     };
-    return std::visit(
-        [&](const auto& r) {
-            if constexpr (requires { r.message; }) return is_message(r.message);
-            if constexpr (requires { r.frame; }) return is_message(r.frame.message);
-            if constexpr (requires { r.air; }) {
-                return r.air.kind != AirFrame::data || is_message(r.air.frame.message);
-            }
-            return true;
-        },
-        record);
+    std::visit([&](const auto& r) { for_each_in<MessageId>(r, look_for); }, record);
+    return has_all;
 }
 
 void RecordedReader::read(const Sink& sink) {

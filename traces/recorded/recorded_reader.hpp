@@ -84,6 +84,7 @@ class RecordedReader {
     bool take_message(std::string_view content);
     bool define(std::string_view bytes);
     bool has_message(const Record& record) const;
+    void complete(Record& record) const;
     void meet(const Record& record);
     void meet(NodeId robot);
     [[noreturn]] void fail(const std::string& message) const;
@@ -91,6 +92,7 @@ class RecordedReader {
     std::string path_;
     McapReader file_;
     RecordedRun run_;
+    unsigned format_ = 1;
     ByteReader chunk_{{}};  // rest of the current chunk
     std::uint64_t chunk_offset_ = 0;
     std::uint32_t chunks_ = 0;   // number of chunks so far

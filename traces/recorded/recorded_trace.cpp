@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "traces/recorded/recorded_trace.hpp"
 
+#include "traces/record_walk.hpp"
 #include "traces/recorded/mcap_writer.hpp"
 #include "traces/recorded/record_code.hpp"
 
@@ -111,7 +112,7 @@ void RecordedTrace::Packer::begin(const RunInfo& run) {
     for (const AttachedFile& file : contents_.files) file_.attach(file);
     contents_.files.clear();
     std::uint16_t channel = message_channel;
-    for (const RecordedKind& kind : recorded_kinds)
+    for (const RecordedKind& kind : recorded_kinds())
         file_.declare(channel++, kind.topic, kind.layout);
     thread_ = std::thread([this] { work(); });
 }
@@ -205,17 +206,11 @@ void RecordedTrace::begin(const RunInfo& run) { packer_->begin(run); }
 
 void RecordedTrace::on(const Record& record, const RecordContext& context) {
     Batch& batch = *batch_;
-    const auto message = std::visit(
-        [](const auto& r) -> std::optional<MessageId> {
-            if constexpr (requires { r.message; }) return r.message;
-            if constexpr (requires { r.frame; }) return r.frame.message;
-            if constexpr (requires { r.air; }) {
-                if (r.air.kind == AirFrame::data) return r.air.frame.message;
-            }
-            return std::nullopt;
+    std::visit(
+        [&](const auto& r) {
+            for_each_in<MessageId>(r, [&](MessageId slot) { batch.define(slot, context); });
         },
         record);
-    if (message) batch.define(*message, context);
     batch.records.push_back(record);
     if (const auto* received = std::get_if<Received>(&record)) {
         const auto& all = received->receptions;

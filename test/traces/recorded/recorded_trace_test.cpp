@@ -6,6 +6,7 @@
 #include "traces/fingerprint.hpp"
 #include "traces/metrics.hpp"
 #include "traces/ns2/ns2_trace.hpp"
+#include "traces/record_walk.hpp"
 #include "traces/recorded/record_code.hpp"
 #include "traces/recorded/recorded_reader.hpp"
 
@@ -29,15 +30,7 @@ struct Everything {
         const auto by_uid = [&](MessageId& id) {
             id.value = static_cast<std::uint32_t>(context.messages[id].uid);
         };
-        std::visit(
-            [&](auto& r) {
-                if constexpr (requires { r.message; }) by_uid(r.message);
-                if constexpr (requires { r.frame; }) by_uid(r.frame.message);
-                if constexpr (requires { r.air; }) {
-                    if (r.air.kind == AirFrame::data) by_uid(r.air.frame.message);
-                }
-            },
-            record);
+        std::visit([&](auto& r) { for_each_in<MessageId>(r, by_uid); }, record);
         ByteWriter bytes;
         const Time time = time_of(record, start_of_run);
         bytes.signed_varint(time.time_since_epoch().count());

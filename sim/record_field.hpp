@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/fields.hpp"
+#include "sim/leg.hpp"
+#include "sim/message.hpp"
+#include "sim/time.hpp"
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+// Descriptions of records. A record lists its fields once, by fields(); recorded traces, their
+// text, tables of rows and fingerprints visit them in that order. A field is a number, a quantity,
+// an enumeration, a bool, Time, Duration, NodeId, MessageId, Vec3, an optional of these, or a
+// described struct: its fields then stand in its place.
+//
+//     struct Arrived {
+//         Time time;
+//         NodeId node;
+//         static constexpr std::string_view name = "Arrived";
+//         static constexpr auto fields() {
+//             return describe(field("time", &Arrived::time), field("node", &Arrived::node));
+//         }
+//     };
+//
+// `time` is the time of the record, with which each of them begins.
+
+namespace rovernet {
+
+/// Use of a field where it differs from that of other fields: bits, added by |.
+using FieldUse = unsigned;
+/// Field that fingerprints do not contain.
+inline constexpr FieldUse not_hashed = 1;
+/// Field that recorded traces do not contain, so that replays do not compare it.
+inline constexpr FieldUse not_recorded = 2;
+/// Field without any use by sinks that visit all fields.
+inline constexpr FieldUse not_visited = 4 | not_hashed | not_recorded;
+/// NodeId that may be `everyone`.
+inline constexpr FieldUse or_everyone = 8;
+/// MessageId of which fingerprints contain not only the uid, but the message's origin and size too.
+inline constexpr FieldUse with_origin = 16;
+/// Field that is not in recorded traces of formats before `format`; it then has its default.
+constexpr FieldUse since(unsigned format) { return format << 8; }
+/// First format of recorded traces with the field.
+constexpr unsigned first_format(FieldUse use) { return use >> 8; }
+
+/// Description of one field of a record.
+template <class Struct, class T, FieldUse its_use>
+struct RecordField {
+    static constexpr FieldUse use = its_use;
+    /// Name in layouts of recorded traces, and of the column in tables.
+    std::string_view name;
+    T Struct::*member;
+};
+
+/// Description of a field: field<not_hashed>("reachable", &Sent::reachable).
+template <FieldUse use = 0, class Struct, class T>
+constexpr RecordField<Struct, T, use> field(std::string_view name, T Struct::*member) {
+    return {name, member};
+}
+
+/// Whether the field is the time of its record, or of a reception.
+template <class Struct, class T, FieldUse use>
+constexpr bool is_time_of_record(const RecordField<Struct, T, use>& field) {
+    if constexpr (std::is_same_v<T, Time> && requires { &Struct::time; }) {
+        return field.member == &Struct::time;
+    }
+    return false;
+}
+
+/// Whether the frame is one of a message, whose slot it then contains; false for a control frame.
+constexpr bool has_message(const AirFrame& air) { return !air.control; }
+
+/// Descriptions of structs that are parts of records.
+template <class Part>
+struct FieldsOf;
+template <Described Part>
+struct FieldsOf<Part> {
+    static constexpr auto fields() { return Part::fields(); }
+};
+template <>
+struct FieldsOf<Frame> {
+    static constexpr auto fields() {
+        return describe(field("message", &Frame::message), field("sender", &Frame::sender),
+                        field<not_visited>("path", &Frame::path), field("ttl", &Frame::ttl),
+                        field("hops", &Frame::hops),
+                        field<or_everyone | not_hashed>("next_hop", &Frame::next_hop),
+                        field<not_visited>("bytes", &Frame::bytes),
+                        field<not_visited>("header", &Frame::header));
+    }
+};
+template <>
+struct FieldsOf<AirFrame> {
+    static constexpr auto fields() {
+        return describe(field("frame", &AirFrame::frame),
+                        field("heard_from", &AirFrame::heard_from), field("kind", &AirFrame::control),
+                        field("attempt", &AirFrame::attempt), field("number", &AirFrame::number),
+                        field("reserved", &AirFrame::reserved));
+    }
+};
+template <>
+struct FieldsOf<Leg> {
+    static constexpr auto fields() {
+        return describe(field("start", &Leg::start), field("end", &Leg::end),
+                        field("from", &Leg::from), field<not_hashed>("velocity", &Leg::velocity),
+                        field("to", &Leg::to), field<not_hashed>("heading", &Leg::heading),
+                        field<not_hashed>("turning", &Leg::turning));
+    }
+};
+
+/// Struct with a description: a record, or a part of one.
+template <class T>
+concept DescribedPart = requires {
+    FieldsOf<std::remove_const_t<T>>::fields();
+};
+
+/// Calls visit(field) for each field of a record or of a part, in the order of the description.
+template <DescribedPart Part, class Visitor>
+constexpr void for_each_field_of(Visitor&& visit) {
+    FieldsOf<std::remove_const_t<Part>>::fields().for_each(visit);
+}
+
+}  // namespace rovernet
