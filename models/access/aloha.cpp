@@ -11,7 +11,8 @@ std::unique_ptr<Access> Aloha::make_access() const { return std::make_unique<Alo
 void AlohaAccess::send(Air& air, const QueuedFrame& frame) {
     const NodeId node = frame.frame.sender;
     auto& queue = stations_[node.index()].queue;
-    if (queue.size() >= settings_.queue) return air.lost(frame, DropReason::queue_full);
+    if (queue.size() >= static_cast<std::size_t>(settings_.queue))
+        return air.lost(frame, DropReason::queue_full);
     queue.push_back(frame);
     if (queue.size() == 1) expect(air, node);
 }
@@ -19,9 +20,10 @@ void AlohaAccess::send(Air& air, const QueuedFrame& frame) {
 /// Sets the timer for the first frame of the queue.
 void AlohaAccess::expect(Air& air, NodeId node) {
     Time begin = std::max(air.now(), stations_[node.index()].free_from);
-    if (settings_.slot > Duration{0}) {
-        const Duration into = begin.time_since_epoch() % settings_.slot;
-        if (into > Duration{0}) begin += settings_.slot - into;
+    const Duration slot = settings_.slot.value_or(Duration{0});
+    if (slot > Duration{0}) {
+        const Duration into = begin.time_since_epoch() % slot;
+        if (into > Duration{0}) begin += slot - into;
     }
     air.access_timer(node, begin, 0);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "models/access/access.hpp"
+#include "sim/fields.hpp"
 
 // No access control, the default of a network.
 
@@ -13,6 +14,8 @@ namespace rovernet {
 struct NoAccess {
     /// Name of the model in scenario files.
     static constexpr std::string_view name = "none";
+
+    static constexpr auto fields() { return describe(); }
 
     /// Creates the access model for one Network.
     std::unique_ptr<Access> make_access() const { return std::make_unique<AtOnce>(); }

@@ -65,7 +65,7 @@ Tally tally(const MetricValues& metrics) {
 
 /// Whether frames interfere, or their senders listen: more than the decode range matters.
 bool interferes(const FloodBench& bench) {
-    return bench.reception != ReceptionChoice::threshold || bench.access == AccessChoice::csma;
+    return !bench.reception.as<Threshold>() || bench.access.as<Csma>();
 }
 
 bool has_levels(const FloodBench& bench) { return bench.shadowing.value > 0 || interferes(bench); }
@@ -170,10 +170,12 @@ double flood_for(Network& network, double cpu_s, std::uint32_t nodes, std::uint3
 FloodBenchRow flood_bench(const FloodBench& bench, std::uint32_t nodes) {
     if (nodes < 2) throw std::invalid_argument("a flood needs at least 2 nodes");
     const double before = allocated();
+    AccessTable access = bench.access;
+    std::get<Csma>(access.parameters).basic_rates = {{{11e6}}};
     Network network({.seed = bench.seed,
                      .propagation = model(bench),
-                     .reception = ReceptionTable{.model = bench.reception}.make(),
-                     .access = AccessTable{.model = bench.access, .basic_rates = {{{11e6}}}}.make(),
+                     .reception = bench.reception.make(),
+                     .access = access.make(),
                      .event_limit = ~std::uint64_t{0},
                      .metrics = bench.recorded});
     const auto count = std::make_shared<Count>();
@@ -187,7 +189,7 @@ FloodBenchRow flood_bench(const FloodBench& bench, std::uint32_t nodes) {
         return bench.recorded ? tally(network.metrics()) : static_cast<Tally>(*count);
     };
     add_robots(network, bench, nodes);
-    const Duration jitter{bench.access == AccessChoice::csma ? 50'000'000 : 10'000'000};
+    const Duration jitter{access.as<Csma>() ? 50'000'000 : 10'000'000};
     network.route(Flood{.ttl = 65535, .upgrade = false, .jitter = jitter});
     network.run_for(Duration{0});
 
