@@ -67,7 +67,8 @@ ScenarioRun::ScenarioRun(const Scenario& scenario, KeptPlanners* kept, Observed 
     NetworkSettings settings = network_settings(scenario);
     if (kept) settings.planners = planners_ = kept->of(settings.scene);
     if (planners_) searched_ = planners_->searches();
-    if (observed != Observed::nothing) result_.warmup = warmup_of(scenario, settings);
+    if (observed < Observed::metrics) result_.warmup = warmup_of(scenario, settings);
+    settings.metrics = observed != Observed::nothing;
     settings.warmup = result_.warmup;
     settings.scenario = [&scenario] { return to_toml(to_document(scenario)); };
     session_ = std::make_unique<Session>(scenario, settings);
@@ -76,7 +77,7 @@ ScenarioRun::ScenarioRun(const Scenario& scenario, KeptPlanners* kept, Observed 
 
 /// Adds the sinks. The network calls them in this order.
 void ScenarioRun::observe(Observed observed) {
-    if (observed == Observed::nothing) return;
+    if (observed >= Observed::metrics) return;
     Network& network = session_->network();
     network.add_sink(fingerprint_ = std::make_shared<Fingerprint>());
     if (observed == Observed::everything)

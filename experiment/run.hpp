@@ -68,16 +68,17 @@ struct RunResult {
     Duration measured() const { return std::max(simulated - warmup, Duration{0}); }
 };
 
-/// What is observed of a run, apart from the metrics of its network.
+/// What is observed of a run, besides the sinks that its caller adds.
 enum class Observed {
     everything,    ///< fingerprint, [metrics] topology, warm-up and timeline
     measurements,  ///< no timeline
-    nothing        ///< what sinks of the caller observe; no warm-up
+    metrics,       ///< those of the network alone, without warm-up
+    nothing        ///< what sinks of the caller observe: no metrics either
 };
 
 /// Run of a scenario whose session the caller advances: the one place where a run's settings,
-/// planners, warm-up and sinks are set up, and its results are gathered. run_scenario(), measure()
-/// and verify_replay() use it.
+/// planners, warm-up and sinks are set up, and its results are gathered. run_scenario(), measure(),
+/// verify_replay() and flood_bench() use it.
 ///
 ///   ScenarioRun run(scenario);
 ///   run.write_to("runs/mine");           // optional: without it nothing is written

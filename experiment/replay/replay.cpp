@@ -139,7 +139,7 @@ Verification verify_ns2(const std::string& path, const std::function<bool(double
     result.unit = "lines";
     result.version = code_version();
     TextComparison comparison(path, result);
-    ScenarioRun run(scenario, nullptr, Observed::nothing);
+    ScenarioRun run(scenario, nullptr, Observed::metrics);
     run.session().network().add_sink(std::make_shared<Ns2Trace>(
         [&](std::string_view text) { comparison.take(text); },
         scenario.trace.ns2 == Ns2Choice::old_format ? Ns2Format::old_format : Ns2Format::new_format,
@@ -160,7 +160,7 @@ Verification verify_replay(const std::string& path, const std::function<bool(dou
     Verification result;
     result.recorded_by = trace.run().version;
     result.version = code_version();
-    ScenarioRun run(scenario, nullptr, Observed::nothing);
+    ScenarioRun run(scenario, nullptr, Observed::metrics);
     const auto comparison = std::make_shared<Comparison>(trace, scenario.trace.links, result);
     run.session().network().add_sink(comparison);
     run_until_difference(run, result, progress);
