@@ -64,17 +64,13 @@ ReceptionModel reception(const std::string& name) {
 
 Csma access(const Options& options) {
     Csma csma{.header = static_cast<std::uint32_t>(options.number("header", 34))};
-    if (options.text("eifs", "standard") == "ns2") {
-        csma.eifs = EifsRule::ns2;
-        csma.immediate_access = false;
-        csma.timing = ns2_timing(csma.timing);
-    }
+    if (options.text("eifs", "standard") == "ns2") csma.eifs = EifsRule::ns2;
     const auto us = [&](const char* name, Duration otherwise) {
         return from_seconds(1e-6 * options.number(name, 1e6 * seconds(otherwise)));
     };
-    csma.timing.cca_time = us("cca_us", csma.timing.cca_time);
-    csma.timing.turnaround = us("turnaround_us", csma.timing.turnaround);
-    if (options.text("answers", "lowest") == "lowest") csma.basic_rates = {{1e6}};
+    csma.cca_time = us("cca_us", csma.timing().cca_time);
+    csma.turnaround = us("turnaround_us", csma.timing().turnaround);
+    if (options.text("answers", "lowest") == "lowest") csma.basic_rates = {{{1e6}}};
     return csma;
 }
 

@@ -30,8 +30,8 @@ set(ROVERNET_PUBLIC_HEADERS
     scene/crossing.hpp scene/doors.hpp scene/map_frame.hpp
     scene/materials/material.hpp scene/materials/p2040.hpp
     scene/occupancy.hpp scene/scene.hpp scene/scene_change.hpp scene/storeys.hpp
-    sim/error.hpp sim/fate.hpp sim/fields.hpp sim/geometry.hpp sim/ids.hpp sim/leg.hpp
-    sim/link_layer.hpp sim/math.hpp sim/message.hpp sim/random.hpp sim/reception.hpp sim/record.hpp
+    sim/error.hpp sim/fate.hpp sim/fields.hpp sim/fit.hpp sim/geometry.hpp sim/ids.hpp sim/leg.hpp
+    sim/link_layer.hpp sim/math.hpp sim/message.hpp sim/random.hpp sim/range.hpp sim/reception.hpp sim/record.hpp
     sim/record_field.hpp sim/record_kind.hpp sim/robot_record.hpp
     sim/router.hpp sim/routing_protocol.hpp sim/sieve.hpp sim/sink.hpp sim/time.hpp sim/units.hpp
     study/statistics/interval.hpp study/statistics/interval_method.hpp

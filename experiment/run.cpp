@@ -33,20 +33,19 @@ Table provenance(const RunResult& result) {
     return table;
 }
 
-Table whole_summary(const Scenario& scenario, const RunResult& result) {
-    Table summary = run_summary(scenario, result);
-    summary.set("scenario", to_document(scenario));
-    summary.set("provenance", provenance(result));
-    return summary;
-}
-
-void write_summary(const Table& summary, const Timeline& timeline, PartFile& file) {
+void write_summary(const Scenario& scenario, const RunResult& result, PartFile& file) {
     constexpr std::size_t portion = 65536;  // [bytes] that one call of the system writes
+    Table more;
+    more.set("scenario", to_document(scenario));
+    more.set("provenance", provenance(result));
     std::string bytes;
-    write_summary(summary, timeline, [&](std::string_view piece) {
-        bytes += piece;
-        if (bytes.size() >= portion) file.write(std::exchange(bytes, {}));
-    });
+    write_summary(
+        scenario, result,
+        [&](std::string_view piece) {
+            bytes += piece;
+            if (bytes.size() >= portion) file.write(std::exchange(bytes, {}));
+        },
+        more);
     file.write(bytes);
 }
 
@@ -60,29 +59,31 @@ void name_results(const std::string& folder, const std::vector<TraceFile>& trace
     for (PartFile* file : files) file->give_name();
 }
 
-/// The scenario as it was run, if the run ended early.
-std::optional<Scenario> shortened(const Scenario& scenario, Duration simulated) {
-    if (simulated >= scenario.scenario.duration) return std::nullopt;
-    std::optional<Scenario> copy(scenario);
-    copy->scenario.duration = simulated;
-    return copy;
-}
-
 }  // namespace
 
-ScenarioRun::ScenarioRun(const Scenario& scenario, KeptPlanners* kept)
-    : scenario_(scenario), fingerprint_(std::make_shared<Fingerprint>()) {
+ScenarioRun::ScenarioRun(const Scenario& scenario, KeptPlanners* kept, Observed observed)
+    : scenario_(scenario) {
     result_.started = utc_now();
     NetworkSettings settings = network_settings(scenario);
-    if (kept) settings.planners = kept->of(settings.scene);
-    settings.warmup = warmup_ = warmup_of(scenario, settings);
+    if (kept) settings.planners = planners_ = kept->of(settings.scene);
+    if (planners_) searched_ = planners_->searches();
+    if (observed < Observed::metrics) result_.warmup = warmup_of(scenario, settings);
+    settings.metrics = observed != Observed::nothing;
+    settings.warmup = result_.warmup;
     settings.scenario = [&scenario] { return to_toml(to_document(scenario)); };
     session_ = std::make_unique<Session>(scenario, settings);
+    observe(observed);
+}
+
+/// Adds the sinks. The network calls them in this order.
+void ScenarioRun::observe(Observed observed) {
+    if (observed >= Observed::metrics) return;
     Network& network = session_->network();
-    timeline_ = std::make_shared<Timeline>(network);
-    network.add_sink(fingerprint_);
-    network.add_sink(timeline_);
-    topology_ = add_topology(network, scenario, warmup_);
+    network.add_sink(fingerprint_ = std::make_shared<Fingerprint>());
+    if (observed == Observed::everything)
+        network.add_sink(timeline_ = std::make_shared<Timeline>(network));
+    if (scenario_.metrics.topology)
+        network.add_sink(topology_ = std::make_shared<Topology>(start_of_run + result_.warmup));
 }
 
 ScenarioRun::~ScenarioRun() = default;
@@ -97,14 +98,14 @@ void ScenarioRun::write_to(const std::string& folder) {
 
 RunResult ScenarioRun::finish() {
     Network& network = session_->network();
-    result_.fingerprint = fingerprint_->text();
+    if (fingerprint_) result_.fingerprint = fingerprint_->text();
     network.finish();
 
     result_.simulated = network.now() - start_of_run;
     result_.metrics = network.metrics();
-    const auto ended_early = shortened(scenario_, result_.simulated);
-    append_parts(result_.parts, ended_early ? *ended_early : scenario_, network, result_.metrics,
-                 std::max(result_.simulated - warmup_, Duration{0}), topology_.get());
+    if (topology_)
+        result_.topology = std::make_shared<const TopologyValues>(topology_->values(network.now()));
+    if (planners_) result_.searches = planners_->searches() - searched_;
     result_.events = network.events();
     result_.network = session_->shared_network();
     result_.interference_left_out = network.interference_left_out();
@@ -118,7 +119,7 @@ void ScenarioRun::write_results() {
     const std::string& folder = result_.folder;
     PartFile document(folder + "/scenario.toml"), summary(folder + "/summary.json");
     document.write(to_toml(document_in(folder, scenario_)));
-    write_summary(whole_summary(scenario_, result_), *timeline_, summary);
+    write_summary(scenario_, result_, summary);
     name_results(folder, traces_, {&document, &summary});
 }
 

@@ -6,6 +6,7 @@
 #include "sim/units.hpp"
 #include "traces/metric_values.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -19,12 +20,14 @@ namespace rovernet {
 class Fingerprint;
 class KeptPlanners;
 class Network;
+class Planners;
 class ScenarioFile;
 class ScenarioRun;
 class Session;
 class Timeline;
 class Topology;
 struct Scenario;
+struct TopologyValues;
 struct TraceFile;
 
 struct RunOptions {
@@ -48,18 +51,34 @@ struct RunResult {
     std::optional<std::string> trace;  ///< path of the ns-2 trace, or else of the recorded trace
     MetricValues metrics;
     std::string fingerprint;
-    Table parts;  ///< tables "flows", "robots" and "topology", see append_parts()
+    std::shared_ptr<const TopologyValues> topology;  ///< null: not measured
+    Table added;  ///< tables that were added to the run, see ScenarioRun::add_part()
     std::uint64_t events = 0;
-    Duration simulated{
-        0};  ///< simulated time of the run; shorter than the scenario's if it ended early
+    Duration warmup{0};  ///< time after which metrics begin [ns]
+    /// Simulated time of the run [ns]; shorter than the scenario's if it ended early.
+    Duration simulated{0};
+    std::uint64_t searches = 0;  ///< number of path searches not answered by kept planners
     std::optional<Db> interference_left_out;  ///< bound on ignored interference, see Network
     double wall_s = 0;                        ///< duration of the run in real time [s]
     std::string started;                      ///< start of the run in real time, UTC, ISO 8601
     std::shared_ptr<const Timeline> timeline;
     std::shared_ptr<const Network> network;  ///< network at the end of the run
+
+    /// Duration of the measurement [ns]: the run without its warm-up.
+    Duration measured() const { return std::max(simulated - warmup, Duration{0}); }
 };
 
-/// Run of a scenario whose session the caller advances. run_scenario() uses it, too.
+/// What is observed of a run, besides the sinks that its caller adds.
+enum class Observed {
+    everything,    ///< fingerprint, [metrics] topology, warm-up and timeline
+    measurements,  ///< no timeline
+    metrics,       ///< those of the network alone, without warm-up
+    nothing        ///< what sinks of the caller observe: no metrics either
+};
+
+/// Run of a scenario whose session the caller advances: the one place where a run's settings,
+/// planners, warm-up and sinks are set up, and its results are gathered. run_scenario(), measure(),
+/// verify_replay() and flood_bench() use it.
 ///
 ///   ScenarioRun run(scenario);
 ///   run.write_to("runs/mine");           // optional: without it nothing is written
@@ -71,7 +90,8 @@ class ScenarioRun {
     /// wall
     /// @param scenario  must outlive the run
     /// @param kept      store of path planners, shared by runs in one scene; may be null
-    explicit ScenarioRun(const Scenario& scenario, KeptPlanners* kept = nullptr);
+    explicit ScenarioRun(const Scenario& scenario, KeptPlanners* kept = nullptr,
+                         Observed observed = Observed::everything);
     ~ScenarioRun();
     ScenarioRun(const ScenarioRun&) = delete;  // sinks refer to it
     ScenarioRun& operator=(const ScenarioRun&) = delete;
@@ -83,22 +103,24 @@ class ScenarioRun {
     /// Fingerprint of the run so far.
     const Fingerprint& fingerprint() const { return *fingerprint_; }
     /// Adds a table to summary.json, under the key `name`.
-    void add_part(std::string name, Table part) { result_.parts.set(std::move(name), part); }
+    void add_part(std::string name, Table part) { result_.added.set(std::move(name), part); }
     /// Ends the run at the current time, and writes the results if a folder was given. Must be
     /// called once. @throws RunError
     RunResult finish();
 
   private:
+    void observe(Observed observed);
     void write_results();
 
     const Scenario& scenario_;
     std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
     RunResult result_;  // result as far as it is known
-    Duration warmup_{0};
     std::unique_ptr<Session> session_;
-    std::shared_ptr<Fingerprint> fingerprint_;
-    std::shared_ptr<Timeline> timeline_;
-    std::shared_ptr<Topology> topology_;  // null: not measured
+    std::shared_ptr<Planners> planners_;        // null: the run's own
+    std::uint64_t searched_ = 0;                // searches of these planners before the run
+    std::shared_ptr<Fingerprint> fingerprint_;  // null: not observed
+    std::shared_ptr<Timeline> timeline_;        // null: not observed
+    std::shared_ptr<Topology> topology_;        // null: not measured
     std::vector<TraceFile> traces_;
 };
 

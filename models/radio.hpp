@@ -121,10 +121,11 @@ struct Radio {
             field("carrier_sense_threshold", &Radio::carrier_sense_threshold,
                   "the weakest signal that is sensed; the sensitivity if not given"),
             field("frequency", &Radio::frequency, positive, "carrier frequency"),
-            field("rate", &Radio::rate, Range{.low = 1, .text = ">= 1 bit/s"}, "bit rate on air"),
+            field("rate", &Radio::rate, Range{.low = 1, .text = ">= 1 bit/s"},
+                  "bit rate on air; if not given, that of [access] standard"),
             field("preamble", &Radio::preamble,
                   Range{.low = 0, .high = 1e9, .text = "from 0 to 1e9 s"},
-                  "sent before the first bit"),
+                  "sent before the first bit; if not given, that of [access] standard"),
             field("antenna_gain", &Radio::antenna_gain, "antenna gain, both ways"),
             field("antenna", &Radio::antenna,
                   "shape of the antenna's pattern: isotropic, cosine "

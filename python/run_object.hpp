@@ -51,7 +51,7 @@ class RunObject {
     py::dict metrics() const {
         Table table;
         append_metrics(table, result_.metrics);
-        for (const Entry& part : result_.parts.entries) table.set(part.key, part.value);
+        append_parts(table, *scenario_, result_);
         return to_python(table);
     }
     py::list timeline() const {

@@ -54,18 +54,18 @@ std::uint32_t bytes_of(const TrafficTable& flow) {
 }  // namespace
 
 Duration collision_free_gap(const Scenario& scenario, std::uint32_t bytes) {
-    if (scenario.reception.model == ReceptionChoice::threshold) return Duration{0};
+    if (scenario.reception.as<Threshold>()) return Duration{0};
     const Radio& radio = scenario.radio;
-    if (scenario.access.model != AccessChoice::csma)
-        return radio.preamble + from_seconds(8.0 * bytes / radio.rate.value);
-    const Csma csma = scenario.access.csma();
-    if (!csma.immediate_access) return Duration{0};
-    return csma.timing.cca_time + csma.timing.turnaround + Duration{1};
+    const Csma* csma = scenario.access.as<Csma>();
+    if (!csma) return radio.preamble + from_seconds(8.0 * bytes / radio.rate.value);
+    if (!csma->sends_at_once()) return Duration{0};
+    const WifiTiming timing = csma->timing();
+    return timing.cca_time + timing.turnaround + Duration{1};
 }
 
 void note_equal_starts(Scenario& out) {
     constexpr std::size_t most_flows = 100;
-    const bool repeats = out.access.model == AccessChoice::csma;
+    const bool repeats = out.access.as<Csma>();
     std::vector<const TrafficTable*> flows;
     for (const TrafficTable& flow : out.traffic)
         if (!flow.saturate && flow.start && flows.size() < most_flows) flows.push_back(&flow);
@@ -88,7 +88,7 @@ void note_equal_starts(Scenario& out) {
                     "nothing parts their frames with access.model = \"{}\", and where both are "
                     "heard "
                     "both are lost; expected other starts{}",
-                    b.from_where.text(), a.from, b.from, seconds(apart), name_of(out.access.model),
+                    b.from_where.text(), a.from, b.from, seconds(apart), out.access.name(),
                     repeats ? ", or access.immediate_access = false, which draws a backoff" : "");
             });
             break;

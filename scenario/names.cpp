@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <set>
 
 namespace rovernet {
 namespace {
@@ -95,6 +96,18 @@ void check_names(const Scenario& scenario) {
         }
         if (traffic.to) names.check(*traffic.to, "to", traffic.to_where);
     }
+}
+
+std::vector<std::string> robot_names(const Scenario& scenario) {
+    std::vector<std::string> names;
+    for (const RobotTable& robot : scenario.robots) {
+        for (int i = 0; i < robot.count.value_or(1); ++i) names.push_back(robot.name_of(i));
+    }
+    const std::set<std::string, std::less<>> listed(names.begin(), names.end());
+    for (const FileRobot& robot : scenario.movement.robots) {
+        if (!listed.contains(robot.name)) names.emplace_back(robot.name);
+    }
+    return names;
 }
 
 void check_addresses(const Scenario& scenario) {

@@ -246,7 +246,7 @@ Table robot_document(const RobotTable& robot, const Scenario& scenario) {
     if (robot.turn_rate) table.set("turn_rate", to_value(*robot.turn_rate));
     Table radio = difference(robot.radio, scenario.radio);
     if (!radio.entries.empty()) table.set("radio", std::move(radio));
-    if (robot.propagation) table.set("propagation", propagation_document(*robot.propagation));
+    if (robot.propagation) table.set("propagation", chosen_document(*robot.propagation));
     table.set("move", move_document(robot.move));
     if (!robot.scan.empty()) table.set("scan", scanners_document(robot.scan));
     append_reactions(table, robot);

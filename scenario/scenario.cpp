@@ -22,15 +22,6 @@
 namespace rovernet {
 namespace {
 
-std::vector<std::string> protocol_names() {
-    std::vector<std::string> names;
-    const auto add = [&]<class... P>(const std::tuple<P...>&) {
-        (names.emplace_back(P::name), ...);
-    };
-    add(RoutingProtocols{});
-    return names;
-}
-
 /// Checks the name of the run, which becomes that of a folder.
 void check_run_name(TableReader& document, const std::string& name) {
     if (const Value* table = document.take("scenario")) {
@@ -46,7 +37,7 @@ void check_run_name(TableReader& document, const std::string& name) {
 
 /// Checks that saturated traffic has an access model: otherwise it would send without end at once.
 void check_traffic(const Scenario& scenario) {
-    if (scenario.access.model != AccessChoice::none) return;
+    if (!scenario.access.as<NoAccess>()) return;
     for (const TrafficTable& traffic : scenario.traffic) {
         if (!traffic.saturate) continue;
         throw InputError(traffic.from_where,
@@ -66,11 +57,11 @@ void check_coding(const Phy& phy, std::string_view key, BitRate rate, Location w
 
 /// Checks the requirements of reception model "sinr": levels, and bit rates with known error rates.
 void check_sinr(const Scenario& scenario) {
-    if (scenario.reception.model != ReceptionChoice::sinr) return;
-    const AccessTable& access = scenario.access;
-    const Phy phy = access.make().phy();
-    if (access.model == AccessChoice::csma && access.basic_rates) {
-        for (const BitRate rate : *access.basic_rates) {
+    if (!scenario.reception.as<Sinr>()) return;
+    const Phy phy = scenario.access.make().phy();
+    const Csma* csma = scenario.access.as<Csma>();
+    if (csma && csma->basic_rates) {
+        for (const BitRate rate : *csma->basic_rates) {
             check_coding(phy, "basic_rates", rate, scenario.access_where);
         }
     }
@@ -129,9 +120,9 @@ void read_section(TableReader& document, std::string_view key, T& out) {
 }
 
 /// Checks values that are valid for other access models, but not for csma.
-void check_csma(const AccessTable& access, const Table& table) {
+void check_csma(const Csma& csma, const Table& table) {
     constexpr double longest = 1e9;  // [s] of a backoff; see read_value of a time
-    const WifiTiming timing = access.csma().timing;
+    const WifiTiming timing = csma.timing();
     const double backoff = timing.cw_max * seconds(timing.slot);
     if (timing.slot == Duration{0} || backoff > longest) {
         const Value& slot = *table.find("slot");
@@ -140,7 +131,7 @@ void check_csma(const AccessTable& access, const Table& table) {
                                                  "> 0, and at most 1e9 s in all",
                                                  slot.description(), timing.cw_max));
     }
-    const auto& given_rates = access.basic_rates;
+    const auto& given_rates = csma.basic_rates;
     const auto is_none = [](BitRate rate) { return !(rate > BitRate{0}); };
     if (given_rates &&
         (given_rates->empty() || std::any_of(given_rates->begin(), given_rates->end(), is_none))) {
@@ -184,31 +175,21 @@ void check_shadowing(TableReader& document, const Scenario& scenario) {
     }
 }
 
-/// Reads [access]. With an OFDM standard, radios get its preamble and highest rate, unless [radio]
-/// gives them.
-void read_access(TableReader& document, Scenario& out) {
-    const Value* access = document.take("access");
-    if (access) out.access_where = access->where;
-    read_section(document, "access", out.access);
-    if (access && access->table()->find("basic_rates")) {
-        out.access_where = access->table()->find("basic_rates")->where;
-    }
-    if (access && out.access.model == AccessChoice::csma) check_csma(out.access, *access->table());
-    if (out.access.model == AccessChoice::csma && out.access.standard != WifiStandard::b) {
-        out.radio.rate = BitRate{54e6};
-        out.radio.preamble = std::chrono::microseconds{20};
-    }
+/// Reads a table that chooses a model of a list, such as [access]; it may be missing.
+template <class Choice>
+void read_choice_of(TableReader& document, std::string_view table, std::string_view key,
+                    Choice& out) {
+    if (const Value* value = document.take(table))
+        read_model(*value, fmt::format("[{}]", table), key, key, out);
 }
 
-void read_routing(TableReader& document, RoutingTable& out) {
-    const Value* value = document.take("routing");
-    if (!value) return;
-    TableReader table(*value, "[routing]");
-    if (const Value* protocol = table.take("protocol")) {
-        out.protocol = read_choice(*protocol, "protocol", protocol_names());
-    }
-    std::apply([&](auto&... each) { (table.read_fields(each), ...); }, out.parameters);
-    table.reject_unknown();
+void read_access(TableReader& document, Scenario& out) {
+    read_choice_of(document, "access", "model", out.access);
+    const Value* access = document.take("access");
+    if (!access) return;
+    const Value* rates = access->table()->find("basic_rates");
+    out.access_where = rates ? rates->where : access->where;
+    if (const Csma* csma = out.access.as<Csma>()) check_csma(*csma, *access->table());
 }
 
 /// Reads [movement], and the robots that its file names; they need no [[robot]].
@@ -264,18 +245,6 @@ bool placed_by_file(const Value& robot, const std::set<std::string_view>& names)
 
 }  // namespace
 
-ReceptionModel ReceptionTable::make() const {
-    switch (model) {
-        case ReceptionChoice::threshold: return Threshold{};
-        case ReceptionChoice::collision:
-            return Collision{.capture_ratio = capture_ratio, .capture = capture};
-        case ReceptionChoice::sinr:
-            return Sinr{.interference_cut = interference_cut,
-                        .preamble_threshold = preamble_threshold};
-    }
-    return Threshold{};
-}
-
 void read_value(const Value& value, std::string_view key, EifsRule& out) {
     if (const bool* word = std::get_if<bool>(&value.data)) {
         out = *word ? EifsRule::standard : EifsRule::none;
@@ -291,45 +260,14 @@ void read_value(const Value& value, std::string_view key, EifsRule& out) {
     out = static_cast<EifsRule>(read_choice(value, key, {words.begin(), words.end()}, help));
 }
 
-AccessModel AccessTable::make() const {
-    if (model == AccessChoice::none) return NoAccess{};
-    const auto most = static_cast<std::uint32_t>(queue);
-    if (model == AccessChoice::aloha) return Aloha{slot.value_or(Duration{0}), most};
-    return csma();
-}
-
-Csma AccessTable::csma() const {
-    WifiTiming timing = timing_of(standard);
-    if (eifs == EifsRule::ns2) timing = ns2_timing(timing);
-    timing.slot = slot.value_or(timing.slot);
-    timing.sifs = sifs.value_or(timing.sifs);
-    timing.difs = difs.value_or(timing.sifs + 2 * timing.slot);
-    timing.cca_time = cca_time.value_or(timing.cca_time);
-    timing.turnaround = turnaround.value_or(timing.turnaround);
-    timing.rx_start_delay = rx_start_delay.value_or(timing.rx_start_delay);
-    timing.cw_min = cw_min.value_or(timing.cw_min);
-    timing.cw_max = std::max(cw_max.value_or(timing.cw_max), timing.cw_min);
-    return Csma{.standard = standard,
-                .timing = timing,
-                .basic_rates = basic_rates.value_or(mandatory_rates(standard)),
-                .eifs = eifs,
-                .immediate_access = immediate_access.value_or(eifs != EifsRule::ns2),
-                .short_retries = short_retries,
-                .long_retries = long_retries,
-                .rts_threshold = rts_threshold.value,
-                .header = header.value,
-                .queue = static_cast<std::uint32_t>(queue)};
-}
-
-Router RoutingTable::make() const {
-    std::optional<Router> made;
-    std::size_t index = 0;
-    std::apply(
-        [&](const auto&... each) {
-            ((index++ == protocol ? (void)made.emplace(each) : void()), ...);
-        },
-        parameters);
-    return std::move(*made);
+Radio usual_radio(const AccessTable& access) {
+    Radio out;
+    access.for_each([&](const auto& each, bool chosen) {
+        if constexpr (requires { each.usual_radio(); }) {
+            if (chosen) out = each.usual_radio();
+        }
+    });
+    return out;
 }
 
 Scenario read_scenario(const Value& value, const std::string& file, bool needs_robots) {
@@ -340,6 +278,7 @@ Scenario read_scenario(const Value& value, const std::string& file, bool needs_r
     check_run_name(document, out.scenario.name);
     if (const Value* scene = document.take("scene")) out.scene = read_scene(*scene);
     read_access(document, out);
+    out.radio = usual_radio(out.access);
     if (const Value* radio = document.take("radio")) {
         read_radio(*radio, "[radio]", out.radio, out.radio_places);
     }
@@ -351,7 +290,7 @@ Scenario read_scenario(const Value& value, const std::string& file, bool needs_r
     }
     read_variation(document, "shadowing", "field", out.shadowing);
     read_variation(document, "fading", "rayleigh", out.fading);
-    read_section(document, "reception", out.reception);
+    read_choice_of(document, "reception", "model", out.reception);
     read_section(document, "links", out.links);
     read_movement(document, out);
     std::set<std::string_view> in_file;
@@ -359,7 +298,7 @@ Scenario read_scenario(const Value& value, const std::string& file, bool needs_r
     out.robots = read_list<RobotTable>(document, "robot", [&](const Value& v) {
         return read_robot(v, out, !placed_by_file(v, in_file));
     });
-    read_routing(document, out.routing);
+    read_choice_of(document, "routing", "protocol", out.routing);
     read_all_traffic(document, out);
     name_flows(out.traffic);
     read_section(document, "trace", out.trace);

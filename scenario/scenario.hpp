@@ -138,10 +138,6 @@ struct Scenario {
 /// @throws InputError at the first mistake
 Scenario read_scenario(const Value& document, const std::string& file, bool needs_robots = true);
 
-/// Table from which read_propagation() reads the same values: the parameters of the chosen model,
-/// and the parameters of other models that differ from their defaults.
-Table propagation_document(const PropagationTable& propagation);
-
 /// Document of a scenario with every default; it reads back as the same scenario.
 Table to_document(const Scenario& scenario);
 

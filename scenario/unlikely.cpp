@@ -48,12 +48,13 @@ void note_frequency(Scenario& out, const Radio& radio, const RadioPlaces& places
 }
 
 void note_rate(Scenario& out, std::string_view key, BitRate rate, const Location& where) {
-    if (out.access.model != AccessChoice::csma) return;
-    const auto rates = rates_of(out.access.standard);
+    const Csma* csma = out.access.as<Csma>();
+    if (!csma) return;
+    const auto rates = rates_of(csma->standard);
     if (std::find(rates.begin(), rates.end(), rate) != rates.end()) return;
     add_notice(out.notices,
                fmt::format("{}: {}: {} has no rate of {}; it has {} Mb/s", where.text(), key,
-                           name_of(out.access.standard), shown(rate), megabits_text(rates)));
+                           name_of(csma->standard), shown(rate), megabits_text(rates)));
 }
 
 /// Notices switching that changes nothing: a robot starts switched on.
@@ -172,8 +173,8 @@ void note_unlikely(Scenario& scenario) {
         look(robot.radio, robot.radio_places);
         note_switching(scenario, robot);
     }
-    if (const auto& rates = scenario.access.basic_rates) {
-        for (const BitRate rate : *rates) {
+    if (const Csma* csma = scenario.access.as<Csma>(); csma && csma->basic_rates) {
+        for (const BitRate rate : *csma->basic_rates) {
             note_rate(scenario, "basic_rates", rate, scenario.access_where);
         }
     }

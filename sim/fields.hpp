@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "sim/fit.hpp"
+#include "sim/range.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 
@@ -29,33 +31,9 @@
 
 namespace rovernet {
 
-/// Range of a number, and its text in an error ("must be > 0"). The limits are in the unit that
-/// number_in() returns for the parameter.
-struct Range {
-    /// Lower limit of the number.
-    double low = -std::numeric_limits<double>::infinity();
-    /// Upper limit of the number, included.
-    double high = std::numeric_limits<double>::infinity();
-    /// Whether the lower limit is included.
-    bool low_included = true;
-    /// Text that follows "must be" in an error.
-    std::string_view text = "finite";
-
-    /// Whether `v` is finite and lies in the range; false for NaN.
-    constexpr bool contains(double v) const {
-        constexpr double largest = std::numeric_limits<double>::max();
-        return v >= -largest && v <= largest && (low_included ? v >= low : v > low) && v <= high;
-    }
-};
-
 /// Value of a parameter without a default: NaN until the user sets it. check_fields() reports it as
 /// an error.
 inline constexpr double unset = std::numeric_limits<double>::quiet_NaN();
-
-/// Common ranges: any finite number; finite and > 0; finite and >= 0.
-inline constexpr Range any{};
-inline constexpr Range positive{.low = 0, .low_included = false, .text = "> 0"};
-inline constexpr Range non_negative{.low = 0, .text = ">= 0"};
 
 /// Description of one public parameter of a struct, as listed by fields().
 template <class Struct, class T>
@@ -69,20 +47,38 @@ struct Field {
     Range range;
     /// Meaning, for help and documentation: a phrase without a full stop.
     std::string_view meaning;
+    /// Way in which a fit determines the parameter.
+    Fit fit = {};
+
+    /// This description, of a parameter that a fit determines: see Fit::Way.
+    ///
+    ///   field("exponent", &LogDistance::exponent, positive, "path loss exponent").linear(2)
+    constexpr Field linear(double base) const { return with({Fit::Way::linear, base}); }
+    constexpr Field constant(double base) const { return with({Fit::Way::constant, base}); }
+    constexpr Field searched(double base) const { return with({Fit::Way::searched, base}); }
+    constexpr Field by_decisions() const { return with({Fit::Way::decisions}); }
+    constexpr Field spread() const { return with({Fit::Way::spread}); }
+
+  private:
+    constexpr Field with(Fit way) const {
+        Field out = *this;
+        out.fit = way;
+        return out;
+    }
 };
 
 /// Description of a parameter that is a number within a range.
 template <class Struct, class T>
 constexpr Field<Struct, T> field(std::string_view name, T Struct::*member, Range range,
                                  std::string_view meaning) {
-    return {name, member, range, meaning};
+    return {name, member, range, meaning, {}};
 }
 
 /// Description of a parameter that is any finite number, or not a number.
 template <class Struct, class T>
 constexpr Field<Struct, T> field(std::string_view name, T Struct::*member,
                                  std::string_view meaning) {
-    return {name, member, any, meaning};
+    return {name, member, any, meaning, {}};
 }
 
 /// Fields of a struct, in order. Not a std::tuple, which takes several times as long to compile.
@@ -95,7 +91,7 @@ struct FieldAt {
 template <std::size_t... number, class... Fields>
 struct FieldList<std::index_sequence<number...>, Fields...> : FieldAt<number, Fields>... {
     template <class Visitor>
-    constexpr void for_each(Visitor&& visit) const {
+    constexpr void for_each([[maybe_unused]] Visitor&& visit) const {
         (visit(FieldAt<number, Fields>::field), ...);
     }
 };
@@ -136,6 +132,19 @@ constexpr std::optional<double> number_in(const T& v) {
         return static_cast<double>(v.value);
     } else {
         return std::nullopt;
+    }
+}
+
+/// Writes the number inside a parameter, in the unit in which number_in() returns it; an optional
+/// without a value gets one. A parameter that is not a number is left unchanged.
+template <class T>
+constexpr void set_number(T& v, double number) {
+    if constexpr (requires { v.has_value(); }) {
+        set_number(v.emplace(), number);
+    } else if constexpr (std::is_arithmetic_v<T>) {
+        v = static_cast<T>(number);
+    } else if constexpr (requires { static_cast<double>(v.value); }) {
+        v.value = static_cast<decltype(v.value)>(number);
     }
 }
 

@@ -91,6 +91,9 @@ constexpr BitRate operator""_Mbps(unsigned long long v) { return {static_cast<do
 /// Size of a message or a header [bytes], at most 1 MB in a file.
 struct Bytes {
     std::uint32_t value = 0;
+
+    constexpr Bytes() = default;
+    constexpr Bytes(std::uint32_t bytes) : value(bytes) {}
     friend bool operator==(Bytes, Bytes) = default;
 };
 

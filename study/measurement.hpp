@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "sim/fields.hpp"
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -32,6 +34,16 @@ struct Measurement {
     std::string started;           ///< start of the run in real time, UTC, ISO 8601
     std::string host;
     std::uint64_t searches = 0;  ///< number of path searches not answered by the cache; not stored
+
+    /// What is measured besides the metrics, in the order of the pipe.
+    static constexpr auto fields() {
+        using M = Measurement;
+        return describe(field("fingerprint", &M::fingerprint, "of the run"),
+                        field("cpu_s", &M::cpu_s, "CPU time"), field("wall_s", &M::wall_s, "real"),
+                        field("started", &M::started, "start in real time, UTC"),
+                        field("host", &M::host, "machine"),
+                        field("searches", &M::searches, "of paths, not answered by the cache"));
+    }
     friend bool operator==(const Measurement&, const Measurement&) = default;
 };
 
@@ -39,8 +51,8 @@ struct Measurement {
 /// number of events, and end of the warm-up [s].
 const std::vector<std::string>& metric_names();
 /// Names of the metrics of a scenario's runs: metrics of every run, and metrics chosen in
-/// [metrics]: "delivery_ratio.FLOW" and "delivery_ratio.at.ROBOT", likewise messages, deliveries,
-/// throughput_bps and latency_mean_s.
+/// [metrics], named without a run: "delivery_ratio.FLOW" and "delivery_ratio.at.ROBOT", likewise
+/// messages, deliveries, throughput_bps and latency_mean_s.
 std::vector<std::string> metric_names(const Scenario& scenario);
 
 /// Checks that the scenario has a metric of this name. @throws InputError at `where` if not

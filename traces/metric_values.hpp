@@ -2,6 +2,8 @@
 #pragma once
 
 #include "sim/fate.hpp"
+#include "sim/fields.hpp"
+#include "sim/time.hpp"
 
 #include <array>
 #include <cstddef>
@@ -26,6 +28,13 @@ struct LatencyValues {
     double p50 = 0;   ///< median latency [s]
     double p95 = 0;   ///< 95th percentile [s]
     double max = 0;   ///< largest latency [s]
+
+    static constexpr auto fields() {
+        return describe(field("latency_mean_s", &LatencyValues::mean, "mean latency"),
+                        field("latency_p50_s", &LatencyValues::p50, "median latency"),
+                        field("latency_p95_s", &LatencyValues::p95, "95th percentile"),
+                        field("latency_max_s", &LatencyValues::max, "largest latency"));
+    }
     friend bool operator==(const LatencyValues&, const LatencyValues&) = default;
 };
 
@@ -49,6 +58,27 @@ inline constexpr auto loss_codes = [] {
     return codes;
 }();
 
+/// Copies lost or not forwarded, by the codes of the reasons in sim/fate.hpp.
+using DropCounts = std::array<DropCount, loss_codes.count>;
+
+/// Metrics of a part of the traffic, as summary.json has them for each flow and each robot.
+struct PartMetrics {
+    std::uint64_t messages = 0;            ///< messages sent in the flow, or for the robot
+    std::uint64_t deliveries = 0;          ///< first copies of a message at a robot
+    std::optional<double> delivery_ratio;  ///< [-]; empty if no delivery is expected
+    std::optional<double> throughput_bps;  ///< delivered bits [bit/s]; empty without a time
+    std::optional<double> latency_mean_s;  ///< mean latency [s]; empty without deliveries
+
+    static constexpr auto fields() {
+        using P = PartMetrics;
+        return describe(field("messages", &P::messages, "sent in the flow, or for the robot"),
+                        field("deliveries", &P::deliveries, "first copies at a robot"),
+                        field("delivery_ratio", &P::delivery_ratio, "deliveries over expected"),
+                        field("throughput_bps", &P::throughput_bps, "delivered bits a second"),
+                        field("latency_mean_s", &P::latency_mean_s, "mean latency"));
+    }
+};
+
 /// Values of a part of the traffic: the messages of one flow, or the messages for one robot.
 /// Example: examples/flows.cpp.
 struct PartValues {
@@ -59,6 +89,8 @@ struct PartValues {
     std::uint64_t delay_ns = 0;    ///< sum of the deliveries' latencies [ns]
     std::optional<double> delivery_ratio() const;  ///< [-]; empty if no delivery is expected
     std::optional<double> latency_mean() const;    ///< mean latency [s]; empty without deliveries
+    /// Metrics of the part, measured for so long.
+    PartMetrics metrics(Duration measured) const;
     friend bool operator==(const PartValues&, const PartValues&) = default;
 };
 
@@ -72,7 +104,9 @@ struct MetricParts {
 };
 
 /// Metrics of a run, or of a trace read back. They are computed from integers, so that the division
-/// of receptions into records does not change them.
+/// of receptions into records does not change them. Names in summary.json and in studies, and their
+/// order, are those of fields(); a metric that is added there needs its computation in Metrics
+/// only.
 struct MetricValues {
     std::uint64_t messages = 0;       ///< messages sent by applications
     std::uint64_t transmissions = 0;  ///< number of frames transmitted
@@ -84,8 +118,8 @@ struct MetricValues {
     std::uint64_t cut_off = 0;
 
     /// Copies lost or not forwarded, by the codes of the reasons in sim/fate.hpp.
-    std::array<DropCount, loss_codes.count> drops = [] {
-        std::array<DropCount, loss_codes.count> none;
+    DropCounts drops = [] {
+        DropCounts none;
         for (std::size_t i = 0; i < none.size(); ++i) none[i].reason = loss_codes.of[i];
         return none;
     }();
@@ -117,6 +151,22 @@ struct MetricValues {
 
     std::vector<PartValues> flows;   ///< values of each flow, at index flow - 1, if measured
     std::vector<PartValues> robots;  ///< values of each robot, by its id, if measured
+
+    static constexpr auto fields() {
+        using M = MetricValues;
+        return describe(field("messages", &M::messages, "sent by applications"),
+                        field("cut_off", &M::cut_off, "messages cut off by the end of the run"),
+                        field("transmissions", &M::transmissions, "frames transmitted"),
+                        field("receptions", &M::receptions, "decoded copies"),
+                        field("deliveries", &M::deliveries, "first copies at a robot"),
+                        field("delivery_ratio", &M::delivery_ratio, "deliveries over expected"),
+                        field("reach", &M::reach, "deliveries over connected robots"),
+                        field("saved_rebroadcasts", &M::saved_rebroadcasts, "of a flood"),
+                        field("latency", &M::latency, "of the deliveries"),
+                        field("hops_mean", &M::mean_hops, "hops of a delivery"),
+                        field("hops_max", &M::max_hops, "most hops of a delivery"),
+                        field("drops", &M::drops, "copies lost, by reason"));
+    }
 
     friend bool operator==(const MetricValues&, const MetricValues&) = default;
 };

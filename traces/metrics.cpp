@@ -39,6 +39,16 @@ std::optional<double> PartValues::latency_mean() const {
     return static_cast<double>(delay_ns) / static_cast<double>(deliveries) / 1e9;
 }
 
+PartMetrics PartValues::metrics(Duration measured) const {
+    const double bits = 8 * static_cast<double>(bytes);
+    return {.messages = messages,
+            .deliveries = deliveries,
+            .delivery_ratio = delivery_ratio(),
+            .throughput_bps =
+                measured > Duration{0} ? std::optional(bits / seconds(measured)) : std::nullopt,
+            .latency_mean_s = latency_mean()};
+}
+
 Metrics::MessageState& Metrics::begin_state(MessageId id, std::uint64_t uid) {
     if (id.index() >= states_.size()) states_.resize(id.index() + 1);
     MessageState& state = states_[id.index()];

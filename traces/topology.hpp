@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "sim/fields.hpp"
 #include "sim/record.hpp"
 #include "sim/sink.hpp"
 
@@ -26,6 +27,15 @@ struct TopologyValues {
     /// both were observed. Source: F. Bai et al., IMPORTANT, INFOCOM 2003 (link duration).
     std::optional<double> link_lifetime_mean;
     std::uint64_t links_ended = 0;  ///< number of links in link_lifetime_mean
+
+    static constexpr auto fields() {
+        using T = TopologyValues;
+        return describe(field("degree_mean", &T::degree_mean, "robots that a robot hears"),
+                        field("components_mean", &T::components_mean, "connected components"),
+                        field("speed_mean_m_s", &T::speed_mean, "mean speed of the robots"),
+                        field("link_lifetime_mean_s", &T::link_lifetime_mean, "of a link"),
+                        field("links_ended", &T::links_ended, "links in its mean"));
+    }
 };
 
 /// Sink that measures the topology from the records of links, legs and switches. It costs a search

@@ -146,8 +146,7 @@ void run(const RunArguments& a) {
 
 void print_run(const Scenario& scenario, const RunResult& result, bool json) {
     if (json) {
-        write_summary(run_summary(scenario, result), *result.timeline,
-                      [](std::string_view text) { fmt::print("{}", text); });
+        write_summary(scenario, result, [](std::string_view text) { fmt::print("{}", text); });
     } else {
         print_result(scenario, result);
     }

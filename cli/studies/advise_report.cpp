@@ -4,7 +4,6 @@
 #include "cli/terminal/text_table.hpp"
 #include "scenario/document/json.hpp"
 #include "scenario/document/toml.hpp"
-#include "scenario/tables/own_keys.hpp"
 #include "study/advise/advise_cost.hpp"
 
 #include <fmt/format.h>
@@ -14,6 +13,22 @@
 
 namespace rovernet::cli {
 namespace {
+
+/// Copy of a table without the keys that the model that it names does not have.
+template <class Choice>
+Table own_keys(const Table& table) {
+    const Value* word = table.find("model");
+    Table out;
+    for (const Entry& entry : table.entries) {
+        bool is_own = entry.key == "model";
+        Choice::for_each_type([&]<class M>() {
+            const bool named = word && word->string() && *word->string() == M::name;
+            is_own = is_own || (named && has_key<M>(entry.key));
+        });
+        if (is_own) out.set(entry.key, entry.value);
+    }
+    return out;
+}
 
 std::string_view verdict_of(const JudgedCandidate& each) {
     switch (each.decision.verdict()) {
@@ -46,8 +61,8 @@ std::string share_of_run(const CandidateCost& cost) {
 /// Tables of a scenario file, with the keys that the models take.
 std::string toml_of(const CandidateModel& path_loss, const CandidateModel& reception) {
     Table table;
-    table.set("propagation", own_keys_of_propagation(path_loss.table));
-    table.set("reception", own_keys_of_reception(reception.table));
+    table.set("propagation", own_keys<PropagationTable>(path_loss.table));
+    table.set("reception", own_keys<ReceptionTable>(reception.table));
     return to_toml(table);
 }
 

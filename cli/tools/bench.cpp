@@ -13,16 +13,14 @@
 namespace rovernet::cli {
 namespace {
 
-/// The value of enumeration E that `word` stands for. @throws std::invalid_argument
-template <class E>
-E choice(const char* option, const std::string& word) {
-    const auto& names = EnumNames<E>::values;
+/// Place of `word` among `names`. @throws std::invalid_argument
+std::size_t choice(const char* option, const std::string& word, const auto& names) {
     const auto found = std::find(names.begin(), names.end(), word);
     if (found == names.end()) {
         throw std::invalid_argument(fmt::format("--{}: unknown value \"{}\"; expected one of {}",
                                                 option, word, fmt::join(names, ", ")));
     }
-    return static_cast<E>(found - names.begin());
+    return static_cast<std::size_t>(found - names.begin());
 }
 
 /// The processor's name, where the system tells it.
@@ -55,9 +53,10 @@ void print_row(const FloodBenchRow& r) {
 
 void bench_flood(const BenchArguments& a) {
     FloodBench bench = a.bench;
-    bench.reception = choice<ReceptionChoice>("reception", a.reception);
-    bench.access = choice<AccessChoice>("access", a.access);
-    bench.mobility = choice<BenchMobility>("mobility", a.mobility);
+    bench.reception.model = choice("reception", a.reception, ReceptionTable::names());
+    bench.access.model = choice("access", a.access, AccessTable::names());
+    bench.mobility = static_cast<BenchMobility>(
+        choice("mobility", a.mobility, EnumNames<BenchMobility>::values));
     Array rows;
     if (!a.json) {
         fmt::print("{:>9} {:>13} {:>12} {:>16} {:>15} {:>14}\n", "nodes", "transmissions",

@@ -108,8 +108,7 @@ PlayedDay RecordedDay::play(const std::vector<std::string>& set,
 
 std::string RecordedDay::starts_together(const std::vector<std::string>& set) const {
     const Scenario scenario = scenario_->with(set);
-    const AccessTable& access = scenario.access;
-    const bool repeats = access.model == AccessChoice::csma;
+    const bool repeats = scenario.access.as<Csma>();
     // A unicast of csma is repeated after a backoff.
     const auto counts = [&](const Message& message) {
         return !repeats || message.to == everyone || message.is_routed;
@@ -135,7 +134,7 @@ std::string RecordedDay::starts_together(const std::vector<std::string>& set) co
         "{} of {} messages begin at the same instant as one of another robot, or within a frame of "
         "it, and nothing parts their frames under access.model={}: they collide. access.model=csma "
         "with access.immediate_access=false draws a backoff first, as ns-2 does",
-        met, log_.said.size(), name_of(access.model));
+        met, log_.said.size(), scenario.access.name());
 }
 
 std::string RecordedDay::hears_farther(const std::vector<std::string>& set) const {

@@ -109,12 +109,12 @@ class TextComparison {
 };
 
 /// Runs on while nothing differs. @throws Interrupted
-void run_until_difference(Session& session, const Verification& result,
+void run_until_difference(ScenarioRun& run, const Verification& result,
                           const std::function<bool(double)>& progress) {
-    const bool is_done = session.run(
+    const bool is_done = run.session().run(
         {}, [&](double share) { return !result.difference && (!progress || progress(share)); });
     if (!is_done && !result.difference) throw Interrupted();
-    if (is_done) session.network().finish();
+    if (is_done) run.finish();
 }
 
 Scenario scenario_beside(const std::string& trace) {
@@ -139,12 +139,12 @@ Verification verify_ns2(const std::string& path, const std::function<bool(double
     result.unit = "lines";
     result.version = code_version();
     TextComparison comparison(path, result);
-    Session session(scenario);
-    session.network().add_sink(std::make_shared<Ns2Trace>(
+    ScenarioRun run(scenario, nullptr, Observed::metrics);
+    run.session().network().add_sink(std::make_shared<Ns2Trace>(
         [&](std::string_view text) { comparison.take(text); },
         scenario.trace.ns2 == Ns2Choice::old_format ? Ns2Format::old_format : Ns2Format::new_format,
         scenario.trace.mac ? MacTrace::on : MacTrace::off));
-    run_until_difference(session, result, progress);
+    run_until_difference(run, result, progress);
     comparison.finish();
     return result;
 }
@@ -160,10 +160,10 @@ Verification verify_replay(const std::string& path, const std::function<bool(dou
     Verification result;
     result.recorded_by = trace.run().version;
     result.version = code_version();
-    Session session(scenario);
+    ScenarioRun run(scenario, nullptr, Observed::metrics);
     const auto comparison = std::make_shared<Comparison>(trace, scenario.trace.links, result);
-    session.network().add_sink(comparison);
-    run_until_difference(session, result, progress);
+    run.session().network().add_sink(comparison);
+    run_until_difference(run, result, progress);
     result.damage = trace.damage();
     return result;
 }

@@ -7,7 +7,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -29,18 +28,6 @@ std::optional<std::uint32_t> radio_of(const PlayerConfig::Robot& robot) {
 }
 
 }  // namespace
-
-std::vector<std::string> robot_names(const Scenario& scenario) {
-    std::vector<std::string> names;
-    for (const RobotTable& table : scenario.robots) {
-        for (int i = 0; i < table.count.value_or(1); ++i) names.push_back(table.name_of(i));
-    }
-    const std::set<std::string> in_tables(names.begin(), names.end());
-    for (const FileRobot& robot : scenario.movement.robots) {
-        if (!in_tables.contains(robot.name)) names.push_back(robot.name);
-    }
-    return names;
-}
 
 FrontListeners player_ports(const Address& first, const std::vector<std::string>& robots,
                             PlayerSettings settings) {

@@ -5,7 +5,7 @@
 #include "live/paced_run.hpp"
 #include "live/player/config.hpp"
 #include "live/player/front.hpp"
-#include "scenario/scenario.hpp"
+#include "scenario/names.hpp"
 
 #include <string>
 #include <string_view>
@@ -17,9 +17,6 @@ namespace rovernet {
 inline constexpr std::string_view player_address = "127.0.0.1:6665";
 /// Largest number of robots whose Player devices have a port for each robot.
 inline constexpr std::size_t most_player_ports = 100;
-
-/// Names of a scenario's robots, in order; robots of its movement file last.
-std::vector<std::string> robot_names(const Scenario& scenario);
 
 /// Player server with a port for each robot: the first robot has the port of `first`, the next
 /// robot the next port, and so on. With port 0 each robot has any free port.

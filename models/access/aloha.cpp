@@ -11,7 +11,8 @@ void AlohaAccess::send(Air& air, const QueuedFrame& frame) {
     const NodeId node = frame.frame.sender;
     TransmitQueue& queue = stations_[node.index()].queue;
     const bool waits = !queue.empty();
-    const auto refused = queue.push(frame, settings_.queue, settings_.priority);
+    const auto refused =
+        queue.push(frame, static_cast<std::size_t>(settings_.queue), settings_.priority);
     if (refused) return air.lost(*refused, DropReason::queue_full);
     if (!waits) expect(air, node);
 }
@@ -19,9 +20,10 @@ void AlohaAccess::send(Air& air, const QueuedFrame& frame) {
 /// Sets the timer for the first frame of the queue.
 void AlohaAccess::expect(Air& air, NodeId node) {
     Time begin = std::max(air.now(), stations_[node.index()].free_from);
-    if (settings_.slot > Duration{0}) {
-        const Duration into = begin.time_since_epoch() % settings_.slot;
-        if (into > Duration{0}) begin += settings_.slot - into;
+    const Duration slot = settings_.slot.value_or(Duration{0});
+    if (slot > Duration{0}) {
+        const Duration into = begin.time_since_epoch() % slot;
+        if (into > Duration{0}) begin += slot - into;
     }
     air.access_timer(node, begin, 0);
 }

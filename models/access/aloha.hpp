@@ -4,9 +4,11 @@
 #include "models/access/access.hpp"
 #include "models/access/transmit_queue.hpp"
 #include "models/phy/wifi.hpp"
+#include "sim/fields.hpp"
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -20,13 +22,22 @@ namespace rovernet {
 struct Aloha {
     static constexpr std::string_view name = "aloha";
 
-    /// Slot [ns]: frames start at multiples of it (slotted ALOHA); 0: at once (pure ALOHA).
-    Duration slot{0};
+    /// Slot [ns]: frames start at multiples of it (slotted ALOHA); 0 or not given: at once (pure
+    /// ALOHA).
+    std::optional<Duration> slot = std::nullopt;
     /// Largest number of frames waiting at a node, including the frame to be sent next; further
     /// frames are dropped.
-    std::uint32_t queue = 50;
+    int queue = 50;
     /// True: control packets of the routing protocol are sent before messages of applications.
     bool priority = false;
+
+    static constexpr auto fields() {
+        constexpr Range counts{.low = 1, .high = 1000000, .text = "from 1 to 1000000"};
+        return describe(
+            field("slot", &Aloha::slot, non_negative, "frames start at multiples of it"),
+            field("queue", &Aloha::queue, counts, "frames that wait at a robot, at most"),
+            field("priority", &Aloha::priority, "packets of the routing protocol go first"));
+    }
 
     /// Creates the access model for one Network.
     std::unique_ptr<Access> make_access() const;

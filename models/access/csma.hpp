@@ -3,10 +3,13 @@
 
 #include "models/access/access.hpp"
 #include "models/phy/wifi.hpp"
+#include "models/radio.hpp"
+#include "sim/fields.hpp"
 
 #include <array>
-#include <cstdint>
+#include <chrono>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -36,38 +39,91 @@ constexpr WifiTiming ns2_timing(WifiTiming timing) {
     return timing;
 }
 
-/// Settings of the 802.11 DCF. Defaults are those of 802.11b.
-/// Example: examples/hidden_node.cpp.
+/// Settings of the 802.11 DCF, as a scenario file gives them. Values that are not given are those
+/// of the standard. Example: examples/hidden_node.cpp.
 struct Csma {
     static constexpr std::string_view name = "csma";
 
-    /// Standard, which determines airtimes and the default timing.
+    /// Backoff slot [ns], > 0.
+    std::optional<Duration> slot = std::nullopt;
+    /// Largest number of frames waiting at a node; further frames are dropped (IFQ).
+    int queue = 50;
+    /// Standard, which determines airtimes, the usual timing and the usual radio.
     WifiStandard standard = WifiStandard::b;
-    /// Timing of the access; by default the standard's.
-    WifiTiming timing = timing_of(WifiStandard::b);
+    /// Times [ns]: interframe spaces SIFS and DIFS; time to sense energy (CCA); receive-to-transmit
+    /// turnaround; delay until the start of an answer is detected. Without `difs`, DIFS = SIFS + 2
+    /// slots.
+    std::optional<Duration> sifs = std::nullopt, difs = std::nullopt, cca_time = std::nullopt,
+                            turnaround = std::nullopt, rx_start_delay = std::nullopt;
+    /// Contention window, least and largest [slots]. `cw_max` is at least `cw_min`.
+    std::optional<int> cw_min = std::nullopt, cw_max = std::nullopt;
     /// Basic rates [bit/s]: broadcasts and RTS use the lowest. A response (CTS, ACK) uses the
     /// highest that is not above the rate of the frame it answers, or the lowest if all are above.
-    /// Not empty; in any order.
-    std::vector<BitRate> basic_rates = mandatory_rates(WifiStandard::b);
-    /// Rule for the EIFS, a longer waiting time after a frame that was not decoded.
+    /// Not empty; in any order; by default the mandatory rates of the standard.
+    std::optional<std::vector<BitRate>> basic_rates = std::nullopt;
+    /// Rule for the EIFS, a longer waiting time after a frame that was not decoded. With `ns2`, the
+    /// usual timing is that of ns-2, see ns2_timing().
     EifsRule eifs = EifsRule::standard;
     /// True: a station that finds the medium idle for a DIFS sends without a backoff (802.11-2020,
-    /// 10.3.4.2); false: a backoff before every frame, as in ns-2.
-    bool immediate_access = true;
+    /// 10.3.4.2); false: a backoff before every frame, as in ns-2. By default true, but false with
+    /// eifs = ns2.
+    std::optional<bool> immediate_access = std::nullopt;
     /// Retry limit of an RTS, or of data without RTS; 0: unlimited.
     int short_retries = 7;
     /// Retry limit of data after an RTS; 0: unlimited.
     int long_retries = 4;
     /// Size [bytes], including the header, above which a unicast is preceded by an RTS.
-    std::uint32_t rts_threshold = 2347;
+    Bytes rts_threshold = 2347;
     /// Bytes that the access model adds to a message.
-    std::uint32_t header = data_header_bytes;
-    /// Largest number of frames waiting at a node; further frames are dropped.
-    std::uint32_t queue = 50;
+    Bytes header = data_header_bytes;
     /// True: control packets of the routing protocol are sent before messages of applications, as
     /// in ns-2's CMUPriQueue.
     bool priority = false;
 
+    /// Ranges of single keys; make_access() checks conditions on several keys.
+    static constexpr auto fields() {
+        constexpr Range counts{.low = 1, .high = 1000000, .text = "from 1 to 1000000"};
+        constexpr Range window{.low = 0, .high = 65535, .text = "from 0 to 65535"};
+        return describe(
+            field("slot", &Csma::slot, non_negative, "of the backoff"),
+            field("queue", &Csma::queue, counts, "frames that wait at a robot, at most"),
+            field("standard", &Csma::standard,
+                  "its timing and airtimes; 802.11a and 802.11g: [radio] rate and preamble are "
+                  "54 Mb/s and 20 us if not given"),
+            field("sifs", &Csma::sifs, non_negative, "short interframe space"),
+            field("difs", &Csma::difs, non_negative, "DCF interframe space"),
+            field("cca_time", &Csma::cca_time, non_negative,
+                  "energy is sensed so long after it came"),
+            field("turnaround", &Csma::turnaround, non_negative,
+                  "from deciding to send to sending"),
+            field("rx_start_delay", &Csma::rx_start_delay, non_negative,
+                  "until the beginning of an answer is noticed"),
+            field("cw_min", &Csma::cw_min, window, "least contention window, in slots"),
+            field("cw_max", &Csma::cw_max, window, "largest contention window, in slots"),
+            field("basic_rates", &Csma::basic_rates,
+                  "broadcasts and RTS go at the lowest, answers at the highest not above the "
+                  "asker's"),
+            field("eifs", &Csma::eifs,
+                  "longer wait after a frame that was begun and lost (standard), sensed and not "
+                  "decoded (ns2), or none"),
+            field("immediate_access", &Csma::immediate_access,
+                  "a station that finds the medium idle sends without a backoff"),
+            field("short_retries", &Csma::short_retries, non_negative, "attempts; 0: no end"),
+            field("long_retries", &Csma::long_retries, non_negative, "behind an RTS; 0: no end"),
+            field("rts_threshold", &Csma::rts_threshold, "larger unicasts ask with an RTS first"),
+            field("header", &Csma::header, "that access adds to a message"));
+    }
+
+    /// Complete timing: the given times, and those of the standard.
+    WifiTiming timing() const;
+    /// Whether a station that finds the medium idle sends without a backoff.
+    bool sends_at_once() const { return immediate_access.value_or(eifs != EifsRule::ns2); }
+    /// Radio of robots for which a scenario file gives no keys: that of 802.11b, or with the
+    /// highest rate and the preamble of OFDM.
+    Radio usual_radio() const {
+        if (standard == WifiStandard::b) return {};
+        return {.rate = {54e6}, .preamble = std::chrono::microseconds{20}};
+    }
     /// Creates the model for one Network.
     /// @throws std::invalid_argument if the slot is not > 0, or there is no basic rate
     std::unique_ptr<Access> make_access() const;

@@ -10,10 +10,13 @@ namespace rovernet {
 
 std::unique_ptr<Access> Csma::make_access() const { return std::make_unique<Dcf>(*this); }
 
-Dcf::Dcf(const Csma& settings) : settings_(settings) {
+Dcf::Dcf(const Csma& settings)
+    : settings_{settings, settings.timing(),
+                settings.basic_rates.value_or(mandatory_rates(settings.standard)),
+                settings.sends_at_once()} {
     const double slot = seconds(settings_.timing.slot);
     if (!positive.contains(slot)) throw_out_of_range("csma", "slot", positive.text, slot);
-    auto& rates = settings_.basic_rates;
+    auto& rates = settings_.rates;
     std::sort(rates.begin(), rates.end(), std::less<>());
     const double lowest = rates.empty() ? 0 : rates.front().value;
     if (!positive.contains(lowest)) {
@@ -22,7 +25,7 @@ Dcf::Dcf(const Csma& settings) : settings_(settings) {
 }
 
 BitRate Dcf::answer_rate(BitRate rate) const {
-    const auto& rates = settings_.basic_rates;
+    const auto& rates = settings_.rates;
     const auto above = std::upper_bound(rates.begin(), rates.end(), rate);
     return above == rates.begin() ? rates.front() : *(above - 1);
 }
@@ -30,7 +33,7 @@ BitRate Dcf::answer_rate(BitRate rate) const {
 BitRate Dcf::rate(const AirFrame& frame, BitRate sender, BitRate receiver) const {
     const bool for_everyone = frame.frame.next_hop == everyone;
     if (!frame.control && !for_everyone) return sender;
-    if (frame.control != &wifi_ack) return settings_.basic_rates.front();  // a CTS answers an RTS
+    if (frame.control != &wifi_ack) return settings_.rates.front();  // a CTS answers an RTS
     return for_everyone ? settings_.timing.lowest_rate : answer_rate(receiver);
 }
 
@@ -42,7 +45,8 @@ void Dcf::add() {
 
 void Dcf::send(Air& air, const QueuedFrame& frame) {
     const NodeId node = frame.frame.sender;
-    const auto refused = at(node).queue.push(frame, settings_.queue, settings_.priority);
+    const auto refused =
+        at(node).queue.push(frame, static_cast<std::size_t>(settings_.queue), settings_.priority);
     if (refused) return air.lost(*refused, DropReason::queue_full);
     if (at(node).state == State::idle) contend(air, node);
 }
@@ -57,7 +61,7 @@ void Dcf::contend(Air& air, NodeId node) {
     if (!(s.backing_off && backoff(node).grant() > now)) {
         const bool is_busy = backoff(node).is_busy(now);
         const Time from = is_busy ? now : now + settings_.timing.difs;
-        if (is_busy || !settings_.immediate_access) {
+        if (is_busy || !settings_.at_once) {
             draw_backoff(air, node, from);
         } else {
             backoff(node).begin(0, from);
@@ -119,7 +123,7 @@ AirFrame Dcf::control_frame(NodeId from, NodeId to, const ControlFrame& kind) {
 void Dcf::transmit_head(Air& air, NodeId node) {
     const AirFrame data = data_frame(node);
     const NodeId to = data.frame.next_hop;
-    const bool asks = to != everyone && air.bytes(data) > settings_.rts_threshold;
+    const bool asks = to != everyone && air.bytes(data) > settings_.rts_threshold.value;
     if (!asks) return transmit_data(air, node);
     AirFrame rts = control_frame(node, to, wifi_rts);
     const Duration sifs = settings_.timing.sifs;

@@ -62,9 +62,9 @@ class Dcf final : public Access {
     void missed(Air& air, NodeId node, bool locked) override;
     bool is_repeated(NodeId node, const AirFrame& frame) override;
 
-    std::uint32_t header() const override { return settings_.header; }
+    std::uint32_t header() const override { return settings_.header.value; }
     BitRate rate(const AirFrame& frame, BitRate sender, BitRate receiver) const override;
-    std::span<const BitRate> own_rates() const override { return settings_.basic_rates; }
+    std::span<const BitRate> own_rates() const override { return settings_.rates; }
     Phy phy() const override { return Wifi{.framing = settings_.standard}; }
 
   private:
@@ -150,8 +150,12 @@ class Dcf final : public Access {
     // Transmits the response that is due.
     void send_response(Air& air, NodeId node);
 
-    // Settings, with the basic rates sorted.
-    Csma settings_;
+    // Settings with every default, and with the basic rates sorted.
+    struct Settings : Csma {
+        WifiTiming timing;
+        std::vector<BitRate> rates;
+        bool at_once;
+    } settings_;
     // Stations by node; in a deque, because it does not move them when it grows.
     std::deque<Station> stations_;
     // Backoffs by node.

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Access models: they determine when nodes may transmit. In the order of their cost:
-//   none   a frame is transmitted at once
-//   aloha  a frame waits for earlier frames of its node
-//   csma   nodes sense the carrier, as in Wi-Fi
-// Include this to choose a model in code; scenario/tables/access_table.hpp has their names in
-// files.
 #include "models/access/aloha.hpp"
 #include "models/access/csma.hpp"
 #include "models/access/no_access.hpp"
+
+#include <tuple>
+
+// List of access models: a new model is a header and a line here.
+
+namespace rovernet {
+
+/// Access models that scenario files can name, in the order of their cost; the first one is the
+/// default. An access model determines when nodes may transmit. Reading, range checks and printing
+/// follow from its fields().
+using AccessModels = std::tuple<NoAccess, Aloha, Csma>;
+
+}  // namespace rovernet

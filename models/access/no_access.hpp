@@ -3,6 +3,7 @@
 
 #include "models/access/access.hpp"
 #include "models/phy/wifi.hpp"
+#include "sim/fields.hpp"
 
 // No access control, the default of a network.
 
@@ -14,6 +15,8 @@ namespace rovernet {
 struct NoAccess {
     /// Name of the model in scenario files.
     static constexpr std::string_view name = "none";
+
+    static constexpr auto fields() { return describe(); }
 
     /// Creates the access model for one Network.
     std::unique_ptr<Access> make_access() const { return std::make_unique<AtOnce>(); }

@@ -24,7 +24,8 @@ struct Disc {
     Meters range{unset};
 
     static constexpr auto fields() {
-        return describe(field("range", &Disc::range, non_negative, "radius of the disc"));
+        return describe(
+            field("range", &Disc::range, non_negative, "radius of the disc").by_decisions());
     }
 
     LossShape shape() const { return LossShape::by_distance; }

@@ -39,6 +39,7 @@ struct EnumNames<Environment> {
 /// editions.
 struct ItuIndoor {
     static constexpr std::string_view name = "itu_indoor";
+    static constexpr bool is_indoor = true;
 
     /// Distance power loss coefficient N [-], > 0; 30 if neither this nor an environment is given.
     std::optional<double> coefficient = std::nullopt;
@@ -50,7 +51,8 @@ struct ItuIndoor {
     static constexpr auto fields() {
         return describe(
             field("coefficient", &ItuIndoor::coefficient, positive,
-                  "N, distance power loss coefficient; 30 if no environment is given"),
+                  "N, distance power loss coefficient; 30 if no environment is given")
+                .linear(30),
             field("environment", &ItuIndoor::environment,
                   "kind of building: gives N (unless coefficient does) and the floor loss"),
             field("floors", &ItuIndoor::floors, non_negative,

@@ -50,6 +50,7 @@ struct EnumNames<LineOfSight> {
 /// Source: Recommendation ITU-R P.1238-11 (2021), equation 1 and table 2.
 struct ItuSiteGeneral {
     static constexpr std::string_view name = "itu_site_general";
+    static constexpr bool is_indoor = true;
 
     /// Kind of indoor site, which selects the coefficients.
     Site site = Site::office;

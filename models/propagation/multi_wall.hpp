@@ -34,6 +34,7 @@ namespace rovernet {
 /// floors 18.3 dB with b = 0.46.
 struct MultiWall {
     static constexpr std::string_view name = "multi_wall";
+    static constexpr bool is_indoor = true;
 
     /// Path loss exponent n [-], > 0; 2 free space.
     double exponent = 2;
@@ -51,13 +52,17 @@ struct MultiWall {
     static constexpr auto fields() {
         return describe(
             field("exponent", &MultiWall::exponent, positive,
-                  "n, path loss exponent apart from walls: 2 free space"),
+                  "n, path loss exponent apart from walls: 2 free space")
+                .linear(2),
             field("excess", &MultiWall::excess,
-                  "loss at 1 m beyond that of free space; what a fit finds"),
+                  "loss at 1 m beyond that of free space; what a fit finds")
+                .constant(far_from_zero),
             field("light_wall", &MultiWall::light_wall, non_negative,
-                  "loss of a wall drawn thinner than 10 cm, if its material gives none"),
+                  "loss of a wall drawn thinner than 10 cm, if its material gives none")
+                .linear(0),
             field("heavy_wall", &MultiWall::heavy_wall, non_negative,
-                  "loss of a thicker wall, if its material gives none"),
+                  "loss of a thicker wall, if its material gives none")
+                .linear(0),
             field("floor_loss", &MultiWall::floor_loss, non_negative, "loss of one floor"),
             field("floor_saving", &MultiWall::floor_saving,
                   Range{.low = 0, .high = 1, .text = "from 0 to 1"},

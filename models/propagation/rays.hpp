@@ -73,6 +73,7 @@ struct EnumNames<RaySum> {
 /// edges: ITU-R P.526-15 and Kouyoumjian and Pathak 1974, see diffraction.hpp.
 struct Rays {
     static constexpr std::string_view name = "rays";
+    static constexpr bool is_indoor = true;
 
     /// Largest number of reflections of a path [-], 0 to 3.
     int order = 2;
@@ -101,12 +102,22 @@ struct Rays {
                   "(rms) where walls are not along the cells"),
             field("wall", &Rays::wall, "what walls are made of whose material gives no loss"),
             field("wall_loss", &Rays::wall_loss, non_negative,
-                  "loss of a crossing of such a wall, in place of what `wall` takes"),
+                  "loss of a crossing of such a wall, in place of what `wall` takes")
+                .searched(10),
             field("reflection_loss", &Rays::reflection_loss, non_negative,
-                  "loss of a reflection by a material that is given in dB"),
+                  "loss of a reflection by a material that is given in dB")
+                .searched(6),
             field("max_paths", &Rays::max_paths,
                   Range{.low = 1, .high = 1000, .text = "from 1 to 1000"},
                   "most paths that are added, the strongest ones"));
+    }
+
+    /// Forms of the model from the cheapest to the most detailed one, for `rovernet advise`.
+    static std::array<Rays, 4> forms() {
+        return {{{.order = 1, .diffraction = RayDiffraction::none},
+                 {.order = 2, .diffraction = RayDiffraction::knife_edge},
+                 {.order = 2, .diffraction = RayDiffraction::utd},
+                 {.order = 3, .diffraction = RayDiffraction::utd}}};
     }
 
     LossShape shape() const { return LossShape::unknown; }

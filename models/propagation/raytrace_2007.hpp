@@ -26,6 +26,7 @@ namespace rovernet {
 /// Source: the 2007 thesis, algorithm 1; formula of ITU-R P.1238-2.
 struct Raytrace2007 {
     static constexpr std::string_view name = "raytrace_2007";
+    static constexpr bool is_indoor = true;
 
     /// Distance power loss coefficient N [-], > 0.
     double coefficient = 30;
@@ -34,9 +35,11 @@ struct Raytrace2007 {
 
     static constexpr auto fields() {
         return describe(field("coefficient", &Raytrace2007::coefficient, positive,
-                              "N, distance power loss coefficient"),
+                              "N, distance power loss coefficient")
+                            .linear(30),
                         field("wall_factor", &Raytrace2007::wall_factor, non_negative,
-                              "loss in decibels per centimetre of wall"));
+                              "loss in decibels per centimetre of wall")
+                            .linear(0));
     }
 
     LossShape shape() const { return LossShape::by_walls; }

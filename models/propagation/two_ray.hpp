@@ -82,6 +82,11 @@ struct TwoRay {
                   "of form exact: relative permittivity of the ground, 3 very dry to 30 wet"));
     }
 
+    /// Forms of the model from the cheapest to the most detailed one, for `rovernet advise`.
+    static std::array<TwoRay, 2> forms() {
+        return {{{.form = TwoRayForm::ns2}, {.form = TwoRayForm::exact}}};
+    }
+
     LossShape shape() const {
         return form == TwoRayForm::exact ? LossShape::unknown : LossShape::by_heights;
     }

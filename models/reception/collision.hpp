@@ -56,6 +56,13 @@ struct Collision {
     /// Order in which two overlapping frames must begin for the stronger one to survive.
     CaptureOrder capture = CaptureOrder::first;
 
+    static constexpr auto fields() {
+        return describe(field("capture_ratio", &Collision::capture_ratio, positive,
+                              "how much stronger a frame is that survives another"),
+                        field("capture", &Collision::capture,
+                              "which of two frames may survive: the first, or also the later one"));
+    }
+
     /// Whether `frame` survives `other` at the same node, if `other` was not ignored.
     /// @param is_stronger  is_stronger(frame, other, capture_ratio), called only if needed, because
     ///                     a level requires the computation of a path loss

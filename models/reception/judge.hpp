@@ -3,6 +3,7 @@
 
 #include "models/arrival.hpp"
 #include "models/phy/phy.hpp"
+#include "sim/fields.hpp"
 #include "sim/record.hpp"
 #include "sim/units.hpp"
 
@@ -115,6 +116,8 @@ class ReceptionModel {
 /// interfere, and a node can receive while it transmits. The default.
 struct Threshold {
     static constexpr std::string_view name = "threshold";
+
+    static constexpr auto fields() { return describe(); }
 
     /// Returns null, because no judge is needed.
     std::unique_ptr<Judge> make_judge() const { return nullptr; }

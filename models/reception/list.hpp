@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Reception models: fate of a frame at a receiver in range. In the order of their cost:
-//   threshold  it is received
-//   collision  it is lost if another frame overlaps, unless it is much stronger
-//   sinr       its bits are right or wrong by the ratio of signal to noise and interference
-// Include this to choose a model in code; scenario/tables/reception_table.hpp has their names in
-// files.
 #include "models/reception/collision.hpp"
 #include "models/reception/judge.hpp"
 #include "models/reception/sinr.hpp"
+
+#include <tuple>
+
+// List of reception models: a new model is a header and a line here.
+
+namespace rovernet {
+
+/// Reception models that scenario files can name, in the order of detail; the first one is the
+/// default, and the last one is the most detailed. A reception model decides the fate of a frame at
+/// a receiver in range. Reading, range checks and printing follow from its fields().
+using ReceptionModels = std::tuple<Threshold, Collision, Sinr>;
+
+}  // namespace rovernet

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "models/reception/judge.hpp"
+#include "sim/fields.hpp"
 
 #include <memory>
 #include <string_view>
@@ -41,6 +42,13 @@ struct Sinr {
     Db interference_cut{20};
     /// Smallest SINR [dB] at which a preamble is detected.
     Db preamble_threshold{4};
+
+    static constexpr auto fields() {
+        return describe(field("interference_cut", &Sinr::interference_cut, non_negative,
+                              "frames weaker than the sensitivity by this are left out"),
+                        field("preamble_threshold", &Sinr::preamble_threshold,
+                              "a receiver finds preambles that are so much above the rest"));
+    }
 
     /// Creates the judge for one Network.
     std::unique_ptr<Judge> make_judge() const;

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace rovernet {
@@ -57,6 +58,35 @@ std::string dump(const Value& value, int indent) {
 std::string to_json(const Value& value) { return dump(value, 2) + "\n"; }
 
 std::string to_json_line(const Value& value) { return dump(value, -1); }
+
+void JsonObjectWriter::begin(std::string_view key) {
+    write_(std::exchange(is_empty_, false) ? "{\n  " : ",\n  ");
+    write_(dump(Value(key), -1));
+    write_(": ");
+}
+
+void JsonObjectWriter::set(std::string_view key, const Value& value) {
+    begin(key);
+    // Ends of lines are between values only: those of texts are written as \\n.
+    const std::string text = dump(value, 2);
+    for (std::size_t from = 0; from < text.size();) {
+        const std::size_t to = std::min(text.find('\n', from), text.size() - 1) + 1;
+        write_(std::string_view(text).substr(from, to - from));
+        if (text[to - 1] == '\n') write_("  ");
+        from = to;
+    }
+}
+
+void JsonObjectWriter::set_list(std::string_view key, std::size_t size, const AppendItem& append) {
+    begin(key);
+    std::string piece = "[";
+    for (std::size_t i = 0; i < size; ++i) {
+        piece += i == 0 ? "\n    " : ",\n    ";
+        append(i, piece);
+        write_(std::exchange(piece, {}));
+    }
+    write_(piece + (size == 0 ? "]" : "\n  ]"));
+}
 
 Value parse_json(std::string_view text) {
     try {

@@ -4,8 +4,7 @@
 #include "models/propagation/list.hpp"
 #include "models/propagation/propagation.hpp"
 #include "scenario/document/value.hpp"
-
-#include <cstddef>
+#include "scenario/tables/model_choice.hpp"
 
 // Propagation in a scenario file:
 //
@@ -18,16 +17,7 @@ namespace rovernet {
 
 /// [propagation]: the chosen model, and the given parameters of all listed models. Parameters of
 /// other models are kept, so that changing the key `model` is enough to swap the model.
-struct PropagationTable {
-    /// Index of the chosen model in PropagationModels; by default friis.
-    std::size_t model = 1;
-    /// Parameters of each listed model, one struct for each.
-    PropagationModels parameters;
-
-    /// Chosen model, ready for use.
-    /// @throws std::invalid_argument if a parameter is out of its range
-    Propagation make() const;
-};
+using PropagationTable = ModelChoice<PropagationModels, Propagation, Friis>;
 
 /// Reads [propagation], or the `propagation` table of a robot, into `out`. Keys of models that are
 /// not chosen are allowed.

@@ -55,9 +55,29 @@ void TableReader::only_one_of(std::string_view key, std::string_view other) cons
                                  name_, key, other));
 }
 
-void TableReader::outside(const Value& value, std::string_view key, const Range& range) {
+void throw_outside(const Value& value, std::string_view key, const Range& range) {
     throw InputError(value.where, fmt::format("{}: found {}; expected a value {}", key,
                                               value.description(), range.text));
+}
+
+void throw_not_given(const Location& where, std::string_view what, std::string_view model,
+                     std::string_view key, std::string_view meaning) {
+    throw InputError(where, fmt::format("{} \"{}\" needs the key \"{}\", {}; for example {} = "
+                                        "\"50 m\"",
+                                        what, model, key, meaning, key));
+}
+
+void append_differing(Table& table, const Table& given, const Table& defaults) {
+    for (const Entry& entry : given.entries) {
+        const Value* usual = defaults.find(entry.key);
+        const bool is_unset = entry.value.string() && entry.value.string()->starts_with("nan");
+        if (is_unset || table.find(entry.key)) continue;
+        if (usual && usual->data.index() == entry.value.data.index() &&
+            usual->description() == entry.value.description()) {
+            continue;
+        }
+        table.set(entry.key, entry.value);
+    }
 }
 
 }  // namespace rovernet

@@ -7,6 +7,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 // Reader of tables. A mistake is an InputError with file, line and column:
@@ -16,6 +17,15 @@
 //     table.reject_unknown();
 
 namespace rovernet {
+
+/// Reports that a number is out of its range.
+/// @throws InputError at the value
+[[noreturn]] void throw_outside(const Value& value, std::string_view key, const Range& range);
+/// Reports that a model lacks a parameter that has no default.
+/// @throws InputError at `where`
+[[noreturn]] void throw_not_given(const Location& where, std::string_view what,
+                                  std::string_view model, std::string_view key,
+                                  std::string_view meaning);
 
 /// Reader of one table, key by key. It notes the keys that were asked for, so that reject_unknown()
 /// finds misspelt keys. The value must outlive the reader.
@@ -38,6 +48,16 @@ class TableReader {
         read_value(*value, key, out);
         check(*value, key, out, range);
         return true;
+    }
+    /// Reads `key` if it is present and valid; otherwise `out` is unchanged.
+    template <class T>
+    void read_if_valid(std::string_view key, T& out, const Range& range) {
+        T given = out;
+        try {
+            read(key, given, range);
+            out = std::move(given);
+        } catch (const InputError&) {
+        }
     }
     /// Reads every key of a struct with fields(), and checks its range. A missing key leaves its
     /// field of `out` unchanged.
@@ -69,11 +89,8 @@ class TableReader {
     template <class T>
     void check(const Value& value, std::string_view key, const T& out, const Range& range) {
         const auto number = number_in(out);
-        if (number && !range.contains(*number)) outside(value, key, range);
+        if (number && !range.contains(*number)) throw_outside(value, key, range);
     }
-    // Reports that a number is out of range.
-    [[noreturn]] static void outside(const Value& value, std::string_view key, const Range& range);
-
     const Table* table_;
     Location where_;
     std::string name_;
@@ -90,6 +107,10 @@ void append_field(Table& table, std::string_view name, const M& member) {
         table.set(name, to_value(member));
     }
 }
+
+/// Appends the entries of `given` that differ from those of `defaults`, have a value, and are not
+/// in the table.
+void append_differing(Table& table, const Table& given, const Table& defaults);
 
 /// Appends every field of a struct with fields() to a table, for read_fields() to read back.
 template <Described T>

@@ -20,43 +20,13 @@
 namespace rovernet {
 namespace {
 
-using namespace std::string_view_literals;
-
-/// Form of a model: keys of its table.
-struct ModelForm {
-    std::string_view model, toml;
-};
-
-/// The most detailed forms, which references have.
-constexpr std::array most_detailed_forms{ModelForm{"rays", "order = 3\ndiffraction = \"utd\""},
-                                         ModelForm{"two_ray", "form = \"exact\""}};
-
-/// Cheaper forms of models that may be the reference.
-constexpr std::array cheaper_forms{ModelForm{"two_ray", "form = \"ns2\""},
-                                   ModelForm{"rays", "order = 1\ndiffraction = \"none\""},
-                                   ModelForm{"rays", "order = 2\ndiffraction = \"knife_edge\""},
-                                   ModelForm{"rays", "order = 2\ndiffraction = \"utd\""}};
-
-constexpr std::array open_field_models{"disc"sv, "friis"sv, "two_ray"sv, "log_distance"sv};
-
-std::vector<std::string> listed_models() {
-    std::vector<std::string> names;
-    for_each_model([&]<class Model>() { names.emplace_back(Model::name); });
-    return names;
-}
-
-bool is_listed(std::string_view model) {
-    const auto names = listed_models();
-    return std::find(names.begin(), names.end(), model) != names.end();
-}
-
 /// [propagation] with this model and the scenario's parameters.
 Table propagation_with(const Scenario& scenario, const std::string& model) {
     PropagationTable propagation = scenario.propagation;
-    const auto names = listed_models();
+    const auto names = PropagationTable::names();
     propagation.model =
         static_cast<std::size_t>(std::find(names.begin(), names.end(), model) - names.begin());
-    Table table = propagation_document(propagation);
+    Table table = chosen_document(propagation);
     std::erase_if(table.entries, [](const Entry& entry) {
         return entry.value.string() && entry.value.string()->starts_with("nan");  // not given
     });
@@ -69,12 +39,30 @@ void leave_shadowing_to(const Scenario& scenario, Table& propagation) {
     if (for_all && propagation.find("sigma")) propagation.set("sigma", "0 dB");
 }
 
-/// Overrides a table with the keys of a form.
-void lay_over(Table& table, const ModelForm& form) {
-    const Value keys = parse_toml(form.toml, std::string(form.model));
-    for (const Entry& entry : keys.table()->entries) {
-        if (table.find(entry.key)) table.set(entry.key, entry.value);
-    }
+/// Calls visit(forms) with the forms of the model with this name, if it has some: from the cheapest
+/// to the most detailed one.
+template <class Visitor>
+void visit_forms(std::string_view model, Visitor&& visit) {
+    for_each_model([&]<class M>() {
+        if constexpr (requires { M::forms(); }) {
+            if (M::name == model) visit(M::forms());
+        }
+    });
+}
+
+/// Calls visit(field) for each key in which two of the forms differ.
+template <class M, std::size_t n, class Visitor>
+void for_each_differing(const std::array<M, n>& forms, Visitor&& visit) {
+    for_each_field<M>([&](const auto& f) {
+        const auto differs = [&](const M& form) { return form.*f.member != forms[0].*f.member; };
+        if (std::any_of(forms.begin(), forms.end(), differs)) visit(f);
+    });
+}
+
+/// Overrides a table with the keys in which a form differs from others.
+template <class M, std::size_t n>
+void lay_over(Table& table, const M& form, const std::array<M, n>& forms) {
+    for_each_differing(forms, [&](const auto& f) { append_field(table, f.name, form.*f.member); });
 }
 
 /// Tables [propagation] and [reception] of one combination.
@@ -115,18 +103,16 @@ Reference reference_for(const Scenario& scenario, const CandidateQuestion& quest
         const Value* of = said.table()->find(table);
         return of && of->table() ? of->table()->find(key) : nullptr;
     };
-    std::string model = !scenario.walls                        ? "two_ray"
-                        : scenario.walls->storeys().size() > 1 ? "multi_wall"
-                        : is_listed("rays")                    ? "rays"
-                                                               : listed_models().back();
+    const auto names = PropagationTable::names();
+    std::string model(!scenario.walls                        ? TwoRay::name
+                      : scenario.walls->storeys().size() > 1 ? MultiWall::name
+                                                             : Rays::name);
     const Value* named = told("propagation", "model");
-    if (named) model = listed_models()[read_choice(*named, "propagation model", listed_models())];
+    if (named) model = names[read_choice(*named, "propagation model", names)];
     Reference out{propagation_with(scenario, model), {}, {scenario.file}};
-    for (const ModelForm& form : most_detailed_forms) {
-        if (form.model == model) lay_over(out.propagation, form);
-    }
-    append_fields(out.reception, scenario.reception);
-    out.reception.set("model", "sinr");
+    visit_forms(model, [&](const auto& forms) { lay_over(out.propagation, forms.back(), forms); });
+    out.reception = whole_document(scenario.reception);
+    out.reception.set("model", ReceptionTable::names().back());
     for (const auto& [name, table] :
          {std::pair{"propagation", &out.propagation}, std::pair{"reception", &out.reception}}) {
         const Value* over = said.table()->find(name);
@@ -139,48 +125,46 @@ Reference reference_for(const Scenario& scenario, const CandidateQuestion& quest
     return out;
 }
 
-/// Detail of a table of `rays`: its order, and the place of its diffraction in their list. Nothing
-/// if it has no such values.
-std::optional<std::array<std::int64_t, 2>> detail_of_rays(const Table& table) {
-    const Value *order = table.find("order"), *diffraction = table.find("diffraction");
-    const auto* number = order ? std::get_if<std::int64_t>(&order->data) : nullptr;
-    if (!number || !diffraction || !diffraction->string()) return std::nullopt;
-    const auto& words = EnumNames<RayDiffraction>::values;
-    const auto at = std::find(words.begin(), words.end(), *diffraction->string());
-    return std::array{*number, static_cast<std::int64_t>(at - words.begin())};
-}
-
-/// Whether a form is cheaper than the reference of the same model.
-bool is_cheaper(const ModelForm& form, const Table& reference) {
-    if (word_at(reference, "model") != form.model) return false;
-    if (form.model == "two_ray") return word_at(reference, "form") == "exact";
-    Table cheaper = reference;
-    lay_over(cheaper, form);
-    const auto less = detail_of_rays(cheaper), most = detail_of_rays(reference);
-    return less && most && *less != *most && (*less)[0] <= (*most)[0] && (*less)[1] <= (*most)[1];
+/// Whether a form is cheaper than the reference: less detailed in one of the keys in which forms
+/// differ, and more detailed in none.
+template <class M, std::size_t n>
+bool is_cheaper(const M& form, const M& reference, const std::array<M, n>& forms) {
+    bool less = false, more = false;
+    for_each_differing(forms, [&](const auto& f) {
+        less = less || form.*f.member < reference.*f.member;
+        more = more || form.*f.member > reference.*f.member;
+    });
+    return less && !more;
 }
 
 /// Whether a model is a candidate where the question names none.
 bool is_usual(const std::string& model, const std::string& reference, bool on_map) {
-    const auto names = listed_models();
+    const auto names = PropagationTable::names();
     const auto place = [&](const std::string& name) {
         return std::find(names.begin(), names.end(), name) - names.begin();
     };
     if (on_map) return place(model) < place(reference);
-    return std::find(open_field_models.begin(), open_field_models.end(), model) !=
-           open_field_models.end();
+    bool is_indoor = false;
+    for_each_model([&]<class M>() {
+        if constexpr (requires { M::is_indoor; }) is_indoor = is_indoor || M::name == model;
+    });
+    return !is_indoor;
 }
 
 /// Cheaper forms of the reference's model. Each is named by all keys in which any two of them, or
 /// one and the reference, differ: "rays order=2 diffraction=knife_edge".
 std::vector<CandidateModel> cheaper_forms_of(const Table& reference) {
     const std::string& model = word_at(reference, "model");
+    PropagationTable propagation;
+    read_propagation(Value(reference), propagation);
     std::vector<CandidateModel> out;
-    for (const ModelForm& form : cheaper_forms) {
-        if (!is_cheaper(form, reference)) continue;
-        out.push_back({model, model, reference, "", ""});
-        lay_over(out.back().table, form);
-    }
+    visit_forms(model, [&]<class M, std::size_t n>(const std::array<M, n>& forms) {
+        for (const M& form : forms) {
+            if (!is_cheaper(form, *propagation.as<M>(), forms)) continue;
+            out.push_back({model, model, reference, "", ""});
+            lay_over(out.back().table, form, forms);
+        }
+    });
     for (const Entry& entry : reference.entries) {
         const auto text_in = [&](const CandidateModel& each) {
             return plain_text(*each.table.find(entry.key));
@@ -199,7 +183,7 @@ std::vector<CandidateModel> cheaper_forms_of(const Table& reference) {
 std::vector<CandidateModel> possible_path_losses(const Scenario& scenario, const Table& reference) {
     const std::string& of_reference = word_at(reference, "model");
     std::vector<CandidateModel> out;
-    for (const std::string& model : listed_models()) {
+    for (const std::string& model : PropagationTable::names()) {
         if (model == of_reference) {
             for (CandidateModel& form : cheaper_forms_of(reference)) out.push_back(std::move(form));
             continue;
@@ -214,7 +198,7 @@ std::vector<CandidateModel> possible_path_losses(const Scenario& scenario, const
 /// Checks the names of --models: a listed model, or a form of the reference's as it is printed.
 /// @throws InputError at the option for another
 void check_models(const CandidateQuestion& question, const std::vector<CandidateModel>& possible) {
-    std::vector<std::string> names = listed_models();
+    std::vector<std::string> names = PropagationTable::names();
     for (const CandidateModel& each : possible) {
         if (each.name != each.model) names.push_back(each.name);
     }
@@ -384,10 +368,10 @@ AdviceCandidates candidates_for(const std::string& path, const ScenarioOptions& 
     if (!question.as_given) fit_candidates(out.path_losses, scenario, tell);
     const std::string& model = word_at(reference.propagation, "model");
     out.path_losses.push_back({model, model, reference.propagation, "", ""});
-    for (const auto name : EnumNames<ReceptionChoice>::values) {
+    for (const std::string& name : ReceptionTable::names()) {
         Table table = reference.reception;
         table.set("model", name);
-        out.receptions.push_back({std::string(name), std::string(name), table, "", ""});
+        out.receptions.push_back({name, name, table, "", ""});
         if (name == word_at(reference.reception, "model")) break;
     }
     lay_out(out, file, base);

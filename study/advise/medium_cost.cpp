@@ -138,9 +138,9 @@ MediumReplay::Answers MediumReplay::answer(const MediumRecord& record, std::uint
             medium.switch_radio(node, *on);
         } else {
             if (sensed) {
-                medium.find_sensors(node, time, time, legs, found);
+                medium.find_sensors(node, Coding{}, time, time, legs, found);
             } else {
-                medium.find_receivers(node, time, time, legs, found);
+                medium.find_receivers(node, Coding{}, time, time, legs, found);
             }
             answers.receivers += found.all().size();
             if (++answers.frames % frames_a_look == 0 && thread_cpu_s() - begin > most_s) break;

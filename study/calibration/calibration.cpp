@@ -49,6 +49,11 @@ void jackknife(LinearCalibration::Solution& fit,
         fill(fit.gains[k].gain, [&](const auto& each) { return each.gains[k].gain; });
 }
 
+/// Whether a model has no losses in dB, so that only its decisions (link up or down) can be wrong.
+bool decides_only(std::string_view model) {
+    return !key_determined(model, Fit::Way::decisions).empty();
+}
+
 void calibrate_linear(const KnownLinks& known, const Scenario& scenario, Meters decided_within,
                       Gains gains, CalibratedModel& out) {
     const LinearCalibration linear(known, scenario, out.model, gains);
@@ -90,17 +95,19 @@ DiscFit disc_of(const KnownLinks& known, Meters within, const Takes& takes) {
     return fit_disc(std::move(links));
 }
 
-void calibrate_disc(const KnownLinks& known, Meters decided_within, CalibratedModel& out) {
+/// Fits a model whose only parameter is the range within which links are up.
+void calibrate_range(const KnownLinks& known, Meters decided_within, std::string_view key,
+                     CalibratedModel& out) {
     const Meters range =
         disc_of(known, decided_within, [](const KnownLink&) { return true; }).range;
-    out.parameters.push_back({.key = "range",
+    out.parameters.push_back({.key = std::string(key),
                               .unit = "m",
                               .value = range.value,
                               .se_plain = no_number,
                               .se_by_group = no_number});
     Table propagation;
-    propagation.set("model", "disc");
-    propagation.set("range", fmt::format("{:.6g} m", range.value));
+    propagation.set("model", out.model);
+    propagation.set(key, fmt::format("{:.6g} m", range.value));
     out.settings.set("propagation", std::move(propagation));
     Predictions fitted(known, decided_within), left_out(known, decided_within);
     for (std::size_t i = 0; i < known.links.size(); ++i) {
@@ -130,7 +137,7 @@ std::optional<PredictionErrors> errors_as_given(const KnownLinks& known, const S
         for (std::size_t i = 0; i < known.links.size(); ++i) {
             given.check_frequency(known.links[i].frequency);
             const double loss = known.loss_by(given, known.links[i]);
-            if (model == "disc") {
+            if (decides_only(model)) {
                 predictions.add(i, std::nullopt, loss <= known.links[i].budget);
             } else {
                 predictions.add(i, loss);
@@ -185,10 +192,11 @@ std::vector<CalibratedModel> calibrate(const KnownLinks& known, const Scenario& 
         model.model = Model::name;
         if (model.model == except) return;
         try {
-            if (model.model == "disc") {
-                calibrate_disc(known, decided_within, model);
-            } else {
+            const auto range = key_determined(model.model, Fit::Way::decisions);
+            if (range.empty()) {
                 calibrate_linear(known, scenario, decided_within, gains, model);
+            } else {
+                calibrate_range(known, decided_within, range, model);
             }
             model.as_given = errors_as_given(known, scenario, model.model, decided_within);
         } catch (const std::invalid_argument& e) {
@@ -221,9 +229,9 @@ void refuse_absurd(std::vector<CalibratedModel>& models, Dbm given_power) {
                         p.value,
                         given_power.value + (p.value > given_power.value ? most_db : -most_db), 0),
                     most_db, given_power.value);
-            } else if (p.key == "excess" && p.determined && std::abs(p.value) > most_db) {
+            } else if (p.is_constant && p.determined && std::abs(p.value) > most_db) {
                 model.refusal = fmt::format(
-                    "its excess of {} dB is more than {} dB: is the power of [radio] right?",
+                    "its {} of {} dB is more than {} dB: is the power of [radio] right?", p.key,
                     told_apart(p.value, p.value > 0 ? most_db : -most_db, 1), most_db);
             }
         }
@@ -245,7 +253,7 @@ void refuse_absurd(std::vector<CalibratedModel>& models, Dbm given_power) {
 
 double loss_error_at_budget(const KnownLinks& known, const Scenario& scenario) {
     const auto losses =
-        linear_losses(known, scenario, "log_distance", free_parameters("log_distance"));
+        linear_losses(known, scenario, LogDistance::name, free_parameters(LogDistance::name));
     const auto fitted = [&](double shift) {
         Observations data{.columns = 2};
         for (std::size_t i = 0; i < losses.size(); ++i) {
@@ -371,7 +379,7 @@ Repeatability check(Calibration& calibration, const Scenario& scenario, const Kn
             const double loss = others.loss_by(fitted, others.links[i]) + constant -
                                 gain_at(model.gains, others.links[i].from);
             const bool up = loss <= others.links[i].budget;
-            predictions.add(i, model.model == "disc" ? std::nullopt : std::optional(loss), up);
+            predictions.add(i, decides_only(model.model) ? std::nullopt : std::optional(loss), up);
         }
         model.checked = predictions.errors();
     }

@@ -4,43 +4,48 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <iterator>
 #include <utility>
 
 namespace rovernet {
 namespace {
 
-constexpr double far_from_zero = 500;  // [dB]
+/// Calls visit(field, member of a default model) for each field of the model with this name.
+template <class Visitor>
+void for_each_field_of(std::string_view model, Visitor&& visit) {
+    for_each_model([&]<class M>() {
+        if (M::name != model) return;
+        for_each_field<M>([&](const auto& f) { visit(f, M{}.*f.member); });
+    });
+}
 
-constexpr std::array all_free{
-    FreeParameter{.model = "disc", .key = "range", .unit = "m"},
-    FreeParameter{.model = "itu_indoor", .key = "coefficient", .base = 30},
-    FreeParameter{.model = "log_distance", .key = "exponent", .base = 2},
-    FreeParameter{.model = "log_distance", .key = "excess", .unit = "dB", .base = far_from_zero},
-    FreeParameter{.model = "multi_wall", .key = "exponent", .base = 2},
-    FreeParameter{.model = "multi_wall", .key = "excess", .unit = "dB", .base = far_from_zero},
-    FreeParameter{.model = "multi_wall", .key = "light_wall", .unit = "dB", .non_negative = true},
-    FreeParameter{.model = "multi_wall", .key = "heavy_wall", .unit = "dB", .non_negative = true},
-    FreeParameter{.model = "raytrace_2007", .key = "coefficient", .base = 30},
-    FreeParameter{.model = "raytrace_2007", .key = "wall_factor", .unit = "", .non_negative = true},
-    FreeParameter{.model = "rays",
-                  .key = "wall_loss",
-                  .unit = "dB",
-                  .base = 10,
-                  .non_negative = true,
-                  .searched = true},
-    FreeParameter{.model = "rays",
-                  .key = "reflection_loss",
-                  .unit = "dB",
-                  .base = 6,
-                  .non_negative = true,
-                  .searched = true},
-};
+/// Unit in which number_in() returns a parameter; empty for a bare number.
+template <class T>
+std::string_view unit_of(const T& v) {
+    if constexpr (requires { v.has_value(); }) {
+        return unit_of(typename T::value_type{});
+    } else if constexpr (IsQuantity<T>) {
+        return base_unit(dimension_of(v));
+    } else {
+        return "";
+    }
+}
+
+bool is_free(const Fit& fit) { return fit.way != Fit::Way::none && fit.way != Fit::Way::spread; }
+
+/// Sets a parameter. @throws InputError at `where` if the value is out of its range
+template <class T>
+void set_parameter(const auto& f, T& member, double value, const Location& where) {
+    set_number(member, value);
+    if (f.range.contains(value)) return;
+    const std::string_view unit = unit_of(member);
+    Value text = unit.empty() ? Value(value) : Value(fmt::format("{} {}", value, unit));
+    text.where = where;
+    throw_outside(text, f.name, f.range);
+}
 
 std::map<std::string, double> bases_of(std::span<const FreeParameter> free) {
     std::map<std::string, double> out;
-    for (const FreeParameter& p : free) out[std::string(p.key)] = p.base;
+    for (const FreeParameter& p : free) out[std::string(p.key)] = p.fit.base;
     return out;
 }
 
@@ -82,35 +87,46 @@ class SearchedError {
 
 std::vector<FreeParameter> free_parameters(std::string_view model) {
     std::vector<FreeParameter> out;
-    std::copy_if(all_free.begin(), all_free.end(), std::back_inserter(out),
-                 [&](const FreeParameter& p) { return p.model == model; });
+    for_each_field_of(model, [&](const auto& f, const auto& member) {
+        if (!is_free(f.fit)) return;
+        out.push_back(
+            {model, f.name, unit_of(member), f.fit, f.range.low == 0 && f.range.low_included});
+    });
     return out;
+}
+
+std::string_view key_determined(std::string_view model, Fit::Way way) {
+    std::string_view key;
+    for_each_field_of(model, [&](const auto& f, const auto&) {
+        if (f.fit.way == way) key = f.name;
+    });
+    return key;
 }
 
 std::vector<FreeParameter> with_bases(std::vector<FreeParameter> free, const KnownLinks& known,
                                       const Scenario& scenario) {
     constexpr double first_step = 8, last_step = 0.25;
-    const bool searched =
-        std::any_of(free.begin(), free.end(), [](const FreeParameter& p) { return p.searched; });
-    if (!searched || known.scene->open_field()) return free;
+    const auto is_searched = [](const FreeParameter& p) { return p.fit.way == Fit::Way::searched; };
+    if (std::none_of(free.begin(), free.end(), is_searched) || known.scene->open_field())
+        return free;
     const SearchedError error(known, scenario);
     double least = error(free);
     for (double step = first_step; step >= last_step;) {
         bool better = false;
         for (FreeParameter& p : free) {
-            if (!p.searched) continue;
-            const double here = p.base;
+            if (!is_searched(p)) continue;
+            const double here = p.fit.base;
             double best = here;
             for (const double there : {here - step, here + step}) {
                 if (there < 0) continue;
-                p.base = there;
+                p.fit.base = there;
                 const double found = error(free);
                 if (found < least) {
                     least = found;
                     best = there;
                 }
             }
-            p.base = best;
+            p.fit.base = best;
             better = better || best != here;
         }
         if (!better) step /= 2;
@@ -120,18 +136,18 @@ std::vector<FreeParameter> with_bases(std::vector<FreeParameter> free, const Kno
 
 Propagation model_with(const Scenario& scenario, std::string_view model,
                        const std::map<std::string, double>& values) {
-    Table table;
-    table.set("model", model);
-    for (const FreeParameter& p : free_parameters(model)) {
-        const auto value = values.find(std::string(p.key));
-        if (value == values.end()) continue;
-        table.set(p.key, p.unit.empty() ? Value(value->second)
-                                        : Value(fmt::format("{} {}", value->second, p.unit)));
-    }
     PropagationTable propagation = scenario.propagation;
-    Value document(std::move(table));
-    document.where = scenario.propagation_where;
-    read_propagation(document, propagation);
+    const auto names = PropagationTable::names();
+    propagation.model =
+        static_cast<std::size_t>(std::find(names.begin(), names.end(), model) - names.begin());
+    propagation.for_each([&]<class M>(M& each, bool chosen) {
+        for_each_field<M>([&](const auto& f) {
+            const auto value = chosen ? values.find(std::string(f.name)) : values.end();
+            if (value != values.end() && is_free(f.fit))
+                set_parameter(f, each.*f.member, value->second, scenario.propagation_where);
+        });
+    });
+    check_given(propagation, "propagation model", scenario.propagation_where);
     return propagation.make().median();
 }
 
@@ -152,7 +168,7 @@ std::vector<LinearLoss> linear_losses(const KnownLinks& known, const Scenario& s
         const double there = loss.offset;
         for (std::size_t j = 0; j < free.size(); ++j) {
             loss.columns.push_back(known.loss_by(moved[j], link) - there);
-            loss.offset -= free[j].base * loss.columns[j];
+            loss.offset -= free[j].fit.base * loss.columns[j];
         }
         out.push_back(std::move(loss));
     }

@@ -3,6 +3,7 @@
 
 #include "models/propagation/propagation.hpp"
 #include "scenario/scenario.hpp"
+#include "sim/fit.hpp"
 #include "study/calibration/known_links.hpp"
 
 #include <map>
@@ -13,19 +14,18 @@
 
 namespace rovernet {
 
-/// Parameter of a propagation model that a fit can determine: the loss is linear in it, or
-/// approximately linear near a base value, which is searched for.
+/// Parameter of a propagation model that a fit can determine, as its field says.
 struct FreeParameter {
     std::string_view model, key;
     std::string_view unit = "";  ///< unit of the parameter; empty: a bare number
-    double base = 0;  ///< base value, at which no loss is clipped at 0, so that the loss is linear
-    bool non_negative = false;  ///< true for the losses of walls, which are >= 0
-    /// True: the loss is linear only near the best value, which is searched for.
-    bool searched = false;
+    Fit fit = {};                ///< way in which it is determined; `base` is varied by a search
+    bool non_negative = false;   ///< true: negative values are out of range
 };
 
 /// Free parameters of a propagation model, by its name; most models have none.
 std::vector<FreeParameter> free_parameters(std::string_view model);
+/// Key of the model's parameter that a fit determines in this way; empty: it has none.
+std::string_view key_determined(std::string_view model, Fit::Way way);
 
 /// Propagation model with the scenario's parameters, overridden by `values`, without random draws.
 /// @param values  values by key, in the units of FreeParameter

@@ -53,24 +53,16 @@ class Thinned {
     std::vector<RobotPair> kept_;
 };
 
-/// Place of a model in the list.
-std::size_t listed(std::string_view name) {
-    std::size_t at = 0, found = 0;
-    for_each_model([&]<class Model>() {
-        if (Model::name == name) found = at;
-        ++at;
-    });
-    return found;
-}
-
 /// Scenario whose runs are sampled. Radio affects only robots' paths here, so that `rays`, which
 /// costs a thousand times more than counting walls, is replaced.
 Scenario played(const Scenario& scenario) {
     Scenario out = without_idle_traffic(scenario);
-    const std::size_t rays = listed("rays"), cheap = listed("multi_wall");
-    if (out.propagation.model == rays) out.propagation.model = cheap;
+    const auto make_cheap = [](PropagationTable& propagation) {
+        if (propagation.as<Rays>()) propagation.model = PropagationTable::place_of<MultiWall>();
+    };
+    make_cheap(out.propagation);
     for (RobotTable& robot : out.robots)
-        if (robot.propagation && robot.propagation->model == rays) robot.propagation->model = cheap;
+        if (robot.propagation) make_cheap(*robot.propagation);
     return out;
 }
 

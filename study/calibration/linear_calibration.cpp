@@ -37,8 +37,8 @@ LinearCalibration::LinearCalibration(const KnownLinks& known, const Scenario& sc
       model_(model),
       free_(with_bases(free_parameters(model), known, scenario)) {
     losses_ = linear_losses(known, scenario, model, free_);
-    const bool has_constant =
-        std::any_of(free_.begin(), free_.end(), [](const auto& p) { return p.key == "excess"; });
+    const bool has_constant = std::any_of(
+        free_.begin(), free_.end(), [](const auto& p) { return p.fit.way == Fit::Way::constant; });
     if (known.measured && !has_constant) {
         free_.push_back({.model = model, .key = "power", .unit = "dBm"});
         for (LinearLoss& loss : losses_) loss.columns.push_back(1);
@@ -158,7 +158,9 @@ double LinearCalibration::predict(const Solution& solution, std::size_t i) const
 }
 
 FittedParameter LinearCalibration::parameter(const Solution& solution, std::size_t j) const {
-    FittedParameter out{.key = std::string(free_[j].key), .unit = std::string(free_[j].unit)};
+    FittedParameter out{.key = std::string(free_[j].key),
+                        .unit = std::string(free_[j].unit),
+                        .is_constant = free_[j].fit.way == Fit::Way::constant};
     const auto at = std::find(used_.begin(), used_.end(), j);
     out.determined = at != used_.end();
     if (!out.determined) return out;
@@ -185,9 +187,8 @@ FittedSettings LinearCalibration::settings(const Solution& solution) const {
         }
         out.parameters.push_back(std::move(p));
     }
-    if (model_ == "log_distance") {
-        propagation.set("sigma", fmt::format("{:.6g} dB", solution.sigma));
-    }
+    if (const auto key = key_determined(model_, Fit::Way::spread); !key.empty())
+        propagation.set(key, fmt::format("{:.6g} dB", solution.sigma));
     if (!radio.entries.empty()) out.tables.set("radio", std::move(radio));
     out.tables.set("propagation", std::move(propagation));
     return out;

@@ -17,8 +17,9 @@ namespace rovernet {
 
 /// Parameter with its fitted value.
 struct FittedParameter {
-    std::string key;   ///< key in [propagation]; "power" is a key of [radio]
-    std::string unit;  ///< unit of the parameter; empty: a bare number
+    std::string key;           ///< key in [propagation]; "power" is a key of [radio]
+    std::string unit;          ///< unit of the parameter; empty: a bare number
+    bool is_constant = false;  ///< true: a term of the loss that is equal for all links
     double value = 0;  ///< fitted value, or the scenario's value if the links do not determine it
     bool determined = true;
     bool at_bound = false;  ///< true: the fit would be negative, so that the value is fixed at 0

@@ -85,8 +85,13 @@ struct Missed {
 };
 
 Duration next_access(const Missed& c) {
-    Csma csma{.basic_rates = {{11e6}}, .eifs = c.rule};
-    csma.timing.cw_min = csma.timing.cw_max = 0;
+    const Csma csma{.cca_time = 13us,
+                    .turnaround = 5us,
+                    .cw_min = 0,
+                    .cw_max = 0,
+                    .basic_rates = {{{11e6}}},
+                    .eifs = c.rule,
+                    .immediate_access = true};
     Network net({.propagation = TwoRay{},
                  .reception = Sinr{},
                  .access = csma,

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "study/validation/flood_bench.hpp"
 
-#include "experiment/timeline.hpp"
+#include "experiment/run.hpp"
+#include "experiment/session.hpp"
 #include "mobility/random_waypoint.hpp"
 #include "network/network.hpp"
-#include "routing/flood.hpp"
 #include "sim/fate.hpp"
 #include "sim/math.hpp"
 #include "sim/random.hpp"
-#include "traces/fingerprint.hpp"
 
 #include <fmt/format.h>
 
@@ -65,15 +64,28 @@ Tally tally(const MetricValues& metrics) {
 
 /// Whether frames interfere, or their senders listen: more than the decode range matters.
 bool interferes(const FloodBench& bench) {
-    return bench.reception != ReceptionChoice::threshold || bench.access == AccessChoice::csma;
+    return !bench.reception.as<Threshold>() || bench.access.as<Csma>();
 }
 
 bool has_levels(const FloodBench& bench) { return bench.shadowing.value > 0 || interferes(bench); }
 
-/// Levels fall with the fourth power of the distance, as over flat ground far off.
-Propagation model(const FloodBench& bench) {
-    if (has_levels(bench)) return LogDistance{.exponent = 4, .sigma = bench.shadowing};
-    return Disc{.range = {decode_range}};
+/// Scenario without robots. Levels fall with the fourth power of the distance, as over flat ground
+/// far off.
+Scenario scenario_of(const FloodBench& bench) {
+    using namespace std::chrono_literals;
+    Scenario out;
+    out.scenario.seed = bench.seed;
+    out.scenario.event_limit = ~std::uint64_t{0};
+    out.propagation.model = has_levels(bench) ? PropagationTable::place_of<LogDistance>()
+                                              : PropagationTable::place_of<Disc>();
+    std::get<LogDistance>(out.propagation.parameters) = {.exponent = 4, .sigma = bench.shadowing};
+    std::get<Disc>(out.propagation.parameters).range = {decode_range};
+    out.reception = bench.reception;
+    out.access = bench.access;
+    std::get<Csma>(out.access.parameters).basic_rates = {{{11e6}}};
+    std::get<Flood>(out.routing.parameters) = {
+        .ttl = 65535, .upgrade = false, .jitter = out.access.as<Csma>() ? 50ms : 10ms};
+    return out;
 }
 
 /// A radio that reaches as far as the bench wants, at the median.
@@ -170,25 +182,15 @@ double flood_for(Network& network, double cpu_s, std::uint32_t nodes, std::uint3
 FloodBenchRow flood_bench(const FloodBench& bench, std::uint32_t nodes) {
     if (nodes < 2) throw std::invalid_argument("a flood needs at least 2 nodes");
     const double before = allocated();
-    Network network({.seed = bench.seed,
-                     .propagation = model(bench),
-                     .reception = ReceptionTable{.model = bench.reception}.make(),
-                     .access = AccessTable{.model = bench.access, .basic_rates = {{{11e6}}}}.make(),
-                     .event_limit = ~std::uint64_t{0},
-                     .metrics = bench.recorded});
+    const Scenario scenario = scenario_of(bench);
+    ScenarioRun run(scenario, nullptr, bench.recorded ? Observed::everything : Observed::nothing);
+    Network& network = run.session().network();
     const auto count = std::make_shared<Count>();
-    if (bench.recorded) {
-        network.add_sink(Fingerprint{});
-        network.add_sink(Timeline{network});
-    } else {
-        network.add_sink(Sink{count});
-    }
+    if (!bench.recorded) network.add_sink(Sink{count});
     const auto tally_now = [&] {
         return bench.recorded ? tally(network.metrics()) : static_cast<Tally>(*count);
     };
     add_robots(network, bench, nodes);
-    const Duration jitter{bench.access == AccessChoice::csma ? 50'000'000 : 10'000'000};
-    network.route(Flood{.ttl = 65535, .upgrade = false, .jitter = jitter});
     network.run_for(Duration{0});
 
     std::vector<double> costs;  // of the parts [ns per attempt]

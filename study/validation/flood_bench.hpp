@@ -20,9 +20,9 @@ struct EnumNames<BenchMobility> {
 /// 12 neighbours on average away from the borders.
 struct FloodBench {
     std::vector<std::uint32_t> nodes = {1000};
-    ReceptionChoice reception = ReceptionChoice::threshold;
+    ReceptionTable reception = {};
     /// Access model; with csma the jitter is 50 ms instead of 10 ms.
-    AccessChoice access = AccessChoice::none;
+    AccessTable access = {};
     BenchMobility mobility = BenchMobility::fixed;  ///< random waypoint: 1-20 m/s, without pauses
     Db shadowing{0};        ///< shadowing of each link; 0: links depend on distance only
     bool recorded = false;  ///< true: with metrics, fingerprint and timeline, as in `rovernet run`

@@ -120,8 +120,9 @@ TEST_CASE("many robots: what is asked of a robot that is not there is refused") 
 }
 
 TEST_CASE("a flood bench counts the same, recorded or not, also frames that are lost") {
-    for (const ReceptionChoice reception :
-         {ReceptionChoice::threshold, ReceptionChoice::collision}) {
+    for (const std::size_t model :
+         {ReceptionTable::place_of<Threshold>(), ReceptionTable::place_of<Collision>()}) {
+        const ReceptionTable reception{.model = model};
         const FloodBench plain{.reception = reception, .cpu_s = 1e-9};
         FloodBench recorded{.reception = reception, .cpu_s = 1e-9};
         recorded.recorded = true;
@@ -129,7 +130,7 @@ TEST_CASE("a flood bench counts the same, recorded or not, also frames that are 
         CHECK(a.transmissions == b.transmissions);
         CHECK(a.receptions == b.receptions);
         CHECK(a.attempts == b.attempts);
-        CHECK((a.attempts > a.receptions) == (reception == ReceptionChoice::collision));
+        CHECK((a.attempts > a.receptions) == (reception.as<Collision>() != nullptr));
     }
 }
 

@@ -38,8 +38,7 @@ struct Run {
         run.session().run({}, {});
         result = run.finish();
         timeline = result.timeline;
-        write_summary(run_summary(scenario, result), *result.timeline,
-                      [&](std::string_view piece) { summary += piece; });
+        write_summary(scenario, result, [&](std::string_view piece) { summary += piece; });
     }
 };
 
@@ -76,8 +75,7 @@ TEST_CASE("timeline: it ends after 10,000 entries and counts the others") {
     CHECK(result.timeline->left_out() == 200);
     CHECK((*result.timeline)[9'999].text == "is switched on again");
     std::string summary;
-    write_summary(run_summary(scenario, result), *result.timeline,
-                  [&](std::string_view piece) { summary += piece; });
+    write_summary(scenario, result, [&](std::string_view piece) { summary += piece; });
     CHECK(summary.find("\"timeline_left_out\": 200") != summary.npos);
 }
 

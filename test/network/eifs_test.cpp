@@ -73,9 +73,13 @@ struct Listener {
 
   private:
     static Csma access(EifsRule rule) {
-        Csma csma{.basic_rates = {{11e6}}, .eifs = rule};
-        csma.timing.cw_min = csma.timing.cw_max = 0;
-        return csma;
+        return {.cca_time = 13us,
+                .turnaround = 5us,
+                .cw_min = 0,
+                .cw_max = 0,
+                .basic_rates = {{{11e6}}},
+                .eifs = rule,
+                .immediate_access = true};
     }
     double sense_;
 };

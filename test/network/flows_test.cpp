@@ -90,7 +90,7 @@ constexpr double share = 0.03;
 }  // namespace
 
 TEST_CASE("flows: a near sender and a far one that is hidden get what ns-2 and ns-3 give them") {
-    const Csma as_ns2{.basic_rates = {{1e6}}, .header = 34};
+    const Csma as_ns2{.basic_rates = {{{1e6}}}, .header = 34};
     const double collision = near_and_far.frames_per_second(Collision{}, as_ns2);
     CHECK(collision == doctest::Approx(106.3).epsilon(share));  // ns-2
     const double sinr = near_and_far.frames_per_second(Sinr{}, as_ns2);
@@ -98,7 +98,7 @@ TEST_CASE("flows: a near sender and a far one that is hidden get what ns-2 and n
 }
 
 TEST_CASE("flows: a chain of five stations carries what ns-2 and ns-3 let it carry") {
-    const Csma as_ns2{.basic_rates = {{1e6}}, .header = 34};
+    const Csma as_ns2{.basic_rates = {{{1e6}}}, .header = 34};
     CHECK(chain.frames_per_second(Collision{}, as_ns2) ==
           doctest::Approx(216.2).epsilon(share));  // ns-2
     CHECK(chain.frames_per_second(Sinr{}, as_ns2) ==
@@ -106,9 +106,13 @@ TEST_CASE("flows: a chain of five stations carries what ns-2 and ns-3 let it car
 }
 
 TEST_CASE("flows: EIFS as in ns-2 gives each flow what ns-2 gives it") {
-    const Csma as_ns2{.timing = ns2_timing(timing_of(WifiStandard::b)),
-                      .basic_rates = {{1e6}},
+    const Csma as_ns2{.cca_time = 0us,
+                      .turnaround = 0us,
+                      .cw_min = 30,
+                      .cw_max = 1022,
+                      .basic_rates = {{{1e6}}},
                       .eifs = EifsRule::ns2,
+                      .immediate_access = true,
                       .header = 34};
     const auto each = sensed.by_flow(Collision{}, as_ns2, 300s);
     // ns-2, three seeds of 300 s: 16.29, 16.03 and 16.27; 93.69, 93.96 and 93.73.
@@ -121,8 +125,8 @@ TEST_CASE("flows: EIFS as in ns-2 gives each flow what ns-2 gives it") {
 
 TEST_CASE("flows: a frame that the receiver never began costs no EIFS, as in ns-3") {
     Csma as_ns3{.header = 36};
-    as_ns3.timing.cca_time = 4us;  // in which ns-3 finds a preamble
-    as_ns3.timing.turnaround = 0us;
+    as_ns3.cca_time = 4us;  // in which ns-3 finds a preamble
+    as_ns3.turnaround = 0us;
     CHECK(deaf_chain.frames_per_second(Sinr{}, as_ns3, 100s) ==
           doctest::Approx(162.6).epsilon(0.015));
 }
@@ -130,7 +134,7 @@ TEST_CASE("flows: a frame that the receiver never began costs no EIFS, as in ns-
 TEST_CASE("flows: at 11 Mb/s answers at the basic rates of the standard give what ns-3 gives") {
     const Csma standard{.header = 36};
     CHECK(exposed.frames_per_second(Sinr{}, standard) == doctest::Approx(753.7).epsilon(0.01));
-    const Csma slow{.basic_rates = {{1e6}}, .header = 34};
+    const Csma slow{.basic_rates = {{{1e6}}}, .header = 34};
     CHECK(exposed.frames_per_second(Collision{}, slow) ==
           doctest::Approx(703.1).epsilon(0.01));  // ns-2
 }

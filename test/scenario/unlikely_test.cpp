@@ -282,7 +282,7 @@ TEST_CASE("unlikely: fields are added where walls are not along the cells") {
 TEST_CASE("unlikely: [access] eifs is a word; true and false of earlier files mean two of them") {
     const TemporaryFolder folder;
     const auto csma = [&](const std::string& keys) {
-        return loaded(folder, "[access]\nmodel = \"csma\"\n" + keys + robot_a).access.csma();
+        return *loaded(folder, "[access]\nmodel = \"csma\"\n" + keys + robot_a).access.as<Csma>();
     };
     CHECK(csma("").eifs == EifsRule::standard);
     CHECK(csma("eifs = true\n").eifs == EifsRule::standard);
@@ -290,10 +290,10 @@ TEST_CASE("unlikely: [access] eifs is a word; true and false of earlier files me
     CHECK(csma("eifs = \"none\"\n").eifs == EifsRule::none);
     const Csma as_ns2 = csma("eifs = \"ns2\"\n");
     CHECK(as_ns2.eifs == EifsRule::ns2);
-    CHECK(as_ns2.timing.cca_time == Duration{0});
-    CHECK(as_ns2.timing.turnaround == Duration{0});
-    CHECK(as_ns2.timing.cw_min == 30);
-    CHECK(csma("eifs = \"ns2\"\ncw_min = 31\n").timing.cw_min == 31);
+    CHECK(as_ns2.timing().cca_time == Duration{0});
+    CHECK(as_ns2.timing().turnaround == Duration{0});
+    CHECK(as_ns2.timing().cw_min == 30);
+    CHECK(csma("eifs = \"ns2\"\ncw_min = 31\n").timing().cw_min == 31);
     const auto error = [&](const std::string& value) {
         return error_of([&] { csma("eifs = " + value + "\n"); });
     };

@@ -3,6 +3,7 @@
 
 #include "mobility/kept_planners.hpp"
 #include "scenario/document/toml.hpp"
+#include "scenario/scenario.hpp"
 #include "scenario/scenario_file.hpp"
 #include "study/study.hpp"
 #include "test/scene/temporary_folder.hpp"
@@ -10,6 +11,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -95,6 +98,37 @@ TEST_CASE("measurement: a map that has changed is read again") {
     CHECK(fingerprint() != before);
     folder.write("one.pgm", map_with_door(1));
     CHECK(fingerprint() == before);
+}
+
+TEST_CASE("measurement: the metrics of a run are named before it is made, and without its map") {
+    test::TemporaryFolder folder;
+    folder.write("one.pgm", map_with_door(1));
+    const std::string text = std::string(walkers).substr(0, std::string(walkers).find("[study]")) +
+                             "[metrics]\nrobots = true\ntopology = true\n";
+    folder.write("s.toml", text);
+    const Scenario scenario = ScenarioFile(folder.path("s.toml"), {}).scenario();
+    KeptPlanners kept;
+    const Measurement m = measure(scenario, kept);
+    std::vector<std::string> measured;
+    for (const MetricValue& metric : m.metrics) measured.push_back(metric.name);
+    Scenario without_map = scenario;
+    without_map.walls = nullptr;
+    std::filesystem::remove(folder.path("one.pgm"));
+    CHECK(metric_names(without_map) == measured);
+    for (const char* name : {"drops.DUP", "latency_p95_s", "warmup_s", "throughput_bps.A->all",
+                             "delivery_ratio.at.w2", "link_lifetime_mean_s"})
+        CHECK(std::find(measured.begin(), measured.end(), name) != measured.end());
+}
+
+TEST_CASE("measurement: a pipe carries it whole") {
+    const Measurement sent{.metrics = {{"a name.with blanks", 0.1 + 0.2}, {"none", {}}},
+                           .fingerprint = "0123-4567",
+                           .cpu_s = 1.25,
+                           .wall_s = 1e-9,
+                           .started = "2000-01-01T00:00:00Z",
+                           .host = "this one",
+                           .searches = 7};
+    CHECK(measurement_of(to_text(sent)) == sent);
 }
 
 }  // namespace measurement_test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/access/wifi_frames.hpp"
 #include "sim/legs.hpp"
 #include "sim/record.hpp"
 #include "sim/sink.hpp"
@@ -94,8 +95,8 @@ class Stream {
         emit(Transmitted{t, frame, heard_from});
         emit(AirSent{t, {.frame = frame, .heard_from = heard_from}, messages[frame.message].size});
     }
-    void control(Time t, NodeId from, NodeId to, AirFrame::Kind kind, Fate fate) {
-        AirFrame air{.kind = kind};
+    void control(Time t, NodeId from, NodeId to, const ControlFrame& kind, Fate fate) {
+        AirFrame air{.control = &kind};
         air.frame.sender = from;
         air.frame.next_hop = to;
         emit(AirSent{t, air, 20});
@@ -181,8 +182,8 @@ class RandomRecords {
         if (kind == 3) return (void)stream_.place(leg());
         if (kind < 9) {
             const Fate fates[] = {Fate::waiting, Fate::collided, Fate::busy};
-            const auto type = static_cast<AirFrame::Kind>(AirFrame::rts + f.hops % 3);
-            stream_.control(now_, f.sender, NodeId{0}, type, fates[kind % 3]);
+            const ControlFrame* const types[] = {&wifi_rts, &wifi_cts, &wifi_ack};
+            stream_.control(now_, f.sender, NodeId{0}, *types[f.hops % 3], fates[kind % 3]);
             return stream_.transmit(now_, f, f.hops > 1 ? std::optional(robot()) : std::nullopt);
         }
         std::vector<Reception> receptions(below(5));

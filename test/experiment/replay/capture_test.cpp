@@ -14,7 +14,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace capture_test {
@@ -144,8 +146,9 @@ std::string mac_of_hop(NodeId node) {
 /// transmitter, level, then of a message its ends and the length of UDP.
 std::string line_of(const RecordedAir& air, const RecordedFrame& frame, const Message* message,
                     NodeId at, Time time) {
-    constexpr const char* types[] = {"0x0020", "0x001b", "0x001c", "0x001d"};
-    const bool has_sender = !frame.air.control || frame.air.kind == AirFrame::rts;
+    const std::map<std::string_view, std::string_view> types{
+        {"DATA", "0x0020"}, {"RTS", "0x001b"}, {"CTS", "0x001c"}, {"ACK", "0x001d"}};
+    const bool has_sender = !frame.air.control || frame.air.is("RTS");
     const NodeId sender = frame.air.frame.sender;
     const std::int64_t ns = (time - start_of_run).count();
     std::string level;
@@ -158,9 +161,9 @@ std::string line_of(const RecordedAir& air, const RecordedFrame& frame, const Me
                            8 + 32 + message->size);
     }
     return fmt::format("{}\t{}.{:09}\t{}\t{}\t{}\t{}\t{}{}\n", air.names()[at.index()],
-                       ns / 1'000'000'000, ns % 1'000'000'000, size + 16, types[frame.air.kind],
-                       mac_of_hop(frame.air.frame.next_hop), has_sender ? macs[sender.index()] : "",
-                       level, ends);
+                       ns / 1'000'000'000, ns % 1'000'000'000, size + 16,
+                       types.at(frame.air.kind()), mac_of_hop(frame.air.frame.next_hop),
+                       has_sender ? macs[sender.index()] : "", level, ends);
 }
 
 /// The same of all packets that there should be, from the records.
@@ -171,8 +174,7 @@ std::string lines_of(const std::string& trace) {
     while (const Record* record = reader.next()) {
         air.take(*record, reader.context());
         const auto message_of = [&](const AirFrame& frame) {
-            return frame.kind == AirFrame::data ? &reader.context().messages[frame.frame.message]
-                                                : nullptr;
+            return frame.control ? nullptr : &reader.context().messages[frame.frame.message];
         };
         const auto received = [&](const AirFrame& sent, const Reception& at) {
             if (!is_decoded(at.fate)) return;

@@ -3,6 +3,7 @@
 
 #include "experiment/replay/recorded_follow.hpp"
 #include "experiment/run.hpp"
+#include "models/access/wifi_frames.hpp"
 #include "scenario/scenario_file.hpp"
 #include "sim/error.hpp"
 #include "test/traces/record_stream.hpp"
@@ -159,7 +160,8 @@ class OddRecords {
     AirFrame air() {
         return {.frame = frame(),
                 .heard_from = below(2) == 0 ? std::nullopt : std::optional(NodeId{below(6)}),
-                .kind = static_cast<AirFrame::Kind>(below(4)),
+                .control = std::array<const ControlFrame*, 4>{nullptr, &wifi_rts, &wifi_cts,
+                                                              &wifi_ack}[below(4)],
                 .reserved = Duration{below(3'000'000)}};
     }
     Reception reception() { return {time(), robot(), static_cast<Fate>(below(8)), below(2) == 0}; }

@@ -112,14 +112,14 @@ struct Twins {
     }
     void compare_receivers(NodeId from) {
         Medium::Receivers kept, computed;
-        keeping.find_receivers(from, now, now, legs, kept);
-        plain.find_receivers(from, now, now, legs, computed);
+        keeping.find_receivers(from, Coding{}, now, now, legs, kept);
+        plain.find_receivers(from, Coding{}, now, now, legs, computed);
         compare(kept, computed);
     }
     void compare_sensors(NodeId from) {
         Medium::Receivers kept, computed;
-        const auto kept_sensors = keeping.find_sensors(from, now, now, legs, kept);
-        const auto computed_sensors = plain.find_sensors(from, now, now, legs, computed);
+        const auto kept_sensors = keeping.find_sensors(from, Coding{}, now, now, legs, kept);
+        const auto computed_sensors = plain.find_sensors(from, Coding{}, now, now, legs, computed);
         compare(kept, computed);
         REQUIRE(kept_sensors.size() == computed_sensors.size());
         for (std::size_t i = 0; i < kept_sensors.size(); ++i) {
@@ -167,7 +167,8 @@ TEST_CASE("medium: resting robots trace each ray once, moving ones each time") {
         for (std::size_t round = 0; round < rounds; ++round) {
             twins.now += 100ms;
             for (std::uint32_t i = 0; i < robots; ++i) {
-                twins.keeping.find_receivers(NodeId{i}, twins.now, twins.now, twins.legs, heard);
+                twins.keeping.find_receivers(NodeId{i}, Coding{}, twins.now, twins.now, twins.legs,
+                                             heard);
             }
         }
         CHECK(*counted.rays == robots * (robots - 1) * (moving ? rounds : 1));
@@ -183,7 +184,8 @@ TEST_CASE("medium: who judges a frame gets the losses that its receivers were fo
     }
     twins.now += 100ms;
     Medium::Receivers heard;
-    twins.keeping.find_receivers(NodeId{0}, twins.now, twins.now + 1ms, twins.legs, heard);
+    twins.keeping.find_receivers(NodeId{0}, Coding{}, twins.now, twins.now + 1ms, twins.legs,
+                                 heard);
     const Emission frame{.begin = twins.now,
                          .end = twins.now + 1ms,
                          .origin = heard.origin,

@@ -31,7 +31,7 @@ using namespace std::chrono_literals;
 std::vector<Reception> receivers(Medium& medium, NodeId from, Time start, Time end,
                                  const Legs& legs) {
     Medium::Receivers found;
-    medium.find_receivers(from, start, end, legs, found);
+    medium.find_receivers(from, Coding{}, start, end, legs, found);
     std::vector<Reception> all(found.all().begin(), found.all().end());
     std::sort(all.begin(), all.end());
     if (!all.empty()) {
@@ -128,7 +128,7 @@ struct Crowd {
             }
         }
         Medium::Receivers heard;
-        for (const auto& s : medium.find_sensors(node(i), t, t, legs, heard)) {
+        for (const auto& s : medium.find_sensors(node(i), Coding{}, t, t, legs, heard)) {
             sensing.push_back(s.node);
         }
         std::sort(sensing.begin(), sensing.end());
@@ -329,7 +329,8 @@ TEST_CASE("medium: ns-2's default radio decodes to 250 m and senses to 550 m ove
     }
     Medium::Receivers heard;
     std::vector<NodeId> sensors;
-    for (const auto& s : medium.find_sensors(NodeId{0}, start_of_run, start_of_run, legs, heard)) {
+    for (const auto& s :
+         medium.find_sensors(NodeId{0}, Coding{}, start_of_run, start_of_run, legs, heard)) {
         sensors.push_back(s.node);
     }
     REQUIRE(heard.all().size() == 1);

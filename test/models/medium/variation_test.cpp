@@ -116,7 +116,7 @@ constexpr std::uint32_t robots = 30;
 
 std::vector<NodeId> receivers(Medium& medium, NodeId from, Time t, const Legs& legs) {
     Medium::Receivers found;
-    medium.find_receivers(from, t, t + 1ms, legs, found);
+    medium.find_receivers(from, Coding{}, t, t + 1ms, legs, found);
     std::vector<NodeId> nodes;
     for (const Reception& r : found.all()) nodes.push_back(r.node);
     std::sort(nodes.begin(), nodes.end());

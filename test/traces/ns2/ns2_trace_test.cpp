@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "traces/ns2/ns2_trace.hpp"
 
+#include "models/access/wifi_frames.hpp"
 #include "sim/error.hpp"
 #include "sim/legs.hpp"
 #include "test/files/no_room.hpp"
@@ -181,8 +182,8 @@ TEST_CASE("ns-2 trace: a message lost at its own sender has not been heard from 
 
 namespace {
 
-AirFrame control(AirFrame::Kind kind, NodeId from, NodeId to, Duration reserved) {
-    AirFrame air{.kind = kind, .reserved = reserved};
+AirFrame control(const ControlFrame& kind, NodeId from, NodeId to, Duration reserved) {
+    AirFrame air{.control = &kind, .reserved = reserved};
     air.frame.sender = from;
     air.frame.next_hop = to;
     return air;
@@ -192,15 +193,15 @@ AirFrame control(AirFrame::Kind kind, NodeId from, NodeId to, Duration reserved)
 void play_exchange(Stream& s) {
     for (int i = 0; i < 12; ++i) s.place(Vec3{});
     const auto m = s.send(at(0), a, 1);
-    const auto rts = control(AirFrame::rts, a, c, Duration{4'000'499});
-    const auto cts = control(AirFrame::cts, c, a, Duration{3'000'500});
+    const auto rts = control(wifi_rts, a, c, Duration{4'000'499});
+    const auto cts = control(wifi_cts, c, a, Duration{3'000'500});
     AirFrame data{.frame = frame(m, a, 1, 1), .reserved = 314us};
     data.frame.next_hop = c;
     s.emit(AirSent{at(1), rts, 20});
     s.emit(ControlReceived{rts, {at(2), c}, 20});
     s.emit(AirSent{at(3), cts, 14});
     s.emit(ControlReceived{cts, {at(4), a, Fate::garbled}, 14});
-    s.emit(AirSent{at(5), data, 92});
+    s.emit(AirSent{at(5), data, 92, 28});
     s.emit(Received{data.frame, std::vector{Reception{at(6), c, Fate::arrived, true}}, 314us});
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "traces/recorded/record_match.hpp"
 
+#include "models/access/wifi_frames.hpp"
 #include "test/traces/record_stream.hpp"
 #include "traces/recorded/record_text.hpp"
 
@@ -92,7 +93,7 @@ TEST_CASE("records match if all that a trace keeps of them is equal: receptions 
     CHECK_FALSE(t.same(Received{a, one, {}, 4}, Received{b, one}));
     const AirFrame air{.frame = b};
     std::vector<AirFrame> airs(5, air);
-    airs[0].heard_from = NodeId{4}, airs[1].kind = AirFrame::rts, airs[2].attempt = 1;
+    airs[0].heard_from = NodeId{4}, airs[1].control = &wifi_rts, airs[2].attempt = 1;
     airs[3].number = 2, airs[4].reserved = Duration{3};
     for (const AirFrame& each : airs) {
         CHECK_FALSE(t.same(AirSent{at(1), {.frame = a}, 7}, AirSent{at(1), each, 7}));

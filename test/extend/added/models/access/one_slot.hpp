@@ -2,6 +2,7 @@
 #pragma once
 
 #include "models/access/access.hpp"
+#include "sim/fields.hpp"
 
 #include <memory>
 #include <string_view>
@@ -14,6 +15,10 @@ struct OneSlot {
     static constexpr std::string_view name = "one_slot";
 
     Duration wait{10'000'000};  ///< [ns]
+
+    static constexpr auto fields() {
+        return describe(field("wait", &OneSlot::wait, non_negative, "longest time before a frame"));
+    }
 
     std::unique_ptr<Access> make_access() const;
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "models/reception/judge.hpp"
+#include "sim/fields.hpp"
 
 #include <memory>
 #include <string_view>
@@ -14,6 +15,11 @@ struct Preamble {
     static constexpr std::string_view name = "preamble";
 
     Duration length{192'000};  ///< [ns] of the part that must be clear
+
+    static constexpr auto fields() {
+        return describe(
+            field("length", &Preamble::length, non_negative, "part that must be clear"));
+    }
 
     std::unique_ptr<Judge> make_judge() const;
 };

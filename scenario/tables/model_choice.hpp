@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scenario/tables/reader.hpp"
+#include "sim/fields.hpp"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+// Table of a scenario file that chooses a model of a list, such as [propagation] or [access]:
+//
+//     [access]
+//     model = "aloha"
+//     slot = "1 ms"
+//     standard = "802.11g"      of csma: checked, and kept for a study that swaps the model
+//
+// Reading, checks, printing and the model itself follow from the list and the models' fields().
+
+namespace rovernet {
+
+/// The chosen model of a list, and the parameters of all listed models.
+/// @tparam Models   list: a std::tuple of described structs with a name
+/// @tparam Any      type that holds any of these models, such as Propagation
+/// @tparam Default  model that is chosen if the file names none
+template <class Models, class Any, class Default = std::tuple_element_t<0, Models>>
+struct ModelChoice {
+    /// Place of the model M in the list.
+    template <class M>
+    static constexpr std::size_t place_of() {
+        std::size_t place = 0, at = 0;
+        for_each_type([&]<class Each>() {
+            if (std::is_same_v<Each, M>) place = at;
+            ++at;
+        });
+        return place;
+    }
+    /// Calls visit.template operator()<M>() for each listed model, in order.
+    template <class Visitor>
+    static constexpr void for_each_type(Visitor&& visit) {
+        [&]<class... M>(std::tuple<M...>*) {
+            (visit.template operator()<M>(), ...);
+        }(static_cast<Models*>(nullptr));
+    }
+    /// Names of the listed models, in order.
+    static std::vector<std::string> names() {
+        std::vector<std::string> out;
+        for_each_type([&]<class M>() { out.emplace_back(M::name); });
+        return out;
+    }
+
+    /// Place of the chosen model in the list.
+    std::size_t model = place_of<Default>();
+    /// Parameters of each listed model, one struct for each.
+    Models parameters = {};
+
+    /// Parameters of the model M if it is chosen; otherwise null.
+    template <class M>
+    const M* as() const {
+        return model == place_of<M>() ? &std::get<M>(parameters) : nullptr;
+    }
+    /// Calls visit(parameters, whether it is chosen) for each listed model, in order.
+    template <class Visitor>
+    void for_each(Visitor&& visit) const {
+        std::size_t at = 0;
+        std::apply([&](const auto&... each) { (visit(each, at++ == model), ...); }, parameters);
+    }
+    template <class Visitor>
+    void for_each(Visitor&& visit) {
+        std::size_t at = 0;
+        std::apply([&](auto&... each) { (visit(each, at++ == model), ...); }, parameters);
+    }
+    /// Name of the chosen model.
+    std::string_view name() const {
+        std::string_view out;
+        for_each([&]<class M>(const M&, bool chosen) {
+            if (chosen) out = M::name;
+        });
+        return out;
+    }
+    /// Chosen model, ready for use.
+    /// @throws std::invalid_argument if a parameter is out of its range
+    Any make() const {
+        std::optional<Any> made;
+        for_each([&](const auto& each, bool chosen) {
+            if (chosen) made.emplace(each);
+        });
+        return std::move(*made);
+    }
+};
+
+/// Whether the model M has a parameter with this key.
+template <Described M>
+constexpr bool has_key(std::string_view key) {
+    bool has = false;
+    for_each_field<M>([&](const auto& f) { has = has || f.name == key; });
+    return has;
+}
+
+/// Checks that the chosen model has all parameters without a default.
+/// @param what  name of such a model in the error, "propagation model"
+/// @throws InputError at `where`, with the first one that is missing
+template <class... Choice>
+void check_given(const ModelChoice<Choice...>& choice, std::string_view what, Location where) {
+    choice.for_each([&]<class M>(const M& each, bool chosen) {
+        for_each_field<M>([&](const auto& f) {
+            const auto number = number_in(each.*f.member);
+            if (chosen && number && *number != *number)
+                throw_not_given(where, what, M::name, f.name, f.meaning);
+        });
+    });
+}
+
+/// Reads the chosen model, and the given parameters of all listed models, from a table. A key that
+/// several models have is given to each of them, and the range of the chosen one decides whether it
+/// is valid; another model whose range it is not in keeps its own value.
+/// @param key   key with the name of the model, "model"
+/// @param what  name of such a model in errors
+/// @throws InputError at the first mistake, such as a missing parameter of the chosen model
+template <class... Choice>
+void read_model(const Value& value, std::string table_name, std::string_view key,
+                std::string_view what, ModelChoice<Choice...>& out) {
+    TableReader table(value, std::move(table_name));
+    if (const Value* word = table.take(key)) out.model = read_choice(*word, what, out.names());
+    const auto is_of_chosen = [&](std::string_view name) {
+        bool is = false;
+        out.for_each(
+            [&]<class M>(const M&, bool chosen) { is = is || (chosen && has_key<M>(name)); });
+        return is;
+    };
+    out.for_each([&]<class M>(M& each, bool chosen) {
+        for_each_field<M>([&](const auto& f) {
+            if (chosen || !is_of_chosen(f.name)) {
+                table.read(f.name, each.*f.member, f.range);
+            } else {
+                table.read_if_valid(f.name, each.*f.member, f.range);
+            }
+        });
+    });
+    table.reject_unknown();
+    check_given(out, what, value.where);
+}
+
+/// Table with the chosen model and its parameters, and with the keys of other models that differ
+/// from their defaults; read_model() reads it back.
+template <class... Choice>
+Table chosen_document(const ModelChoice<Choice...>& choice, std::string_view key = "model") {
+    Table table;
+    choice.for_each([&]<class M>(const M& each, bool chosen) {
+        if (!chosen) return;
+        table.set(key, M::name);
+        append_fields(table, each);
+    });
+    choice.for_each([&]<class M>(const M& each, bool) {
+        Table given, defaults;
+        append_fields(given, each);
+        append_fields(defaults, M{});
+        append_differing(table, given, defaults);
+    });
+    return table;
+}
+
+/// Table with the chosen model and the parameters of all models, those of the chosen one first
+/// where several have a key; read_model() reads it back.
+template <class... Choice>
+Table whole_document(const ModelChoice<Choice...>& choice) {
+    const Table chosen = chosen_document(choice);
+    Table table;
+    table.set("model", choice.name());
+    choice.for_each([&](const auto& each, bool) {
+        Table all;
+        append_fields(all, each);
+        for (const Entry& entry : all.entries) {
+            const Value* decided = chosen.find(entry.key);
+            table.set(entry.key, decided ? *decided : entry.value);
+        }
+    });
+    return table;
+}
+
+}  // namespace rovernet

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "scenario/tables/model_choice.hpp"
+
+#include "scenario/document/toml.hpp"
+#include "scenario/scenario.hpp"
+#include "scenario/tables/access_table.hpp"
+#include "sim/error.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <tuple>
+#include <variant>
+
+namespace model_choice_test {
+using namespace rovernet;
+
+namespace {
+
+/// Two models with a key in common, whose ranges differ.
+struct Near {
+    static constexpr std::string_view name = "near";
+    int hops = 2;
+    static constexpr auto fields() {
+        return describe(field("hops", &Near::hops, Range{.low = 1, .high = 7, .text = "to 7"}, ""));
+    }
+};
+struct Far {
+    static constexpr std::string_view name = "far";
+    int hops = 30;
+    double share = 0.5;
+    static constexpr auto fields() {
+        return describe(
+            field("hops", &Far::hops, Range{.low = 1, .high = 99, .text = "to 99"}, ""),
+            field("share", &Far::share, Range{.low = 0, .high = 1, .text = "to 1"}, ""));
+    }
+};
+using Choice = ModelChoice<std::tuple<Near, Far>, std::variant<Near, Far>>;
+
+Choice read(const std::string& toml) {
+    Choice out;
+    read_model(parse_toml(toml, "m.toml"), "[m]", "model", "model", out);
+    return out;
+}
+
+std::string error_of(const std::string& toml) {
+    try {
+        read(toml);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+Scenario scenario_of(const std::string& keys) {
+    return read_scenario(
+        parse_toml("robot = [{ name = \"A\", at = [\"0 m\", \"0 m\"] }]\n" + keys, "s.toml"),
+        "s.toml");
+}
+
+}  // namespace
+
+TEST_CASE("models: a key that several have is checked by the range of the chosen one") {
+    const Choice far = read("model = \"far\"\nhops = 30");
+    CHECK(std::get<Far>(far.make()).hops == 30);
+    CHECK(std::get<Near>(far.parameters).hops == 2);  // 30 is out of its range
+    const Choice both = read("model = \"far\"\nhops = 5");
+    CHECK(std::get<Near>(both.parameters).hops == 5);
+    CHECK(error_of("model = \"near\"\nhops = 30").find("m.toml:2:8: hops") == 0);
+}
+
+TEST_CASE("models: a key of a model that is not chosen is checked and kept") {
+    const Choice near = read("share = 0.25");
+    CHECK(near.name() == "near");
+    CHECK(std::get<Far>(near.parameters).share == 0.25);
+    CHECK(near.as<Far>() == nullptr);
+    CHECK(error_of("share = 2.0").find("expected a value to 1") != std::string::npos);
+    CHECK(error_of("shar = 0.2").find("did you mean \"share\"?") != std::string::npos);
+}
+
+TEST_CASE("models: a printed table reads back as the same choice") {
+    const Choice far = read("model = \"far\"\nhops = 30\nshare = 0.25");
+    for (const Table& printed : {chosen_document(far), whole_document(far)}) {
+        Choice again;
+        read_model(Value(printed), "[m]", "model", "model", again);
+        CHECK(again.as<Far>()->hops == 30);
+        CHECK(again.as<Far>()->share == 0.25);
+        CHECK(std::get<Near>(again.parameters).hops == 2);
+    }
+    const Table near = chosen_document(read("model = \"near\""));
+    CHECK(near.entries.size() == 2);
+    CHECK(whole_document(read("model = \"near\"")).entries.size() == 3);
+}
+
+TEST_CASE("access: the usual radio is that of the standard, and [radio] goes before it") {
+    const std::string ofdm = "[access]\nmodel = \"csma\"\nstandard = \"802.11a\"\n";
+    CHECK(scenario_of("").radio.rate == BitRate{11e6});
+    const Scenario given = scenario_of(ofdm + "[radio]\npreamble = \"24 us\"\n");
+    CHECK(given.radio.rate == BitRate{54e6});
+    CHECK(given.radio.preamble == std::chrono::microseconds{24});
+    CHECK(scenario_of("[access]\nstandard = \"802.11a\"\n").radio == Radio{});  // not chosen
+    const Value* rate = to_document(given).find("radio")->table()->find("rate");
+    CHECK(*rate->string() == "54 Mb/s");
+}
+
+}  // namespace model_choice_test
