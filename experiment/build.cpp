@@ -310,8 +310,13 @@ NetworkSettings network_settings(const Scenario& scenario) {
 }
 
 void populate(Network& network, const Scenario& scenario) {
+    populate(network, scenario,
+             located(Location{scenario.file}, [&] { return scenario.routing.make(); }));
+}
+
+void populate(Network& network, const Scenario& scenario, Router router) {
     located(Location{scenario.file}, [&] {
-        network.route(scenario.routing.make());
+        network.route(std::move(router));
         Builder builder(network, scenario);
         builder.add_robots();
         builder.schedule();

@@ -3,6 +3,7 @@
 
 #include "network/network.hpp"
 #include "scenario/scenario.hpp"
+#include "sim/router.hpp"
 
 namespace rovernet {
 
@@ -14,5 +15,7 @@ NetworkSettings network_settings(const Scenario& scenario);
 /// network_settings(scenario).
 /// @throws InputError for errors that need the map: a robot in a wall, a goal that no path reaches
 void populate(Network& network, const Scenario& scenario);
+/// Puts the scenario into a Network with another routing protocol than the file's.
+void populate(Network& network, const Scenario& scenario, Router router);
 
 }  // namespace rovernet

@@ -107,6 +107,12 @@ Dbm RadioKinds::best_sensitivity(const Radio& radio) const {
     return best;
 }
 
+Db RadioKinds::budget(Strength strength, Kind from, Kind to, LinkGain gain) const {
+    const Radio& receiver = kinds_[to].radio;
+    return budget(strength, kinds_[from].radio, receiver, gain,
+                  phy_.sensitivity(receiver, kinds_[from].coding));
+}
+
 Db RadioKinds::budget(Strength strength, const Radio& from, const Radio& to, LinkGain gain,
                       Dbm sensitivity) const {
     const Db plain = link_budget(from, to, gain);
@@ -131,6 +137,18 @@ Db RadioKinds::left_out(std::size_t frames) const {
         most = std::max(most, Db{10 * math::log10(sum)});
     }
     return most;
+}
+
+void RadioKinds::set_highest(Meters z) {
+    if (z == highest_) return;
+    highest_ = z;
+    for (Alike& each : kinds_) each.reach2 = {};
+}
+
+const FirstLook& RadioKinds::first_look(Kind from, Strength strength) {
+    auto& look = kinds_[from].looks[static_cast<std::size_t>(strength)];
+    if (!look) look = make_look(from, strength);
+    return *look;
 }
 
 double RadioKinds::squared_reach(Kind from, Strength strength) {

@@ -68,11 +68,7 @@ class RadioKinds {
     }
 
     /// Largest path loss [dB] at which a signal has this strength.
-    Db budget(Strength strength, Kind from, Kind to, LinkGain gain) const {
-        const Radio& receiver = kinds_[to].radio;
-        return budget(strength, kinds_[from].radio, receiver, gain,
-                      phy_.sensitivity(receiver, kinds_[from].coding));
-    }
+    Db budget(Strength strength, Kind from, Kind to, LinkGain gain) const;
     /// Largest path loss [dB] at which a signal has this strength, for any poses of the antennas.
     Db budget(Strength strength, Kind from, Kind to) const {
         return budget(strength, from, to, LinkGain::most(kinds_[from].radio, kinds_[to].radio));
@@ -83,11 +79,7 @@ class RadioKinds {
     /// if interference has a cut-off.
     Db left_out(std::size_t frames) const;
     /// Sets the upper bound [m] of all antenna heights, present and past; it must not decrease.
-    void set_highest(Meters z) {
-        if (z == highest_) return;
-        highest_ = z;
-        for (Alike& each : kinds_) each.reach2 = {};
-    }
+    void set_highest(Meters z);
     /// Height [m] passed to set_highest().
     Meters highest() const { return highest_; }
     /// Whether any model's range bound depends on antenna heights.
@@ -126,12 +118,7 @@ class RadioKinds {
         return *table;
     }
     /// Fast first test that excludes most nodes out of range, for Decision::by_table.
-    const FirstLook& first_look(Kind from, Strength strength) {
-        auto& look = kinds_[from].looks[static_cast<std::size_t>(strength)];
-        if (!look) [[unlikely]]
-            look = make_look(from, strength);
-        return *look;
-    }
+    const FirstLook& first_look(Kind from, Strength strength);
     /// Allocates memory for queries about `from`: must be called before squared_range(), table()
     /// and first_look().
     void prepare(Kind from) {
@@ -199,8 +186,7 @@ class RadioKinds {
     std::vector<std::pair<int, Hertz>> channels_;
     // Largest gain by fading [dB].
     Db most_fade_;
-    // True if a link varies with the frame or with headings, so that ranges and tables are not
-    // enough.
+    // True if a link varies with the frame or with headings: ranges are not enough then.
     bool varies_;
     bool directional_ = false;
     // True if any two kinds may not have a link.

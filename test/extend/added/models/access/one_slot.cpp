@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "models/access/one_slot.hpp"
 
+#include "models/phy/wifi.hpp"
+
 #include <map>
 
 namespace rovernet {
@@ -30,6 +32,8 @@ class OneSlotAccess final : public Access {
             return is_its;
         });
     }
+
+    Phy phy() const override { return Wifi{}; }
 
   private:
     OneSlot settings_;
