@@ -69,7 +69,7 @@ class Routing final : public LinkLayer, public MacUser {
     /// it keeps. @throws std::logic_error naming a message
     void check_held() const;
 
-    // Implementation of LinkLayer, for the protocol: see sim/router.hpp.
+    // Implementation of LinkLayer, for the protocol: see sim/routing_protocol.hpp.
     Time now() const override;
     std::size_t size() const override;
     const Message& message(MessageId id) const override;
