@@ -5,7 +5,10 @@
 
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <set>
+#include <span>
+#include <string>
 #include <utility>
 
 namespace build_test {
@@ -70,6 +73,51 @@ TEST_CASE("build: a choice is one of its points") {
         "[[robot]]\nname = \"A\"\nplace = { model = \"choice\", points = [[\"1 m\", "
         "\"2 m\"], [\"3 m\", \"4 m\"]] }\n");
     CHECK((built.at("A") == Vec3{1, 2, 0} || built.at("A") == Vec3{3, 4, 0}));
+}
+
+namespace {
+
+/// Counts what it is asked to send, and sends it to its destination.
+struct Counting {
+    static constexpr bool routes_unicasts = true;
+    int* asked;
+
+    Hops initial_ttl() const { return 1; }
+    void send(LinkLayer& link, NodeId node, MessageId message) {
+        ++*asked;
+        link.send({.message = message,
+                   .sender = node,
+                   .ttl = 1,
+                   .hops = 1,
+                   .next_hop = link.message(message).to},
+                  {}, link.now());
+    }
+    void on_receive(LinkLayer&, const Frame&, std::span<Reception> receptions) {
+        for (Reception& r : receptions) {
+            r.fate = Fate::arrived;
+            r.delivered = true;
+        }
+    }
+};
+
+}  // namespace
+
+TEST_CASE("build: a scenario under a protocol of a program, which routes what has no hops = 1") {
+    const std::string two =
+        "[[robot]]\nname = \"A\"\nat = [\"0 m\", \"0 m\"]\n"
+        "on_receive = { payload = \"ask\", send = \"answer\", to = \"sender\" }\n"
+        "[[robot]]\nname = \"B\"\nat = [\"5 m\", \"0 m\"]\n"
+        "[[traffic]]\nkind = \"unicast\"\nfrom = \"B\"\nto = \"A\"\npayload = \"ask\"\n";
+    for (const auto& [text, expected] :
+         {std::pair{two, 2}, std::pair{two + "hops = 1\n", 1}}) {  // the answer is routed
+        const Scenario scenario = read_scenario(parse_toml(text, "s.toml"), "s.toml");
+        Network network(network_settings(scenario));
+        int asked = 0;
+        populate(network, scenario, Counting{&asked});
+        network.run_for(std::chrono::seconds(1));
+        CHECK(asked == expected);
+        CHECK(network.metrics().deliveries == 2);
+    }
 }
 
 }  // namespace build_test

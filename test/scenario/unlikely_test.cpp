@@ -5,6 +5,7 @@
 #include "experiment/build.hpp"
 #include "experiment/reports/link_report.hpp"
 #include "experiment/run.hpp"
+#include "scenario/document/toml.hpp"
 #include "scenario/memory.hpp"
 #include "scenario/scenario_file.hpp"
 #include "test/scene/drawn_map.hpp"
@@ -98,6 +99,23 @@ TEST_CASE("unlikely: a payload that reads as a size is a notice, once for all of
         CHECK(notices_of(robot_a + traffic(fmt::format("payload = \"{}\"", words))).empty());
     }
     CHECK(notices_of(robot_a + traffic("payload = \"64 B\"\nsize = \"64 B\"")).empty());
+}
+
+TEST_CASE("unlikely: a unicast goes one hop under a flood, with a notice unless it says so") {
+    const std::string two = robot_a + "[[robot]]\nname = \"B\"\nat = [\"4 m\", \"2 m\"]\n";
+    const std::string unicast =
+        "[[traffic]]\nkind = \"unicast\"\nfrom = \"A\"\nto = \"B\"\npayload = \"x\"\n";
+    check_notice(two + unicast, {"s.toml:10:6", "to \"B\"", "one hop", "hops = 1"});
+    check_notice(two + unicast + unicast, {"; and 1 more"});
+    CHECK(notices_of(two + unicast + "hops = 1\n").empty());
+    check_notice(two + "on_receive = { send = \"x\", to = \"sender\" }\n", {"sender", "one hop"});
+    const TemporaryFolder folder;
+    CHECK(error_of([&] {
+              loaded(folder, two + unicast + "hops = 2\n");
+          }).find("hops: found the number 2; expected 1: over one hop") != std::string::npos);
+    const Scenario scenario = loaded(folder, two + unicast + "hops = 1\n");
+    CHECK(scenario.traffic[0].hops == 1);
+    CHECK(to_toml(to_document(scenario)).find("hops = 1\n") != std::string::npos);
 }
 
 TEST_CASE("unlikely: switching on a robot that is on is a notice, and off likewise") {
