@@ -12,6 +12,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -133,7 +134,42 @@ std::string changes(const World& world, int number) {
     return i > number ? "found" : "";
 }
 
+/// A value of any type, to find how many members a struct has.
+struct AnyMember {
+    template <class T>
+    requires(!is_optional<T>) operator T() const { std::abort(); }
+};
+template <class T, class... Members>
+consteval std::size_t count_members() {
+    if constexpr (requires { T{Members{}..., AnyMember{}}; }) {
+        return count_members<T, Members..., AnyMember>();
+    } else {
+        return sizeof...(Members);
+    }
+}
+template <class T>
+std::size_t count_fields() {
+    std::size_t count = 0;
+    for_each_field_of<T>([&](const auto&) { ++count; });
+    return count;
+}
+
 }  // namespace
+
+TEST_CASE("kinds of records: all members are described") {
+    struct Forgetful {
+        Time time;
+        std::optional<NodeId> node;
+        static constexpr auto fields() { return describe(field("time", &Forgetful::time)); }
+    };
+    CHECK(count_members<Forgetful>() == 2);  // the control
+    CHECK(count_fields<Forgetful>() == 1);
+    const auto check = []<class R>() {
+        CHECK_MESSAGE(count_fields<R>() == count_members<R>(), sizeof(R) << " bytes");
+    };
+    for_each_kind(check, RecordKinds{});
+    for_each_kind(check, RecordList<Frame, AirFrame, Leg, Reception>{});
+}
 
 TEST_CASE(
     "kinds of records: a change of a field changes bytes, text and fingerprint as described") {
