@@ -21,7 +21,7 @@ Time Mac::now() const { return world_.now; }
 Time Mac::transmit(const AirFrame& air) {
     const bool data = !air.control;
     if (data) world_.emit(Transmitted{world_.now, air.frame, air.heard_from});
-    const Transmission how = transmission(air);
+    const Transmission how = transmission(air);  // a copy: others are made meanwhile
     if (world_.records.wants<AirSent>()) {
         world_.emit(AirSent{world_.now, air, how.bytes, data ? header_ : 0});
     }
@@ -84,9 +84,17 @@ BitRate Mac::rate_of(const AirFrame& frame) const {
                          to == everyone ? sender : world_.medium.stations().radio(to).rate);
 }
 
-Transmission Mac::transmission(const AirFrame& frame) const {
-    const Radio& radio = world_.medium.stations().radio(frame.frame.sender);
-    return world_.phy.transmission(radio, rate_of(frame), bytes(frame));
+/// The last transmission is kept, as most frames of a run are sent alike.
+const Transmission& Mac::transmission(const AirFrame& frame) const {
+    const Stations& stations = world_.medium.stations();
+    const RadioKinds::Kind kind = stations.kind(frame.frame.sender);
+    const BitRate rate = rate_of(frame);
+    const std::uint32_t size = bytes(frame);
+    if (kind != last_kind_ || rate != last_.rate || size != last_.bytes) {
+        last_ = world_.phy.transmission(stations.radio(frame.frame.sender), rate, size);
+        last_kind_ = kind;
+    }
+    return last_;
 }
 
 void Mac::access_timer(NodeId node, Time at, std::uint32_t tag) {

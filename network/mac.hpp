@@ -80,7 +80,7 @@ class Mac final : public Air, public ChannelUser {
     Time transmit(const AirFrame& frame) override;
     /// Transmission, airtime [ns] and size [bytes] of a frame, including the access model's
     /// additions.
-    Transmission transmission(const AirFrame& frame) const;
+    const Transmission& transmission(const AirFrame& frame) const;
     Duration airtime(const AirFrame& frame) const override { return transmission(frame).airtime(); }
     std::uint32_t bytes(const AirFrame& frame) const override;
     void access_timer(NodeId node, Time at, std::uint32_t tag) override;
@@ -115,6 +115,9 @@ class Mac final : public Air, public ChannelUser {
     bool listens_, has_own_rates_;
     // Bytes that the access model adds to a message.
     std::uint32_t header_;
+    // Last transmission, and the kind of its sender.
+    mutable Transmission last_{};
+    mutable std::uint32_t last_kind_ = ~std::uint32_t{0};
     // Unicasts on air to a next hop out of range, if somebody waits for their results.
     Slots<QueuedFrame> unheard_;
 };

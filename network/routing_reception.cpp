@@ -21,7 +21,8 @@ void Routing::receive_broadcast(const AirFrame& air, const Arriving& part) {
     } else {
         hand_up_heard(air.frame, part);
     }
-    emit_received({air.frame, part.receptions, {}, mac_.header(), world_.for_sinks(part.levels)});
+    emit_received(
+        Received{air.frame, part.receptions, {}, mac_.header(), world_.for_sinks(part.levels)});
     user_.delivered(air.frame, part.receptions, part.levels);
 }
 
@@ -97,24 +98,25 @@ void Routing::receive_unicast(const AirFrame& air, Reception& r, std::span<const
             r.delivered = true;
         }
     }
-    emit_received({air.frame, {&r, 1}, air.reserved, mac_.header(), world_.for_sinks(level)});
+    emit_received(
+        Received{air.frame, {&r, 1}, air.reserved, mac_.header(), world_.for_sinks(level)});
     user_.delivered(air.frame, {&r, 1}, level);
 }
 
-void Routing::emit_received(Received record) {
+void Routing::emit_received(const Received& record) {
+    if (drops_.empty()) [[likely]]
+        return world_.emit(record);
+    Received part = record;
     const std::span<const Reception> all = record.receptions;
-    const std::span<const Dbm> levels = record.levels;
     std::size_t emitted = 0;
     const auto emit_to = [&](std::size_t end) {
         if (end <= emitted) return;
-        record.receptions = all.subspan(emitted, end - emitted);
-        if (!levels.empty()) record.levels = levels.subspan(emitted, end - emitted);
-        world_.emit(record);
+        part.receptions = all.subspan(emitted, end - emitted);
+        if (!record.levels.empty()) part.levels = record.levels.subspan(emitted, end - emitted);
+        world_.emit(part);
         emitted = end;
     };
-    if (!drops_.empty()) [[unlikely]] {
-        emit_drops(all, [&](std::size_t place) { emit_to(std::min(place + 1, all.size())); });
-    }
+    emit_drops(all, [&](std::size_t place) { emit_to(std::min(place + 1, all.size())); });
     emit_to(all.size());
 }
 

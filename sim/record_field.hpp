@@ -13,8 +13,8 @@
 
 // Descriptions of records. A record lists its fields once, by fields(); recorded traces, their
 // text, tables of rows and fingerprints visit them in that order. A field is a number, a quantity,
-// an enumeration, a bool, Time, Duration, NodeId, MessageId, Vec3, an optional of these, or a
-// described struct: its fields then stand in its place.
+// a bool, Time, Duration, NodeId, MessageId, Vec3, an optional NodeId or unsigned number, a Fate or
+// a DropReason, or a described struct: its fields then stand in its place.
 //
 //     struct Arrived {
 //         Time time;

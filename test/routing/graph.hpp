@@ -101,8 +101,8 @@ class Graph final : public LinkLayer {
         const auto handle = static_cast<SendHandle>(waiting_.size());
         waiting_.push_back(QueuedFrame{frame, heard_from});
         schedule(at, [this, handle] {
-            if (const auto frame = std::exchange(waiting_[handle], std::nullopt))
-                outbox_.push_back(*frame);
+            if (const auto due = std::exchange(waiting_[handle], std::nullopt))
+                outbox_.push_back(*due);
         });
         return handle;
     }

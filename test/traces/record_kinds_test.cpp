@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What every kind of record has without code of its own: bytes in recorded traces, text, rows and a
 // place in fingerprints. A new kind is tested here as soon as it is in RecordKinds.
+#include "models/access/wifi_frames.hpp"
 #include "sim/legs.hpp"
 #include "sim/record.hpp"
 #include "traces/fingerprint.hpp"
@@ -12,6 +13,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -61,6 +63,8 @@ template <class T>
 requires requires(T t) { t.value = 1; }
 void change(T& value) { change(value.value); }
 void change(Vec3& v) { v.y += 1; }
+void change(const ControlFrame*& control) { control = control ? nullptr : &wifi_rts; }
+void change(std::string_view& text) { text = text.empty() ? "other" : ""; }
 template <class T>
 void change(std::optional<T>& value) {
     value ? value.reset() : void(value.emplace());
@@ -133,7 +137,42 @@ std::string changes(const World& world, int number) {
     return i > number ? "found" : "";
 }
 
+/// A value of any type, to find how many members a struct has.
+struct AnyMember {
+    template <class T>
+    requires(!is_optional<T>) operator T() const { std::abort(); }
+};
+template <class T, class... Members>
+consteval std::size_t count_members() {
+    if constexpr (requires { T{Members{}..., AnyMember{}}; }) {
+        return count_members<T, Members..., AnyMember>();
+    } else {
+        return sizeof...(Members);
+    }
+}
+template <class T>
+std::size_t count_fields() {
+    std::size_t count = 0;
+    for_each_field_of<T>([&](const auto&) { ++count; });
+    return count;
+}
+
 }  // namespace
+
+TEST_CASE("kinds of records: all members are described") {
+    struct Forgetful {
+        Time time;
+        std::optional<NodeId> node;
+        static constexpr auto fields() { return describe(field("time", &Forgetful::time)); }
+    };
+    CHECK(count_members<Forgetful>() == 2);  // the control
+    CHECK(count_fields<Forgetful>() == 1);
+    const auto check = []<class R>() {
+        CHECK_MESSAGE(count_fields<R>() == count_members<R>(), sizeof(R) << " bytes");
+    };
+    for_each_kind(check, RecordKinds{});
+    for_each_kind(check, RecordList<Frame, AirFrame, Leg, Reception>{});
+}
 
 TEST_CASE(
     "kinds of records: a change of a field changes bytes, text and fingerprint as described") {

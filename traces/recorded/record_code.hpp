@@ -22,7 +22,8 @@ namespace rovernet {
 /// field that is added to the records of an earlier version is described with since(VERSION).
 inline constexpr std::uint32_t recorded_format = 2;
 
-/// Number of a kind of frame on air: 0 for data, 1 RTS, 2 CTS, 3 ACK, 4 for any other control frame.
+/// Number of a kind of frame on air: 0 for data, 1 RTS, 2 CTS, 3 ACK, 4 for any other control
+/// frame.
 std::uint8_t number_of(const ControlFrame* control);
 
 /// Kind of message in a recorded trace: its topic, and the layout of its bytes.

@@ -74,6 +74,8 @@ RecordedReader::RecordedReader(const std::string& path) : path_(path), file_(pat
             has_metadata = true;
         } else if (record->opcode == McapOpcode::attachment) {
             read_attachment(record->content);
+        } else if (record->opcode == McapOpcode::channel) {
+            read_channel(record->content);
         } else if (record->opcode == McapOpcode::chunk || record->opcode == McapOpcode::data_end) {
             file_.go_to(*record);
             break;
@@ -141,6 +143,23 @@ void RecordedReader::read_attachment(std::string_view content) {
     run_.files.push_back(std::move(file));
 }
 
+/// Remembers the kind of a channel if this version does not know it.
+void RecordedReader::read_channel(std::string_view content) {
+    ByteReader from(content);
+    const auto number = from.fixed<std::uint16_t>();
+    from.fixed<std::uint16_t>();  // its schema
+    const std::string_view topic = from.text();
+    constexpr std::uint16_t end = channel_of(std::variant_size_v<Record>);
+    if (!from.failed() && number >= end) later_kinds_.emplace(number, topic);
+}
+
+/// Reports, once, that the records of a kind are left out.
+void RecordedReader::leave_out(std::string& kind) {
+    if (kind.empty()) return;
+    file_.tell(fmt::format("the records {} are left out: this version does not know them",
+                           std::exchange(kind, {})));
+}
+
 /// Unpacks the next complete chunk. @return false at the end of the file
 bool RecordedReader::begin_chunk() {
     while (const auto record = file_.next()) {
@@ -185,7 +204,7 @@ const Record* RecordedReader::next() {
     }
 }
 
-/// Handles a definition or a record. @return whether it is a record
+/// Handles a definition or a record. @return whether it is one
 bool RecordedReader::take_message(std::string_view content) {
     ByteReader from(content);
     const auto channel = from.fixed<std::uint16_t>();
@@ -197,8 +216,10 @@ bool RecordedReader::take_message(std::string_view content) {
     if (from.failed() || ns > last) return false;
     now_ = Time{Duration{static_cast<std::int64_t>(ns)}};
     const std::string_view bytes = from.take(from.left());
-    has_record_ = channel != message_channel;
-    if (!has_record_) return define(bytes);
+    const auto later = later_kinds_.find(channel);
+    has_record_ = channel != message_channel && later == later_kinds_.end();
+    if (channel == message_channel) return define(bytes);
+    if (!has_record_) return leave_out(later->second), true;
     if (!decode(channel, now_, bytes, receptions_, record_, format_) || !has_message(record_))
         return false;
     meet(record_);

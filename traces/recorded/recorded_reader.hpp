@@ -8,6 +8,7 @@
 #include "traces/recorded/mcap_reader.hpp"
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -79,6 +80,8 @@ class RecordedReader {
   private:
     void read_metadata(std::string_view content);
     void read_attachment(std::string_view content);
+    void read_channel(std::string_view content);
+    void leave_out(std::string& kind);
     bool begin_chunk();
     void tell_missing_chunks(std::string_view statistics);
     bool take_message(std::string_view content);
@@ -93,7 +96,8 @@ class RecordedReader {
     McapReader file_;
     RecordedRun run_;
     unsigned format_ = 1;
-    ByteReader chunk_{{}};  // rest of the current chunk
+    std::map<std::uint16_t, std::string> later_kinds_;  // by channel; empty once it is told
+    ByteReader chunk_{{}};                              // rest of the current chunk
     std::uint64_t chunk_offset_ = 0;
     std::uint32_t chunks_ = 0;   // number of chunks so far
     std::uint64_t records_ = 0;  // number of records so far

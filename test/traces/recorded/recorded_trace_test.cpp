@@ -7,6 +7,7 @@
 #include "traces/metrics.hpp"
 #include "traces/ns2/ns2_trace.hpp"
 #include "traces/record_walk.hpp"
+#include "traces/recorded/mcap_writer.hpp"
 #include "traces/recorded/record_code.hpp"
 #include "traces/recorded/recorded_reader.hpp"
 
@@ -119,6 +120,39 @@ TEST_CASE("a recorded trace names all robots of its records, or says which one i
     // Robots may have been added later to a network that was made in code.
     CHECK(said_of(3, 3, "") == "nothing");
     CHECK(said_of(3, 4'000'000, "") == "record 2 is of robot 4000000; the trace names 3");
+}
+
+TEST_CASE("records of kinds that this version does not know are left out, which is told once") {
+    TempFolder folder;
+    McapWriter file(folder / "t.mcap", "rovernet", "a later version");
+    file.metadata("rovernet", {{"format", "1"}, {"scenario", ""}});
+    file.attach({"robots.txt", "text/plain", "a\nb\n"});
+    const std::uint16_t arrived = channel_of(5), later = channel_of(std::variant_size_v<Record>);
+    file.declare(arrived, "Arrived", "node:v");
+    bool is_declared = false;
+    SUBCASE("declared") { is_declared = true; }
+    SUBCASE("not declared") {}
+    if (is_declared) file.declare(later, "Later", "node:v");
+    McapChunk chunk;
+    for (const std::uint16_t channel : {arrived, later, later, arrived}) {
+        chunk.begin_message(channel, 7);
+        chunk.bytes().varint(1);
+        chunk.end_message();
+    }
+    file.write(chunk);
+    file.finish();
+    file.give_name();
+    RecordedReader reader(folder / "t.mcap");
+    int records = 0;
+    while (reader.next()) ++records;
+    REQUIRE(reader.damage().size() == 1);
+    if (is_declared) {
+        CHECK(records == 2);
+        CHECK(reader.damage()[0] ==
+              "the records Later are left out: this version does not know them");
+    } else {
+        CHECK(records == 1);  // the control: a channel of nothing is damage
+    }
 }
 
 TEST_CASE("a recorded trace keeps what the run was") {
