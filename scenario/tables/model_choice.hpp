@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -30,15 +31,15 @@ namespace rovernet {
 /// @tparam Default  model that is chosen if the file names none
 template <class Models, class Any, class Default = std::tuple_element_t<0, Models>>
 struct ModelChoice {
-    /// Place of the model M in the list.
+    /// Place of the model M in the list, which must have it.
     template <class M>
     static constexpr std::size_t place_of() {
-        std::size_t place = 0, at = 0;
-        for_each_type([&]<class Each>() {
-            if (std::is_same_v<Each, M>) place = at;
-            ++at;
-        });
-        return place;
+        return []<class... Each>(std::tuple<Each...>*) {
+            static_assert((std::is_same_v<Each, M> || ...), "this model is not listed");
+            std::size_t at = 0;
+            (void)((std::is_same_v<Each, M> || (++at, false)) || ...);
+            return at;
+        }(static_cast<Models*>(nullptr));
     }
     /// Calls visit.template operator()<M>() for each listed model, in order.
     template <class Visitor>
