@@ -295,7 +295,6 @@ StepRequest read_step(const JsonElement& line, const Robots& robots) {
         for_each_item(*send, [&](const JsonElement& item) {
             step.commands.push_back(message_in(item, robots));
         });
-        sort_by_robot(step.commands);
     }
     return step;
 }

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <iterator>
 #include <stdexcept>
 
 namespace rovernet {
@@ -79,16 +79,14 @@ void SteppedRun::begin() {
     } else {
         for (NodeId n{0}; n.index() < network.size(); ++n.value) robots_.push_back(n);
     }
-    client_ = session.attach(robots_, settings_.client);
-    ascending_.resize(robots_.size());
-    std::iota(ascending_.begin(), ascending_.end(), std::size_t{0});
-    std::sort(ascending_.begin(), ascending_.end(),
-              [this](std::size_t a, std::size_t b) { return robots_[a] < robots_[b]; });
+    controllers_.clear();
+    controllers_.add(Controller(
+        std::nullopt, {.name = settings_.client, .robots = robots_, .step = settings_.step}));
+    controller().join(session);
     movements_.assign(robots_.size(), std::nullopt);
-    carried_ = movements_;
     messages_.clear();
     poses_.resize(3 * robots_.size());
-    steps_ = 0;
+    request_.number = 0;
     look();
 }
 
@@ -117,8 +115,8 @@ void SteppedRun::command(std::size_t row, RobotCommand command) {
         const std::string why = session().why_not_at(robots_[row], place->at);
         if (!why.empty()) throw std::invalid_argument("place: " + why);
     }
-    if (auto* send = std::get_if<SendCommand>(&command)) {
-        messages_.emplace_back(row, std::move(*send));
+    if (std::holds_alternative<SendCommand>(command)) {
+        messages_.emplace_back(robots_[row], std::move(command));
     } else {
         movements_[row] = std::move(command);
     }
@@ -148,31 +146,27 @@ void SteppedRun::drive(std::span<const double> velocities, std::optional<Duratio
     }
 }
 
-void SteppedRun::carry_out() {
-    Session& session = run().session();
-    std::stable_sort(messages_.begin(), messages_.end(), [this](const auto& a, const auto& b) {
-        return robots_[a.first] < robots_[b.first];
-    });
-    // Commands given by a sink meanwhile belong to the next step.
-    movements_.swap(carried_);
-    const auto messages = std::exchange(messages_, {});
-    auto message = messages.begin();
-    for (const std::size_t row : ascending_) {
-        if (carried_[row]) session.carry_out(client_, robots_[row], *carried_[row], steps_);
-        carried_[row].reset();
-        for (; message != messages.end() && message->first == row; ++message) {
-            session.carry_out(client_, robots_[row], message->second, steps_);
-        }
+/// Makes a request of the commands since the last step. What a sink commands meanwhile belongs to
+/// the next one.
+void SteppedRun::fill_request() {
+    ++request_.number;
+    request_.commands.clear();
+    for (std::size_t row = 0; row < robots_.size(); ++row) {
+        if (!movements_[row]) continue;
+        request_.commands.emplace_back(robots_[row], std::move(*movements_[row]));
+        movements_[row].reset();
     }
+    std::move(messages_.begin(), messages_.end(), std::back_inserter(request_.commands));
+    messages_.clear();
 }
 
 bool SteppedRun::step(std::uint64_t most_events, const std::function<bool()>& go_on) {
     Session& session = run().session();
     if (is_done()) throw RunError("the run is at its end; expected reset or finish");
-    ++steps_;
-    carry_out();
-    const Time now = session.network().now();
-    const Time end = now + std::min(settings_.step, session.end() - now);
+    fill_request();
+    controller().ask(session, request_);
+    controllers_.carry_out(session);
+    const Time end = controllers_.next_end();
     bool is_whole = false;
     do {
         is_whole = session.advance(end, most_events);
@@ -195,7 +189,7 @@ void SteppedRun::look() {
 }
 
 RunResult SteppedRun::finish() {
-    session().detach(client_);
+    session().detach(controller().client);
     session().step(session().network().now());  // all of that time, as a replay does
     RunResult result = run().finish();
     if (log_) log_->finish(result.simulated, result.fingerprint);
