@@ -132,8 +132,8 @@ bool ClientRadios::has(ClientId client, NodeId robot) const {
 
 std::optional<std::uint64_t> ClientRadios::send(NodeId robot, const SendCommand& command) {
     ears_->last_sent.reset();
-    if (command.to) {
-        network_.unicast(robot, *command.to, command.payload, command.size);
+    if (command.to || command.one_hop) {
+        network_.unicast(robot, command.to.value_or(everyone), command.payload, command.size);
     } else {
         network_.broadcast(robot, command.payload, command.size);
     }

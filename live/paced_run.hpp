@@ -46,6 +46,14 @@ struct FrontListeners {
     std::function<Ports(const Network&)> open_ports = {};
 };
 
+/// Option of the commands that serve programs, for a front whose clients use WebSocket.
+struct FrontOption {
+    const char* name;        ///< "--rosbridge"
+    const char* serves;      ///< whom it serves: "ROS clients by the rosbridge protocol"
+    std::string_view usual;  ///< address of an option without a value
+    FrontListeners (*listeners)(const Address& at);
+};
+
 /// Options of a live run, with clients that may connect and leave.
 struct PacedOptions {
     std::string folder = {};  ///< folder for the results of the run

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include "cli/runs/fronts.hpp"
 #include "cli/runs/run_output.hpp"
 #include "cli/runs/serving.hpp"
 #include "cli/terminal/diagnostics.hpp"
 #include "cli/terminal/options.hpp"
 #include "live/lockstep/listeners.hpp"
 #include "live/player/listeners.hpp"
-#include "live/rosbridge/listener.hpp"
 #include "scenario/document/quantity.hpp"
 #include "scenario/scenario_file.hpp"
 
@@ -19,13 +19,14 @@ struct LiveArguments : FileArguments {
     std::vector<std::string> controllers;
     std::optional<std::uint64_t> wait_for;
     std::string on_loss = "end";
-    std::optional<std::string> player, rosbridge;
+    std::optional<std::string> player;
+    FrontArguments fronts;
     std::optional<double> speed;
     bool one_port = false, lockstep = false;
     Reach reach;
     bool json = false;
 
-    bool is_by_clock() const { return player || rosbridge; }
+    bool is_by_clock() const { return player || fronts.any(); }
     bool has_controllers() const { return !controllers.empty() || listen || web || unix_path; }
     Announced announced() const { return json ? Announced::by_notice : Announced::by_output; }
 };
@@ -98,7 +99,7 @@ LiveResult run_by_fronts(LiveArguments a) {
     if (a.lockstep || !a.is_by_clock()) options.speed.reset();
     if (a.has_controllers()) options.fronts.push_back(controller_listeners(a, options.say));
     if (a.player) options.fronts.push_back(player_listeners(a, config, scenario));
-    if (a.rosbridge) options.fronts.push_back(rosbridge_listener(a.reach.with_token(*a.rosbridge)));
+    a.fronts.append_to(options.fronts, a.reach);
     ServingStop stop;
     options.stop = stop.rules();
     return run_paced(scenario, options);
@@ -146,19 +147,15 @@ void add_by_clock(Command live, LiveArguments& a) {
                 "serve Player clients, at 127.0.0.1:PORT and the ports that follow, one for "
                 "each robot; port 0: any that is free (default: 6665)")
             .usually(player_address.data());
-    const Option rosbridge =
-        live.add_option("--rosbridge", a.rosbridge,
-                        "serve ROS clients by the rosbridge protocol, at 127.0.0.1:PORT; port 0: "
-                        "any that is free (default: 9090)")
-            .usually(rosbridge_address.data());
+    const std::vector<Option> others = a.fronts.add_to(live);
     live.add_flag("--player-one-port", a.one_port,
                   "all robots at one port: the devices of the first have index 0, and so on")
         .needs(player);
     const Option lockstep =
         live.add_flag("--player-lockstep", a.lockstep,
                       "time goes on by 0.1 s once all clients that pull have asked for data")
-            .needs(player)
-            .excludes(rosbridge);
+            .needs(player);
+    for (const Option& each : others) lockstep.excludes(each);
     live.add_option("--speed", a.speed,
                     "simulated per real time, with --player or --rosbridge (default: 1)")
         .check(above_zero())

@@ -9,46 +9,6 @@
 #include <stdexcept>
 
 namespace rovernet {
-namespace {
-
-void check(std::string_view what, const std::string& robot, double number, const Range& range) {
-    if (range.contains(number)) return;
-    throw std::invalid_argument(
-        fmt::format("{} of robot {} must be {}, got {}", what, robot, range.text, number));
-}
-
-void check(const DriveCommand& drive, const std::string& robot) {
-    check("speed", robot, drive.speed.value, drive_speeds);
-    check("turn rate", robot, drive.turn_rate.value, drive_turns);
-    if (drive.timeout && *drive.timeout <= Duration{0}) {
-        throw std::invalid_argument(fmt::format("timeout of robot {} must be > 0 s", robot));
-    }
-}
-void check(const GoalCommand& goal, const std::string& robot) {
-    for (const double place : {goal.to.x, goal.to.y, goal.to.z}) {
-        check("goal", robot, place, goal_places);
-    }
-    check("speed", robot, goal.speed.value, goal_speeds);
-}
-void check(const StopCommand&, const std::string&) {}
-void check(const PlaceCommand& place, const std::string& robot) {
-    for (const double at : {place.at.x, place.at.y, place.at.z}) {
-        check("place", robot, at, goal_places);
-    }
-    check("heading", robot, place.heading.value, any);
-}
-void check(const SendCommand& send, const std::string& robot) {
-    const std::size_t size = std::max<std::size_t>(send.payload.size(), send.size.value_or(0));
-    if (size > longest_message) {
-        throw std::invalid_argument(
-            fmt::format("a message of robot {} has {} bytes; expected {} "
-                        "at most",
-                        robot, size, longest_message));
-    }
-}
-
-}  // namespace
-
 SteppedRun::SteppedRun(Scenario scenario, Settings settings)
     : scenario_(std::move(scenario)), settings_(std::move(settings)) {
     if (settings_.step < shortest_step) {
@@ -110,7 +70,7 @@ ScenarioRun& SteppedRun::run() const {
 }
 
 void SteppedRun::command(std::size_t row, RobotCommand command) {
-    std::visit([&](const auto& each) { check(each, name(row)); }, command);
+    check(command, name(row));
     if (const auto* place = std::get_if<PlaceCommand>(&command)) {
         const std::string why = session().why_not_at(robots_[row], place->at);
         if (!why.empty()) throw std::invalid_argument("place: " + why);

@@ -147,6 +147,9 @@ TEST_CASE("lockstep: each malformed line has its code and its place, and changes
         {R"({"type":"step","n":1,"do":{"A":{"v":1},"A":{"v":2}}})", "repeated_robot do"},
         {R"({"type":"step","n":1,"do":{"robots":[7],"v":[1]}})", "out_of_range do.robots[0]"},
         {R"({"type":"step","n":1,"do":{"robots":[0],"v":[1,2]}})", "bad_value do.v"},
+        {R"({"type":"step","n":1,"do":{"A":{"data":"Rg=="}}})", "unknown_key do.A.data"},
+        {R"({"type":"step","n":1,"do":{"A":{"timeout":5}}})", "bad_type do.A.timeout"},
+        {R"({"type":"step","n":1,"do":{"robots":[0],"timeout":"0 s"}})", "out_of_range do.timeout"},
         {R"({"type":"step","n":1,"send":{}})", "bad_type send"},
         {R"({"type":"step","n":1,"send":[{"data":"Rg=="}]})", "missing_key send[0].from"},
         {R"({"type":"step","n":1,"send":[{"from":"B","data":"Rg=="}]})", "not_yours send[0].from"},
@@ -171,8 +174,25 @@ TEST_CASE(
     talk.say(0, hello_a);
     CHECK(Json::parse(talk.ask(0, step(1, R"(,"do":{"Zoe":{}})"))).at("msg") ==
           "no robot Zoe; there are A, B, C");
-    CHECK(Json::parse(talk.ask(0, step(1, R"(,"do":{"A":{"timeuot":"1 s"}})"))).at("msg") ==
+    const auto message = [&](const std::string& more) {
+        return Json::parse(talk.ask(0, step(1, more))).at("msg").get<std::string>();
+    };
+    CHECK(message(R"(,"do":{"A":{"timeuot":"1 s"}})") ==
           "unknown key \"timeuot\"; did you mean \"timeout\"?");
+    CHECK(message(R"(,"do":{"A":{"x":1}})") ==
+          "unknown key \"x\"; known are v, w, timeout, goal, speed, stop, place, heading");
+    CHECK(message(R"(,"do":{"A":{"v":1,"goal":[1,2]}})") ==
+          "expected one command only: v, w and timeout, or goal and speed, or stop, or place and "
+          "heading");
+    CHECK(message(R"(,"do":{"A":{"v":1001}})") ==
+          "found 1001; expected a number from -1000 to 1000 m/s");
+    CHECK(message(R"(,"do":{"A":{"heading":1}})") ==
+          "\"place\" is missing; expected such as \"place\":[1,12]");
+    CHECK(message(R"(,"send":[{"from":"A"}])") ==
+          "\"data\" is missing; expected such as \"data\":\"Rg==\"");
+    CHECK(message(R"(,"do":{"A":{"stop":false}})") == "expected \"stop\":true");
+    CHECK(message(R"(,"send":[{"from":"A","data":"","size":65536}])") ==
+          "found 65536; expected a whole number from 0 to 65535");
 }
 
 TEST_CASE("lockstep: time goes to the nearest end of a step once everybody has asked") {
