@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "experiment/command_keys.hpp"
 #include "experiment/robot_command.hpp"
 #include "live/carriers/json_object.hpp"
 #include "network/network.hpp"
@@ -23,29 +24,6 @@
 // Reading of commands from JSON by their fields().
 
 namespace rovernet {
-
-/// Number of keys of a command in JSON. A command without fields has its name as key, with the
-/// value true.
-template <class Command>
-constexpr std::size_t number_of_keys() {
-    std::size_t keys = 0;
-    for_each_field<Command>([&](const auto&) { ++keys; });
-    return std::max<std::size_t>(keys, 1);
-}
-
-/// Keys of commands in JSON, one command after the other.
-template <class... Commands>
-constexpr auto keys_of() {
-    std::array<std::string_view, (number_of_keys<Commands>() + ...)> keys{};
-    std::size_t i = 0;
-    const auto add = [&]<class Command>(std::type_identity<Command>) {
-        const std::size_t first = i;
-        for_each_field<Command>([&](const auto& f) { keys[i++] = f.name; });
-        if (i == first) keys[i++] = Command::name;
-    };
-    (add(std::type_identity<Commands>{}), ...);
-    return keys;
-}
 
 /// Reader of commands' fields from JSON. All functions throw RequestError.
 class CommandReader {
@@ -114,19 +92,6 @@ class CommandReader {
     static void check_true(const JsonElement& element, std::string_view key);
 };
 
-/// Command with its defaults. Those of a robot's height and heading are where it is now.
-template <class Command>
-Command command_at(const Network& network, NodeId robot) {
-    Command command{};
-    for_each_field<Command>([&](const auto& f) {
-        auto& value = command.*f.member;
-        using Held = std::remove_cvref_t<decltype(value)>;
-        if constexpr (std::same_as<Held, Vec3>) value.z = network.position(robot).z;
-        if constexpr (std::same_as<Held, Radians>) value = network.heading(robot);
-    });
-    return command;
-}
-
 /// Part of a list of keys that belongs to one command.
 struct KeyPart {
     std::size_t first, size;
@@ -137,18 +102,6 @@ std::optional<std::size_t> find_given(const JsonElement& object,
                                       std::span<const std::string_view> keys,
                                       std::span<const CommandReader::Member> members,
                                       std::span<const KeyPart> parts);
-
-/// List of all commands, and of those that are no messages.
-template <class Variant, class Left = void>
-struct CommandList;
-template <class... Commands, class Left>
-struct CommandList<std::variant<Commands...>, Left> {
-    using type =
-        decltype(std::tuple_cat(std::conditional_t<std::is_same_v<Commands, Left>, std::tuple<>,
-                                                   std::tuple<std::type_identity<Commands>>>{}...));
-};
-using AllCommands = CommandList<RobotCommand>::type;
-using CommandsInPlace = CommandList<RobotCommand, SendCommand>::type;
 
 /// Reads the command of which an object has the keys; none for {}.
 /// @param commands  list of the commands of which it may be one

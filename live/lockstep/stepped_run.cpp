@@ -75,7 +75,10 @@ void SteppedRun::command(std::size_t row, RobotCommand command) {
         const std::string why = session().why_not_at(robots_[row], place->at);
         if (!why.empty()) throw std::invalid_argument("place: " + why);
     }
-    if (std::holds_alternative<SendCommand>(command)) {
+    if (const auto* send = std::get_if<SendCommand>(&command)) {
+        if (send->to == robots_[row]) {
+            throw std::invalid_argument("send: expected another robot, or none for everyone");
+        }
         messages_.emplace_back(robots_[row], std::move(command));
     } else {
         movements_[row] = std::move(command);
