@@ -1,7 +1,9 @@
 # What a program that uses the library may include: rovernet.hpp and what that needs. They are
 # installed; all other headers may change with any commit. test/consumer holds the list to rovernet.hpp.
+file(GLOB ROVERNET_COMMANDS CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
+    ${PROJECT_SOURCE_DIR}/experiment/*_command.hpp)
 set(ROVERNET_PUBLIC_HEADERS
-    experiment/robot_command.hpp experiment/run.hpp experiment/session.hpp
+    ${ROVERNET_COMMANDS} experiment/run.hpp experiment/session.hpp
     mobility/area.hpp mobility/draws.hpp mobility/driven.hpp mobility/follow.hpp
     mobility/follow_wall.hpp mobility/gauss_markov.hpp mobility/group.hpp mobility/movement.hpp
     mobility/patrol.hpp mobility/random_direction.hpp mobility/random_walk.hpp

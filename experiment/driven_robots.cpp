@@ -17,37 +17,41 @@ constexpr Vec3 not_driven{1e300, 0, 0};
 
 DrivenRobots::DrivenRobots(Network& network) : network_(network) { network_.add_sink(no_ways_); }
 
-void DrivenRobots::carry_out(NodeId robot, const DriveCommand& command) {
+/// Forgets the last command of a robot.
+void DrivenRobots::forget(NodeId robot) {
     no_ways_->robots.erase(robot);
-    Driven driven{.speed = command.speed, .turn_rate = command.turn_rate};
-    if (command.timeout) driven.until = network_.now() + *command.timeout;
+    driving_.erase(robot);
+}
+
+void DrivenRobots::drive(NodeId robot, MetersPerSecond speed, RadiansPerSecond turn_rate,
+                         std::optional<Duration> timeout) {
+    no_ways_->robots.erase(robot);
+    Driven driven{.speed = speed, .turn_rate = turn_rate};
+    if (timeout) driven.until = network_.now() + *timeout;
     Driving& driving = driving_[robot];
     if (!driving.arc) driving.arc = std::make_shared<DrivenArc>(DrivenArc{.at = not_driven});
     driving.until = driven.until.value_or(never);
-    driving.speed = command.speed.value;
+    driving.speed = speed.value;
     driven.arc = driving.arc;
     network_.move(robot, driven);
 }
 
-void DrivenRobots::carry_out(NodeId robot, const GoalCommand& command) {
-    move(robot, ToGoal{command.to, command.speed});
+void DrivenRobots::go(NodeId robot, Vec3 to, MetersPerSecond speed) {
+    move(robot, ToGoal{to, speed});
 }
 
-void DrivenRobots::carry_out(NodeId robot, const StopCommand&) {
-    no_ways_->robots.erase(robot);
-    driving_.erase(robot);
+void DrivenRobots::stop(NodeId robot) {
+    forget(robot);
     network_.stop(robot);
 }
 
-void DrivenRobots::carry_out(NodeId robot, const PlaceCommand& command) {
-    no_ways_->robots.erase(robot);
-    driving_.erase(robot);
-    network_.place(robot, command.at, command.heading);
+void DrivenRobots::place(NodeId robot, Vec3 at, Radians heading) {
+    forget(robot);
+    network_.place(robot, at, heading);
 }
 
 void DrivenRobots::move(NodeId robot, Movement movement) {
-    no_ways_->robots.erase(robot);
-    driving_.erase(robot);
+    forget(robot);
     network_.move(robot, std::move(movement));
 }
 

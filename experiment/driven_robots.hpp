@@ -9,6 +9,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <variant>
 
@@ -21,10 +22,18 @@ class DrivenRobots {
     DrivenRobots(const DrivenRobots&) = delete;
     DrivenRobots& operator=(const DrivenRobots&) = delete;
 
-    void carry_out(NodeId robot, const DriveCommand& command);
-    void carry_out(NodeId robot, const GoalCommand& command);
-    void carry_out(NodeId robot, const StopCommand& command);
-    void carry_out(NodeId robot, const PlaceCommand& command);
+    // Actions of commands.
+
+    /// Drives a robot ahead and turns it. @param timeout  the robot stops then; none: never
+    void drive(NodeId robot, MetersPerSecond speed, RadiansPerSecond turn_rate,
+               std::optional<Duration> timeout);
+    /// Lets a robot drive to a point, around the walls.
+    void go(NodeId robot, Vec3 to, MetersPerSecond speed);
+    void stop(NodeId robot);
+    /// Puts a robot elsewhere, at rest.
+    void place(NodeId robot, Vec3 at, Radians heading);
+    Network& network() { return network_; }
+
     /// Gives a robot any movement, instead of a command.
     void move(NodeId robot, Movement movement);
 
@@ -43,6 +52,7 @@ class DrivenRobots {
         std::shared_ptr<DrivenArc> arc;
     };
     const Driving* driving(NodeId robot) const;
+    void forget(NodeId robot);
 
     /// Sink that collects the robots that found no path to a goal.
     struct NoWays {

@@ -11,58 +11,114 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 
 // Commands from external programs to robots. A session executes them; an input log stores them.
+//
+// The fields() of a command are its vocabulary: keys and ranges in the lock-step protocol, in the
+// log of inputs, in ROS messages and in Python follow from them. Places and payloads must be given;
+// other fields have defaults. A command that is no message says by carry_out() what DrivenRobots
+// does with the robot.
 
 namespace rovernet {
 
+inline constexpr Range drive_speeds{.low = -1000, .high = 1000, .text = "from -1000 to 1000 m/s"};
+inline constexpr Range drive_turns{.low = -1000, .high = 1000, .text = "from -1000 to 1000 rad/s"};
+inline constexpr Range drive_times{.low = 0, .low_included = false, .text = "> 0 s"};
+
 /// Command to drive ahead and turn, as Driven does, until the next command.
 struct DriveCommand {
+    static constexpr std::string_view name = "drive";
+
     MetersPerSecond speed{0};       ///< speed ahead [m/s], < 0: backwards
     RadiansPerSecond turn_rate{0};  ///< turn rate [rad/s], counter-clockwise
     /// The robot stops after this time; none: it does not stop.
     std::optional<Duration> timeout = {};
+
+    static constexpr auto fields() {
+        return describe(field("v", &DriveCommand::speed, drive_speeds, "speed"),
+                        field("w", &DriveCommand::turn_rate, drive_turns, "turn rate"),
+                        field("timeout", &DriveCommand::timeout, drive_times, "timeout"));
+    }
+    void carry_out(auto& robots, NodeId robot) const {
+        robots.drive(robot, speed, turn_rate, timeout);
+    }
 };
 
-/// Command to drive to a point, around the walls, and to stop there.
-struct GoalCommand {
-    Vec3 to;                   ///< goal [m]
-    MetersPerSecond speed{1};  ///< speed [m/s], > 0
-};
-
-/// Command to stand still.
-struct StopCommand {};
-
-/// Command that moves the robot to another position at once (teleport), at rest.
-struct PlaceCommand {
-    Vec3 at;          ///< new position [m]
-    Radians heading;  ///< new heading [rad], counter-clockwise from the x axis
-};
-
-/// Command to send a message: to everyone by the routing protocol, or over one hop.
-struct SendCommand {
-    /// Destination over one hop: a robot, or `everyone` in range; none: to everyone, by the routing
-    /// protocol.
-    std::optional<NodeId> to = {};
-    std::uint16_t port = 0;  ///< port: selects a program of the receiver
-    std::string payload = {};
-    std::optional<std::uint32_t> size = {};  ///< size on air [bytes]; none: length of the payload
-};
-
-// Ranges of the numbers in commands, checked by every interface that accepts commands.
-
-inline constexpr Range drive_speeds{.low = -1000, .high = 1000, .text = "from -1000 to 1000 m/s"};
-inline constexpr Range drive_turns{.low = -1000, .high = 1000, .text = "from -1000 to 1000 rad/s"};
 inline constexpr Range goal_speeds{
     .low = 0, .high = 1000, .low_included = false, .text = "above 0 and up to 1000 m/s"};
 inline constexpr Range goal_places{.low = -1e9, .high = 1e9, .text = "from -1e9 to 1e9 m"};
-inline constexpr std::size_t longest_message = 65'535;  ///< largest payload of a message [bytes]
-inline constexpr Duration shortest_step{
-    1'000};  ///< shortest step [ns] that a lock-step controller may request
 
+/// Command to drive to a point, around the walls, and to stop there.
+struct GoalCommand {
+    static constexpr std::string_view name = "goal";
+
+    Vec3 to;                   ///< goal [m]
+    MetersPerSecond speed{1};  ///< speed [m/s], > 0
+
+    static constexpr auto fields() {
+        return describe(field("goal", &GoalCommand::to, goal_places, "goal"),
+                        field("speed", &GoalCommand::speed, goal_speeds, "speed"));
+    }
+    void carry_out(auto& robots, NodeId robot) const { robots.go(robot, to, speed); }
+};
+
+/// Command to stand still.
+struct StopCommand {
+    static constexpr std::string_view name = "stop";
+
+    static constexpr auto fields() { return describe(); }
+    void carry_out(auto& robots, NodeId robot) const { robots.stop(robot); }
+};
+
+/// Command that moves the robot to another position at once (teleport), at rest.
+struct PlaceCommand {
+    static constexpr std::string_view name = "place";
+
+    Vec3 at;          ///< new position [m]
+    Radians heading;  ///< new heading [rad], counter-clockwise from the x axis
+
+    static constexpr auto fields() {
+        return describe(field("place", &PlaceCommand::at, goal_places, "place"),
+                        field("heading", &PlaceCommand::heading, "heading"));
+    }
+    void carry_out(auto& robots, NodeId robot) const { robots.place(robot, at, heading); }
+};
+
+inline constexpr std::size_t longest_message = 65'535;  ///< largest payload of a message [bytes]
+inline constexpr Range message_sizes{.low = 0, .high = longest_message, .text = "65535 at most"};
+
+/// Command to send a message, as Network::send.
+struct SendCommand {
+    static constexpr std::string_view name = "send";
+
+    std::optional<NodeId> to = {};  ///< destination; none: everyone
+    std::uint16_t port = 0;         ///< port: selects a program of the receiver
+    std::string payload = {};
+    std::optional<std::uint32_t> size = {};  ///< size on air [bytes]; none: length of the payload
+    bool one_hop = false;  ///< true: over one hop, without the routing protocol
+
+    static constexpr auto fields() {
+        return describe(field("to", &SendCommand::to, "destination"),
+                        field("port", &SendCommand::port, "port"),
+                        field("data", &SendCommand::payload, message_sizes, "message"),
+                        field("size", &SendCommand::size, message_sizes, "size"),
+                        field("one_hop", &SendCommand::one_hop, "over one hop"));
+    }
+};
+
+/// Command of a client.
 using RobotCommand =
     std::variant<DriveCommand, GoalCommand, StopCommand, PlaceCommand, SendCommand>;
+
+/// Checks the fields of a command against their ranges.
+/// @param robot  name of the robot, for the error
+/// @throws std::invalid_argument naming field, robot, range and value
+void check(const RobotCommand& command, std::string_view robot);
+
+inline constexpr Duration shortest_step{
+    1'000};  ///< shortest step [ns] that a lock-step controller may request
 
 /// Accepted command of a client. The scenario and all inputs together reproduce a run.
 struct Input {

@@ -15,7 +15,6 @@
 #include <chrono>
 #include <stdexcept>
 #include <thread>
-#include <type_traits>
 
 namespace rovernet {
 
@@ -138,10 +137,10 @@ std::optional<std::uint64_t> Session::carry_out(ClientId client, NodeId robot,
     if (tell_) tell_({network_->now(), robot, client_of(client).name, number, command});
     std::optional<std::uint64_t> uid;
     const auto act = [&](const auto& each) {
-        if constexpr (std::is_same_v<decltype(each), const SendCommand&>) {
-            uid = radios_->send(robot, each);
+        if constexpr (requires { each.carry_out(*driven_, robot); }) {
+            each.carry_out(*driven_, robot);
         } else {
-            driven_->carry_out(robot, each);
+            uid = radios_->send(robot, each);
         }
     };
     std::visit(act, command);

@@ -94,8 +94,7 @@ class Session {
     }
     /// Gives a robot any movement. on_input() does not report it.
     void move(ClientId client, NodeId robot, Movement movement);
-    /// Sends a message from a robot over one hop to `to`; none: to everyone by the routing
-    /// protocol.
+    /// Sends a message from a robot to `to`, as Network::send; none: to everyone.
     void send(ClientId client, NodeId robot, std::optional<NodeId> to, std::string payload) {
         carry_out(client, robot, SendCommand{.to = to, .payload = std::move(payload)});
     }

@@ -33,8 +33,8 @@ class PartFile {
     /// Closes the file; give_name() then cannot fail for lack of space.
     /// @throws RunError as for write()
     void close();
-    /// Closes the file and renames it to its final name, replacing any file there. @throws RunError
-    /// as for write()
+    /// Closes the file and renames it to its final name, replacing any file there.
+    /// @throws RunError as for write()
     void give_name();
     /// Closes the incomplete file and leaves it as NAME.N.part. @throws RunError as for write()
     void keep();

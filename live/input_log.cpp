@@ -22,14 +22,19 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-void put(JsonLine& line, std::integral auto number) { line.put_number(number); }
+void put(JsonLine& line, std::integral auto number, const Network&) { line.put_number(number); }
+void put(JsonLine& line, bool is_true, const Network&) { line.put(is_true ? "true" : "false"); }
 
 /// Number with a point, as -0 would be read as 0.
-void put(JsonLine& line, double number) {
+void put(JsonLine& line, double number, const Network&) {
     if (line.put_number(number).find_first_of(".e") == std::string_view::npos) line.put(".0");
 }
+template <class Unit>
+void put(JsonLine& line, const Quantity<Unit>& quantity, const Network& network) {
+    put(line, quantity.value, network);
+}
 
-void put(JsonLine& line, std::string_view text) {
+void put_text(JsonLine& line, std::string_view text) {
     const bool is_plain = std::all_of(text.begin(), text.end(), [](char c) {
         return c >= ' ' && c <= '~' && c != '"' && c != '\\';
     });
@@ -39,50 +44,62 @@ void put(JsonLine& line, std::string_view text) {
     line.put('"');
 }
 
-void put(JsonLine& line, const Vec3& at) {
-    line.put('[');
-    put(line, at.x);
-    line.put(',');
-    put(line, at.y);
-    line.put(',');
-    put(line, at.z);
+void put(JsonLine& line, const std::string& bytes, const Network&) {
+    put_text(line, base64(bytes));
+}
+void put(JsonLine& line, Duration time, const Network&) {
+    line.put('"');
+    line.put_number(seconds(time));
+    line.put(" s\"");
+}
+void put(JsonLine& line, const std::optional<NodeId>& robot, const Network& network) {
+    put_text(line, robot ? network.name(*robot) : "*");
+}
+template <class Value>
+void put(JsonLine& line, const std::optional<Value>& value, const Network& network) {
+    put(line, *value, network);
+}
+
+void put(JsonLine& line, const Vec3& at, const Network& network) {
+    char between = '[';
+    for (const double each : {at.x, at.y, at.z}) {
+        line.put(between);
+        put(line, each, network);
+        between = ',';
+    }
     line.put(']');
 }
 
-/// Adds a member of an object, behind another one.
-template <class Member>
-void put(JsonLine& line, std::string_view key, const Member& value) {
-    line.put(",\"");
-    line.put(key);
-    line.put("\":");
-    put(line, value);
+/// Whether a field is left out: it has no value, and none has no word.
+template <class Value>
+bool is_left_out(const Value&) {
+    return false;
+}
+template <class Value>
+bool is_left_out(const std::optional<Value>& value) {
+    return !std::same_as<Value, NodeId> && !value;
 }
 
-void put(JsonLine& line, const DriveCommand& command, const Network&) {
-    put(line, "do", "velocity");
-    put(line, "v", command.speed.value);
-    put(line, "w", command.turn_rate.value);
-    if (command.timeout) put(line, "timeout_ns", command.timeout->count());
-}
-void put(JsonLine& line, const GoalCommand& command, const Network&) {
-    put(line, "do", "goal");
-    put(line, "goal", command.to);
-    put(line, "speed", command.speed.value);
-}
-void put(JsonLine& line, const StopCommand&, const Network&) { put(line, "do", "stop"); }
-void put(JsonLine& line, const PlaceCommand& command, const Network&) {
-    put(line, "do", "place");
-    put(line, "at", command.at);
-    put(line, "heading", command.heading.value);
-}
-void put(JsonLine& line, const SendCommand& command, const Network& network) {
-    const bool is_to_one = command.to && *command.to != everyone;
-    put(line, "do", "send");
-    put(line, "to", is_to_one ? network.name(*command.to) : "*");
-    if (command.to == everyone) put(line, "hops", 1);
-    put(line, "port", command.port);
-    put(line, "data", base64(command.payload));
-    if (command.size) put(line, "size", *command.size);
+/// Adds a command as an object, with the keys of its fields.
+template <class Command>
+void put_command(JsonLine& line, const Command& command, const Network& network) {
+    char between = '{';
+    const auto put_key = [&](std::string_view key) {
+        line.put(std::exchange(between, ','));
+        line.put('"');
+        line.put(key);
+        line.put("\":");
+    };
+    for_each_field<Command>([&](const auto& f) {
+        if (is_left_out(command.*f.member)) return;
+        put_key(f.name);
+        put(line, command.*f.member, network);
+    });
+    if (between == '{') {
+        put_key(Command::name);
+        put(line, true, network);
+    }
+    line.put('}');
 }
 
 bool has_results(const fs::path& folder) {
@@ -106,6 +123,7 @@ InputLog::InputLog(const std::string& folder, const Scenario& scenario)
         write_file(scenario_, document);
     }
     Table head;
+    head.set("format", input_log_format);
     head.set("version", code_version());
     head.set("scenario", text_digest(document));
     head.set("seed", scenario.scenario.seed);
@@ -142,11 +160,15 @@ void InputLog::flush() {
 void InputLog::add(const Input& input, const Network& network) {
     has_inputs_ = true;
     lines_.put("{\"t_ns\":");
-    put(lines_, input.time.time_since_epoch().count());
-    put(lines_, "n", input.number);
-    put(lines_, "client", input.client);
-    put(lines_, "robot", network.name(input.robot));
-    std::visit([&](const auto& command) { put(lines_, command, network); }, input.command);
+    lines_.put_number(input.time.time_since_epoch().count());
+    lines_.put(",\"n\":");
+    lines_.put_number(input.number);
+    lines_.put(",\"client\":");
+    put_text(lines_, input.client);
+    lines_.put(",\"robot\":");
+    put_text(lines_, network.name(input.robot));
+    lines_.put(",\"do\":");
+    std::visit([&](const auto& command) { put_command(lines_, command, network); }, input.command);
     lines_.put("}\n");
     keep_up();
 }

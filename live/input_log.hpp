@@ -7,22 +7,23 @@
 #include "scenario/scenario.hpp"
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
 
 // Log of the inputs (commands) of a live run, for replay: inputs.jsonl in the run's folder. One
-// JSON object per line. The first line has version, scenario (digest and text) and seed, the last
-// line end time and fingerprint:
+// JSON object per line. The first line has format, version, scenario (digest and text) and seed,
+// the last line end time and fingerprint. Commands have the keys of the lock-step protocol:
 //
-//     {"version":"0.1.0","scenario":"8c5d...","seed":1,"toml":"[scenario]\nname = ..."}
-//     {"t_ns":100000000,"n":1,"client":"A","robot":"A","do":"velocity","v":0.5,"w":0.1}
-//     {"t_ns":200000000,"n":2,"client":"A","robot":"A","do":"send","to":"*","port":7,"data":"Rg=="}
-//     {"t_ns":200000000,"n":2,"client":"A","robot":"A","do":"send","to":"*","hops":1,"port":0,...}
-//     {"t_ns":200000000,"n":2,"client":"A","robot":"B","do":"goal","goal":[1,12,0],"speed":1.5}
-//     {"t_ns":300000000,"n":3,"client":"A","robot":"A","do":"stop"}
-//     {"t_ns":300000000,"n":4,"client":"A","robot":"B","do":"place","at":[1,12,0],"heading":1.57}
+//     {"format":2,"version":"0.1.0","scenario":"8c5d...","seed":1,"toml":"[scenario]\nname = ..."}
+//     {"t_ns":100000000,"n":1,"client":"A","robot":"A","do":{"v":0.5,"w":0.1,"timeout":"0.5 s"}}
+//     {"t_ns":200000000,"n":2,"client":"A","robot":"A","do":{"to":"*","port":7,"data":"Rg==",...}}
+//     {"t_ns":200000000,"n":2,"client":"A","robot":"B","do":{"goal":[1.0,12.0,0.0],"speed":1.5}}
+//     {"t_ns":300000000,"n":3,"client":"A","robot":"A","do":{"stop":true}}
 //     {"end_ns":300000000,"fingerprint":"b13b..."}
+//
+// A log without a format is of the first one, which is still read.
 
 namespace rovernet {
 
@@ -30,6 +31,9 @@ class Network;
 
 /// File name of the input log in the folder of the run.
 inline constexpr std::string_view input_log_name = "inputs.jsonl";
+
+/// Format of the logs that are written.
+inline constexpr std::int64_t input_log_format = 2;
 
 /// Digest of a scenario's text, stored in the input log.
 std::string text_digest(const std::string& text);

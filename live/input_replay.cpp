@@ -3,10 +3,9 @@
 
 #include "experiment/run.hpp"
 #include "experiment/session.hpp"
-#include "files/base64.hpp"
 #include "files/input_file.hpp"
 #include "files/part_file.hpp"
-#include "live/carriers/json_object.hpp"
+#include "live/carriers/command_reader.hpp"
 #include "live/input_log.hpp"
 #include "scenario/document/toml.hpp"
 #include "scenario/scenario_file.hpp"
@@ -36,71 +35,99 @@ NodeId logged_robot(const JsonElement& element, const Network& network) {
     return *robot;
 }
 
-Vec3 logged_place(const JsonElement& list) {
-    std::vector<double> at;
-    for (const auto& item : list.array()) {
-        at.push_back(JsonElement{item, list.path}.number(goal_places));
+/// Reader of commands in a log. Times are whole nanoseconds, and hops are a number, in the first
+/// format.
+class LoggedCommands : public CommandReader {
+  public:
+    explicit LoggedCommands(const Network& network) : network_(network) {}
+
+  protected:
+    NodeId robot(const JsonElement& name) const override { return logged_robot(name, network_); }
+    Duration time(const JsonElement& element) const override {
+        return element.value.is_string() ? CommandReader::time(element) : logged_time(element);
     }
-    if (at.size() != 3) list.fail("bad_value", "expected [x, y, z]");
-    return {at[0], at[1], at[2]};
+    bool truth(const JsonElement& element) const override {
+        return element.value.is_number() ? element.whole_number(1, 1) == 1 : element.truth();
+    }
+
+  private:
+    const Network& network_;
+};
+
+constexpr std::array<std::string_view, 5> input_keys = {"t_ns", "n", "client", "robot", "do"};
+
+/// Input of a line without its command. @param found  members of the input_keys
+Input begin_input(const JsonElement& line, std::span<const CommandReader::Member> found,
+                  const Network& network) {
+    for (std::size_t i = 0; i < input_keys.size(); ++i) {
+        needed(found[i], line, input_keys[i], "a line of inputs.jsonl");
+    }
+    return {.time = start_of_run + logged_time(*found[0]),
+            .robot = logged_robot(*found[3], network),
+            .client = std::string(found[2]->text()),
+            .number = found[1]->whole_number(0, largest),
+            .command = StopCommand{}};
 }
 
-SendCommand logged_message(const JsonElement& to, const std::optional<JsonElement>& hops,
-                           const JsonElement& port, const JsonElement& data,
-                           const std::optional<JsonElement>& size, const Network& network) {
-    SendCommand send;
-    if (hops && hops->whole_number(1, 1) == 1) send.to = everyone;
-    if (to.text() != "*") send.to = logged_robot(to, network);
-    send.port = static_cast<std::uint16_t>(port.whole_number(0, 65'535));
-    auto bytes = from_base64(data.text());
-    if (!bytes) data.fail("bad_base64", "expected base64");
-    send.payload = std::move(*bytes);
-    if (size) send.size = static_cast<std::uint32_t>(size->whole_number(0, 65'535));
-    return send;
+/// Key in logs of the first format.
+constexpr std::string_view first_key(std::string_view key) {
+    return key == "place"     ? "at"
+           : key == "timeout" ? "timeout_ns"
+           : key == "one_hop" ? "hops"
+                              : key;
+}
+
+/// Reads a line of the first format: `do` is the name of the command, its keys stand beside it.
+template <class... Commands>
+Input first_input(std::tuple<std::type_identity<Commands>...> /*commands*/, const JsonElement& line,
+                  const Network& network) {
+    static constexpr auto keys = [] {
+        constexpr auto own = keys_of<Commands...>();
+        std::array<std::string_view, input_keys.size() + own.size()> all{};
+        const auto rest = std::copy(input_keys.begin(), input_keys.end(), all.begin());
+        std::transform(own.begin(), own.end(), rest, first_key);
+        return all;
+    }();
+    const auto found = members(line, keys);
+    Input input = begin_input(line, found, network);
+    const std::string_view name = found[4]->text();
+    bool is_known = false;
+    std::size_t first = input_keys.size();
+    const auto read = [&]<class Command>(std::type_identity<Command>) {
+        constexpr std::size_t size = number_of_keys<Command>();
+        if (name == (Command::name == "drive" ? "velocity" : Command::name)) {
+            is_known = true;
+            auto command = command_at<Command>(network, input.robot);
+            LoggedCommands(network).read(command, line, std::span(keys).subspan(first, size),
+                                         std::span(found).subspan(first, size));
+            input.command = std::move(command);
+        }
+        first += size;
+    };
+    (read(std::type_identity<Commands>{}), ...);
+    if (!is_known) found[4]->fail("bad_value", "expected velocity, goal, stop, place or send");
+    return input;
 }
 
 /// Reads a line that is neither the first nor the last.
-Input input_in(const JsonElement& line, const Network& network) {
-    static constexpr std::array<std::string_view, 17> keys = {
-        "t_ns",  "n",  "client",  "robot", "do",   "v",    "w",    "timeout_ns", "goal",
-        "speed", "at", "heading", "to",    "hops", "port", "data", "size"};
-    const auto [t, n, client, robot, what, v, w, timeout, goal, speed, at, heading, to, hops, port,
-                data, size] = members(line, keys);
-    const auto given = [&](const auto& member, std::string_view key) -> const JsonElement& {
-        return needed(member, line, key, "a line of inputs.jsonl");
-    };
-    Input input{.time = start_of_run + logged_time(given(t, "t_ns")),
-                .robot = logged_robot(given(robot, "robot"), network),
-                .client = std::string(given(client, "client").text()),
-                .number = given(n, "n").whole_number(0, largest),
-                .command = StopCommand{}};
-    const JsonElement& act = given(what, "do");
-    const std::string_view name = act.text();
-    if (name == "velocity") {
-        DriveCommand drive{{given(v, "v").number(drive_speeds)},
-                           {given(w, "w").number(drive_turns)}};
-        if (timeout) drive.timeout = logged_time(*timeout);
-        input.command = drive;
-    } else if (name == "goal") {
-        input.command = GoalCommand{logged_place(given(goal, "goal")),
-                                    {given(speed, "speed").number(goal_speeds)}};
-    } else if (name == "place") {
-        input.command =
-            PlaceCommand{logged_place(given(at, "at")), {given(heading, "heading").number(any)}};
-    } else if (name == "send") {
-        input.command = logged_message(given(to, "to"), hops, given(port, "port"),
-                                       given(data, "data"), size, network);
-    } else if (name != "stop") {
-        act.fail("bad_value", "expected velocity, goal, stop, place or send");
-    }
+Input input_in(const JsonElement& line, const Network& network, std::uint64_t format) {
+    if (format == 1) return first_input(AllCommands{}, line, network);
+    const auto found = members(line, input_keys);
+    Input input = begin_input(line, found, network);
+    auto command =
+        read_one_of(AllCommands{}, LoggedCommands(network), *found[4], network, input.robot);
+    if (!command) found[4]->fail("bad_value", "expected a command");
+    input.command = std::move(*command);
     return input;
 }
 
 /// Replay of a run from the lines of its log.
 class Replayed {
   public:
-    Replayed(const Scenario& scenario, const std::function<bool(double)>& progress)
-        : session_(scenario), progress_(progress) {
+    /// @param format  of the log
+    Replayed(const Scenario& scenario, std::uint64_t format,
+             const std::function<bool(double)>& progress)
+        : session_(scenario), format_(format), progress_(progress) {
         session_.network().add_sink(fingerprint_);
     }
 
@@ -114,7 +141,7 @@ class Replayed {
             run_to(start_of_run + logged_time(*end));
             return true;
         }
-        const Input input = input_in(line, session_.network());
+        const Input input = input_in(line, session_.network(), format_);
         if (input.time < session_.network().now()) {
             line.fail("out_of_range", "this input is before the one above it");
         }
@@ -143,6 +170,7 @@ class Replayed {
     }
 
     Session session_;
+    std::uint64_t format_;
     const std::function<bool(double)>& progress_;
     std::shared_ptr<Fingerprint> fingerprint_ = std::make_shared<Fingerprint>();
 };
@@ -181,9 +209,12 @@ class LogLines {
 };
 
 /// Reads the first line. @return the scenario that was run, as far as it can be known
-ScenarioFile read_head(const JsonElement& line, const fs::path& folder, InputReplay& result) {
-    const auto [version, scenario, seed, toml] =
-        members(line, std::array<std::string_view, 4>{"version", "scenario", "seed", "toml"});
+ScenarioFile read_head(const JsonElement& line, const fs::path& folder, InputReplay& result,
+                       std::uint64_t& format) {
+    constexpr std::array<std::string_view, 5> keys = {"format", "version", "scenario", "seed",
+                                                      "toml"};
+    const auto [format_of, version, scenario, seed, toml] = members(line, keys);
+    if (format_of) format = format_of->whole_number(1, input_log_format);
     result.recorded_by = needed(version, line, "version", "a text").text();
     const std::string path = folder / "scenario.toml";
     std::ifstream file(path, std::ios::binary);
@@ -242,8 +273,9 @@ InputReplay replay_inputs(const std::string& path, const std::function<bool(doub
         const auto head = lines.next();
         if (!head) throw InputError(lines.where(), "expected the first line of a log of inputs");
         const fs::path folder = log.has_parent_path() ? log.parent_path() : ".";
-        const Scenario scenario = load_scenario(read_head(*head, folder, result));
-        Replayed replayed(scenario, progress);
+        std::uint64_t format = 1;
+        const Scenario scenario = load_scenario(read_head(*head, folder, result, format));
+        Replayed replayed(scenario, format, progress);
         for (auto line = lines.next(); line; line = lines.next()) {
             if (replayed.take(*line, result)) break;
         }

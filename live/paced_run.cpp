@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "live/paced_run.hpp"
 
+#include "experiment/summary.hpp"
 #include "live/carriers/listeners.hpp"
 #include "live/carriers/web_sockets.hpp"
 #include "live/input_log.hpp"
+#include "traces/fingerprint.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <list>
+#include <set>
 #include <utility>
 
 namespace rovernet {
@@ -19,6 +22,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t events_a_slice = 256;  // each may reach thousands of robots
 constexpr Duration longest_wait = 10ms;        // interval of polling the clock and Ctrl-C
+constexpr Duration longest_unpaced = 200ms;    // the same, without a clock
 constexpr Duration shortest_wait = 1ms;        // the same, if it must hardly be late
 
 /// Server of a paced run: fronts and their listeners, one session, and the clock.
@@ -28,28 +32,47 @@ class PacedServer {
         for (const FrontListeners& each : options.fronts) open(each);
     }
 
-    /// Serves clients until the run is over.
-    void serve(Session& session, const Scenario& scenario, InputLog& log) {
-        session_ = &session;
-        session.step(start_of_run);  // movements may draw where robots begin
-        for (Open& each : open_) {
-            each.front->begin(session, scenario);
-            if (each.listeners.open_ports) open_ports(each);
-        }
+    /// Serves clients until the run is over, or must begin anew.
+    void serve(ScenarioRun& run, const Scenario& scenario, InputLog& log) {
+        run_ = &run;
+        session_ = &run.session();
+        session_->step(start_of_run);  // movements may draw where robots begin
+        for (Open& each : open_) begin(each, scenario);
+        new_seed_.reset();
         started_ = options_.clock();
         promised_ = start_of_run;
+        catch_up();
+        tell_held();
         while (!is_over() && options_.stop.go_on()) {
-            catch_up();
             listeners_.wait(promise(spare_time()));
             log.keep_up();
+            catch_up();
+            tell_held();
         }
         look();  // it may have been told to stop while it was late
+        for (const Open& each : open_) {
+            if (!new_seed_) new_seed_ = each.front->new_seed();
+        }
         session_ = nullptr;
     }
 
-    void close() {
-        web_.close(300ms);
-        listeners_.close(300ms);
+    /// Seed with which the run must begin anew; none: it is over.
+    std::optional<std::uint64_t> new_seed() const { return new_seed_; }
+
+    /// Ends the run for all clients. @return errors that ended it, and of programs
+    std::string close(const RunResult& result) {
+        Table metrics;
+        append_metrics(metrics, result.metrics);
+        for (const Open& each : open_) each.front->ended(result.fingerprint, metrics);
+        constexpr auto soon = 400ms;
+        web_.close(soon);
+        const bool is_hurried = !options_.stop.go_on();
+        std::vector<std::string> faults = listeners_.close(soon, is_hurried ? soon : 10s);
+        if (is_hurried) faults.clear();
+        for (const Open& each : open_) faults.insert(faults.begin(), each.front->fault());
+        faults.insert(faults.begin(), fault_);
+        std::erase(faults, "");
+        return fmt::format("{}", fmt::join(faults, "; "));
     }
 
     /// Client statistics for summary.json.
@@ -66,7 +89,6 @@ class PacedServer {
     std::optional<Lateness> lateness() const {
         return options_.speed ? std::optional(lateness_) : std::nullopt;
     }
-    const std::string& fault() const { return fault_; }
 
   private:
     /// Front with its listeners.
@@ -74,14 +96,22 @@ class PacedServer {
         const FrontListeners& listeners;
         std::unique_ptr<Front> front = nullptr;
         FrontListeners::Ports ports = {};
-        Time due = never;  // its next(), before the session went on
+        std::set<Front::Connection> clients = {};
+        Time due = never;      // its next(), before the session went on
+        Time held_at = never;  // its limit(), at which the run waits
+        Clock::time_point held_since = {};
     };
 
     void open(const FrontListeners& listeners) {
         Open& opened = open_.emplace_back(Open{listeners});
         opened.front = listeners.make(carrier_for(opened));
-        for (std::size_t i = 0; i < listeners.entries.size(); ++i)
-            listen(*opened.front, listeners, i);
+        for (const std::string& each : listeners.programs) {
+            listeners_.start(each, streams_for(opened, {}));
+        }
+        for (std::size_t i = 0; i < listeners.entries.size(); ++i) listen(opened, i);
+        if (!listeners.unix_path) return;
+        listeners_.listen_unix(*listeners.unix_path, streams_for(opened, {}));
+        options_.say("listening on " + *listeners.unix_path);
     }
 
     Front::Carrier carrier_for(Open& opened) {
@@ -89,35 +119,67 @@ class PacedServer {
             return {.send = [&opened](auto to, auto packet) { opened.ports[to]->write(packet); },
                     .close = [](auto) {}};
         }
-        if (opened.listeners.is_web) {
-            return {.send = [this](auto to, auto message) { web_.send(to, message); },
-                    .close = [this](auto which) { web_.close(which); },
-                    .send_binary = [this](auto to, auto bytes) { web_.send_binary(to, bytes); }};
-        }
-        return {.send = [this](auto to, auto message) { listeners_.send(to, message); },
-                .close = [this](auto which) { listeners_.close(which); }};
+        return {.send =
+                    [this](auto to, auto message) {
+                        to < WebSockets::first ? listeners_.send(to, message)
+                                               : web_.send(to, message);
+                    },
+                .close =
+                    [this](auto which) {
+                        which < WebSockets::first ? listeners_.close(which) : web_.close(which);
+                    },
+                .send_binary = [this](auto to, auto bytes) { web_.send_binary(to, bytes); },
+                .fingerprint = [this] { return run_->fingerprint().text(); }};
     }
 
-    void listen(Front& front, const FrontListeners& listeners, std::size_t number) {
-        const auto listener = std::make_shared<ListenerId>(ListenerId{number, 0});
+    /// Handlers of the connections of a front. A front that was replaced has none.
+    Listeners::Streams streams_for(Open& opened, std::shared_ptr<ListenerId> listener) {
+        const FrontListeners& wanted = opened.listeners;
         Listeners::Streams streams;
-        streams.opened = [this, &front, listener](auto client) {
-            if (reach_present()) front.opened(client, *listener);
+        streams.opened = [this, &opened, listener](auto client) {
+            opened.clients.insert(client);
+            if (listener && reach_present()) opened.front->opened(client, *listener);
         };
-        streams.received = [this, &front](auto from, auto bytes) {
-            return reach_present() ? front.received(from, bytes) : 0;
+        streams.received = [this, &opened](auto from, auto bytes) -> std::size_t {
+            if (!reach_present() || !opened.clients.contains(from)) return 0;
+            return opened.front->received(from, bytes);
         };
-        streams.closed = [this, &front](auto gone) {
-            if (reach_present()) front.closed(gone);
+        streams.closed = [this, &opened](auto gone) {
+            if (reach_present() && opened.clients.erase(gone) > 0) opened.front->closed(gone);
         };
-        streams.has_rate = options_.speed.has_value();  // else its clients set the pace
-        if (listeners.closing_message) streams.closing_message = listeners.closing_message;
-        const auto& [wanted, what] = listeners.entries[number];
-        const Address address = listeners.is_web ? web_.listen(wanted, std::move(streams))
-                                                 : listeners_.listen(wanted, std::move(streams));
+        // Without a speed clients set the pace.
+        streams.has_rate = wanted.has_rate && options_.speed.has_value();
+        if (wanted.closing_message) streams.closing_message = wanted.closing_message;
+        streams.line_error = wanted.line_error;
+        return streams;
+    }
+
+    void listen(Open& opened, std::size_t number) {
+        const FrontListeners::Entry& entry = opened.listeners.entries[number];
+        const auto listener = std::make_shared<ListenerId>(ListenerId{number, 0});
+        Listeners::Streams streams = streams_for(opened, listener);
+        const Address address =
+            entry.is_web ? web_.listen(entry.at, std::move(streams), opened.listeners.pages)
+                         : listeners_.listen(entry.at, std::move(streams));
         listener->port = address.port;
-        options_.say(fmt::format("listening on {} ({})", address.text(), what));
-        if (listeners.is_web) options_.say(web_.token_notice(address));
+        const std::string_view scheme = entry.is_web && entry.what.empty() ? "ws://" : "";
+        const std::string what = entry.what.empty() ? "" : fmt::format(" ({})", entry.what);
+        options_.say(fmt::format("listening on {}{}{}", scheme, address.text(), what));
+        if (entry.is_web) options_.say(web_.token_notice(address));
+    }
+
+    /// Starts a run at a front. A run that begins anew has a new front, unless this one asked for
+    /// it.
+    void begin(Open& opened, const Scenario& scenario) {
+        if (new_seed_ && !opened.front->new_seed()) {
+            for (const auto client : std::exchange(opened.clients, {})) {
+                client < WebSockets::first ? listeners_.close(client) : web_.close(client);
+            }
+            opened.front = opened.listeners.make(carrier_for(opened));
+        }
+        opened.held_at = never;
+        opened.front->begin(*session_, scenario);
+        if (opened.listeners.open_ports && opened.ports.empty()) open_ports(opened);
     }
 
     void open_ports(Open& opened) {
@@ -136,9 +198,25 @@ class PacedServer {
     Time now() const { return session_->network().now(); }
 
     bool is_over() const {
-        return now() >= session_->end() || !fault_.empty() ||
-               std::any_of(open_.begin(), open_.end(),
-                           [](const Open& each) { return each.front->is_done(); });
+        const auto any = [this](auto holds) {
+            return std::any_of(open_.begin(), open_.end(),
+                               [&](const Open& each) { return holds(*each.front); });
+        };
+        if (now() >= session_->end() && !any([](const Front& f) { return f.holds_end(); })) {
+            return true;
+        }
+        return !fault_.empty() || any([](const Front& f) { return f.is_done() || f.new_seed(); });
+    }
+
+    /// Tells fronts at whose limits the run waits for how long it does.
+    void tell_held() {
+        const auto time = options_.clock();
+        for (Open& each : open_) {
+            const Time limit = each.front->limit();
+            if (limit > now() || limit != each.held_at) each.held_since = time;
+            each.held_at = limit;
+            if (limit <= now()) each.front->held(time - each.held_since);
+        }
     }
 
     /// Simulated time of the clock.
@@ -265,6 +343,7 @@ class PacedServer {
     /// noticed.
     Duration longest_wait_now() const {
         constexpr int looks = 4;
+        if (!options_.speed) return longest_unpaced;
         if (!options_.most_late) return longest_wait;
         return std::clamp<Duration>(*options_.most_late / looks, shortest_wait, longest_wait);
     }
@@ -273,7 +352,9 @@ class PacedServer {
     Listeners listeners_;
     WebSockets web_{listeners_};
     std::list<Open> open_;
+    ScenarioRun* run_ = nullptr;  // the last that was served
     Session* session_ = nullptr;  // while it is served
+    std::optional<std::uint64_t> new_seed_;
     Clock::time_point started_;
     Time promised_ = start_of_run;  // time of the clock by which it looks again
     bool is_behind_ = false;        // the time of the clock
@@ -286,14 +367,22 @@ class PacedServer {
 
 LiveResult run_paced(Scenario scenario, const PacedOptions& options) {
     PacedServer server(options);
-    const auto drive = [&](ScenarioRun& run, InputLog& log) {
-        server.serve(run.session(), scenario, log);
-        if (Table counts = server.report(); !counts.entries.empty()) run.add_part("live", counts);
-        return true;
-    };
-    RunResult result = run_logged(scenario, options.folder, options.stop, drive);
-    server.close();
-    return {std::move(result), std::move(scenario), server.fault(), server.lateness()};
+    for (;;) {
+        const auto drive = [&](ScenarioRun& run, InputLog& log) {
+            server.serve(run, scenario, log);
+            Table counts = server.report();
+            if (!counts.entries.empty()) run.add_part("live", std::move(counts));
+            return !server.new_seed();
+        };
+        try {
+            RunResult result = run_logged(scenario, options.folder, options.stop, drive);
+            std::string fault = server.close(result);
+            return {std::move(result), std::move(scenario), std::move(fault), server.lateness()};
+        } catch (const Interrupted&) {
+            if (!server.new_seed() || !options.stop.go_on()) throw;
+        }
+        scenario.scenario.seed = *server.new_seed();
+    }
 }
 
 }  // namespace rovernet

@@ -60,8 +60,8 @@ class CellSearch {
     CellSearch(const MapFrame& frame, int columns);
 
     /// Indices of the cells on the shortest path from start to goal; empty if there is no path.
-    /// After the first call it has 16 bytes allocated for every cell of the map.
-    /// @param steps  FreeSpace::steps, the same in every call
+    /// The first call allocates 16 bytes for every cell of the map, which the CellSearch keeps.
+    /// @param steps  possible steps from each cell, see FreeSpace::steps; the same in every call
     std::vector<int> shortest_way(std::span<const std::uint8_t> steps, const PathEnd& start,
                                   const PathEnd& goal);
 

@@ -35,8 +35,9 @@ class LinkMonitor {
     void look_at(NodeId node);
     /// Updates all links after a scene change now.
     void scene_changed();
-    /// Handles the event of link changes: emits LinkUp and LinkDown, and queues the robots'
-    /// reactions for 1 us later, in the order of the keys of these events.
+    /// Handles the queued event of a link change. Emits LinkUp and LinkDown. Queues the callbacks
+    /// of on_link_lost() for 1 us later, in the order of the key of the node that lost the link,
+    /// then of the key of the node that it cannot hear any more (see World::key).
     void change_links();
     /// Calls react(from) whenever `node` cannot hear `from` any more.
     void on_link_lost(NodeId node, Callback<NodeId> react);

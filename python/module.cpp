@@ -223,6 +223,9 @@ void add_commands(SessionClass& session) {
              "Puts a robot elsewhere as the next step begins, at rest: at (x, y, z) [m] with a\n"
              "heading [rad]. None: the height, and the heading, that it has now.")
         .def("stop", stop, "robot"_a, "Stops a robot.")
+        .def("command", &command, "robot"_a,
+             "Gives a robot any command, by the keys of the lock-step protocol: v=0.5, w=0.1.\n"
+             "Times are in seconds, data are bytes.")
         .def("send", &send, "robot"_a, "data"_a, "to"_a = py::none(), "port"_a = 0,
              "size"_a = py::none(),
              "Lets a robot send bytes as the next step begins.\n\n"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "experiment/summary.hpp"
+#include "python/command_values.hpp"
 #include "python/session_object.hpp"
 
 #include <pybind11/numpy.h>
@@ -74,11 +75,14 @@ inline void send(SessionObject& session, const std::string& robot, const py::byt
     SendCommand send{.port = static_cast<std::uint16_t>(whole_in("port", port)), .payload = data};
     const std::size_t row = session.row(robot);
     if (to) send.to = robot_named(session.network(), *to);
-    if (to && *to == robot) {
-        throw py::value_error("send: expected another robot, or to=None for everyone");
-    }
     if (size) send.size = static_cast<std::uint32_t>(whole_in("size", *size));
     session.run().command(row, std::move(send));
+}
+
+inline void command(SessionObject& session, const std::string& robot, const py::kwargs& fields) {
+    const std::size_t row = session.row(robot);
+    session.run().command(row,
+                          command_of(AllCommands{}, session, session.run().robots()[row], fields));
 }
 
 /// NumPy array with a value for each of the session's robots, computed by `value`.

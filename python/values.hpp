@@ -50,8 +50,11 @@ inline std::int64_t whole_number(py::handle given, const std::string& place) {
     throw InputError({.source = place}, "expected a whole number below 2^63");
 }
 
-/// @param place  path of the value in Python notation, for errors: scenario["radio"]["power"].
-///               Numbers without a unit are in SI units, as on the command line
+/// Scenario value from a Python object: dict, list, tuple, str, bool or number. Numbers without a
+/// unit are in SI units, as on the command line.
+/// @param place  path of the value in Python notation, for errors: scenario["radio"]["power"]
+/// @throws InputError for objects of other types, keys that are not texts, whole numbers that do
+///         not fit into 64 bits, and more than 32 levels
 inline Value to_value(py::handle given, const std::string& place, int depth = 0) {
     constexpr int deepest = 32;
     const Location where{.source = place, .is_option = true};

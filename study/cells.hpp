@@ -23,7 +23,7 @@ struct Rows {
     std::vector<std::string> averaged;  ///< varied keys over whose values a row is averaged
     /// Varied keys with one value in each row, but different values in different rows.
     std::vector<std::string> along;
-    /// Combinations of values of the keys over which rows are averaged, in order of first use.
+    /// Combinations of values of the keys in `averaged`, in order of first use.
     std::vector<Table> combinations;
     std::vector<Row> list;  ///< rows, in the order of their first points in the study
 };

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "cli/runs/fronts.hpp"
 #include "cli/runs/run_output.hpp"
 #include "cli/runs/serving.hpp"
 #include "cli/terminal/diagnostics.hpp"
@@ -8,7 +9,6 @@
 #include "live/emulate/listeners.hpp"
 #include "live/emulate/robot_network.hpp"
 #include "live/player/listeners.hpp"
-#include "live/rosbridge/listener.hpp"
 
 #include <fmt/format.h>
 
@@ -20,7 +20,8 @@ namespace rovernet::cli {
 namespace {
 
 struct EmulateArguments : FileArguments {
-    std::optional<std::string> out, udp, player, rosbridge;
+    std::optional<std::string> out, udp, player;
+    FrontArguments fronts;
     std::string late = "10ms", on_late = "warn";
     double speed = 1;
     Reach reach;
@@ -45,7 +46,7 @@ PacedOptions emulation_options(const EmulateArguments& a, const Scenario& scenar
         options.fronts.push_back(
             player_ports(a.reach.without_token(*a.player), robot_names(scenario), {}));
     }
-    if (a.rosbridge) options.fronts.push_back(rosbridge_listener(a.reach.with_token(*a.rosbridge)));
+    a.fronts.append_to(options.fronts, a.reach);
     options.say = announcer(a.json ? Announced::by_notice : Announced::by_output);
     options.most_late = time_of("--late", a.late);
     options.late_ends = a.on_late == "fail";
@@ -137,11 +138,7 @@ void add_emulate(Command app) {
                     "serve Player clients, too, at 127.0.0.1:PORT and the ports that follow; port "
                     "0: any that is free (default: 6665)")
         .usually(player_address.data());
-    command
-        .add_option("--rosbridge", a.rosbridge,
-                    "serve ROS clients, too, at 127.0.0.1:PORT; port 0: any that is free (default: "
-                    "9090)")
-        .usually(rosbridge_address.data());
+    a.fronts.add_to(command);
     command.add_option("--speed", a.speed, "simulated per real time").check(above_zero());
     command.add_option("--late", a.late, "real time by which it may be behind the clock")
         .shows_default();

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include "cli/runs/fronts.hpp"
 #include "cli/runs/run_output.hpp"
 #include "cli/runs/serving.hpp"
 #include "cli/terminal/diagnostics.hpp"
 #include "cli/terminal/options.hpp"
-#include "live/lockstep/live_run.hpp"
+#include "live/lockstep/listeners.hpp"
 #include "live/player/listeners.hpp"
-#include "live/rosbridge/listener.hpp"
 #include "scenario/document/quantity.hpp"
 #include "scenario/scenario_file.hpp"
 
@@ -19,12 +19,15 @@ struct LiveArguments : FileArguments {
     std::vector<std::string> controllers;
     std::optional<std::uint64_t> wait_for;
     std::string on_loss = "end";
-    std::optional<std::string> player, rosbridge;
+    std::optional<std::string> player;
+    FrontArguments fronts;
     std::optional<double> speed;
     bool one_port = false, lockstep = false;
     Reach reach;
     bool json = false;
 
+    bool is_by_clock() const { return player || fronts.any(); }
+    bool has_controllers() const { return !controllers.empty() || listen || web || unix_path; }
     Announced announced() const { return json ? Announced::by_notice : Announced::by_output; }
 };
 
@@ -32,19 +35,19 @@ std::string folder_of(const LiveArguments& a, const Scenario& scenario) {
     return results_folder(a.out, scenario, a.options);
 }
 
-LiveOptions lockstep_options(const LiveArguments& a, const Scenario& scenario) {
-    LiveOptions options{
-        .folder = folder_of(a, scenario), .controllers = a.controllers, .unix_path = a.unix_path};
-    if (a.listen) options.listen = a.reach.without_token(*a.listen);
-    if (a.web) options.web = a.reach.with_token(*a.web);
+FrontListeners controller_listeners(const LiveArguments& a,
+                                    const std::function<void(std::string_view)>& say) {
+    ControllerAccess access{.programs = a.controllers, .unix_path = a.unix_path};
+    if (a.listen) access.listen = a.reach.without_token(*a.listen);
+    if (a.web) access.web = a.reach.with_token(*a.web);
+    Lockstep::Settings settings{.say = say};
     const std::size_t started = std::max<std::size_t>(a.controllers.size(), 1);
-    options.lockstep.wait_for = a.wait_for ? static_cast<std::size_t>(*a.wait_for) : started;
-    options.lockstep.on_loss = a.on_loss == "stop"   ? OnLoss::stop
-                               : a.on_loss == "wait" ? OnLoss::wait
-                                                     : OnLoss::end;
-    if (a.patience) options.patience = time_of("--patience", *a.patience);
-    options.say = announcer(a.announced());
-    return options;
+    settings.wait_for = a.wait_for ? static_cast<std::size_t>(*a.wait_for) : started;
+    settings.on_loss = a.on_loss == "stop"   ? OnLoss::stop
+                       : a.on_loss == "wait" ? OnLoss::wait
+                                             : OnLoss::end;
+    if (a.patience) settings.patience = time_of("--patience", *a.patience);
+    return lockstep_listeners(access, settings);
 }
 
 FrontListeners player_listeners(const LiveArguments& a, const std::optional<PlayerConfig>& config,
@@ -79,8 +82,8 @@ void tell_of(const PlayerConfig& config, const Scenario& scenario) {
     for (const std::string& text : mapping_notices(config, ips)) notice(text);
 }
 
-/// Runs FILE (or the world of a Player configuration) paced by the clock.
-LiveResult run_by_clock(LiveArguments a) {
+/// Runs FILE, or the world of a Player configuration.
+LiveResult run_by_fronts(LiveArguments a) {
     std::optional<PlayerConfig> config;
     if (a.player && a.file.ends_with(".cfg")) {
         config = read_player_config(a.file);
@@ -91,36 +94,27 @@ LiveResult run_by_clock(LiveArguments a) {
     if (config) tell_of(*config, scenario);
     PacedOptions options;
     options.folder = folder_of(a, scenario);
+    options.say = announcer(a.announced());
     if (a.speed) options.speed = a.speed;
-    if (a.lockstep) options.speed.reset();
+    if (a.lockstep || !a.is_by_clock()) options.speed.reset();
+    if (a.has_controllers()) options.fronts.push_back(controller_listeners(a, options.say));
     if (a.player) options.fronts.push_back(player_listeners(a, config, scenario));
-    if (a.rosbridge) options.fronts.push_back(rosbridge_listener(a.reach.with_token(*a.rosbridge)));
+    a.fronts.append_to(options.fronts, a.reach);
     ServingStop stop;
     options.stop = stop.rules();
-    options.say = announcer(a.announced());
     return run_paced(scenario, options);
 }
 
-LiveResult run_lockstep(const LiveArguments& a) {
-    const Scenario scenario = scenario_of(a);
-    LiveOptions options = lockstep_options(a, scenario);
-    ServingStop stop;
-    options.stop = stop.rules();
-    return rovernet::run_live(scenario, options);
-}
-
 void run_live(const LiveArguments& a) {
-    const bool is_by_clock = a.player || a.rosbridge;
-    const bool is_in_lockstep = !a.controllers.empty() || a.listen || a.web || a.unix_path;
-    if (!is_by_clock && !is_in_lockstep) {
+    if (!a.is_by_clock() && !a.has_controllers()) {
         throw CommandEnd(usage,
                          "live: expected --controller, --listen-json, --listen-web, --unix, "
                          "--player or --rosbridge");
     }
-    if (!is_by_clock && a.speed) {
+    if (!a.is_by_clock() && a.speed) {
         throw CommandEnd(usage, "live: --speed needs --player or --rosbridge");
     }
-    const LiveResult result = is_by_clock ? run_by_clock(a) : run_lockstep(a);
+    const LiveResult result = run_by_fronts(a);
     print_run(result.scenario, result.run, a.json);
     if (!result.fault.empty()) throw CommandEnd(failed, result.fault);
 }
@@ -153,23 +147,15 @@ void add_by_clock(Command live, LiveArguments& a) {
                 "serve Player clients, at 127.0.0.1:PORT and the ports that follow, one for "
                 "each robot; port 0: any that is free (default: 6665)")
             .usually(player_address.data());
-    const Option rosbridge =
-        live.add_option("--rosbridge", a.rosbridge,
-                        "serve ROS clients by the rosbridge protocol, at 127.0.0.1:PORT; port 0: "
-                        "any that is free (default: 9090)")
-            .usually(rosbridge_address.data());
-    for (const char* other : {"--controller", "--listen-json", "--listen-web", "--unix"}) {
-        player.excludes(live.option(other));
-        rosbridge.excludes(live.option(other));
-    }
+    const std::vector<Option> others = a.fronts.add_to(live);
     live.add_flag("--player-one-port", a.one_port,
                   "all robots at one port: the devices of the first have index 0, and so on")
         .needs(player);
     const Option lockstep =
         live.add_flag("--player-lockstep", a.lockstep,
                       "time goes on by 0.1 s once all clients that pull have asked for data")
-            .needs(player)
-            .excludes(rosbridge);
+            .needs(player);
+    for (const Option& each : others) lockstep.excludes(each);
     live.add_option("--speed", a.speed,
                     "simulated per real time, with --player or --rosbridge (default: 1)")
         .check(above_zero())

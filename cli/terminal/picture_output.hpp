@@ -10,8 +10,8 @@ namespace rovernet::cli {
 /// @throws InputError unless the name ends in .svg, .png or .pdf
 void check_picture_name(const std::string& out);
 
-/// Writes a picture in the format of the file name's ending, completely or not at all. @throws
-/// RunError
+/// Writes a picture in the format of the file name's ending, completely or not at all.
+/// @throws RunError
 void write_picture(const std::string& out, const std::string& svg);
 
 }  // namespace rovernet::cli

@@ -44,7 +44,7 @@ struct DayLog {
     /// Legs (pieces of movement) by NodeId; empty: the robot stays at its scenario position.
     std::vector<std::vector<Leg>> legs;
     std::vector<Said> said;            ///< sent messages, in order of time
-    std::vector<Turned> turned;        ///< switched robots, in order of time
+    std::vector<Turned> turned;        ///< switchings of robots on or off, in order of time
     std::vector<Heard> heard;          ///< receptions, in order of time; of ns-2 traces only
     PlayedDay recorded;                ///< recorded outcome, with the radio models of that run
     std::vector<std::string> notices;  ///< sentences about missing parts of the trace

@@ -36,9 +36,10 @@ class RecordedDay {
     /// @param path  recorded trace
     /// @throws InputError if the file is no recorded trace, or has no scenario
     explicit RecordedDay(const std::string& path);
-    /// Takes a recorded run from the content of any trace.
+    /// Recorded run whose trace, in any format, has already been read.
     /// @param run   scenario, and names of robots by NodeId
-    /// @param path  path of the trace, for errors
+    /// @param path  path of the trace, for errors, and to find files that are not attached
+    /// @param log   actions of the robots, and outcome of the run, from the trace
     /// @throws InputError if the scenario cannot be read
     RecordedDay(RecordedRun run, const std::string& path, DayLog log);
 

@@ -18,7 +18,7 @@
 #include <unistd.h>
 #include <utility>
 
-// Accept loop and socket options shared by all listeners (Boost.Asio).
+// Accept loop, pauses and socket options shared by all listeners (Boost.Asio).
 
 namespace rovernet {
 
@@ -96,6 +96,17 @@ void accept_all(Acceptor& acceptor, Take take) {
         auto timer = std::make_shared<asio::steady_timer>(acceptor.get_executor(), again_after);
         timer->async_wait(
             [&acceptor, take, timer](boost::system::error_code) { accept_all(acceptor, take); });
+    });
+}
+
+/// Calls carrier.read(client) once the client's input rate permits it, unless it has gone by then.
+template <class Carrier, class Client>
+void read_later(Carrier& carrier, const std::shared_ptr<Client>& client) {
+    using Timer = boost::asio::steady_timer;
+    const auto pause = std::make_shared<Timer>(carrier.io, client->rate.read_again());
+    pause->async_wait([&carrier, client, pause](boost::system::error_code) {
+        client->is_reading = false;
+        if (carrier.clients.contains(client->id)) carrier.read(client);
     });
 }
 

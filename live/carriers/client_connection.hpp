@@ -20,9 +20,10 @@ struct ClientConnection {
     using Clock = std::chrono::steady_clock;
     using Socket = boost::asio::generic::stream_protocol::socket;
 
-    ClientConnection(Socket taken, Listeners::Connection number, const Listeners::Streams* users)
+    ClientConnection(Socket taken, Listeners::Connection number, const Listeners::Streams& users)
         : socket(std::move(taken)), id(number), streams(users) {}
 
+    bool carries_lines() const { return streams.line_error != nullptr; }
     /// Whether the bytes received so far contain a complete line.
     bool has_line() {
         const std::size_t end = input.find('\n', searched);
@@ -46,7 +47,7 @@ struct ClientConnection {
 
     Socket socket;
     Listeners::Connection id;
-    const Listeners::Streams* streams;  ///< null: a connection that carries lines
+    const Listeners::Streams& streams;
     Clock::time_point since = Clock::now();
     InputRate rate = {};
     Clock::time_point closes_at = Clock::time_point::max();  ///< deadline for unsent data

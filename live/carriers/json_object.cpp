@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "live/carriers/json_object.hpp"
 
+#include "scenario/document/quantity.hpp"
 #include "sim/error.hpp"
 
 #include <algorithm>
@@ -92,6 +93,15 @@ std::string_view JsonElement::text() const {
     std::string_view text;
     if (value.get_string().get(text) != simdjson::SUCCESS) expected("a text");
     return text;
+}
+
+double JsonElement::seconds() const {
+    const std::string quantity(text());
+    try {
+        return read_quantity(Value(quantity), path.key, Dimension::time);
+    } catch (const InputError& fault) {
+        fail("bad_value", fault.message());
+    }
 }
 
 simdjson::dom::object JsonElement::object() const {

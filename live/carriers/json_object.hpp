@@ -56,9 +56,27 @@ struct JsonElement {
     std::uint64_t whole_number(std::uint64_t lowest, std::uint64_t highest) const;
     bool truth() const;
     std::string_view text() const;
+    /// Time such as "100 ms", in seconds.
+    double seconds() const;
     simdjson::dom::object object() const;
     simdjson::dom::array array() const;
 };
+
+inline constexpr std::size_t most_items = 100'000;  ///< largest number of items of a list
+
+/// Calls use(element) for each item of a list.
+/// @throws RequestError "bad_type", "too_many"
+template <class Use>
+void for_each_item(const JsonElement& list, Use use) {
+    const simdjson::dom::array items = list.array();
+    if (items.size() > most_items) {
+        list.fail("too_many", fmt::format("found more than {} items", most_items));
+    }
+    std::size_t index = 0;
+    for (const simdjson::dom::element& item : items) {
+        use(JsonElement{item, {.above = &list.path, .index = index++}});
+    }
+}
 
 /// Throws the error of an unknown key of an object, with a suggestion.
 [[noreturn]] void fail_unknown_key(const JsonPath& object, std::string_view key,

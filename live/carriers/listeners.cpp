@@ -40,15 +40,7 @@ constexpr auto closing_time = std::chrono::seconds(1);
 }  // namespace
 
 struct Listeners::State {
-    explicit State(Users given) : users(std::move(given)) {}
-
     using Shared = std::shared_ptr<ClientConnection>;
-
-    /// TCP listener with the handlers of its connections; none: connections carry lines.
-    struct TcpListener {
-        asio::ip::tcp::acceptor acceptor;
-        std::optional<Streams> streams = {};
-    };
 
     /// Descriptor owned by the caller, with the function to call when it is readable.
     struct Watch {
@@ -57,12 +49,14 @@ struct Listeners::State {
     };
     using Watched = std::shared_ptr<Watch>;
 
-    void add(Socket socket, const Streams* streams = nullptr) {
-        if (clients.size() >= most_connections && !make_room()) return;
+    /// @return the new connection; null if there is no room for it
+    Shared add(Socket socket, const Streams& streams) {
+        if (clients.size() >= most_connections && !make_room()) return nullptr;
         const auto client = std::make_shared<ClientConnection>(std::move(socket), next++, streams);
         clients[client->id] = client;
-        if (streams) streams->opened(client->id);
+        streams.opened(client->id);
         read(client);
+        return client;
     }
 
     /// Closes the oldest connection that has sent nothing. @return whether there was one
@@ -76,42 +70,33 @@ struct Listeners::State {
     }
 
     template <class Acceptor>
-    void accept(Acceptor& acceptor, const Streams* streams = nullptr) {
-        accept_all(acceptor, [this, streams](auto socket) {
+    void accept(Acceptor& acceptor, const Streams& streams) {
+        accept_all(acceptor, [this, &streams](auto socket) {
             prepare(socket, streams);
             add(std::move(socket), streams);
         });
     }
-    static void prepare(asio::ip::tcp::socket& socket, const Streams* streams) {
+    static void prepare(asio::ip::tcp::socket& socket, const Streams& streams) {
         error_code ignored;
         socket.set_option(asio::ip::tcp::no_delay(true), ignored);
         keep_alive(socket.native_handle());
-        if (!streams) return;
+        if (streams.line_error) return;
         socket.set_option(asio::socket_base::send_buffer_size(stream_buffer), ignored);
     }
-    static void prepare(asio::local::stream_protocol::socket&, const Streams*) {}
+    static void prepare(asio::local::stream_protocol::socket&, const Streams&) {}
 
     static bool is_busy(const ClientConnection& client) {
-        if (client.streams) return client.sending.size() + client.queued.size() > much_waiting;
-        return client.is_writing || client.input.size() > longest_line;
+        if (client.carries_lines()) return client.is_writing || client.input.size() > longest_line;
+        return client.sending.size() + client.queued.size() > much_waiting;
     }
 
     void read(const Shared& client) {
         if (client->is_reading || client->has_ended || client->is_closing || is_busy(*client))
             return;
         client->is_reading = true;
-        if (client->rate.read_again() > Clock::now()) return read_later(client);
+        if (client->rate.read_again() > Clock::now()) return read_later(*this, client);
         client->socket.async_wait(Socket::wait_read,
                                   [this, client](error_code error) { take_in(client, error); });
-    }
-
-    /// Continues reading once the input rate permits it.
-    void read_later(const Shared& client) {
-        const auto pause = std::make_shared<asio::steady_timer>(io, client->rate.read_again());
-        pause->async_wait([this, client, pause](error_code) {
-            client->is_reading = false;
-            if (clients.contains(client->id)) read(client);
-        });
     }
 
     /// Reads the available bytes. Memory is allocated only now, so that idle connections need none.
@@ -124,7 +109,7 @@ struct Listeners::State {
             const std::size_t got = client->socket.read_some(
                 asio::buffer(client->input.data() + before, portion), error);
             client->input.resize(before + got);
-            if (client->streams) acknowledge_at_once(client->socket.native_handle());
+            if (!client->carries_lines()) acknowledge_at_once(client->socket.native_handle());
         }
         if (error) client->has_ended = true;
         serve(client);
@@ -139,7 +124,7 @@ struct Listeners::State {
     /// Passes on the next line, if the previous one is answered, or all bytes; then continues
     /// reading.
     void serve(const Shared& client) {
-        if (client->streams) return serve_stream(client);
+        if (!client->carries_lines()) return serve_stream(client);
         const bool may_speak = client->is_answered && !client->is_writing && !client->is_closing;
         if (may_speak) hand_over(client);
         const bool has_spoken_now = may_speak && !client->is_answered;
@@ -151,9 +136,9 @@ struct Listeners::State {
     void serve_stream(const Shared& client) {
         const std::string bytes = std::exchange(client->input, {});
         if (!bytes.empty() && !client->is_closing) {
-            const std::size_t messages = client->streams->received(client->id, bytes);
+            const std::size_t messages = client->streams.received(client->id, bytes);
             if (messages > 0) client->has_sent = true;
-            if (client->streams->has_rate) client->rate.add(messages, bytes.size(), Clock::now());
+            if (client->streams.has_rate) client->rate.add(messages, bytes.size(), Clock::now());
         }
         if (!client->has_ended) return read(client);
         client->is_closing = true;
@@ -180,7 +165,7 @@ struct Listeners::State {
         if (line.ends_with('\r')) line.pop_back();
         const bool is_first = !std::exchange(client->has_sent, true);
         client->is_answered = false;
-        if (!users.line(client->id, line) && is_first) client->is_closing = true;
+        if (client->streams.received(client->id, line) == 0 && is_first) client->is_closing = true;
     }
 
     void refuse_long(const Shared& client) {
@@ -195,7 +180,15 @@ struct Listeners::State {
         client->input.clear();
         client->input.shrink_to_fit();
         client->is_closing = true;
-        users.refuse(client->id, why);
+        send_line(client, client->streams.line_error(why));
+    }
+
+    /// Answers the last line of a client.
+    void send_line(const Shared& client, std::string_view line) {
+        client->queued += line;
+        client->queued += '\n';
+        client->is_answered = true;
+        if (!client->is_writing) write(client);
     }
 
     void write(const Shared& client) {
@@ -222,7 +215,7 @@ struct Listeners::State {
         if (client->messages > most_messages || client->queued.size() > most_waiting) {
             client->is_closing = true;
             client->closes_at = Clock::now() + closing_time;
-            client->queued = client->streams->closing_message(client->messages);
+            client->queued = client->streams.closing_message(client->messages);
         }
         if (!client->is_writing) write(client);
     }
@@ -237,15 +230,7 @@ struct Listeners::State {
         error_code ignored;
         client->socket.shutdown(Socket::shutdown_both, ignored);
         client->socket.close(ignored);
-        client->streams ? client->streams->closed(client->id) : users.closed(client->id);
-    }
-
-    /// Listens on an address. @return it, with its port
-    Address listen(const Address& address, std::optional<Streams> streams) {
-        tcp_listeners.push_back({listen_on(io, address), std::move(streams)});
-        TcpListener& listener = tcp_listeners.back();
-        accept(listener.acceptor, listener.streams ? &*listener.streams : nullptr);
-        return {address.host, listener.acceptor.local_endpoint().port()};
+        client->streams.closed(client->id);
     }
 
     /// Makes wait() return at this time with microsecond accuracy; epoll timeouts are in
@@ -280,19 +265,21 @@ struct Listeners::State {
         for (const auto& client : idle) close(client);
     }
 
-    bool has_output() const {
-        return std::any_of(clients.begin(), clients.end(), [](const auto& each) {
-            return each.second->is_writing || !each.second->queued.empty();
+    bool has_output(bool of_lines_only) const {
+        return std::any_of(clients.begin(), clients.end(), [&](const auto& each) {
+            const ClientConnection& client = *each.second;
+            if (of_lines_only && !client.carries_lines()) return false;
+            return client.is_writing || !client.queued.empty();
         });
     }
 
-    Users users;
     asio::io_context io{1};
     asio::executor_work_guard<asio::io_context::executor_type> work = asio::make_work_guard(io);
     std::map<Connection, Shared> clients;
     Connection next = 0;
     std::vector<Child> children;
-    std::list<TcpListener> tcp_listeners;  // clients refer to them
+    std::list<Streams> users;  // clients refer to them
+    std::list<asio::ip::tcp::acceptor> acceptors;
     std::optional<asio::local::stream_protocol::acceptor> local;
     std::optional<NotedFile> unix_path;
     Clock::time_point looked = Clock::now();
@@ -301,11 +288,11 @@ struct Listeners::State {
     Clock::time_point rings_at = Clock::time_point::max();
 };
 
-Listeners::Listeners(Users users) : state_(std::make_unique<State>(std::move(users))) {}
+Listeners::Listeners() : state_(std::make_unique<State>()) {}
 
 Listeners::~Listeners() { Child::end(state_->children); }
 
-void Listeners::start(const std::string& command) {
+void Listeners::start(const std::string& command, Streams streams) {
     if (state_->children.size() >= most_connections) {
         throw RunError(fmt::format("{}: expected {} programs at most", command, most_connections));
     }
@@ -313,20 +300,21 @@ void Listeners::start(const std::string& command) {
     Socket socket(state_->io);
     socket.assign(asio::generic::stream_protocol(AF_UNIX, 0), child.take_socket());
     state_->children.push_back(std::move(child));
-    state_->add(std::move(socket));
-    state_->clients.rbegin()->second->has_sent = true;  // it may take its time
+    const auto client =
+        state_->add(std::move(socket), state_->users.emplace_back(std::move(streams)));
+    if (client) client->has_sent = true;  // it may take its time
 }
-
-Address Listeners::listen(const Address& address) { return state_->listen(address, std::nullopt); }
 
 Address Listeners::listen(const Address& address, Streams streams) {
-    return state_->listen(address, std::move(streams));
+    auto& acceptor = state_->acceptors.emplace_back(listen_on(state_->io, address));
+    state_->accept(acceptor, state_->users.emplace_back(std::move(streams)));
+    return {address.host, acceptor.local_endpoint().port()};
 }
 
-void Listeners::listen_unix(const std::string& path) {
+void Listeners::listen_unix(const std::string& path, Streams streams) {
     state_->local.emplace(listen_on_path(state_->io, path));
     state_->unix_path.emplace(path);
-    state_->accept(*state_->local);
+    state_->accept(*state_->local, state_->users.emplace_back(std::move(streams)));
 }
 
 void Listeners::watch(int descriptor, std::function<bool()> readable) {
@@ -339,12 +327,8 @@ void Listeners::watch(int descriptor, std::function<bool()> readable) {
 void Listeners::send(Connection to, std::string_view message) {
     const auto found = state_->clients.find(to);
     if (found == state_->clients.end()) return;
-    ClientConnection& client = *found->second;
-    if (client.streams) return state_->queue(found->second, message);
-    client.queued += message;
-    client.queued += '\n';
-    client.is_answered = true;
-    if (!client.is_writing) state_->write(found->second);
+    found->second->carries_lines() ? state_->send_line(found->second, message)
+                                   : state_->queue(found->second, message);
 }
 
 void Listeners::close(Connection which) {
@@ -353,9 +337,6 @@ void Listeners::close(Connection which) {
     found->second->is_closing = true;
     if (!found->second->is_writing) state_->close_later(found->second);
 }
-
-std::size_t Listeners::connections() const { return state_->clients.size(); }
-bool Listeners::listens() const { return !state_->tcp_listeners.empty() || state_->local; }
 
 boost::asio::io_context& Listeners::io() { return state_->io; }
 
@@ -371,16 +352,15 @@ void Listeners::wait(std::chrono::nanoseconds most) {
     state_->close_idle();
 }
 
-std::vector<std::string> Listeners::close(std::chrono::milliseconds most) {
+std::vector<std::string> Listeners::close(std::chrono::milliseconds soon,
+                                          std::chrono::milliseconds most) {
     state_->has_closed = true;
-    state_->users = {.line = [](auto, auto) { return true; },
-                     .refuse = [](auto, auto&) {},
-                     .closed = [](auto) {}};
-    for (State::TcpListener& listener : state_->tcp_listeners) {
-        if (listener.streams) listener.streams.emplace();  // nobody is told any more
+    for (Streams& users : state_->users) {  // nobody is told any more
+        users.opened = users.closed = [](auto) {};
+        users.received = [](auto, auto) { return std::size_t{1}; };
     }
-    const auto until = Clock::now() + most;
-    while (state_->has_output() && Clock::now() < until) {
+    const auto begun = Clock::now();
+    while (state_->has_output(Clock::now() >= begun + soon) && Clock::now() < begun + most) {
         state_->io.run_one_for(std::chrono::milliseconds(10));
     }
     while (!state_->clients.empty()) {

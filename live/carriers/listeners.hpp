@@ -48,32 +48,26 @@ namespace rovernet {
 class Listeners {
   public:
     using Connection = std::uint32_t;
-    /// Handlers of connections that carry lines. They may call send().
-    struct Users {
-        /// Handles a line of a client. @return whether the line belongs to the protocol
-        std::function<bool(Connection from, std::string_view line)> line;
-        std::function<void(Connection to, const RequestError& why)> refuse;
-        std::function<void(Connection gone)> closed;
-    };
-
-    /// Handlers of connections that carry bytes. They may call send() and close().
+    /// Handlers of connections, which carry bytes or lines. They may call send() and close().
     struct Streams {
         std::function<void(Connection opened)> opened = [](auto) {};
-        /// Handles received bytes. @return number of messages that are now complete
+        /// Handles received bytes, or a line without its end. @return number of messages that are
+        /// now complete; 0 for a line that does not belong to the protocol
         std::function<std::size_t(Connection from, std::string_view bytes)> received =
             [](auto, auto) { return std::size_t{0}; };
         std::function<void(Connection gone)> closed = [](auto) {};
-        /// Whether the input rate of clients is limited, see InputRate.
+        /// Whether the input rate of clients is limited, see InputRate; for bytes.
         bool has_rate = true;
-        /// Last message to a client that is disconnected since it does not read. `lost`: number of
-        /// messages to it that are dropped.
+        /// Last message to a client of bytes that is disconnected since it does not read. `lost`:
+        /// number of messages to it that are dropped.
         std::function<std::string(std::size_t lost)> closing_message = [](auto) {
             return std::string();
         };
+        /// Line that tells a client why it is disconnected; none: connections carry bytes.
+        std::function<std::string(const RequestError& why)> line_error = {};
     };
 
-    /// @param users  handlers of lines; unused if no connection carries lines
-    explicit Listeners(Users users = {});
+    Listeners();
     /// Closes all connections; ends programs that still run.
     ~Listeners();
     Listeners(const Listeners&) = delete;
@@ -81,17 +75,16 @@ class Listeners {
 
     /// Starts a program by the shell, and connects to its standard input and output.
     /// @throws RunError if the program cannot be started
-    void start(const std::string& command);
-    /// Listens on an address for clients that send lines. Access is not restricted.
+    void start(const std::string& command, Streams streams);
+    /// Listens on an address for clients. May be called for several addresses. Access is not
+    /// restricted.
     /// @param address  port 0: any free port
     /// @return the address with the port
     /// @throws RunError if the address is in use, or not an address of this machine
-    Address listen(const Address& address);
-    /// Listens for clients that send and receive bytes. May be called for several addresses.
     Address listen(const Address& address, Streams streams);
     /// Listens on a Unix socket, accessible to this user only. A stale socket file is replaced.
     /// @throws RunError
-    void listen_unix(const std::string& path);
+    void listen_unix(const std::string& path, Streams streams);
 
     /// Calls `readable` whenever a descriptor has data to read, until it returns false.
     /// @throws RunError
@@ -103,19 +96,16 @@ class Listeners {
     /// Closes a connection once all data is sent. The handler `closed` is called later, not by this
     /// call.
     void close(Connection which);
-    /// Number of controllers that may still send lines; with a listener more may connect.
-    std::size_t connections() const;
-    bool listens() const;
     /// Waits for an event, at most `most`, and calls its handler; one event for each call. May
     /// return without an event.
     void wait(std::chrono::nanoseconds most);
     /// Event loop that wait() runs, for other carriers of this process.
     boost::asio::io_context& io();
-    /// Sends all remaining lines, waiting at most `most`, then closes all connections. Waits for
-    /// started programs, again at most `most`, and ends the programs that still run. No handler is
-    /// called any more.
+    /// Sends all remaining data, waiting for clients of bytes at most `soon`, for others at most
+    /// `most`, then closes all connections. Waits for started programs, again at most `most`, and
+    /// ends the programs that still run. No handler is called any more.
     /// @return errors of programs: "python3 x.py ended with 1"
-    std::vector<std::string> close(std::chrono::milliseconds most);
+    std::vector<std::string> close(std::chrono::milliseconds soon, std::chrono::milliseconds most);
 
   private:
     struct State;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "live/carriers/request.hpp"
 
-#include "files/base64.hpp"
-#include "live/carriers/json_object.hpp"
+#include "live/carriers/command_reader.hpp"
 #include "network/network.hpp"
 #include "scenario/document/quantity.hpp"
 
@@ -13,7 +12,6 @@ namespace {
 
 namespace dom = simdjson::dom;
 
-constexpr std::size_t most_items = 100'000;                       // of a list
 constexpr std::size_t longest_name = 64;                          // [bytes]
 constexpr std::uint64_t largest_count = std::uint64_t{1} << 53U;  // whole in every program
 
@@ -23,9 +21,11 @@ std::string advised(std::string message, const std::string& advice) {
 }
 
 /// Robots as the lines of one controller may name them.
-struct Robots {
-    const Network& network;
-    std::span<const NodeId> own;
+class Robots : public CommandReader {
+  public:
+    /// @param sender_of  robot that sends the message that is read, if it is one
+    Robots(const Network& in, std::span<const NodeId> of, std::optional<NodeId> sender_of = {})
+        : network(in), own(of), sender(sender_of) {}
 
     [[noreturn]] void fail_unknown(const JsonElement& at, std::string_view name) const {
         constexpr std::size_t listed = 8;
@@ -57,30 +57,22 @@ struct Robots {
         }
         return robot;
     }
+
+    using CommandReader::time;
+
+    const Network& network;
+    const std::span<const NodeId> own;
+
+  protected:
+    NodeId robot(const JsonElement& name) const override {
+        const NodeId found = named(name, name.text());
+        if (found == sender) name.fail("bad_value", "expected another robot, or \"*\" for all");
+        return found;
+    }
+
+  private:
+    const std::optional<NodeId> sender;
 };
-
-/// Calls use(element) for each item of a list.
-template <class Use>
-void for_each_item(const JsonElement& list, Use use) {
-    const dom::array items = list.array();
-    if (items.size() > most_items) {
-        list.fail("too_many", fmt::format("found more than {} items", most_items));
-    }
-    std::size_t index = 0;
-    for (const dom::element& item : items) {
-        use(JsonElement{item, {.above = &list.path, .index = index++}});
-    }
-}
-
-/// A time such as "100 ms".
-double time_in(const JsonElement& element) {
-    const std::string text(element.text());
-    try {
-        return read_quantity(Value(text), element.path.key, Dimension::time);
-    } catch (const InputError& fault) {
-        element.fail("bad_value", fault.message());
-    }
-}
 
 std::optional<std::uint64_t> seed_in(const std::optional<JsonElement>& element) {
     constexpr std::uint64_t largest_seed = (std::uint64_t{1} << 63U) - 1;
@@ -139,7 +131,7 @@ HelloRequest read_hello(const JsonElement& line, const Robots& robots) {
                   fmt::format("robot {} stands there twice", robots.network.name(*twice)));
     }
     const JsonElement& length = needed(step, line, "step", "\"step\":\"100 ms\"");
-    hello.step = from_seconds(time_in(length));
+    hello.step = from_seconds(length.seconds());
     if (hello.step < shortest_step) {
         length.fail("out_of_range", "expected a step of 1 us or more");
     }
@@ -147,60 +139,6 @@ HelloRequest read_hello(const JsonElement& line, const Robots& robots) {
     if (columns) hello.columns = columns->truth();
     hello.seed = seed_in(seed);
     return hello;
-}
-
-DriveCommand drive_of(const std::optional<JsonElement>& v, const std::optional<JsonElement>& w,
-                      const std::optional<JsonElement>& timeout) {
-    DriveCommand drive;
-    if (v) drive.speed.value = v->number(drive_speeds);
-    if (w) drive.turn_rate.value = w->number(drive_turns);
-    if (timeout) {
-        const double s = time_in(*timeout);
-        if (!(s > 0)) timeout->fail("out_of_range", "expected a time above 0 s");
-        drive.timeout = std::max(from_seconds(s), Duration{1});
-    }
-    return drive;
-}
-
-/// A place [x, y, z], or [x, y] at the height given [m].
-Vec3 place_in(const JsonElement& list, double height) {
-    std::vector<double> at;
-    for_each_item(list, [&](const JsonElement& item) { at.push_back(item.number(goal_places)); });
-    if (at.size() != 2 && at.size() != 3) {
-        list.fail(
-            "bad_value",
-            fmt::format("found {} numbers; expected [x, y] or [x, y, z] in metres", at.size()));
-    }
-    return {at[0], at[1], at.size() == 3 ? at[2] : height};
-}
-
-/// The command of one robot; nothing for {}, which changes nothing.
-std::optional<RobotCommand> command_in(const JsonElement& element, const Network& network,
-                                       NodeId robot) {
-    constexpr std::array<std::string_view, 8> keys = {"v",     "w",    "timeout", "goal",
-                                                      "speed", "stop", "place",   "heading"};
-    const auto [v, w, timeout, goal, speed, stop, place, heading] = members(element, keys);
-    const bool drives = v || w || timeout, goes = goal || speed, is_put = place || heading;
-    if (drives + goes + is_put + stop.has_value() > 1) {
-        element.fail("bad_value",
-                     "expected one command only: v and w, or goal and speed, or place and heading, "
-                     "or stop");
-    }
-    if (drives) return drive_of(v, w, timeout);
-    if (stop) {
-        if (!stop->truth()) stop->fail("bad_value", "expected \"stop\":true");
-        return StopCommand{};
-    }
-    if (is_put) {
-        const JsonElement& there = needed(place, element, "place", "\"place\":[1,12]");
-        return PlaceCommand{place_in(there, network.position(robot).z),
-                            heading ? Radians{heading->number(any)} : network.heading(robot)};
-    }
-    if (!goes) return std::nullopt;
-    GoalCommand way{
-        place_in(needed(goal, element, "goal", "\"goal\":[1,12]"), network.position(robot).z)};
-    if (speed) way.speed.value = speed->number(goal_speeds);
-    return way;
 }
 
 using Commands = std::vector<std::pair<NodeId, RobotCommand>>;
@@ -234,9 +172,10 @@ void read_columns(const JsonElement& element, const Robots& robots, Commands& co
     });
     const auto speed = numbers_in(v, driven.size(), drive_speeds);
     const auto turn = numbers_in(w, driven.size(), drive_turns);
-    const DriveCommand same = drive_of({}, {}, timeout);
+    std::optional<Duration> same;
+    if (timeout) same = robots.time(*timeout);
     for (std::size_t i = 0; i < driven.size(); ++i) {
-        commands.emplace_back(driven[i], DriveCommand{{speed[i]}, {turn[i]}, same.timeout});
+        commands.emplace_back(driven[i], DriveCommand{{speed[i]}, {turn[i]}, same});
     }
 }
 
@@ -248,8 +187,8 @@ void read_do(const JsonElement& element, const Robots& robots, Commands& command
         for (const auto& [name, value] : element.object()) {
             const JsonElement one{value, {.above = &element.path, .key = name}};
             const NodeId robot = robots.own_robot(one, robots.named(one, name));
-            const auto command = command_in(one, robots.network, robot);
-            if (command) commands.emplace_back(robot, *command);
+            auto command = read_one_of(CommandsInPlace{}, robots, one, robots.network, robot);
+            if (command) commands.emplace_back(robot, std::move(*command));
         }
     }
     sort_by_robot(commands);
@@ -263,25 +202,18 @@ void read_do(const JsonElement& element, const Robots& robots, Commands& command
 }
 
 std::pair<NodeId, RobotCommand> message_in(const JsonElement& element, const Robots& robots) {
-    constexpr std::array<std::string_view, 5> keys = {"from", "to", "port", "data", "size"};
-    const auto [from, to, port, data, size] = members(element, keys);
-    const JsonElement& sender = needed(from, element, "from", "\"from\":\"A\"");
+    static constexpr auto keys = [] {
+        constexpr auto own = keys_of<SendCommand>();
+        std::array<std::string_view, own.size() + 1> all = {"from"};
+        std::copy(own.begin(), own.end(), all.begin() + 1);
+        return all;
+    }();
+    const auto found = members(element, keys);
+    const JsonElement& sender = needed(found[0], element, "from", "\"from\":\"A\"");
     const NodeId robot = robots.own_robot(sender, robots.named(sender, sender.text()));
     SendCommand send;
-    if (to && to->text() != "*") {
-        send.to = robots.named(*to, to->text());
-        if (send.to == robot) to->fail("bad_value", "expected another robot, or \"*\" for all");
-    }
-    if (port) send.port = static_cast<std::uint16_t>(port->whole_number(0, 65'535));
-    const JsonElement& bytes = needed(data, element, "data", "\"data\":\"Rg==\"");
-    auto decoded = from_base64(bytes.text());
-    if (!decoded) bytes.fail("bad_base64", "expected base64 with its padding, such as \"Rg==\"");
-    if (decoded->size() > longest_message) {
-        bytes.fail("out_of_range", fmt::format("found {} bytes; expected {} at most",
-                                               decoded->size(), longest_message));
-    }
-    send.payload = std::move(*decoded);
-    if (size) send.size = static_cast<std::uint32_t>(size->whole_number(0, longest_message));
+    Robots(robots.network, robots.own, robot)
+        .read(send, element, std::span(keys).subspan(1), std::span(found).subspan(1));
     return {robot, std::move(send)};
 }
 
@@ -295,7 +227,6 @@ StepRequest read_step(const JsonElement& line, const Robots& robots) {
         for_each_item(*send, [&](const JsonElement& item) {
             step.commands.push_back(message_in(item, robots));
         });
-        sort_by_robot(step.commands);
     }
     return step;
 }
@@ -320,7 +251,7 @@ Request RequestReader::read(std::string_view line, const Network& network,
         fail_missing_key(document.path, "type", "\"type\":\"hello\"");
     }
     const JsonElement type{found, {.above = &document.path, .key = "type"}};
-    const Robots robots{network, own};
+    const Robots robots(network, own);
     const std::string_view what = type.text();
     if (what == "hello") return read_hello(document, robots);
     if (what == "step") return read_step(document, robots);

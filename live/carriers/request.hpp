@@ -54,9 +54,8 @@ struct HelloRequest {
 struct StepRequest {
     /// Number chosen by the controller, greater than in the previous request.
     std::uint64_t number = 0;
-    /// Commands in the order of execution: by robot, movements before messages, messages in the
-    /// order of the request.
-    std::vector<std::pair<NodeId, RobotCommand>> commands;
+    /// Commands for robots: movements, then messages in the order of the request.
+    std::vector<std::pair<NodeId, RobotCommand>> commands = {};
 };
 
 /// Request "reset": the run starts again.

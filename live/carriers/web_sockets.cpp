@@ -48,11 +48,12 @@ struct Message {
     bool is_text;
 };
 
-/// Listener with its access rule and the handlers of its connections.
+/// Listener with its access rule, the handlers of its connections, and its pages.
 struct Gate {
     asio::ip::tcp::acceptor acceptor;
     Admission admission;
     Listeners::Streams users;
+    WebPages pages;
 };
 
 using Request = http::request<http::empty_body>;
@@ -87,6 +88,17 @@ std::string fault_of(const Request& request) {
     return "Sec-WebSocket-Key: expected 16 bytes in base64";
 }
 
+std::string_view text_of(boost::string_view view) { return {view.data(), view.size()}; }
+
+/// Reason why the admission rule of a gate rejects a request; empty if it is accepted.
+std::string refusal(const Gate& gate, const Request& request) {
+    WebRequest asked{text_of(request.target()), text_of(request[http::field::host])};
+    if (const auto origin = request.find(http::field::origin); origin != request.end()) {
+        asked.origin = text_of(origin->value());
+    }
+    return gate.admission.refusal(asked);
+}
+
 /// One client's connection.
 struct Client {
     Client(asio::ip::tcp::socket socket, WebSockets::Connection number, const Gate& entered)
@@ -96,7 +108,7 @@ struct Client {
     WebSockets::Connection id;
     const Gate& gate;
     http::request_parser<http::empty_body> request = {};
-    http::response<http::string_body> refusal = {};
+    http::response<http::string_body> response = {};  // of a request that opens no WebSocket
     beast::flat_buffer input = {};
     InputRate rate = {};
     std::deque<Message> output = {};  // the first is being written
@@ -145,19 +157,14 @@ struct WebSockets::State {
         if (const std::string fault = fault_of(request); !fault.empty()) {
             return refuse(client, http::status::bad_request, fault);
         }
-        if (!websocket::is_upgrade(request)) {
+        const bool is_upgrade = websocket::is_upgrade(request);
+        if (!is_upgrade && client->gate.pages.empty()) {
             return refuse(client, http::status::upgrade_required,
                           "this address is one for WebSockets");
         }
-        const auto text = [](boost::string_view view) {
-            return std::string_view(view.data(), view.size());
-        };
-        WebRequest asked{text(request.target()), text(request[http::field::host])};
-        if (const auto origin = request.find(http::field::origin); origin != request.end()) {
-            asked.origin = text(origin->value());
-        }
-        const std::string why = client->gate.admission.refusal(asked);
+        const std::string why = refusal(client->gate, request);
         if (!why.empty()) return refuse(client, http::status::forbidden, why);
+        if (!is_upgrade) return send_page(client);
         // A client must wait for the answer before it sends a message (RFC 6455, 4.1).
         client->input.clear();
         client->stream.next_layer().expires_never();
@@ -173,16 +180,38 @@ struct WebSockets::State {
         });
     }
 
-    void refuse(const Shared& client, http::status status, const std::string& why) {
-        auto& response = client->refusal;
-        response.result(status);
-        response.set(http::field::content_type, "text/plain");
-        response.set(http::field::connection, "close");
-        if (status == http::status::upgrade_required) {
-            response.set(http::field::upgrade, "websocket");
+    /// Answers a request that opens no WebSocket.
+    void send_page(const Shared& client) {
+        const auto& request = client->request.get();
+        const bool is_head = request.method() == http::verb::head;
+        if (!is_head && request.method() != http::verb::get) {
+            client->response.set(http::field::allow, "GET, HEAD");
+            return refuse(client, http::status::method_not_allowed, "expected GET or HEAD");
         }
-        response.body() = why + "\n";
-        response.prepare_payload();
+        const std::string_view target = text_of(request.target());
+        const auto page = client->gate.pages.find(target.substr(0, target.find('?')));
+        const bool is_there = page != client->gate.pages.end();
+        const WebPage absent{"text/plain", "there is no such page\n"};
+        respond(client, is_there ? http::status::ok : http::status::not_found,
+                is_there ? page->second : absent, is_head);
+    }
+
+    void refuse(const Shared& client, http::status status, const std::string& why) {
+        if (status == http::status::upgrade_required) {
+            client->response.set(http::field::upgrade, "websocket");
+        }
+        respond(client, status, {"text/plain", why + "\n"}, false);
+    }
+
+    /// @param is_head  whether the client asked for the header alone
+    void respond(const Shared& client, http::status status, const WebPage& page, bool is_head) {
+        auto& response = client->response;
+        response.result(status);
+        response.set(http::field::content_type, page.type);
+        response.set(http::field::connection, "close");
+        response.content_length(page.text.size());
+        if (!is_head) response.body() = page.text;
+        client->stream.next_layer().expires_after(timeouts.request);
         http::async_write(client->stream.next_layer(), response,
                           [this, client](error_code, std::size_t) { remove(client); });
     }
@@ -191,19 +220,10 @@ struct WebSockets::State {
         const bool is_busy = client->waiting > much_waiting;
         if (client->is_reading || client->is_closing || is_busy) return;
         client->is_reading = true;
-        if (client->rate.read_again() > Clock::now()) return read_later(client);
+        if (client->rate.read_again() > Clock::now()) return read_later(*this, client);
         client->stream.async_read_some(
             client->input, portion,
             [this, client](error_code error, std::size_t) { take_in(client, error); });
-    }
-
-    /// Continues reading once the input rate permits it.
-    void read_later(const Shared& client) {
-        const auto pause = std::make_shared<asio::steady_timer>(io, client->rate.read_again());
-        pause->async_wait([this, client, pause](error_code) {
-            client->is_reading = false;
-            if (clients.contains(client->id)) read(client);
-        });
     }
 
     void take_in(const Shared& client, error_code error) {
@@ -316,11 +336,11 @@ WebSockets::WebSockets(Listeners& listeners, Timeouts timeouts)
     : state_(std::make_unique<State>(listeners.io(), timeouts)) {}
 WebSockets::~WebSockets() = default;
 
-Address WebSockets::listen(const Address& address, Listeners::Streams users) {
+Address WebSockets::listen(const Address& address, Listeners::Streams users, WebPages pages) {
     auto acceptor = listen_on(state_->io, address);
     const Address own{address.host, acceptor.local_endpoint().port()};
-    Gate& gate = state_->gates.emplace_back(
-        Gate{std::move(acceptor), Admission(own, state_->token), std::move(users)});
+    Gate& gate = state_->gates.emplace_back(Gate{std::move(acceptor), Admission(own, state_->token),
+                                                 std::move(users), std::move(pages)});
     accept_all(gate.acceptor, [state = state_.get(), &gate](asio::ip::tcp::socket socket) {
         state->add(std::move(socket), gate);
     });
@@ -337,7 +357,6 @@ std::string WebSockets::token_notice(const Address& own) const {
 }
 
 const std::string& WebSockets::token() const { return state_->token; }
-bool WebSockets::listens() const { return !state_->gates.empty(); }
 
 void WebSockets::send(Connection to, std::string_view text) {
     state_->send(to, {std::string(text), true});

@@ -4,14 +4,24 @@
 #include "live/carriers/listeners.hpp"
 
 #include <chrono>
+#include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
 
 namespace rovernet {
 
+/// Page that a web server sends to browsers.
+struct WebPage {
+    std::string type;  ///< media type: "text/html; charset=utf-8"
+    std::string text;
+};
+/// Pages by path: "/". No other path exists, and no file is read.
+using WebPages = std::map<std::string, WebPage, std::less<>>;
+
 /// Server for WebSocket clients (RFC 6455), including browsers. Connections carry whole messages.
-/// The class Admission decides which clients may connect.
+/// The class Admission decides which clients may connect, and get pages.
 ///
 /// | limit                              | value          | beyond it                     |
 /// |------------------------------------|----------------|-------------------------------|
@@ -50,14 +60,14 @@ class WebSockets {
 
     /// Listens for clients. @param users  handlers, called once for each complete message
     /// @param address  address of this machine; port 0: any free port
+    /// @param pages    pages for GET and HEAD
     /// @return the address with the port
     /// @throws RunError if the address is in use, or not an address of this machine
-    Address listen(const Address& address, Listeners::Streams users);
+    Address listen(const Address& address, Listeners::Streams users, WebPages pages = {});
     /// Sentence for the user with the token that clients of the address `own` need.
     std::string token_notice(const Address& own) const;
     /// Token that clients from other machines or sites need, see Admission.
     const std::string& token() const;
-    bool listens() const;
 
     /// Sends a text message to a client; the second function sends a binary message.
     void send(Connection to, std::string_view text);

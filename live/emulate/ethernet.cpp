@@ -55,9 +55,9 @@ void EthernetFormat::begin(const Network& network) {
 std::variant<SendCommand, PacketFault> EthernetFormat::read(NodeId from,
                                                             std::string_view frame) const {
     if (frame.size() < header_size || frame.size() > longest_message) return PacketFault::malformed;
-    SendCommand send{.to = everyone,
-                     .payload = std::string(frame),
-                     .size = static_cast<std::uint32_t>(frame.size() - header_size)};
+    SendCommand send{.payload = std::string(frame),
+                     .size = static_cast<std::uint32_t>(frame.size() - header_size),
+                     .one_hop = true};
     const std::string_view destination = frame.substr(0, address_size);
     if (is_group(destination)) return send;
     const auto robot = robots_.find(destination);

@@ -47,7 +47,9 @@ std::variant<SendCommand, PacketFault> RelayFormat::read(NodeId from,
     if (to == from || (to != everyone && to.index() >= robots_)) {
         return PacketFault::unknown_destination;
     }
-    return SendCommand{.to = to, .payload = std::string(packet.substr(head_size))};
+    SendCommand send{.payload = std::string(packet.substr(head_size)), .one_hop = true};
+    if (to != everyone) send.to = to;
+    return send;
 }
 
 std::optional<std::string> RelayFormat::write(HeardMessage heard) const {

@@ -6,7 +6,7 @@
 
 namespace rovernet {
 
-Controller::Controller(Connection from, HelloRequest hello_of)
+Controller::Controller(std::optional<Connection> from, HelloRequest hello_of)
     : connection(from), hello(std::move(hello_of)), own(hello.robots) {
     std::sort(own.begin(), own.end());
 }
@@ -15,9 +15,19 @@ void Controller::join(Session& session) {
     client = session.attach(hello.robots, hello.name);
     state = State::owes;
     has_stepped = false;
-    step.reset();
+    step.commands.clear();
     sent.clear();
     last_state.clear();
+}
+
+void Controller::ask(const Session& session, StepRequest& request) {
+    const Time now = session.network().now();
+    state = State::waits;
+    has_stepped = true;
+    step.number = request.number;
+    step.commands.swap(request.commands);
+    step_end = now + std::min(hello.step, session.end() - now);
+    sent.clear();
 }
 
 Controller* Controllers::of(Connection connection) {
@@ -70,6 +80,25 @@ Time Controllers::next_end() const {
         if (each.state == Controller::State::waits) nearest = std::min(nearest, each.step_end);
     }
     return nearest;
+}
+
+void Controllers::carry_out(Session& session) {
+    due_.clear();
+    for (Controller& each : all_) {
+        for (const auto& [robot, command] : each.step.commands) {
+            due_.push_back({robot, &each, &command});
+        }
+    }
+    const auto before = [](const Due& a, const Due& b) { return a.robot < b.robot; };
+    if (!std::is_sorted(due_.begin(), due_.end(), before)) {
+        std::stable_sort(due_.begin(), due_.end(), before);
+    }
+    for (const auto& [robot, controller, command] : due_) {
+        const auto uid =
+            session.carry_out(controller->client, robot, *command, controller->step.number);
+        if (uid) controller->sent.push_back({*uid, robot});
+    }
+    for (Controller& each : all_) each.step.commands.clear();
 }
 
 }  // namespace rovernet

@@ -14,7 +14,7 @@
 
 namespace rovernet {
 
-/// Controller (external program) of robots in a lock-step run, connected or lost.
+/// Controller (program) of robots in a lock-step run: connected, lost, or in this process.
 struct Controller {
     /// Number of the connection that carries the controller's lines, unique in the run.
     using Connection = std::uint32_t;
@@ -25,28 +25,31 @@ struct Controller {
         leaves,       ///< the controller has sent "bye"
     };
 
+    /// @param from   none: a controller in this process
     /// @param hello  request whose robots must not belong to any other controller
-    Controller(Connection from, HelloRequest hello);
+    Controller(std::optional<Connection> from, HelloRequest hello);
 
     /// Starts a run: attaches the controller's robots in the session, and waits for a request.
     void join(Session& session);
+    /// Takes the request of a step from now on, which ends with the scenario at the latest.
+    /// @param request  gets other memory for its commands, so that none is allocated per step
+    void ask(const Session& session, StepRequest& request);
 
     std::optional<Connection> connection;  ///< connection of the controller; none: lost
     HelloRequest hello;
     std::vector<NodeId> own;  ///< robots of the controller's "hello", in ascending order
     ClientId client = 0;      ///< id of the controller as a client of the session
     State state = State::owes;
-    Time step_end = start_of_run;          ///< end of the step that the controller requested
-    std::optional<StepRequest> step = {};  ///< step request that is not executed yet
-    std::uint64_t number = 0;              ///< number of the controller's last step
+    Time step_end = start_of_run;  ///< end of the step that the controller requested
+    StepRequest step = {};         ///< last step; its commands until they are executed
     bool has_stepped = false;
     std::optional<std::uint64_t> reset_seed = {};
     std::vector<SentMessage> sent = {};  ///< messages sent in the controller's last step
     std::string last_state = {};  ///< last "state" line, sent again if the controller reconnects
 };
 
-/// Controllers of a lock-step run, in the order of their "hello" requests. References are valid
-/// until a controller joins or leaves.
+/// Controllers of a lock-step run, in the order of their "hello" requests, and the execution of
+/// their steps. References are valid until a controller joins or leaves.
 class Controllers {
   public:
     using Connection = Controller::Connection;
@@ -65,6 +68,8 @@ class Controllers {
 
     void add(Controller controller) { all_.push_back(std::move(controller)); }
     void remove(Connection connection);
+    /// Removes all controllers.
+    void clear() { all_.clear(); }
     /// Removes controllers that sent "bye". @return the removed ones, in the order of their first
     /// robots
     std::vector<Controller> take_leaving();
@@ -76,8 +81,20 @@ class Controllers {
     /// Earliest end of the steps that controllers requested; `never` if no controller waits.
     Time next_end() const;
 
+    /// Executes the commands of the current requests now, in the order of robots; those for one
+    /// robot in the order of the request.
+    void carry_out(Session& session);
+
   private:
+    /// Command of a controller's request.
+    struct Due {
+        NodeId robot;
+        Controller* controller;
+        const RobotCommand* command;
+    };
+
     std::vector<Controller> all_;
+    std::vector<Due> due_;  // commands being executed
 };
 
 }  // namespace rovernet

@@ -7,39 +7,62 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <tuple>
+#include <span>
+#include <utility>
 
 namespace rovernet {
 namespace {
 
-/// Whether a fault of a whole line is that it is no JSON object.
-bool is_about_json(std::string_view code) {
-    return code == "bad_json" || code == "bad_utf8" || code == "too_deep" || code == "bad_type";
+/// Whether a fault is that the line is no JSON object.
+bool is_about_json(const RequestError& fault) {
+    const std::string_view code = fault.code();
+    return fault.at().empty() &&
+           (code == "bad_json" || code == "bad_utf8" || code == "too_deep" || code == "bad_type");
 }
 
 }  // namespace
 
-Lockstep::Lockstep(Settings settings, Tell tell) : settings_(settings), tell_(std::move(tell)) {}
+Lockstep::Lockstep(Settings settings, Carrier carrier)
+    : settings_(std::move(settings)), carrier_(std::move(carrier)) {}
 
-void Lockstep::begin(Session& session, const Scenario& scenario,
-                     std::function<std::string()> fingerprint) {
+void Lockstep::begin(Session& session, const Scenario& scenario) {
     session_ = &session;
     scenario_ = &scenario;
-    fingerprint_ = std::move(fingerprint);
     answers_.emplace(session, scenario);
     seed_ = scenario.scenario.seed;
-    state_ = State::runs;
-    session.step(start_of_run);  // movements may draw where robots begin
+    new_seed_.reset();
     for (Controller& each : controllers_) {
         each.join(session);
         if (has_started_ && each.connection) {
-            tell_(*each.connection, answers_->welcome(each.hello));
+            carrier_.send(*each.connection, answers_->welcome(each.hello));
         }
     }
+    catch_up();
 }
 
-bool Lockstep::receive(Connection from, std::string_view line) {
-    if (state_ != State::runs) return true;
+std::size_t Lockstep::received(Connection from, std::string_view line) {
+    if (!goes_on()) return 1;
+    if (step_end_ && (controllers_.of(from) || is_object(line))) {
+        after_step_.emplace_back(
+            [this, from, text = std::string(line)] { handle_line(from, text); });
+        return 1;
+    }
+    const bool is_object = handle_line(from, line);
+    go_on();
+    return is_object ? 1 : 0;
+}
+
+bool Lockstep::is_object(std::string_view line) {
+    try {
+        reader_.read(line, session_->network(), {});
+    } catch (const RequestError& fault) {
+        return !is_about_json(fault);
+    }
+    return true;
+}
+
+/// Handles a line between two steps. @return whether it is a JSON object
+bool Lockstep::handle_line(Connection from, std::string_view line) {
     try {
         const Controller* controller = controllers_.of(from);
         Request request = reader_.read(
@@ -47,8 +70,8 @@ bool Lockstep::receive(Connection from, std::string_view line) {
             controller ? std::span<const NodeId>(controller->own) : std::span<const NodeId>());
         std::visit([&](auto& each) { handle(from, each); }, request);
     } catch (const RequestError& fault) {
-        tell_(from, error_line(fault, reader_.number()));
-        return !fault.at().empty() || !is_about_json(fault.code());
+        carrier_.send(from, error_line(fault, reader_.number()));
+        return !is_about_json(fault);
     }
     return true;
 }
@@ -64,8 +87,8 @@ bool Lockstep::come_back(Connection from, const HelloRequest& hello) {
     }
     controller->connection = from;
     controller->hello = hello;
-    tell_(from, answers_->welcome(hello));
-    if (!controller->last_state.empty()) tell_(from, controller->last_state);
+    carrier_.send(from, answers_->welcome(hello));
+    if (!controller->last_state.empty()) carrier_.send(from, controller->last_state);
     return true;
 }
 
@@ -107,7 +130,7 @@ void Lockstep::handle(Connection from, HelloRequest& hello) {
     controller.join(*session_);
     controllers_.add(std::move(controller));
     if (has_started_) {
-        tell_(from, answers_->welcome(hello));
+        carrier_.send(from, answers_->welcome(hello));
     } else {
         start_if_complete();
     }
@@ -117,11 +140,11 @@ void Lockstep::start_if_complete() {
     if (controllers_.size() < settings_.wait_for) return;
     has_started_ = true;
     if (seed_ != scenario_->scenario.seed) {
-        state_ = State::restarts;
+        new_seed_ = seed_;
         return;
     }
     for (const Controller& each : controllers_) {
-        tell_(*each.connection, answers_->welcome(each.hello));
+        carrier_.send(*each.connection, answers_->welcome(each.hello));
     }
 }
 
@@ -132,7 +155,7 @@ Controller& Lockstep::asking(Connection from) {
     if (!has_started_) {
         throw RequestError("too_early", "",
                            fmt::format("{} of {} controllers are there; wait for the welcome",
-                                       controllers_.size(), wanted()));
+                                       controllers_.size(), settings_.wait_for));
     }
     if (controller->state != Controller::State::owes) {
         throw RequestError("too_early", "", "the last question is not answered yet");
@@ -142,12 +165,12 @@ Controller& Lockstep::asking(Connection from) {
 
 void Lockstep::handle(Connection from, StepRequest& step) {
     Controller& controller = asking(from);
-    if (controller.has_stepped && step.number <= controller.number) {
+    if (controller.has_stepped && step.number <= controller.step.number) {
         throw RequestError(
             "old_number", "n",
-            fmt::format("found {}; expected more than {}", step.number, controller.number));
+            fmt::format("found {}; expected more than {}", step.number, controller.step.number));
     }
-    if (is_done()) {
+    if (is_at_end()) {
         throw RequestError("done", "type", "the run is at its end; expected reset or bye");
     }
     for (const auto& [robot, command] : step.commands) {
@@ -156,13 +179,7 @@ void Lockstep::handle(Connection from, StepRequest& step) {
         if (!why.empty())
             throw RequestError("no_room", "do." + session_->network().name(robot) + ".place", why);
     }
-    controller.state = Controller::State::waits;
-    controller.has_stepped = true;
-    controller.number = step.number;
-    controller.step_end =
-        session_->network().now() +
-        std::min(controller.hello.step, session_->end() - session_->network().now());
-    controller.step = std::move(step);
+    controller.ask(*session_, step);
 }
 
 void Lockstep::handle(Connection from, ResetRequest& reset) {
@@ -190,22 +207,32 @@ void Lockstep::remove_leaving() {
     if (controllers_.empty()) return end_run("bye", {});
     Table metrics;
     append_metrics(metrics, session_->network().metrics());
-    const std::string line = end_line("bye", fingerprint_(), metrics);
-    for (const Connection to : std::exchange(leaving_, {})) tell_(to, line);
+    const std::string line = end_line("bye", carrier_.fingerprint(), metrics);
+    for (const Connection to : std::exchange(leaving_, {})) carrier_.send(to, line);
 }
 
-void Lockstep::lost(Connection connection) {
-    std::erase(leaving_, connection);
-    Controller* controller = controllers_.of(connection);
-    if (!controller || state_ == State::over) return;
+void Lockstep::closed(Connection gone) {
+    if (settings_.programs) --*settings_.programs;
+    if (step_end_) {
+        after_step_.emplace_back([this, gone] { lose(gone); });
+        return;
+    }
+    lose(gone);
+    go_on();
+}
+
+void Lockstep::lose(Connection gone) {
+    std::erase(leaving_, gone);
+    Controller* controller = controllers_.of(gone);
+    if (!controller || !goes_on()) return;
     const std::string name = controller->hello.name;
-    const bool is_expected = !has_started_ || is_done();
+    const bool is_expected = !has_started_ || is_at_end();
     if (!is_expected && settings_.on_loss == OnLoss::wait) {
         controller->connection.reset();
         return;
     }
     session_->detach(controller->client);
-    controllers_.remove(connection);
+    controllers_.remove(gone);
     if (is_expected && !(has_started_ && controllers_.empty())) return;
     if (!is_expected && settings_.on_loss == OnLoss::stop && !controllers_.empty()) return;
     end_run(is_expected ? "done" : "lost",
@@ -214,68 +241,75 @@ void Lockstep::lost(Connection connection) {
                                       seconds(session_->network().now())));
 }
 
-/// Executes the commands of the current requests, in the order of robots.
-void Lockstep::carry_out() {
-    std::vector<std::tuple<NodeId, Controller*, const RobotCommand*>> commands;
-    for (Controller& each : controllers_) {
-        if (!each.step) continue;
-        for (const auto& [robot, command] : each.step->commands) {
-            commands.emplace_back(robot, &each, &command);
-        }
-    }
-    std::stable_sort(commands.begin(), commands.end(), [](const auto& a, const auto& b) {
-        return std::get<NodeId>(a) < std::get<NodeId>(b);
-    });
-    for (const auto& [robot, controller, command] : commands) {
-        const auto uid =
-            session_->carry_out(controller->client, robot, *command, controller->number);
-        if (uid) controller->sent.push_back({*uid, robot});
-    }
-    for (Controller& each : controllers_) each.step.reset();
-}
-
 void Lockstep::answer(Controller& controller) {
-    const std::string_view line = answers_->state(
-        controller.hello, controller.number, controller.sent, session_->heard(controller.client));
+    const std::string_view line =
+        answers_->state(controller.hello, controller.step.number, controller.sent,
+                        session_->heard(controller.client));
     controller.state = Controller::State::owes;
-    controller.sent.clear();
     if (settings_.on_loss == OnLoss::wait) controller.last_state = line;
-    if (controller.connection) tell_(*controller.connection, line);
+    if (controller.connection) carrier_.send(*controller.connection, line);
 }
 
-void Lockstep::advance(const std::function<bool()>& go_on) {
-    constexpr std::uint64_t events_a_slice = 256;  // each may reach thousands of robots
+/// Begins the next step, or ends the run, if every controller has sent its request.
+void Lockstep::go_on() {
+    if (step_end_ || !goes_on() || !has_started_ || !controllers_.have_all_asked()) return;
     remove_leaving();
-    if (state_ == State::over) return;
+    if (is_over_) return;
     const Time end = controllers_.next_end();
     if (end == never) {
-        seed_ = controllers_.begin()->reset_seed.value_or(seed_);
-        state_ = State::restarts;
+        new_seed_ = controllers_.begin()->reset_seed.value_or(seed_);
         return;
     }
-    carry_out();
-    while (!session_->advance(end, events_a_slice)) {
-        if (go_on()) continue;
-        session_->step(session_->network().now());  // all of that time, as a replay does
-        return end_run("stopped", {});
-    }
+    controllers_.carry_out(*session_);
+    step_end_ = end;
+}
+
+void Lockstep::tell() {
+    const Time end = *step_end_;
+    step_end_.reset();
     for (Controller& each : controllers_) {
         if (each.state == Controller::State::waits && each.step_end == end) answer(each);
     }
+    catch_up();
+}
+
+/// Handles what has come during a step.
+void Lockstep::catch_up() {
+    while (!after_step_.empty() && !step_end_ && goes_on()) {
+        const auto next = std::move(after_step_.front());
+        after_step_.pop_front();
+        next();
+        go_on();
+    }
+}
+
+void Lockstep::held(std::chrono::nanoseconds waited) {
+    const std::size_t present = controllers_.size(), wanted = settings_.wait_for;
+    if (!has_started_ && settings_.programs && *settings_.programs < wanted) {
+        return end_run("lost", "a controller has ended before its hello");
+    }
+    if (!has_started_ && told_present_ != present) {
+        told_present_ = present;
+        settings_.say(fmt::format("waiting for controllers: {} of {} {} there", present, wanted,
+                                  present == 1 ? "is" : "are"));
+    }
+    if (!has_started_ || !settings_.patience || waited < *settings_.patience) return;
+    const std::chrono::duration<double> patience = *settings_.patience;
+    end_run("patience", fmt::format("no question within {:g} s from controller {}",
+                                    patience.count(), fmt::join(controllers_.owing(), ", ")));
 }
 
 void Lockstep::end_run(std::string reason, std::string fault) {
-    if (state_ == State::over) return;
-    state_ = State::over;
+    if (std::exchange(is_over_, true)) return;
     reason_ = std::move(reason);
     fault_ = std::move(fault);
 }
 
-void Lockstep::tell_end(std::string_view fingerprint, const Table& metrics) {
+void Lockstep::ended(std::string_view fingerprint, const Table& metrics) {
     const std::string line = end_line(reason_, fingerprint, metrics);
-    for (const Connection to : leaving_) tell_(to, line);
+    for (const Connection to : leaving_) carrier_.send(to, line);
     for (const Controller& each : controllers_) {
-        if (each.connection) tell_(*each.connection, line);
+        if (each.connection) carrier_.send(*each.connection, line);
     }
 }
 

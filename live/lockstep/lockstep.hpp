@@ -2,13 +2,16 @@
 #pragma once
 
 #include "experiment/session.hpp"
+#include "live/carriers/front.hpp"
 #include "live/carriers/request.hpp"
 #include "live/lockstep/answer.hpp"
 #include "live/lockstep/controllers.hpp"
 #include "scenario/scenario.hpp"
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <string>
@@ -30,74 +33,46 @@ enum class OnLoss {
 /// simulation has reached the end of its step. Once every controller has sent its request, all
 /// commands are executed in the order of robots, and simulated time advances to the earliest end of
 /// a step. So results depend neither on the order of arrival nor on the computing time of
-/// controllers.
-///
-///   Lockstep lockstep({}, [](Lockstep::Connection to, std::string_view line) { ... });
-///   lockstep.begin(session, scenario, [&] { return fingerprint->text(); });
-///   lockstep.receive(0, R"({"type":"hello","protocol":1,"robots":["A"],"step":"100 ms"})");
-///   if (lockstep.is_due()) lockstep.advance([] { return true; });
-///
-/// The class uses neither sockets nor clocks: the code that transports the lines calls it, from one
-/// thread.
-class Lockstep {
+/// controllers. What arrives during a step counts from its end.
+class Lockstep : public Front {
   public:
-    using Connection = Controller::Connection;
-    /// Sends a line, without its end, to a controller. Must not call this object back.
-    using Tell = std::function<void(Connection to, std::string_view line)>;
-
     struct Settings {
         std::size_t wait_for = 1;  ///< number of controllers needed to start the run
         OnLoss on_loss = OnLoss::end;
+        std::optional<std::chrono::nanoseconds> patience = {};  ///< timeout for a request
+        /// Number of programs that were started, if nobody else can connect.
+        std::optional<std::size_t> programs = {};
+        /// Called with notices for the user, such as awaited controllers.
+        std::function<void(std::string_view)> say = [](std::string_view) {};
     };
 
-    Lockstep(Settings settings, Tell tell);
+    Lockstep(Settings settings, Carrier carrier);
 
-    /// Starts a run: the first run, or a run after a reset. Connected controllers get "welcome".
-    /// @param session      session at its start; session and scenario must live until the next
-    /// begin()
-    /// @param fingerprint  returns the fingerprint of the run so far
-    void begin(Session& session, const Scenario& scenario,
-               std::function<std::string()> fingerprint);
-
+    /// Starts a run. In a run that begins anew, connected controllers get "welcome".
+    void begin(Session& session, const Scenario& scenario) override;
+    void opened(Connection, ListenerId) override {}
     /// Handles a line of a controller, without its end. Errors are sent to the controller.
-    /// @return whether the line is a JSON object
-    bool receive(Connection from, std::string_view line);
-    /// Sends the error of an unreadable line to a controller.
-    void refuse(Connection to, const RequestError& fault) { tell_(to, error_line(fault, {})); }
+    /// @return 1; 0 if the line is no JSON object
+    std::size_t received(Connection from, std::string_view line) override;
     /// Handles the loss of a controller's connection, before or after its "hello".
-    void lost(Connection connection);
-
-    /// Whether every controller has sent its next request, so that advance() can run.
-    bool is_due() const {
-        return state_ == State::runs && has_started_ && controllers_.have_all_asked();
-    }
-    /// Executes the controllers' commands, runs to the earliest end of a step, and answers.
-    /// @param go_on  called now and then; returning false ends the run
-    /// @throws InputError, RunError as Session::step()
-    void advance(const std::function<bool()>& go_on);
-    /// Ends the lock-step run.
-    /// @param reason  reason in the `end` lines: stopped, patience
-    /// @param fault   error that ended the run; may be empty
-    void end_run(std::string reason, std::string fault);
-
-    enum class State {
-        runs,
-        restarts,  ///< begin() must be called, with a new session with the seed seed()
-        over,      ///< the run is over: tell_end() must be called
-    };
-    State state() const { return state_; }
-    std::uint64_t seed() const { return seed_; }
+    void closed(Connection gone) override;
+    Time next() const override { return step_end_.value_or(never); }
+    /// Answers the controllers whose steps end now.
+    void tell() override;
+    Time limit() const override { return step_end_.value_or(now()); }
+    void held(std::chrono::nanoseconds waited) override;
+    bool is_done() const override { return is_over_; }
+    bool holds_end() const override { return !is_over_; }
+    std::optional<std::uint64_t> new_seed() const override { return new_seed_; }
+    void ended(std::string_view fingerprint, const Table& metrics) override;
     /// Error that ended the run; empty if the controllers ended it.
-    const std::string& fault() const { return fault_; }
-    /// Sends the `end` line to all connected controllers.
-    void tell_end(std::string_view fingerprint, const Table& metrics);
+    std::string fault() const override { return fault_; }
 
     const Controllers& controllers() const { return controllers_; }
-    /// Number of controllers needed to start the run.
-    std::size_t wanted() const { return settings_.wait_for; }
-    bool has_started() const { return has_started_; }
 
   private:
+    bool is_object(std::string_view line);
+    bool handle_line(Connection from, std::string_view line);
     void handle(Connection from, HelloRequest& hello);
     void handle(Connection from, StepRequest& step);
     void handle(Connection from, ResetRequest& reset);
@@ -107,23 +82,31 @@ class Lockstep {
     void check_claims(const HelloRequest& hello);
     void start_if_complete();
     void remove_leaving();
-    void carry_out();
+    void lose(Connection gone);
     void answer(Controller& controller);
-    bool is_done() const { return session_->network().now() >= session_->end(); }
+    void go_on();
+    void catch_up();
+    void end_run(std::string reason, std::string fault);
+    Time now() const { return session_->network().now(); }
+    bool is_at_end() const { return now() >= session_->end(); }
+    bool goes_on() const { return !is_over_ && !new_seed_; }
 
     Settings settings_;
-    Tell tell_;
+    Carrier carrier_;
     Session* session_ = nullptr;
     const Scenario* scenario_ = nullptr;
-    std::function<std::string()> fingerprint_;
     std::optional<AnswerWriter> answers_;
     RequestReader reader_;
     Controllers controllers_;
     std::vector<Connection> leaving_;  // connections that sent "bye" and wait for the last line
+    std::deque<std::function<void()>> after_step_;  // lines and losses that came during a step
+    std::optional<Time> step_end_;                  // end of the step under way; none: time waits
     bool has_started_ = false;
-    State state_ = State::runs;
-    std::uint64_t seed_ = 0;
-    std::string reason_, fault_;
+    bool is_over_ = false;
+    std::optional<std::size_t> told_present_;
+    std::uint64_t seed_ = 0;                 // seed that the controllers agree on
+    std::optional<std::uint64_t> new_seed_;  // set if the run must begin anew
+    std::string reason_ = "stopped", fault_;
 };
 
 }  // namespace rovernet

@@ -5,50 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <iterator>
 #include <stdexcept>
 
 namespace rovernet {
-namespace {
-
-void check(std::string_view what, const std::string& robot, double number, const Range& range) {
-    if (range.contains(number)) return;
-    throw std::invalid_argument(
-        fmt::format("{} of robot {} must be {}, got {}", what, robot, range.text, number));
-}
-
-void check(const DriveCommand& drive, const std::string& robot) {
-    check("speed", robot, drive.speed.value, drive_speeds);
-    check("turn rate", robot, drive.turn_rate.value, drive_turns);
-    if (drive.timeout && *drive.timeout <= Duration{0}) {
-        throw std::invalid_argument(fmt::format("timeout of robot {} must be > 0 s", robot));
-    }
-}
-void check(const GoalCommand& goal, const std::string& robot) {
-    for (const double place : {goal.to.x, goal.to.y, goal.to.z}) {
-        check("goal", robot, place, goal_places);
-    }
-    check("speed", robot, goal.speed.value, goal_speeds);
-}
-void check(const StopCommand&, const std::string&) {}
-void check(const PlaceCommand& place, const std::string& robot) {
-    for (const double at : {place.at.x, place.at.y, place.at.z}) {
-        check("place", robot, at, goal_places);
-    }
-    check("heading", robot, place.heading.value, any);
-}
-void check(const SendCommand& send, const std::string& robot) {
-    const std::size_t size = std::max<std::size_t>(send.payload.size(), send.size.value_or(0));
-    if (size > longest_message) {
-        throw std::invalid_argument(
-            fmt::format("a message of robot {} has {} bytes; expected {} "
-                        "at most",
-                        robot, size, longest_message));
-    }
-}
-
-}  // namespace
-
 SteppedRun::SteppedRun(Scenario scenario, Settings settings)
     : scenario_(std::move(scenario)), settings_(std::move(settings)) {
     if (settings_.step < shortest_step) {
@@ -79,16 +39,14 @@ void SteppedRun::begin() {
     } else {
         for (NodeId n{0}; n.index() < network.size(); ++n.value) robots_.push_back(n);
     }
-    client_ = session.attach(robots_, settings_.client);
-    ascending_.resize(robots_.size());
-    std::iota(ascending_.begin(), ascending_.end(), std::size_t{0});
-    std::sort(ascending_.begin(), ascending_.end(),
-              [this](std::size_t a, std::size_t b) { return robots_[a] < robots_[b]; });
+    controllers_.clear();
+    controllers_.add(Controller(
+        std::nullopt, {.name = settings_.client, .robots = robots_, .step = settings_.step}));
+    controller().join(session);
     movements_.assign(robots_.size(), std::nullopt);
-    carried_ = movements_;
     messages_.clear();
     poses_.resize(3 * robots_.size());
-    steps_ = 0;
+    request_.number = 0;
     look();
 }
 
@@ -112,13 +70,16 @@ ScenarioRun& SteppedRun::run() const {
 }
 
 void SteppedRun::command(std::size_t row, RobotCommand command) {
-    std::visit([&](const auto& each) { check(each, name(row)); }, command);
+    check(command, name(row));
     if (const auto* place = std::get_if<PlaceCommand>(&command)) {
         const std::string why = session().why_not_at(robots_[row], place->at);
         if (!why.empty()) throw std::invalid_argument("place: " + why);
     }
-    if (auto* send = std::get_if<SendCommand>(&command)) {
-        messages_.emplace_back(row, std::move(*send));
+    if (const auto* send = std::get_if<SendCommand>(&command)) {
+        if (send->to == robots_[row]) {
+            throw std::invalid_argument("send: expected another robot, or none for everyone");
+        }
+        messages_.emplace_back(robots_[row], std::move(command));
     } else {
         movements_[row] = std::move(command);
     }
@@ -148,31 +109,27 @@ void SteppedRun::drive(std::span<const double> velocities, std::optional<Duratio
     }
 }
 
-void SteppedRun::carry_out() {
-    Session& session = run().session();
-    std::stable_sort(messages_.begin(), messages_.end(), [this](const auto& a, const auto& b) {
-        return robots_[a.first] < robots_[b.first];
-    });
-    // Commands given by a sink meanwhile belong to the next step.
-    movements_.swap(carried_);
-    const auto messages = std::exchange(messages_, {});
-    auto message = messages.begin();
-    for (const std::size_t row : ascending_) {
-        if (carried_[row]) session.carry_out(client_, robots_[row], *carried_[row], steps_);
-        carried_[row].reset();
-        for (; message != messages.end() && message->first == row; ++message) {
-            session.carry_out(client_, robots_[row], message->second, steps_);
-        }
+/// Makes a request of the commands since the last step. What a sink commands meanwhile belongs to
+/// the next one.
+void SteppedRun::fill_request() {
+    ++request_.number;
+    request_.commands.clear();
+    for (std::size_t row = 0; row < robots_.size(); ++row) {
+        if (!movements_[row]) continue;
+        request_.commands.emplace_back(robots_[row], std::move(*movements_[row]));
+        movements_[row].reset();
     }
+    std::move(messages_.begin(), messages_.end(), std::back_inserter(request_.commands));
+    messages_.clear();
 }
 
 bool SteppedRun::step(std::uint64_t most_events, const std::function<bool()>& go_on) {
     Session& session = run().session();
     if (is_done()) throw RunError("the run is at its end; expected reset or finish");
-    ++steps_;
-    carry_out();
-    const Time now = session.network().now();
-    const Time end = now + std::min(settings_.step, session.end() - now);
+    fill_request();
+    controller().ask(session, request_);
+    controllers_.carry_out(session);
+    const Time end = controllers_.next_end();
     bool is_whole = false;
     do {
         is_whole = session.advance(end, most_events);
@@ -195,7 +152,7 @@ void SteppedRun::look() {
 }
 
 RunResult SteppedRun::finish() {
-    session().detach(client_);
+    session().detach(controller().client);
     session().step(session().network().now());  // all of that time, as a replay does
     RunResult result = run().finish();
     if (log_) log_->finish(result.simulated, result.fingerprint);

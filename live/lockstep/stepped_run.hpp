@@ -4,6 +4,7 @@
 #include "experiment/run.hpp"
 #include "experiment/session.hpp"
 #include "live/input_log.hpp"
+#include "live/lockstep/controllers.hpp"
 #include "mobility/kept_planners.hpp"
 #include "scenario/scenario.hpp"
 #include "traces/fingerprint.hpp"
@@ -20,8 +21,8 @@
 
 namespace rovernet {
 
-/// Run of a scenario whose robots are driven step by step by a program in this process: like
-/// Lockstep with one controller, without a text protocol. Equal commands give equal runs with both.
+/// Run of a scenario whose robots are driven step by step by a program in this process, which is
+/// its only controller. Equal commands give the same run as by Lockstep.
 ///
 ///   SteppedRun run(scenario, {.step = 100ms});
 ///   while (!run.is_done()) {
@@ -73,7 +74,7 @@ class SteppedRun {
     bool step(std::uint64_t most_events, const std::function<bool()>& go_on);
     /// Fetches the messages that the driven robots received since the last call, in order of time,
     /// then of robot.
-    std::vector<HeardMessage> heard() { return session().heard(client_); }
+    std::vector<HeardMessage> heard() { return session().heard(controller().client); }
 
     /// Driven robots, in the order of the rows of arrays.
     const std::vector<NodeId>& robots() const { return robots_; }
@@ -95,8 +96,9 @@ class SteppedRun {
 
   private:
     void begin();
-    void carry_out();
+    void fill_request();
     void look();
+    Controller& controller() { return *controllers_.begin(); }
     ScenarioRun& run() const;
     std::string name(std::size_t row) const { return session().network().name(robots_[row]); }
 
@@ -105,14 +107,12 @@ class SteppedRun {
     KeptPlanners kept_;
     std::unique_ptr<ScenarioRun> run_;
     std::optional<InputLog> log_;
-    ClientId client_ = 0;
+    Controllers controllers_;  // the program alone
     std::vector<NodeId> robots_;
-    std::vector<std::size_t> ascending_;  // rows in ascending order of robots
-    // Last movement command of each row: for the next step, and of the commands being executed.
-    std::vector<std::optional<RobotCommand>> movements_, carried_;
-    std::vector<std::pair<std::size_t, SendCommand>> messages_;  // messages with their rows
+    std::vector<std::optional<RobotCommand>> movements_;  // last one of each row
+    std::vector<std::pair<NodeId, RobotCommand>> messages_;
+    StepRequest request_;  // of the current step
     std::vector<double> poses_;
-    std::uint64_t steps_ = 0;
 };
 
 }  // namespace rovernet

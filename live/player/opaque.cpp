@@ -6,8 +6,7 @@
 namespace rovernet {
 namespace {
 
-constexpr std::uint32_t opaque_bytes = 1;    // the only command
-constexpr std::size_t most_on_air = 65'535;  // [bytes] of a message
+constexpr std::uint32_t opaque_bytes = 1;  // the only command
 
 /// Lowers the TTL in the first byte of a payload by the hops that the message crossed.
 void lower_ttl(std::string& payload, int hops) {
@@ -43,7 +42,8 @@ std::vector<std::string> PlayerRadio::data() {
 void PlayerRadio::command(std::uint32_t subtype, XdrReader payload) {
     if (subtype != opaque_bytes) return;
     const std::string_view bytes = payload.bytes();
-    if (bytes.size() > most_on_air) throw MalformedMessage("the message is too long for the air");
+    if (bytes.size() > longest_message)
+        throw MalformedMessage("the message is too long for the air");
     robot_.carry_out(SendCommand{.payload = std::string(bytes)});
 }
 

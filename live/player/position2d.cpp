@@ -43,11 +43,10 @@ std::optional<std::string> PlayerPosition2d::answer(std::uint32_t subtype, XdrRe
 }
 
 void PlayerPosition2d::command(std::uint32_t subtype, XdrReader payload) {
-    constexpr double fastest = 1000;  // [m/s], [rad/s]
     if (subtype != set_velocity) return;
-    const double speed = payload.f64_within(fastest);
+    const double speed = payload.f64_within(drive_speeds.high);
     payload.f64();  // sideways: its wheels cannot
-    robot_.carry_out(DriveCommand{{speed}, {payload.f64_within(fastest)}});
+    robot_.carry_out(DriveCommand{{speed}, {payload.f64_within(drive_turns.high)}});
 }
 
 }  // namespace rovernet

@@ -10,7 +10,7 @@ enum SimulationRequest : std::uint32_t {
     tell_pose3d = 3,
     set_pose3d = 4,
 };
-constexpr double farthest = 1e9;  // [m], [rad]
+constexpr double farthest = goal_places.high;  // [m], [rad]
 
 std::string answer_pose2d(const std::string& name, const PlayerRobot& robot) {
     const Pose2d pose = robot.pose();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "live/rosbridge/input.hpp"
 
-#include "files/base64.hpp"
+#include "live/carriers/command_reader.hpp"
 #include "network/network.hpp"
 #include "sim/math.hpp"
 
@@ -78,28 +78,35 @@ std::pair<RobotCommand, std::string> read_goal(const JsonElement& message, NodeI
     return {GoalCommand{read_place(goal, robot, network).at}, ""};
 }
 
-/// Data of a uint8[]: base64, or a list of numbers.
-std::string bytes_in(const JsonElement& element) {
-    std::string bytes;
-    if (element.value.is_array()) {
+/// Reader of a message to send.
+class RosSend : public CommandReader {
+  public:
+    RosSend(NodeId sender, const Network& network) : sender_(sender), network_(network) {}
+
+  protected:
+    NodeId robot(const JsonElement& name) const override {
+        const NodeId found = read_robot(name, network_);
+        if (found == sender_) {
+            name.fail("bad_value", "expected another robot, or \"*\" for all");
+        }
+        return found;
+    }
+    /// Data of a uint8[]: base64, or a list of numbers.
+    std::string bytes(const JsonElement& element) const override {
+        if (!element.value.is_array()) return CommandReader::bytes(element);
+        std::string bytes;
         std::size_t index = 0;
         for (const simdjson::dom::element& item : element.array()) {
             const JsonElement number{item, {.above = &element.path, .index = index++}};
             bytes += static_cast<char>(number.whole_number(0, 255));
         }
-    } else {
-        auto decoded = from_base64(element.text());
-        if (!decoded) {
-            element.fail("bad_base64", "expected base64 with its padding, such as \"Rg==\"");
-        }
-        bytes = std::move(*decoded);
+        return bytes;
     }
-    if (bytes.size() > longest_message) {
-        element.fail("out_of_range", fmt::format("found {} bytes; expected {} at most",
-                                                 bytes.size(), longest_message));
-    }
-    return bytes;
-}
+
+  private:
+    NodeId sender_;
+    const Network& network_;
+};
 
 }  // namespace
 
@@ -118,15 +125,8 @@ NodeId read_robot(const JsonElement& name, const Network& network) {
 
 SendCommand read_send(const JsonElement& message, NodeId robot, const Network& network) {
     constexpr std::array<std::string_view, 4> keys = {"dst_address", "dst_port", "data", "size"};
-    const auto [to, port, data, size] = members(message, keys);
     SendCommand send;
-    if (to && to->text() != "*") {
-        send.to = read_robot(*to, network);
-        if (send.to == robot) to->fail("bad_value", "expected another robot, or \"*\" for all");
-    }
-    if (port) send.port = static_cast<std::uint16_t>(port->whole_number(0, 65'535));
-    send.payload = bytes_in(needed(data, message, "data", R"("data":"Rg==")"));
-    if (size) send.size = static_cast<std::uint32_t>(size->whole_number(0, longest_message));
+    RosSend(robot, network).read(send, message, keys, members(message, keys));
     return send;
 }
 

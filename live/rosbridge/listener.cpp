@@ -9,12 +9,10 @@
 namespace rovernet {
 
 FrontListeners rosbridge_listener(const Address& at) {
-    return {.entries = {{at, "rosbridge"}},
-            .make =
-                [](Front::Carrier carrier) {
-                    return std::make_unique<RosbridgeFront>(std::move(carrier));
-                },
-            .is_web = true};
+    return {.entries = {{.at = at, .what = "rosbridge", .is_web = true}},
+            .make = [](Front::Carrier carrier) {
+                return std::make_unique<RosbridgeFront>(std::move(carrier));
+            }};
 }
 
 }  // namespace rovernet

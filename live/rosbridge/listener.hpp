@@ -4,14 +4,12 @@
 #include "live/carriers/address.hpp"
 #include "live/paced_run.hpp"
 
-#include <string_view>
-
 namespace rovernet {
-
-/// Default address at which ROS clients connect to a rosbridge server.
-inline constexpr std::string_view rosbridge_address = "127.0.0.1:9090";
 
 /// Server of the rosbridge protocol at an address; port 0: any free port.
 FrontListeners rosbridge_listener(const Address& at);
+
+inline constexpr FrontOption rosbridge_option{
+    "--rosbridge", "ROS clients by the rosbridge protocol", "127.0.0.1:9090", rosbridge_listener};
 
 }  // namespace rovernet

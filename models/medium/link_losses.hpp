@@ -66,8 +66,9 @@ class LinkLosses {
     /// not fade.
     double faded(double loss_db, NodeId from, NodeId to, Vec3 here, Vec3 there,
                  std::uint64_t frame) const;
-    /// Whether frames fade, and the largest gain by fading [dB].
+    /// Whether frames fade.
     bool fades() const { return fades_ != nullptr; }
+    /// Largest gain by fading [dB]; 0 if frames do not fade.
     Db most_fade() const { return fades_ ? fades_->most() : Db{0}; }
 
     /// Whether losses of a model of this shape are stored in RecentLosses, for judging frames: a

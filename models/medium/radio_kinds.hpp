@@ -97,8 +97,8 @@ class RadioKinds {
         const bool pays = cheapest != Decision::by_table || kinds_.size() <= most_tables;
         return pays && !varies_ ? cheapest : Decision::by_loss;
     }
-    /// Squared range [m^2] for Decision::by_range: receivers are at most this far; negative if
-    /// there are none.
+    /// Squared distance [m^2] up to which a signal has this strength at nodes of kind `to`, for
+    /// Decision::by_range; negative: at none.
     double squared_range(Kind from, Kind to, Strength strength) {
         const double range2 = kinds_[from].range2[to][strength];
         return std::isnan(range2) ? compute_range(from, to, strength) : range2;

@@ -44,8 +44,8 @@ struct LinkBatch {
     std::span<const std::uint64_t> to_keys = {};
     /// Scene with its walls; never null in a Network.
     const Scene* scene = nullptr;
-    /// Height of one storey [m], in a scene without storeys; no_storeys: all antennas are on one
-    /// storey.
+    /// Storey height [m], by which models count the floors between antennas if the scene has no
+    /// ceilings of its own. no_storeys: no floors are counted then.
     Meters floor_height = no_storeys;
     /// Seed and replication of random draws.
     std::uint64_t seed = 0;

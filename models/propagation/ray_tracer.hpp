@@ -56,9 +56,9 @@ class RayTracer {
   public:
     /// @param scene       must outlive the tracer
     /// @param order       largest number of reflections
-    /// @param wavelength  [m]; shorter faces do not reflect
+    /// @param wavelength  [m]; faces shorter than the wavelength do not reflect
     /// @param edges       also find paths around edges
-    /// @param few         faster for few receivers, see RayImages
+    /// @param few         true: faster for few receivers, slower for many; see RayImages
     RayTracer(const Scene& scene, Vec3 from, int order, double wavelength, bool edges = false,
               bool few = false);
 

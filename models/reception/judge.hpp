@@ -27,8 +27,9 @@ namespace rovernet {
 
 class Interference;
 
-/// Frame that starts now, with all data for judging it. Pointers are valid during the call; a judge
-/// stores what it needs, with Emission::flight as the index.
+/// Frame that starts now, as passed to Judge::begins(). `transmission` and `receptions` are valid
+/// during that call only. A judge that needs their data later copies them, into a table indexed by
+/// Emission::flight.
 struct SentFrame {
     /// Frame, stored while it can affect others.
     const Emission& emission;

@@ -44,7 +44,8 @@ class OnAir {
     /// Adds a frame; it must not begin before the last added frame.
     /// @return its serial number, one more than the last
     std::uint64_t add(Emission frame);
-    /// Removes the oldest frames while they ended by `t`, and calls use(frame) for each.
+    /// Removes the oldest frames that ended at or before `t`, up to the first that did not. Calls
+    /// use(frame) for each removed frame.
     template <class Use>
     void forget(Time t, Use use) {
         while (!frames_.empty() && frames_.front().end <= t) {

@@ -16,8 +16,8 @@ namespace rovernet {
 /// receivers' sensitivity and at the radio's range_db.
 class HeatLayer {
   public:
-    /// Computes the coverage of the plot area. @param cells  approximate number of cells of the
-    /// heat map
+    /// Computes the coverage of the plot area.
+    /// @param cells  approximate number of cells of the heat map
     HeatLayer(const Transmitter& transmitter, const Plot& plot, int cells);
 
     void draw_levels(Svg& svg, const Plot& plot) const;

@@ -78,8 +78,9 @@ std::string_view base_unit(Dimension dimension);
 /// decide whether the values of a key can be drawn on an axis.
 std::optional<Dimension> shared_dimension(const std::vector<std::string>& texts);
 
-/// Text of a quantity in the first unit in which its number is whole; it reads back as the same
-/// number.
+/// Text of a quantity: "5 m", "25 cm". It reads back as the same number. The unit is the first one,
+/// in the dimension's list of units in quantity.cpp, in which the number is whole and reads back
+/// exactly. If there is none, it is the base unit.
 /// @param value  number in the base unit
 std::string quantity_text(double value, Dimension dimension);
 /// List of bit rates as numbers in Mbit/s, without the unit: "1, 2, 5.5, 11".

@@ -25,9 +25,11 @@ struct SlabPowers {
     double reflected;    ///< |reflected|^2
 };
 
-/// Slabs of one material at one frequency, for many thicknesses and angles; for TE polarisation, as
-/// from a vertical antenna at a vertical wall. Equations and results are those of slab_losses(),
-/// except for rounding.
+/// Slab of one material at one frequency, evaluated for many thicknesses and angles. TE
+/// polarisation, as from a vertical antenna at a vertical wall. Results equal those of
+/// slab_losses(), except for rounding.
+///
+/// The slab is passive; in terms of SlabFields:
 ///
 ///   |transmitted|^2 e^(-2 decay) + |reflected|^2 <= 1
 class Slab {

@@ -48,7 +48,8 @@ struct AdviceCandidates {
     /// Number of the study's point for each pair of path loss and reception; none for incompatible
     /// models, such as `disc` (which has no levels) with the reception `sinr`.
     std::vector<std::vector<std::optional<std::uint32_t>>> points;
-    /// Names of models that are compatible with no reception, with the reason.
+    /// Path loss models that are compatible with none of the reception models, as texts
+    /// "NAME: REASON".
     std::vector<std::string> left_out;
     bool on_map = false;
 

@@ -22,11 +22,12 @@ struct ComparedModel {
     std::optional<MediumCost> cost;  ///< CPU cost of the medium; see add_costs()
     /// Approximate share of the medium's cost in the runs' CPU time [-].
     std::optional<double> radio_share;
-    /// Mean absolute difference to the most detailed model, over replications in which both have a
-    /// value, in the metric's unit; its interval (none for the most detailed model, whose error is
-    /// 0 by definition); number of these replications.
+    /// Mean absolute difference to the most detailed model, in the metric's unit, over replications
+    /// in which both have a value; 0 for the most detailed model itself.
     std::optional<double> error;
+    /// Confidence interval of `error`, see interval_of(); none for the most detailed model.
     std::optional<MeanInterval> error_interval;
+    /// Number of replications in `error`.
     std::size_t error_n = 0;
     /// Difference of this model to the baseline, over replications in which both have a value; none
     /// for the baseline itself, or for fewer than 2 replications.

@@ -41,15 +41,21 @@ struct CalibratedModel {
     }
 };
 
-/// Fits all listed models except `except` to the known links, in the order of the list. Method:
-/// least squares in dB; the Tobit model if some levels were below the floor, with jackknife
-/// standard errors over the groups; for a disc, the fewest wrong decisions (link up or down). Wall
-/// losses are >= 0. With measured levels each model has one free constant, since powers and gains
-/// are only roughly known: `excess` if the model has it, or else the radios' power. Decisions are
-/// counted on links no longer than `decided_within`.
-/// @param gains  by_transmitter: with measured levels, each model except the disc also has a free
-///               gain for each transmitter position, relative to the mean of all
-/// @param tell   called with the finished share, 0 ... 1; may be empty
+/// Fits all listed models except `except` to the known links, in the order of the list.
+///
+/// - Model `disc`: the range with the fewest wrong decisions (link up or down).
+/// - Other models: least squares in dB, or the Tobit model if some links are unseen (see
+///   KnownLink::unseen). Wall losses are >= 0.
+///
+/// Standard errors by group (see KnownLink::group) are those of least_squares(). For the Tobit
+/// model they are computed by the jackknife over the groups. The fit of `disc` has none.
+///
+/// Measured levels know powers and gains only roughly. Each model except `disc` then has a free
+/// constant: its `excess`, or the radios' power if it has no `excess`.
+/// @param decided_within  largest length [m] of links whose decisions are counted
+/// @param gains           by_transmitter: with measured levels, each model except `disc` also has a
+///                        free gain for each transmitter position, relative to the mean of all
+/// @param tell            called with the finished share, 0 ... 1; may be empty
 std::vector<CalibratedModel> calibrate(const KnownLinks& known, const Scenario& scenario,
                                        const std::string& except, Meters decided_within,
                                        Gains gains = Gains::equal,

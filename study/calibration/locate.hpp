@@ -41,9 +41,10 @@ struct Fix {
     std::optional<double> error() const;
 };
 
-/// Position fixes, in order of time and then of robot, or in the order of the file.
+/// Result of a localisation. locate_robots() orders the fixes by time, then by robot;
+/// locate_levels() by first occurrence of the place in the file.
 struct Located {
-    Db sigma{0};  ///< standard deviation of a level's error, used in the bounds [dB]
+    Db sigma{0};  ///< standard deviation of a level's error [dB], used for Fix::bound
     std::vector<Fix> fixes = {};
     /// Number of positions without a fix, since fewer than three anchors were received.
     std::size_t too_few = 0;

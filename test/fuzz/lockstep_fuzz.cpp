@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
+#include <string>
 #include <string_view>
 
 using namespace rovernet;
@@ -28,14 +29,19 @@ robot = [
 /// One controller, whose lines are counted as they are answered.
 class Controlled {
   public:
-    Controlled() : lockstep_({}, [this](auto, auto) { ++answers_; }) { begin(); }
+    Controlled()
+        : lockstep_({}, {.send = [this](auto, auto) { ++answers_; },
+                         .close = [](auto) {},
+                         .fingerprint = [] { return std::string(); }}) {
+        begin();
+    }
 
-    bool is_over() const { return lockstep_.state() == Lockstep::State::over; }
+    bool is_over() const { return lockstep_.is_done(); }
     void say(std::string_view line) {
         const std::size_t before = answers_;
-        lockstep_.receive(0, line);
+        lockstep_.received(0, line);
         go_on();
-        if (is_over()) lockstep_.tell_end("", {});
+        if (is_over()) lockstep_.ended("", {});
         if (answers_ == before) std::abort();
     }
 
@@ -43,12 +49,13 @@ class Controlled {
     void begin() {
         old_ = std::move(session_);
         session_ = std::make_unique<Session>(scenario_);
-        lockstep_.begin(*session_, scenario_, [] { return ""; });
+        session_->step(start_of_run);
+        lockstep_.begin(*session_, scenario_);
     }
     void go_on() {
-        while (lockstep_.is_due()) lockstep_.advance([] { return true; });
-        if (lockstep_.state() != Lockstep::State::restarts) return;
-        scenario_.scenario.seed = lockstep_.seed();
+        for (; lockstep_.next() != never; lockstep_.tell()) session_->step(lockstep_.next());
+        if (!lockstep_.new_seed()) return;
+        scenario_.scenario.seed = *lockstep_.new_seed();
         begin();
         go_on();
     }

@@ -86,6 +86,13 @@ TEST_CASE("live: the same controller has the same run on every listener, and in 
     CHECK(web.reason() == 1001);
     CHECK(by_web.wait().exit == 0);
 
+    const Live beside({"--controller", "PROGRAM", "--player", "127.0.0.1:0", "--rosbridge",
+                       "127.0.0.1:0", "--speed", "100"},
+                      live_row, python);
+    CHECK(beside.wait().exit == 0);
+    CHECK(beside.fingerprint() == fingerprint);
+    CHECK(beside.replay().exit == 0);
+
     const Ended again = by_stdio.replay();
     CHECK(again.exit == 0);
     CHECK(again.out == "identical: 28 inputs, fingerprint " + fingerprint + "\n");
@@ -360,8 +367,50 @@ TEST_CASE("live: ROS clients beside those of Player, until Ctrl-C; a page needs 
               .find("--speed needs --player or --rosbridge") != std::string::npos);
     CHECK(error({"--rosbridge", "0.0.0.0:9090"}).find("an address of this machine") !=
           std::string::npos);
-    CHECK(error({"--rosbridge", "--listen-json", "127.0.0.1:0"}).find("--rosbridge") !=
-          std::string::npos);
+}
+
+TEST_CASE(
+    "live: a controller beside Player and ROS clients holds the time, its reset begins anew") {
+    const Live live({"--listen-json", "127.0.0.1:0", "--player", "127.0.0.1:0", "--rosbridge",
+                     "127.0.0.1:0", "--speed", "10"},
+                    long_live_row());
+    LineClient player(live.port("(Player, robot A)")), controller(live.port());
+    WebClient page(live.port("(rosbridge)"));
+    const auto time = [&](WebClient& client) {
+        client.send(R"({"op":"call_service","service":"rosapi/get_time"})");
+        const Json answer = Json::parse(client.message()).at("values").at("time");
+        return answer.at("sec").get<double>() + 1e-9 * answer.at("nanosec").get<double>();
+    };
+    open_position(player);
+    player.send_bytes(ask());
+    CHECK(message_of(player).type == ack);
+    CHECK(time(page) == 0);
+    CHECK(Json::parse(controller.ask(hello(R"("A","B")"))).at("type") == "welcome");
+    // A second controller finds that the page drives robot C.
+    page.send(R"({"op":"publish","topic":"/C/cmd_vel","msg":{"linear":{"x":1}}})");
+    std::this_thread::sleep_for(50ms);
+    CHECK(time(page) == 0);
+    CHECK(Json::parse(LineClient(live.port()).ask(hello("\"C\""))).at("code") == "taken");
+    CHECK(Json::parse(controller.ask(R"({"type":"step","n":1,"do":{"A":{"v":1}}})")).at("t_ns") ==
+          100'000'000);
+    CHECK(double_at(message_of(player).payload, 0) == doctest::Approx(0.1));
+    CHECK(message_of(player).type == sync_message);
+    std::this_thread::sleep_for(50ms);
+    CHECK(time(page) == doctest::Approx(0.1));
+
+    controller.send_bytes("{\"type\":\"reset\"}\n");
+    CHECK(Json::parse(controller.line()).at("t_ns") == 0);
+    CHECK(player.bytes(1).empty());
+    CHECK(page.reason() == 1000);
+    WebClient again(live.port("(rosbridge)"));
+    CHECK(time(again) == 0);
+    again.send(R"({"op":"publish","topic":"/C/cmd_vel","msg":{"linear":{"x":1}}})");
+    CHECK(time(again) == 0);
+    CHECK(Json::parse(controller.ask(R"({"type":"step","n":1})")).at("t_ns") == 100'000'000);
+    CHECK(Json::parse(controller.ask(R"({"type":"bye"})")).at("reason") == "bye");
+    CHECK(again.reason() == 1001);
+    CHECK(live.wait().exit == 0);
+    CHECK(live.replay().out.starts_with("identical: 3 inputs"));
 }
 
 TEST_CASE("live: a configuration of Player names world and ports") {

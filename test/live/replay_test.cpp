@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Runs with clients of several kinds at once are made again from their log, without the clients.
 #include "live/input_replay.hpp"
+#include "live/lockstep/stepped_run.hpp"
 #include "live/player/listeners.hpp"
 #include "live/rosbridge/listener.hpp"
 #include "sim/error.hpp"
@@ -14,6 +15,7 @@
 #include <chrono>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace replay_test {
@@ -41,8 +43,8 @@ TEST_CASE("replay: a run with clients of Player and of ROS") {
     CHECK(replay.inputs >= 80);
     CHECK(replay.recorded == result.run.fingerprint);
     CHECK(replay.now == result.run.fingerprint);
-    for (const char* input : {R"("robot":"A","do":"velocity")", R"("robot":"A","do":"send")",
-                              R"("robot":"B","do":"velocity")", R"("robot":"B","do":"send")"}) {
+    for (const char* input : {R"("robot":"A","do":{"v":)", R"("robot":"A","do":{"to":)",
+                              R"("robot":"B","do":{"v":)", R"("robot":"B","do":{"to":)"}) {
         CAPTURE(input);
         CHECK(run.log().find(input) != std::string::npos);
     }
@@ -78,19 +80,82 @@ TEST_CASE("replay: a run with controllers by TCP and by WebSocket") {
 TEST_CASE("replay: numbers that no client could have said are refused, with their line") {
     const TemporaryFolder folder;
     folder.write("scenario.toml", live_row);
+    const auto log = [&](const std::string& format, const std::string& what) {
+        return folder.write("inputs.jsonl",
+                            "{" + format +
+                                "\"version\":\"0\",\"scenario\":\"0\",\"seed\":1}\n"
+                                "{\"t_ns\":0,\"n\":1,\"client\":\"A\",\"robot\":\"A\",\"do\":" +
+                                what + "}\n");
+    };
     for (const std::string what :
-         {R"("do":"velocity","v":1e308,"w":0)", R"("do":"velocity","v":1,"w":-1001)",
-          R"("do":"goal","goal":[1,2e9,0],"speed":1)", R"("do":"goal","goal":[1,2,0],"speed":1e9)",
-          R"("do":"place","at":[1,2,-1e10],"heading":0)"}) {
+         {R"("velocity","v":1e308,"w":0)", R"("velocity","v":1,"w":-1001)",
+          R"("goal","goal":[1,2e9,0],"speed":1)", R"("goal","goal":[1,2,0],"speed":1e9)",
+          R"("goal","speed":1)", R"("place","at":[1,2,-1e10],"heading":0)",
+          R"("place","place":[1,2,0],"heading":0)", R"("dance")", R"("send","to":"Z","data":"")",
+          R"("send","to":"*","hops":2,"data":"")", R"({"v":1})", R"("stop","x":1)"}) {
         CAPTURE(what);
-        const std::string log =
-            folder.write("inputs.jsonl",
-                         "{\"version\":\"0\",\"scenario\":\"0\",\"seed\":1}\n"
-                         "{\"t_ns\":0,\"n\":1,\"client\":\"A\",\"robot\":\"A\"," +
-                             what + "}\n");
-        CHECK_THROWS_WITH_AS(replay_inputs(log, {}), doctest::Contains("inputs.jsonl:2"),
+        CHECK_THROWS_WITH_AS(replay_inputs(log("", what), {}), doctest::Contains("inputs.jsonl:2"),
                              InputError);
     }
+    for (const std::string what :
+         {R"({"v":1e308,"w":0})", R"({"v":1,"w":-1001})", R"({"goal":[1,2e9,0],"speed":1})",
+          R"({"goal":[1,2,0],"speed":1e9})", R"({"place":[1,2,-1e10],"heading":0})", R"({})",
+          R"({"speed":1})", R"({"v":1,"stop":true})", R"({"stop":false})", R"("stop")",
+          R"({"at":[1,2,0]})", R"({"to":"Z","data":""})", R"({"v":1,"timeout":"0 s"})",
+          R"({"to":"*"})", R"({"v":1},"w":1)"}) {
+        CAPTURE(what);
+        CHECK_THROWS_WITH_AS(replay_inputs(log("\"format\":2,", what), {}),
+                             doctest::Contains("inputs.jsonl:2"), InputError);
+    }
+    CHECK_THROWS_WITH_AS(replay_inputs(log("\"format\":3,", R"({"v":1})"), {}),
+                         doctest::Contains("inputs.jsonl:1"), InputError);
+}
+
+TEST_CASE("replay: a log of the first format, with every command, makes the same run as then") {
+    const InputReplay replay =
+        replay_inputs(ROVERNET_TEST_DATA "/../live/inputs/format_1.jsonl", {});
+    CHECK(replay.recorded == "12a28150be87ad36");
+    CHECK(replay.now == replay.recorded);
+    CHECK(replay.inputs == 11);
+}
+
+TEST_CASE("replay: every command has the keys of the protocol in the log, and is made again") {
+    const TemporaryFolder folder;
+    SteppedRun run(three_in_a_row(), {.folder = folder.path("run")});
+    const std::vector<std::pair<std::size_t, RobotCommand>> commands = {
+        {0, DriveCommand{{-0.0}, {0.1}, 350ms}},
+        {1, DriveCommand{{1}, {-1e-300}}},
+        {1, GoalCommand{{17.5, 3, 0}, {1.5}}},
+        {2, PlaceCommand{{302, -1, 0.25}, {-0.75}}},
+        {0, SendCommand{.payload = "flood \"\n"}},
+        {1, SendCommand{.to = NodeId{2}, .port = 7, .payload = "one", .size = 100}},
+        {1, SendCommand{.port = 9, .one_hop = true}},
+        {1, StopCommand{}},
+    };
+    for (const auto& [row, command] : commands) {
+        run.command(row, command);
+        run.step(256, [] { return true; });
+    }
+    const std::string fingerprint = run.finish().fingerprint;
+    const InputReplay replay = replay_inputs(folder.path("run"), {});
+    CHECK(replay.now == fingerprint);
+    const std::string log = content(folder.path("run/inputs.jsonl"));
+    std::string told;
+    for (std::size_t at = log.find("\"do\":"); at != log.npos; at = log.find("\"do\":", at + 1)) {
+        told += log.substr(at + 5, log.find('\n', at) - at - 6) + "\n";
+    }
+    CHECK(told == R"({"v":-0.0,"w":0.1,"timeout":"0.35 s"}
+{"v":1.0,"w":-1e-300}
+{"goal":[17.5,3.0,0.0],"speed":1.5}
+{"place":[302.0,-1.0,0.25],"heading":-0.75}
+{"to":"*","port":0,"data":"Zmxvb2QgIgo=","one_hop":false}
+{"to":"C","port":7,"data":"b25l","size":100,"one_hop":false}
+{"to":"*","port":9,"data":"","one_hop":true}
+{"stop":true}
+{"stop":true}
+{"stop":true}
+{"stop":true}
+)");
 }
 
 }  // namespace replay_test

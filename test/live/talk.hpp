@@ -4,6 +4,7 @@
 #include "live/lockstep/lockstep.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/scenario_file.hpp"
+#include "test/live/run_front.hpp"
 #include "test/scene/temporary_folder.hpp"
 #include "traces/fingerprint.hpp"
 
@@ -11,6 +12,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace rovernet::test {
@@ -20,21 +22,22 @@ class Talk {
   public:
     explicit Talk(const Scenario& scenario, Lockstep::Settings settings = {})
         : scenario_(scenario),
-          lockstep(settings, [this](auto to, auto line) { told[to].emplace_back(line); }) {
+          lockstep(std::move(settings),
+                   {.send = [this](auto to, auto line) { told[to].emplace_back(line); },
+                    .close = [](auto) {},
+                    .fingerprint = [this] { return fingerprint->text(); }}) {
         begin();
     }
 
     /// Carries a line, and lets time go on where nobody owes a question.
     void say(Lockstep::Connection from, std::string_view line) {
-        lockstep.receive(from, line);
+        lockstep.received(from, line);
         go_on();
     }
     void go_on() {
-        while (lockstep.is_due()) {
-            lockstep.advance([] { return true; });
-        }
-        if (lockstep.state() != Lockstep::State::restarts) return;
-        scenario_.scenario.seed = lockstep.seed();
+        run_front(*session, lockstep, session->end());
+        if (!lockstep.new_seed()) return;
+        scenario_.scenario.seed = *lockstep.new_seed();
         begin();
         go_on();
     }
@@ -44,7 +47,7 @@ class Talk {
         say(from, line);
         return told[from].empty() ? std::string() : told[from].back();
     }
-    void end() { lockstep.tell_end(fingerprint->text(), {}); }
+    void end() { lockstep.ended(fingerprint->text(), {}); }
 
   private:
     void begin() {
@@ -52,7 +55,8 @@ class Talk {
         session = std::make_unique<Session>(scenario_);
         fingerprint = std::make_shared<Fingerprint>();
         session->network().add_sink(fingerprint);
-        lockstep.begin(*session, scenario_, [this] { return fingerprint->text(); });
+        session->step(start_of_run);
+        lockstep.begin(*session, scenario_);
     }
 
     Scenario scenario_;

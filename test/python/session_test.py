@@ -297,6 +297,57 @@ class Views(unittest.TestCase):
         self.assertIsNone(gone())
 
 
+class Commands(unittest.TestCase):
+    def test_every_command_can_be_given_by_its_keys(self):
+        def by_functions(session, n):
+            session.drive([[0.1 * n, -0.2], [np.nan, np.nan], [np.nan, np.nan]], timeout=0.25)
+            if n == 3:
+                session.go_to("B", (12, 3), speed=2)
+                session.place("C", 31, 1, heading=-0.5)
+                session.send("A", b"x", to="B", port=7, size=100)
+                session.send("C", b"y")
+            if n == 6:
+                session.stop("B")
+
+        def by_keys(session, n):
+            session.command("A", v=0.1 * n, w=-0.2, timeout=0.25)
+            if n == 3:
+                session.command("B", goal=(12, 3), speed=2)
+                session.command("C", place=[31, 1], heading=-0.5)
+                session.command("A", data=b"x", to="B", port=7, size=100)
+                session.command("C", data=b"y")
+            if n == 6:
+                session.command("B", stop=True)
+
+        fingerprints, poses = [], []
+        for give in by_functions, by_keys:
+            session = rn.Session(ROW, seed=9)
+            for n in range(1, 11):
+                give(session, n)
+                session.step()
+            poses.append(session.pose.tolist())
+            fingerprints.append(session.finish().fingerprint)
+        self.assertEqual(*fingerprints)
+        self.assertEqual(*poses)
+
+    def test_keys_and_numbers_are_checked(self):
+        session = rn.Session(ROW)
+        for words, keys in (("expected v, w, timeout; or goal, speed; or stop", {}), ("expected v", {"v": 1, "goal": (1, 2)}),
+                            ("expected v", {"vv": 1}), ("goal is missing", {"speed": 1}), ("data is missing", {"port": 1}),
+                            ("speed of robot A must be from -1000 to 1000 m/s, got 5000", {"v": 5000}),
+                            ("timeout of robot A must be > 0 s", {"timeout": 0}), ("got 4 numbers", {"place": (1, 2, 3, 4)}),
+                            ("port must be from 0 to 65535, got -1", {"data": b"", "port": -1}),
+                            ("size of robot A must be 65535 at most", {"data": b"", "size": 70000}),
+                            ('no robot "Z"', {"data": b"", "to": "Z"}), ("expected another robot", {"data": b"", "to": "A"})):
+            with self.subTest(keys), self.assertRaisesRegex(ValueError, words):
+                session.command("A", **keys)
+        for keys in {"v": "fast"}, {"data": "text"}, {"place": 7}:
+            with self.subTest(keys), self.assertRaises(TypeError):
+                session.command("A", **keys)
+        session.step()
+        self.assertEqual(session.pose[0].tolist(), [0, 0, 0])
+
+
 class BadInput(unittest.TestCase):
     def setUp(self):
         self.session = rn.Session(ROW)

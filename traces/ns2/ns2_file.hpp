@@ -32,7 +32,8 @@ struct Ns2Counts {
     std::array<std::uint64_t, std::size(names_of_other)> skipped{};  ///< skipped lines by Ns2Other
     std::uint64_t refused = 0;
     std::vector<Ns2RefusedLine> refused_lines;  ///< first ten refused lines
-    std::array<bool, 3> dialects{};             ///< by Ns2Dialect: true if the file has such lines
+    /// By Ns2Dialect: whether the file has lines of that dialect.
+    std::array<bool, 3> dialects{};
 
     /// Whether all lines are blank or comments.
     bool is_empty() const {

@@ -32,8 +32,8 @@ class PcapngWriter {
     /// Direction of a packet at its interface; values of the draft's section 4.3.1.
     enum class Way : std::uint32_t { in = 1, out = 2 };
 
-    /// Opens the file; close() gives it its name. @throws RunError if it cannot be written, like
-    /// all functions below
+    /// Opens the file under the temporary name NAME.N.part, see PartFile. close() renames it.
+    /// @throws RunError if it cannot be written, like all functions below
     PcapngWriter(const std::string& path, std::string_view application);
 
     /// Adds an interface. @return its number, from 0
@@ -42,7 +42,7 @@ class PcapngWriter {
     /// @param time   [ns] since the start of the run, which counts as 1970-01-01 00:00
     /// @param bytes  radiotap header and frame
     void add_packet(std::uint32_t interface, Time time, Way way, std::string_view bytes);
-    /// Completes the file and gives it its name.
+    /// Writes the rest of the file, then renames it from NAME.N.part to NAME.
     void close();
 
   private:

@@ -105,7 +105,7 @@ class ByteReader {
     double real() { return std::bit_cast<double>(fixed<std::uint64_t>()); }
     /// Next `size` bytes; empty if there are fewer.
     std::string_view take(std::uint64_t size);
-    /// Text after its length, which takes 4 bytes.
+    /// Text that is preceded by its length [bytes] as a 4-byte integer. Reads both.
     std::string_view text() { return take(fixed<std::uint32_t>()); }
 
     std::size_t left() const { return rest_.size(); }

@@ -48,9 +48,9 @@ struct WedgePath {
 
 /// Rays of geometrical optics that reach a receiver near a wedge.
 struct LitBy {
-    bool direct;  ///< the straight ray:            |phi - phi'| <= pi
-    bool face_0;  ///< the ray that face 0 reflects: phi + phi' <= pi
-    bool face_n;  ///< the ray that face n reflects: phi + phi' >= (2 n - 1) pi
+    bool direct;  ///< whether the straight ray reaches it: |phi - phi'| <= pi
+    bool face_0;  ///< whether the ray that face 0 reflects reaches it: phi + phi' <= pi
+    bool face_n;  ///< whether the ray that face n reflects reaches it: phi + phi' >= (2 n - 1) pi
 };
 /// Rays that reach a receiver, by the angles of the path.
 LitBy lit_by(const WedgePath& path);

@@ -17,7 +17,8 @@ namespace rovernet {
 struct Bianchi {
     int window = 32;                           ///< W = CWmin + 1 [slots]
     int stages = 3;                            ///< m: number of doublings of the window
-    double slot, payload, success, collision;  ///< [us] slot time, E[P], Ts, Tc
+    double slot, payload, success, collision;  ///< slot time, mean payload time E[P], durations of
+                                               ///< a success Ts and of a collision Tc [us]
 
     /// Probability that a station transmits in a slot, given the collision probability `p`.
     double attempts(double p) const {

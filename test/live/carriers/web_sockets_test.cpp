@@ -13,6 +13,7 @@
 #include <set>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace web_sockets_test {
@@ -28,7 +29,8 @@ constexpr std::size_t longest = std::size_t{1} << 20U;  // [bytes] of a message
 /// sends 20 MiB, "crowd" 2,000 messages, "map" one of 9 MiB among short ones.
 class Echo {
   public:
-    explicit Echo(WebSockets::Timeouts patience = {}) : web_(listeners_, patience) {
+    explicit Echo(WebSockets::Timeouts patience = {}, WebPages pages = {})
+        : web_(listeners_, patience) {
         Listeners::Streams users;
         users.opened = [this](auto client) { here_.insert(client); };
         users.received = [this](auto from, auto bytes) {
@@ -36,7 +38,7 @@ class Echo {
             return std::size_t{1};
         };
         users.closed = [this](auto gone) { here_.erase(gone); };
-        port = web_.listen({"127.0.0.1", 0}, users).port;
+        port = web_.listen({"127.0.0.1", 0}, users, std::move(pages)).port;
         token = web_.token();
         thread_ = std::thread([this] {
             while (!stopped_) {
@@ -276,6 +278,48 @@ TEST_CASE("web sockets: requests of strange pages, for strange hosts, or for no 
     LineClient endless(echo.port);
     endless.send_bytes("GET /" + std::string(9'000, 'x'));
     CHECK(endless.line().empty());
+}
+
+TEST_CASE("web sockets: fixed pages are sent for GET and HEAD, and nothing else is there") {
+    const std::string large(std::size_t{3} << 20U, 'x');
+    const Echo echo({}, {{"/", {"text/html; charset=utf-8", "<p>hello</p>\n"}},
+                         {"/large", {"text/plain", large}}});
+    const std::string own = "127.0.0.1:" + std::to_string(echo.port);
+    const auto ask = [&](const std::string& request, const std::string& lines = {},
+                         const std::string& host = {}) {
+        LineClient browser(echo.port);
+        browser.send_bytes(request + " HTTP/1.1\r\nHost: " + (host.empty() ? own : host) + "\r\n" +
+                           lines + "\r\n");
+        const std::string all = browser.bytes(2 * large.size());
+        const std::size_t end = all.find("\r\n\r\n");
+        return std::pair(all.substr(0, end + 2), all.substr(end + 4));
+    };
+    const auto [header, text] = ask("GET /");
+    CHECK(header.starts_with("HTTP/1.1 200 "));
+    CHECK(header.find("Content-Type: text/html; charset=utf-8\r\n") != header.npos);
+    CHECK(header.find("Content-Length: 13\r\n") != header.npos);
+    CHECK(text == "<p>hello</p>\n");
+    CHECK(ask("HEAD /") == std::pair(header, std::string()));
+    CHECK(ask("GET /?token=" + echo.token + "&x=/large").second == text);
+    CHECK((ask("GET /large").second == large));
+    const auto status = [&](const std::string& request, const std::string& lines = {},
+                            const std::string& host = {}) {
+        return ask(request, lines, host).first.substr(9, 3);
+    };
+    for (const char* other : {"/index.html", "//", "/large/", "/../etc/passwd", "/etc/passwd",
+                              "/%6Carge", "*", "http://127.0.0.1/"}) {
+        CAPTURE(other);
+        CHECK(status(std::string("GET ") + other) == "404");
+        CHECK(status(std::string("HEAD ") + other) == "404");
+    }
+    CHECK(ask("POST /").first.find("Allow: GET, HEAD\r\n") != std::string::npos);
+    CHECK(status("POST /") == "405");
+    CHECK(status("GET /", "Origin: http://page.example\r\n") == "403");
+    CHECK(status("GET /", "Origin: http://" + own + "\r\n") == "200");
+    CHECK(status("GET /", {}, "rebound.example:" + std::to_string(echo.port)) == "403");
+    CHECK(WebClient(echo.port).is_in());
+    CHECK(WebClient(echo.port, {}, "/large").is_in());
+    CHECK_FALSE(WebClient(echo.port, "Origin: null\r\n").is_in());
 }
 
 TEST_CASE("admission: pages of others need the token, names of others never lead here") {

@@ -60,9 +60,9 @@ TEST_CASE("emulate: robots whose packets programs send are driven by Player and 
     CHECK(emulation.stop().exit == 0);
     const std::string log = content(emulation.folder.path("out/inputs.jsonl"));
     for (const char* input :
-         {R"("client":"player","robot":"A","do":"velocity")", R"("robot":"B","do":"velocity")",
-          R"("client":"rosbridge","robot":"B","do":"send")",
-          R"("client":"programs","robot":"A","do":"send")"}) {
+         {R"("client":"player","robot":"A","do":{"v":)", R"("robot":"B","do":{"v":)",
+          R"("client":"rosbridge","robot":"B","do":{"to":)",
+          R"("client":"programs","robot":"A","do":{"to":)"}) {
         CAPTURE(input);
         CHECK(log.find(input) != std::string::npos);
     }

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <string>
 #include <tuple>
@@ -52,7 +53,7 @@ TEST_CASE("lockstep: the transcript of the documentation, byte for byte") {
     for (std::string line; std::getline(file, line);) {
         if (line.starts_with("C ")) {
             talk.say(0, line.substr(2));
-            if (talk.lockstep.state() == Lockstep::State::over) talk.end();
+            if (talk.lockstep.is_done()) talk.end();
         } else if (line.starts_with("S ")) {
             expected.push_back(line.substr(2));
         }
@@ -146,6 +147,9 @@ TEST_CASE("lockstep: each malformed line has its code and its place, and changes
         {R"({"type":"step","n":1,"do":{"A":{"v":1},"A":{"v":2}}})", "repeated_robot do"},
         {R"({"type":"step","n":1,"do":{"robots":[7],"v":[1]}})", "out_of_range do.robots[0]"},
         {R"({"type":"step","n":1,"do":{"robots":[0],"v":[1,2]}})", "bad_value do.v"},
+        {R"({"type":"step","n":1,"do":{"A":{"data":"Rg=="}}})", "unknown_key do.A.data"},
+        {R"({"type":"step","n":1,"do":{"A":{"timeout":5}}})", "bad_type do.A.timeout"},
+        {R"({"type":"step","n":1,"do":{"robots":[0],"timeout":"0 s"}})", "out_of_range do.timeout"},
         {R"({"type":"step","n":1,"send":{}})", "bad_type send"},
         {R"({"type":"step","n":1,"send":[{"data":"Rg=="}]})", "missing_key send[0].from"},
         {R"({"type":"step","n":1,"send":[{"from":"B","data":"Rg=="}]})", "not_yours send[0].from"},
@@ -170,8 +174,25 @@ TEST_CASE(
     talk.say(0, hello_a);
     CHECK(Json::parse(talk.ask(0, step(1, R"(,"do":{"Zoe":{}})"))).at("msg") ==
           "no robot Zoe; there are A, B, C");
-    CHECK(Json::parse(talk.ask(0, step(1, R"(,"do":{"A":{"timeuot":"1 s"}})"))).at("msg") ==
+    const auto message = [&](const std::string& more) {
+        return Json::parse(talk.ask(0, step(1, more))).at("msg").get<std::string>();
+    };
+    CHECK(message(R"(,"do":{"A":{"timeuot":"1 s"}})") ==
           "unknown key \"timeuot\"; did you mean \"timeout\"?");
+    CHECK(message(R"(,"do":{"A":{"x":1}})") ==
+          "unknown key \"x\"; known are v, w, timeout, goal, speed, stop, place, heading");
+    CHECK(message(R"(,"do":{"A":{"v":1,"goal":[1,2]}})") ==
+          "expected one command only: v, w and timeout, or goal and speed, or stop, or place and "
+          "heading");
+    CHECK(message(R"(,"do":{"A":{"v":1001}})") ==
+          "found 1001; expected a number from -1000 to 1000 m/s");
+    CHECK(message(R"(,"do":{"A":{"heading":1}})") ==
+          "\"place\" is missing; expected such as \"place\":[1,12]");
+    CHECK(message(R"(,"send":[{"from":"A"}])") ==
+          "\"data\" is missing; expected such as \"data\":\"Rg==\"");
+    CHECK(message(R"(,"do":{"A":{"stop":false}})") == "expected \"stop\":true");
+    CHECK(message(R"(,"send":[{"from":"A","data":"","size":65536}])") ==
+          "found 65536; expected a whole number from 0 to 65535");
 }
 
 TEST_CASE("lockstep: time goes to the nearest end of a step once everybody has asked") {
@@ -194,8 +215,8 @@ TEST_CASE("lockstep: neither the order of arrival nor that of the controllers sh
         Talk talk(three_in_a_row(), {.wait_for = 2});
         const Lockstep::Connection a = 0, b = 1;
         const auto both = [&](const std::string& of_a, const std::string& of_b) {
-            talk.lockstep.receive(swapped ? b : a, swapped ? of_b : of_a);
-            talk.lockstep.receive(swapped ? a : b, swapped ? of_a : of_b);
+            talk.lockstep.received(swapped ? b : a, swapped ? of_b : of_a);
+            talk.lockstep.received(swapped ? a : b, swapped ? of_a : of_b);
             talk.go_on();
         };
         both(hello_a, R"({"type":"hello","protocol":1,"robots":["B","C"],"step":"100 ms"})");
@@ -216,7 +237,7 @@ TEST_CASE("lockstep: nor does the order in which controllers leave") {
         talk.say(first, R"({"type":"bye"})");
         CHECK(talk.told[first].size() == 1);  // as long as the other owes a question
         talk.say(1 - first, R"({"type":"bye"})");
-        CHECK(talk.lockstep.state() == Lockstep::State::over);
+        CHECK(talk.lockstep.is_done());
         talk.end();
         CHECK(type_of(talk.told[first].back()) == "end");
         return talk.fingerprint->text();
@@ -412,7 +433,7 @@ TEST_CASE("lockstep: a run ends when its time is over, and begins anew by a rese
     CHECK(talk.fingerprint->text() == first);
     CHECK(Json::parse(talk.ask(0, R"({"type":"reset","seed":5})")).at("seed") == 5);
     talk.say(0, R"({"type":"bye"})");
-    CHECK(talk.lockstep.state() == Lockstep::State::over);
+    CHECK(talk.lockstep.is_done());
     CHECK(talk.lockstep.fault().empty());
     talk.end();
     CHECK(Json::parse(talk.told[0].back()).at("reason") == "bye");
@@ -436,17 +457,17 @@ TEST_CASE("lockstep: loss of a controller ends the run, stops its robots, or is 
         talk.say(1, hello_b);
         talk.say(0, drive(1, "A", 1));
         talk.say(1, step(1));
-        talk.lockstep.lost(0);
+        talk.lockstep.closed(0);
         talk.go_on();
     };
     Talk ends(three_in_a_row(), {.wait_for = 2});
     lose(ends);
-    CHECK(ends.lockstep.state() == Lockstep::State::over);
+    CHECK(ends.lockstep.is_done());
     CHECK(ends.lockstep.fault() == "controller A has gone at 0.1 s without a bye");
 
     Talk stops(three_in_a_row(), {.wait_for = 2, .on_loss = OnLoss::stop});
     lose(stops);
-    CHECK(stops.lockstep.state() == Lockstep::State::runs);
+    CHECK_FALSE(stops.lockstep.is_done());
     CHECK(Json::parse(stops.told[1].back()).at("t_ns") == 300'000'000);
     CHECK(std::abs(stops.session->network().position({0}).x - 0.1) < 1e-9);
 
@@ -463,20 +484,88 @@ TEST_CASE("lockstep: loss of a controller ends the run, stops its robots, or is 
     CHECK(Json::parse(waits.ask(5, step(3))).at("t_ns") == 300'000'000);
 }
 
-TEST_CASE("lockstep: a step that is stopped in its midst ends the run with all of that time") {
-    Talk talk(three_in_a_row(R"([[traffic]]
-from = "B"
-payload = "x"
-start = "0.1 s"
-every = "1 ms"
-)"));
-    talk.say(0, R"({"type":"hello","protocol":1,"robots":["A"],"step":"2 s"})");
-    talk.lockstep.receive(0, step(1));
-    talk.lockstep.advance([] { return false; });
-    CHECK(talk.lockstep.state() == Lockstep::State::over);
-    CHECK(talk.session->network().now() < talk.session->end());
+TEST_CASE("lockstep: a run that is stopped in the midst of a step is told so") {
+    Talk talk(three_in_a_row());
+    talk.say(0, hello_a);
+    talk.lockstep.received(0, step(1));
+    talk.session->step(start_of_run + std::chrono::milliseconds(50));
     talk.end();
     CHECK(Json::parse(talk.told[0].back()).at("reason") == "stopped");
+}
+
+TEST_CASE("lockstep: what comes during a step counts from its end, in the order in which it came") {
+    const auto run = [](bool is_ahead) {
+        Talk talk(three_in_a_row(), {.on_loss = OnLoss::stop});
+        const auto say = [&](Lockstep::Connection from, const std::string& line) {
+            is_ahead ? (void)talk.lockstep.received(from, line) : talk.say(from, line);
+        };
+        talk.say(0, hello_a);
+        say(0, drive(1, "A", 1));
+        if (is_ahead) talk.session->step(start_of_run + std::chrono::milliseconds(30));
+        say(1, hello_b);
+        CHECK(talk.told[1].size() == (is_ahead ? 0 : 1));
+        say(1, step(1));
+        say(0, drive(2, "A", 2));
+        say(2, "{}");
+        if (is_ahead) talk.lockstep.closed(1);
+        if (is_ahead) talk.go_on();
+        if (!is_ahead) talk.lockstep.closed(1);
+        talk.go_on();
+        CHECK(fault(talk.told[2].back()) == "missing_key type");
+        CHECK(Json::parse(talk.told[1][0]).at("t_ns") == 100'000'000);
+        CHECK(Json::parse(talk.told[0].back()).at("t_ns") == 200'000'000);
+        CHECK(std::abs(talk.session->network().position({0}).x - 0.3) < 1e-9);
+        return talk.fingerprint->text();
+    };
+    CHECK(run(true) == run(false));
+}
+
+TEST_CASE("lockstep: during a step, too, a first line that is no JSON object is known for it") {
+    Talk talk(three_in_a_row());
+    talk.say(0, hello_a);
+    talk.lockstep.received(0, step(1));
+    CHECK(talk.lockstep.received(1, "{\"type\"") == 0);
+    CHECK(fault(talk.told[1].back()) == "bad_json ");
+    CHECK(talk.lockstep.received(1, R"({"type":"hello"})") == 1);
+    CHECK(talk.told[1].size() == 1);
+    talk.go_on();
+    CHECK(fault(talk.told[1].back()) == "missing_key protocol");
+}
+
+TEST_CASE("lockstep: a robot that another front drives is taken") {
+    Talk talk(three_in_a_row());
+    talk.session->attach({NodeId{1}}, "player");
+    CHECK(fault(talk.ask(0, R"({"type":"hello","protocol":1,"robots":["A","B"],"step":"1 s"})")) ==
+          "taken robots[1]");
+}
+
+TEST_CASE(
+    "lockstep: patience, programs that have gone, and who is missing are told while it waits") {
+    using namespace std::chrono_literals;
+    std::vector<std::string> said;
+    Talk talk(three_in_a_row(),
+              {.wait_for = 2, .patience = 50ms, .programs = 2, .say = [&](auto text) {
+                   said.emplace_back(text);
+               }});
+    talk.lockstep.held(1h);  // it has not begun
+    talk.say(0, hello_a);
+    talk.lockstep.held(1h);
+    talk.lockstep.held(1h);
+    CHECK(said == std::vector<std::string>{"waiting for controllers: 0 of 2 are there",
+                                           "waiting for controllers: 1 of 2 is there"});
+    talk.say(1, hello_b);
+    talk.lockstep.held(49ms);
+    CHECK_FALSE(talk.lockstep.is_done());
+    talk.lockstep.held(50ms);
+    CHECK(talk.lockstep.is_done());
+    CHECK(talk.lockstep.fault() == "no question within 0.05 s from controller A, B");
+
+    Talk gone(three_in_a_row(), {.programs = 1});
+    gone.lockstep.held(0s);
+    CHECK_FALSE(gone.lockstep.is_done());
+    gone.lockstep.closed(0);
+    gone.lockstep.held(0s);
+    CHECK(gone.lockstep.fault() == "a controller has ended before its hello");
 }
 
 }  // namespace lockstep_test

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "experiment/command_keys.hpp"
+#include "python/session_object.hpp"
+
+#include <algorithm>
+#include <concepts>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+// Commands to robots from Python keywords, by the fields of each command.
+
+namespace rovernet::python {
+
+/// Reads the value of a field; ranges are checked later.
+template <class Value>
+void read_value(SessionObject& session, Value& value, std::string_view key,
+                const py::handle& given) {
+    if constexpr (requires { value.has_value(); }) {
+        value.reset();
+        if (!given.is_none()) read_value(session, value.emplace(), key, given);
+    } else if constexpr (std::same_as<Value, NodeId>) {
+        value = robot_named(session.network(), given.cast<std::string>());
+    } else if constexpr (std::same_as<Value, Duration>) {
+        value = from_seconds(given.cast<double>());
+    } else if constexpr (std::same_as<Value, Vec3>) {
+        const auto at = given.cast<std::vector<double>>();
+        if (at.size() != 2 && at.size() != 3) {
+            throw py::value_error(fmt::format(
+                "{}: expected a place (x, y) or (x, y, z), got {} numbers", key, at.size()));
+        }
+        value = {at[0], at[1], at.size() == 3 ? at[2] : value.z};
+    } else if constexpr (std::same_as<Value, std::string>) {
+        value = given.cast<py::bytes>();
+    } else if constexpr (std::unsigned_integral<Value> && !std::same_as<Value, bool>) {
+        const auto number = given.cast<std::int64_t>();
+        if (!std::in_range<Value>(number)) {
+            throw py::value_error(fmt::format("{} must be from 0 to {}, got {}", key,
+                                              std::numeric_limits<Value>::max(), number));
+        }
+        value = static_cast<Value>(number);
+    } else if constexpr (std::same_as<Value, bool>) {
+        value = given.cast<bool>();
+    } else {
+        value = Value{given.cast<double>()};
+    }
+}
+
+template <class Value>
+void read_given(SessionObject& session, Value& value, std::string_view key,
+                const py::handle& given) {
+    try {
+        read_value(session, value, key, given);
+    } catch (const py::cast_error&) {
+        throw py::type_error(
+            fmt::format("{}: found {}", key, std::string(py::str(py::type::of(given)))));
+    }
+}
+
+/// Command of a type from keywords; none if they are not its keys.
+template <class Command>
+std::optional<RobotCommand> command_if(SessionObject& session, NodeId robot,
+                                       const py::kwargs& given) {
+    static constexpr auto keys = keys_of<Command>();
+    for (const auto& [key, value] : given) {
+        const auto name = key.template cast<std::string>();
+        if (std::find(keys.begin(), keys.end(), name) == keys.end()) return std::nullopt;
+    }
+    auto command = command_at<Command>(session.network(), robot);
+    for_each_field<Command>([&](const auto& f) {
+        using Held = std::remove_cvref_t<decltype(command.*f.member)>;
+        const py::str key(f.name.data(), f.name.size());
+        if (given.contains(key)) {
+            read_given(session, command.*f.member, f.name, given[key]);
+        } else if (std::same_as<Held, Vec3> || std::same_as<Held, std::string>) {
+            throw py::value_error(fmt::format("{} is missing", f.name));
+        }
+    });
+    return command;
+}
+
+/// Command from keywords, which are the keys of the lock-step protocol.
+template <class... Commands>
+RobotCommand command_of(std::tuple<std::type_identity<Commands>...> /*commands*/,
+                        SessionObject& session, NodeId robot, const py::kwargs& given) {
+    std::optional<RobotCommand> found;
+    const auto look = [&]<class Command>(std::type_identity<Command>) {
+        if (!found && given.size() > 0) found = command_if<Command>(session, robot, given);
+    };
+    (look(std::type_identity<Commands>{}), ...);
+    if (found) return std::move(*found);
+    std::string known;
+    const auto list = [&]<class Command>(std::type_identity<Command>) {
+        known +=
+            fmt::format("{}{}", known.empty() ? "" : "; or ", fmt::join(keys_of<Command>(), ", "));
+    };
+    (list(std::type_identity<Commands>{}), ...);
+    throw py::value_error("command: expected " + known);
+}
+
+}  // namespace rovernet::python
