@@ -103,8 +103,8 @@ struct MetricParts {
     bool robots = false;  ///< true: measure the messages for each robot
 };
 
-/// Metrics of a run, or of a trace read back. They are computed from integers, whose sums are exact.
-/// So they do not depend on how the receptions of a frame are split into Received records.
+/// Metrics of a run, or of a trace read back. They are computed from integers, whose sums are
+/// exact. So they do not depend on how the receptions of a frame are split into Received records.
 ///
 /// Names in summary.json and in studies, and their order, are those of fields(). A metric that is
 /// added there needs its computation in Metrics only.

@@ -17,10 +17,10 @@
 
 namespace rovernet {
 
-/// Computation of arrivals: a transmitted frame as it reaches one receiver (times and level). Judges
-/// of reception models use them, see Interference::arrival(). The link is evaluated by the cheapest
-/// method for the sender, see Decision. A level that depends only on the distance and the pair of
-/// nodes is computed when level() or is_stronger() needs it.
+/// Computation of arrivals: a transmitted frame as it reaches one receiver (times and level).
+/// Judges of reception models use arrivals, see Interference::arrival(). The link is evaluated by
+/// the cheapest method for the sender, see Decision. A level that depends only on the distance and
+/// the pair of nodes is computed when level() or is_stronger() needs it.
 class Arrivals {
   public:
     /// @param settings, stations, links  parts of the medium; must outlive this

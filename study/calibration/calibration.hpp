@@ -48,10 +48,11 @@ struct CalibratedModel {
 ///   KnownLink::unseen). Wall losses are >= 0.
 ///
 /// Standard errors by group (see KnownLink::group) are those of least_squares(). For the Tobit
-/// model they are computed by the jackknife over the groups. The fit of `disc` has none.
+/// model, and for gains, they are computed by the jackknife over the groups. The fit of `disc` has
+/// none.
 ///
-/// Measured levels know powers and gains only roughly. Each model except `disc` then has a free
-/// constant: its `excess`, or the radios' power if it has no `excess`.
+/// With measured levels, powers and gains are only roughly known. Each model except `disc` then has
+/// a free constant: its `excess`, or the radios' power if it has no `excess`.
 /// @param decided_within  largest length [m] of links whose decisions are counted
 /// @param gains           by_transmitter: with measured levels, each model except `disc` also has a
 ///                        free gain for each transmitter position, relative to the mean of all

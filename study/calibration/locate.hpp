@@ -41,8 +41,8 @@ struct Fix {
     std::optional<double> error() const;
 };
 
-/// Result of a localisation. locate_robots() orders the fixes by time, then by robot;
-/// locate_levels() by first occurrence of the place in the file.
+/// Result of a localisation. locate_robots() orders the fixes by time, then by robot.
+/// locate_levels() orders them by first occurrence of the place in the file.
 struct Located {
     Db sigma{0};  ///< standard deviation of a level's error [dB], used for Fix::bound
     std::vector<Fix> fixes = {};
