@@ -14,6 +14,7 @@ Mac::Mac(World& world, Channel& channel, MacUser& user)
       access_(world.settings.access.make_access()),
       listens_(access_->listens()),
       has_own_rates_(!access_->own_rates().empty()),
+      has_priority_(access_->has_priority()),
       header_(access_->header()) {}
 
 Time Mac::now() const { return world_.now; }
@@ -63,11 +64,6 @@ void Mac::judge(const AirFrame& air, std::span<const Reception> receptions) {
             user_.lost(frame, DropReason::retries);
         }
     }
-}
-
-/// A unicast that the MAC judges has its result when it ends.
-void Mac::sent(const QueuedFrame& frame) {
-    if (!judges(frame.frame)) user_.sent(frame, listens_ && frame.frame.next_hop != everyone);
 }
 
 std::uint32_t Mac::bytes(const AirFrame& frame) const {

@@ -61,6 +61,8 @@ class Mac final : public Air, public ChannelUser {
     /// Serves a timer of the access model.
     void on_timer(NodeId node, std::uint32_t tag) { access_->on_timer(*this, node, tag); }
 
+    /// Whether control packets of the routing protocol go first.
+    bool has_priority() const { return has_priority_; }
     /// Whether frames wait in a queue for access, so that a sender may pass several frames.
     bool queues() const { return access_->queues(); }
     /// Bit rates [bit/s] of the access model's frames, in addition to those of the radios.
@@ -85,7 +87,11 @@ class Mac final : public Air, public ChannelUser {
     std::uint32_t bytes(const AirFrame& frame) const override;
     void access_timer(NodeId node, Time at, std::uint32_t tag) override;
     double access_draw(NodeId node, std::uint64_t index) const override;
-    void sent(const QueuedFrame& frame) override;
+    /// A unicast that the MAC judges has its result when it ends.
+    void sent(const QueuedFrame& frame) override {
+        if (judges(frame.frame)) return;
+        user_.sent(frame, listens_ && frame.frame.next_hop != everyone);
+    }
     void lost(const QueuedFrame& frame, DropReason reason) override { user_.lost(frame, reason); }
 
     // Implementation of ChannelUser, for the channel.
@@ -97,7 +103,7 @@ class Mac final : public Air, public ChannelUser {
     BitRate rate_of(const AirFrame& frame) const;
     // Whether the MAC, in place of the access model, finds the result of a unicast: an ideal MAC.
     bool judges(const Frame& frame) const {
-        return !listens_ && frame.next_hop != everyone && user_.wants_result(frame);
+        return frame.next_hop != everyone && !listens_ && user_.wants_result(frame);
     }
     // Ends a unicast whose next hop has not received it, because it is out of range.
     void miss(const AirFrame& air, Time end);
@@ -112,7 +118,7 @@ class Mac final : public Air, public ChannelUser {
     // Access model of all nodes.
     std::unique_ptr<Access> access_;
     // Constant properties of the access model.
-    bool listens_, has_own_rates_;
+    bool listens_, has_own_rates_, has_priority_;
     // Bytes that the access model adds to a message.
     std::uint32_t header_;
     // Last transmission, and the kind of its sender.

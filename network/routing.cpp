@@ -140,7 +140,7 @@ std::optional<SendHandle> Routing::send(const Frame& frame, std::optional<NodeId
                                         : "a router sent a frame in the past");
     }
     world_.hold(frame);
-    const bool is_control = !world_.messages[frame.message].kind.empty();
+    const bool is_control = mac_.has_priority() && !world_.messages[frame.message].kind.empty();
     if (at == world_.now) {
         outbox_.push_back({frame, heard_from, is_control});
         return std::nullopt;
@@ -176,7 +176,7 @@ void Routing::send_now(const QueuedFrame& frame) {
     const NodeId sender = frame.frame.sender;
     if (!world_.medium.stations().is_on(sender)) {
         drop_sending(sender, as_received(frame), frame.frame, DropReason::off);
-        tell(frame, SendResult::off);
+        if (wants_result(frame.frame)) tell(frame, SendResult::off);
         world_.release(frame.frame);
         return;
     }
@@ -226,14 +226,14 @@ double Routing::draw(Purpose purpose, NodeId node, std::uint64_t index) const {
 }
 
 void Routing::sent(const QueuedFrame& frame, bool acked) {
-    tell(frame, acked ? SendResult::acked : SendResult::sent);
+    if (wants_result(frame.frame)) tell(frame, acked ? SendResult::acked : SendResult::sent);
     world_.release(frame.frame);
     user_.has_room(frame.frame.sender);
 }
 
 void Routing::lost(const QueuedFrame& frame, DropReason reason) {
     drop_sending(frame.frame.sender, frame.frame, frame.frame, reason);
-    tell(frame, result_of(reason));
+    if (wants_result(frame.frame)) tell(frame, result_of(reason));
     world_.release(frame.frame);
     if (reason == DropReason::retries) user_.has_room(frame.frame.sender);
 }
@@ -244,7 +244,7 @@ bool Routing::wants_result(const Frame& frame) const {
 
 /// Reports the result of a frame to the router.
 void Routing::tell(const QueuedFrame& frame, SendResult result) {
-    if (wants_result(frame.frame)) call_router([&] { router_->on_sent(*this, frame, result); });
+    call_router([&] { router_->on_sent(*this, frame, result); });
 }
 
 /// Counts the router's own references, so that one too few is found at once, and one too many at

@@ -112,7 +112,7 @@ class Routing final : public LinkLayer, public MacUser {
     // Emits Dropped for a frame that its sender has lost.
     void drop_sending(NodeId node, const Frame& frame, const Frame& sending, DropReason reason);
     // Emits Received, and behind each reception the drops of its node in on_receive.
-    void emit_received(const Received& record);
+    void emit_with_drops(const Received& record);
     // Emits the drops in on_receive; calls before(place) before the drop of a node whose reception
     // has that place.
     template <class Before>

@@ -21,8 +21,9 @@ void Routing::receive_broadcast(const AirFrame& air, const Arriving& part) {
     } else {
         hand_up_heard(air.frame, part);
     }
-    emit_received(
-        Received{air.frame, part.receptions, {}, mac_.header(), world_.for_sinks(part.levels)});
+    const Received record{
+        air.frame, part.receptions, {}, mac_.header(), world_.for_sinks(part.levels)};
+    drops_.empty() ? world_.emit(record) : emit_with_drops(record);
     user_.delivered(air.frame, part.receptions, part.levels);
 }
 
@@ -98,14 +99,12 @@ void Routing::receive_unicast(const AirFrame& air, Reception& r, std::span<const
             r.delivered = true;
         }
     }
-    emit_received(
-        Received{air.frame, {&r, 1}, air.reserved, mac_.header(), world_.for_sinks(level)});
+    const Received record{air.frame, {&r, 1}, air.reserved, mac_.header(), world_.for_sinks(level)};
+    drops_.empty() ? world_.emit(record) : emit_with_drops(record);
     user_.delivered(air.frame, {&r, 1}, level);
 }
 
-void Routing::emit_received(const Received& record) {
-    if (drops_.empty()) [[likely]]
-        return world_.emit(record);
+void Routing::emit_with_drops(const Received& record) {
     Received part = record;
     const std::span<const Reception> all = record.receptions;
     std::size_t emitted = 0;

@@ -80,6 +80,8 @@ class Access {
     /// Whether frames wait in a queue. Saturated traffic needs a queue: otherwise sending would be
     /// unlimited.
     virtual bool queues() const { return true; }
+    /// Whether QueuedFrame::is_control matters.
+    virtual bool has_priority() const { return false; }
     /// Whether stations listen: sensed(), received() and missed() are called, and a unicast without
     /// an acknowledgement is repeated.
     virtual bool listens() const { return false; }

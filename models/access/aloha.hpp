@@ -66,6 +66,7 @@ class AlohaAccess final : public Access {
     std::vector<QueuedFrame> take(NodeId node, NodeId next_hop) override;
     void switch_off(Air& air, NodeId node) override;
     Phy phy() const override { return Wifi{}; }
+    bool has_priority() const override { return settings_.priority; }
 
   private:
     /// State of one node: its queue, and the end of its last frame.

@@ -57,6 +57,7 @@ class Dcf final : public Access {
     void switch_off(Air& air, NodeId node) override;
 
     bool listens() const override { return true; }
+    bool has_priority() const override { return settings_.priority; }
     void sensed(Air& air, std::span<const Sensing> nodes) override;
     void received(Air& air, NodeId node, const AirFrame& frame) override;
     void missed(Air& air, NodeId node, bool locked) override;

@@ -83,6 +83,7 @@ class Phy {
     requires(!std::same_as<T, Phy> && PhysicalLayer<T>) Phy(T phy)
         : has_sensitivities_(HasSensitivities<T>),
           has_rejection_(HasRejection<T>),
+          has_detection_(HasPreambleDetection<T>),
           self_(std::make_shared<Holder<T>>(std::move(phy))) {}
 
     /// Name of the layer.
@@ -116,7 +117,7 @@ class Phy {
     /// When and how strong a preamble must be to be detected; by default after 4 us, as the
     /// reception model says.
     PreambleDetection preamble_detection(Coding coding) const {
-        return self_->preamble_detection(coding);
+        return has_detection_ ? self_->preamble_detection(coding) : PreambleDetection{};
     }
 
   private:
@@ -166,7 +167,7 @@ class Phy {
         T phy;
     };
     // Facts about the layer, which save a call.
-    bool has_sensitivities_, has_rejection_;
+    bool has_sensitivities_, has_rejection_, has_detection_;
     // Never null.
     std::shared_ptr<const Concept> self_;
 };

@@ -64,10 +64,11 @@ struct Log {
             const Frame& frame = sent->frame;
             const Radio& radio = net->medium().stations().radio(frame.sender);
             const Message& message = context.messages[frame.message];
-            Sending sending{frame.sender,
-                            sent->time,
-                            sent->time + Wifi{}.airtime(radio.preamble, radio.rate, message.size),
-                            {}};
+            Sending sending{
+                frame.sender,
+                sent->time,
+                sent->time + Wifi{}.transmission(radio, radio.rate, message.size).airtime(),
+                {}};
             for (std::uint32_t i = 0; i < context.legs.size(); ++i) {
                 sending.robots.push_back(
                     {net->medium().stations().antenna(NodeId{i}, sent->time, context.legs),

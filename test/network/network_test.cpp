@@ -88,6 +88,7 @@ struct Text {
     void tell(const Switched& r) { add(r.time, r.node, r.on ? "on" : "off"); }
     void tell(const AirSent&) {}
     void tell(const ControlReceived&) {}
+    void tell(const Routed&) {}
 
     const RecordContext* context_ = nullptr;
 };

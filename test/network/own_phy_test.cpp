@@ -53,33 +53,36 @@ struct Chirp {
     PreambleDetection preamble_detection(Coding) const { return {5ms, Db{-20}}; }
 };
 
-/// Sends at once, by this layer; with `rate`, all frames at that rate.
+/// Sends at once, by this layer.
+class SendsAtOnce final : public Access {
+  public:
+    SendsAtOnce(const Chirp& phy, std::optional<BitRate> rate) : phy_(phy), rate_(rate) {
+        if (rate) rates_.push_back(*rate);
+    }
+    void send(Air& air, const QueuedFrame& frame) override {
+        air.transmit({.frame = frame.frame, .heard_from = frame.heard_from});
+        air.sent(frame);
+    }
+    bool queues() const override { return false; }
+    Phy phy() const override { return phy_; }
+    BitRate rate(const AirFrame&, BitRate sender, BitRate) const override {
+        return rate_.value_or(sender);
+    }
+    std::span<const BitRate> own_rates() const override { return rates_; }
+
+  private:
+    Chirp phy_;
+    std::optional<BitRate> rate_;
+    std::vector<BitRate> rates_;
+};
+
+/// Settings of it; with `rate`, all frames go at that rate.
 struct AtOnce {
     static constexpr std::string_view name = "at_once";
     Chirp phy{};
     std::optional<BitRate> rate = {};
 
-    class Model final : public Access {
-      public:
-        explicit Model(const AtOnce& settings) : settings_(settings) {
-            if (settings.rate) rates_.push_back(*settings.rate);
-        }
-        void send(Air& air, const QueuedFrame& frame) override {
-            air.transmit({.frame = frame.frame, .heard_from = frame.heard_from});
-            air.sent(frame);
-        }
-        bool queues() const override { return false; }
-        Phy phy() const override { return settings_.phy; }
-        BitRate rate(const AirFrame&, BitRate sender, BitRate) const override {
-            return settings_.rate.value_or(sender);
-        }
-        std::span<const BitRate> own_rates() const override { return rates_; }
-
-      private:
-        AtOnce settings_;
-        std::vector<BitRate> rates_;
-    };
-    std::unique_ptr<Access> make_access() const { return std::make_unique<Model>(*this); }
+    std::unique_ptr<Access> make_access() const { return std::make_unique<SendsAtOnce>(phy, rate); }
 };
 
 /// Distance [m] that the fast coding reaches in free space, with the default radio.

@@ -77,7 +77,9 @@ struct Log {
     Time last = start_of_run;
     bool ordered = true;
 
-    KindMask kinds() const { return kind_of<Received>() | kind_of<Dropped>() | kind_of<Routed>() | kind_of<AirSent>(); }
+    KindMask kinds() const {
+        return kind_of<Received>() | kind_of<Dropped>() | kind_of<Routed>() | kind_of<AirSent>();
+    }
     void on(const Record& record, const RecordContext& context) {
         if (const auto* r = std::get_if<Received>(&record)) {
             for (const Reception& each : r->receptions) {
