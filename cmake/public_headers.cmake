@@ -10,7 +10,7 @@ set(ROVERNET_PUBLIC_HEADERS
     mobility/random_waypoint.hpp mobility/straight.hpp mobility/wander.hpp mobility/way.hpp
     mobility/waypoints.hpp
     models/access/access.hpp models/access/aloha.hpp models/access/csma.hpp
-    models/access/no_access.hpp
+    models/access/no_access.hpp models/access/transmit_queue.hpp
     models/antenna.hpp models/arrival.hpp
     models/links/link_search.hpp
     models/phy/phy.hpp models/phy/wifi.hpp
@@ -20,7 +20,7 @@ set(ROVERNET_PUBLIC_HEADERS
     models/propagation/propagation.hpp models/propagation/propagation_model.hpp
     models/propagation/rays.hpp models/propagation/raytrace_2007.hpp
     models/propagation/shadowed_range.hpp models/propagation/two_ray.hpp
-    models/radio.hpp
+    models/radio.hpp models/transmission.hpp
     models/reception/collision.hpp models/reception/judge.hpp models/reception/sinr.hpp
     models/variation/fading.hpp models/variation/shadowing.hpp
     network/heard.hpp network/neighbour.hpp network/network.hpp network/robot.hpp network/settings.hpp

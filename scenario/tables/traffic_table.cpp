@@ -56,7 +56,7 @@ TrafficTable read_traffic(const Value& value) {
                          "\"unicast\", or no to");
     }
     table.read("hops", traffic.hops,
-               Range{.low = 1, .high = 1, .text = "1: over one hop, without the routing protocol"});
+               Range{.low = 1, .high = 1, .text = "of 1: over one hop, without the routing protocol"});
     table.read("saturate", traffic.saturate);
     const bool payload = table.read("payload", traffic.payload);
     const bool size = table.read("size", traffic.size);

@@ -115,6 +115,7 @@ short_retries = 3
 long_retries = 2
 rts_threshold = "100 B"
 header = "30 B"
+priority = true
 
 [links]
 tolerance = "1 us"
@@ -162,6 +163,7 @@ ttl_in_payload = true
 [[traffic]]
 name = "warning"
 kind = "broadcast"
+hops = 1
 from = "A"
 payload = "F"
 size = "99 B"

@@ -112,7 +112,8 @@ TEST_CASE("unlikely: a unicast goes one hop under a flood, with a notice unless 
     const TemporaryFolder folder;
     CHECK(error_of([&] {
               loaded(folder, two + unicast + "hops = 2\n");
-          }).find("hops: found the number 2; expected 1: over one hop") != std::string::npos);
+          }).find("hops: found the number 2; expected a value of 1: over one hop") !=
+          std::string::npos);
     const Scenario scenario = loaded(folder, two + unicast + "hops = 1\n");
     CHECK(scenario.traffic[0].hops == 1);
     CHECK(to_toml(to_document(scenario)).find("hops = 1\n") != std::string::npos);

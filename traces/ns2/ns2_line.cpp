@@ -11,11 +11,11 @@ namespace {
 
 using Words = Ns2Words;
 
-/// Whether the text is a drop reason of ns-2.35 (cmu-trace.h) or "---".
+/// Whether the text is a drop reason of ns-2.35 (cmu-trace.h), one of rovernet's own, or "---".
 bool is_ns2_reason(std::string_view text) {
-    constexpr std::string_view reasons[] = {"---",  "COL", "DUP", "TTL",  "SLP", "END", "ERR",
-                                            "BSY",  "RET", "IFQ", "NRTE", "ARP", "CBK", "TOUT",
-                                            "LOOP", "STA", "DST", "SAL",  "FIL", "OUT", "XXX"};
+    constexpr std::string_view reasons[] = {
+        "---", "COL",  "DUP",  "TTL", "SLP", "END", "ERR", "BSY", "RET", "IFQ", "NRTE", "ARP",
+        "CBK", "TOUT", "LOOP", "STA", "DST", "SAL", "FIL", "OUT", "XXX", "OOR", "OWN"};
     return std::find(std::begin(reasons), std::end(reasons), text) != std::end(reasons);
 }
 
