@@ -60,9 +60,8 @@ bool ClientRadios::has(ClientId client, NodeId robot) const {
 }
 
 std::optional<std::uint64_t> ClientRadios::send(NodeId robot, const SendCommand& command) {
-    return network_.send(
-        robot, command.to.value_or(everyone), command.payload,
-        {.size = command.size, .port = command.port, .one_hop = command.one_hop});
+    return network_.send(robot, command.to.value_or(everyone), command.payload,
+                         {.size = command.size, .port = command.port, .one_hop = command.one_hop});
 }
 
 std::vector<HeardMessage> ClientRadios::heard(ClientId client) {

@@ -97,7 +97,7 @@ struct SendCommand {
     std::uint16_t port = 0;         ///< port: selects a program of the receiver
     std::string payload = {};
     std::optional<std::uint32_t> size = {};  ///< size on air [bytes]; none: length of the payload
-    bool one_hop = false;  ///< true: over one hop, without the routing protocol
+    bool one_hop = false;                    ///< true: over one hop, without the routing protocol
 
     static constexpr auto fields() {
         return describe(field("to", &SendCommand::to, "destination"),

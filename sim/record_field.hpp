@@ -95,9 +95,9 @@ template <>
 struct FieldsOf<AirFrame> {
     static constexpr auto fields() {
         return describe(field("frame", &AirFrame::frame),
-                        field("heard_from", &AirFrame::heard_from), field("kind", &AirFrame::control),
-                        field("attempt", &AirFrame::attempt), field("number", &AirFrame::number),
-                        field("reserved", &AirFrame::reserved));
+                        field("heard_from", &AirFrame::heard_from),
+                        field("kind", &AirFrame::control), field("attempt", &AirFrame::attempt),
+                        field("number", &AirFrame::number), field("reserved", &AirFrame::reserved));
     }
 };
 template <>

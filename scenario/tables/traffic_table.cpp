@@ -55,8 +55,9 @@ TrafficTable read_traffic(const Value& value) {
                          "to: a broadcast is for everybody; expected kind = "
                          "\"unicast\", or no to");
     }
-    table.read("hops", traffic.hops,
-               Range{.low = 1, .high = 1, .text = "of 1: over one hop, without the routing protocol"});
+    table.read(
+        "hops", traffic.hops,
+        Range{.low = 1, .high = 1, .text = "of 1: over one hop, without the routing protocol"});
     table.read("saturate", traffic.saturate);
     const bool payload = table.read("payload", traffic.payload);
     const bool size = table.read("size", traffic.size);
