@@ -21,9 +21,11 @@ void Routing::receive_broadcast(const AirFrame& air, const Arriving& part) {
     } else {
         hand_up_heard(air.frame, part);
     }
-    const Received record{
-        air.frame, part.receptions, {}, mac_.header(), world_.for_sinks(part.levels)};
-    drops_.empty() ? world_.emit(record) : emit_with_drops(record);
+    const auto record = [&] {
+        return Received{
+            air.frame, part.receptions, {}, mac_.header(), world_.for_sinks(part.levels)};
+    };
+    drops_.empty() ? world_.emit(record()) : emit_with_drops(record());
     user_.delivered(air.frame, part.receptions, part.levels);
 }
 
