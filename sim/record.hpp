@@ -136,8 +136,11 @@ struct Dropped {
 
     static constexpr std::string_view name = "Dropped";
     static constexpr auto fields() {
-        return describe(field("time", &Dropped::time), field("node", &Dropped::node),
-                        field("frame", &Dropped::frame), field("reason", &Dropped::reason));
+        return describe(
+            field("time", &Dropped::time), field("node", &Dropped::node),
+            field("frame", &Dropped::frame), field("reason", &Dropped::reason),
+            field<not_visited>("own_code", &Dropped::own_code),
+            field<not_hashed | since(2)>("protocol_decides", &Dropped::protocol_decides));
     }
 };
 
@@ -155,7 +158,8 @@ struct AirSent {
     static constexpr std::string_view name = "AirSent";
     static constexpr auto fields() {
         return describe(field("time", &AirSent::time), field("air", &AirSent::air),
-                        field("bytes", &AirSent::bytes));
+                        field("bytes", &AirSent::bytes),
+                        field<since(2)>("header", &AirSent::header));
     }
 };
 

@@ -31,6 +31,8 @@ template <>
 inline constexpr std::string_view row_columns<Transmitted> =
     "t_ns robot=sender uid origin heard_from next_hop ttl hops";
 template <>
+inline constexpr std::string_view row_columns<Routed> = row_columns<Transmitted>;
+template <>
 inline constexpr std::string_view row_columns<Received> =
     "t_ns robot uid origin sender ttl hops level reason delivered";
 template <>

@@ -136,7 +136,9 @@ TEST_CASE("results: none and aloha are an ideal MAC, which knows at the end of t
         CAPTURE(access.name());
         Row row(access);
         row.net.send({0}, {1}, "", {.size = 100});
-        row.net.send({0}, {2}, "", {.size = 100});  // out of range
+        row.net.at(start_of_run + 50ms, [&] {
+            row.net.send({0}, {2}, "", {.size = 100});  // out of range
+        });
         row.net.at(start_of_run + 100ms, [&] { row.net.switch_off({1}); });
         row.net.at(start_of_run + 200ms, [&] { row.net.send({0}, {1}, "", {.size = 100}); });
         row.net.run_for(1s);
@@ -144,7 +146,7 @@ TEST_CASE("results: none and aloha are an ideal MAC, which knows at the end of t
               std::vector{SendResult::acked, SendResult::retries, SendResult::retries});
         const Duration airtime = 192us + 800us;
         for (const Time t : row.script->times) {
-            CHECK((t.time_since_epoch() % Duration{100ms}) >= airtime);  // not when it starts
+            CHECK((t.time_since_epoch() % Duration{50ms}) >= airtime);  // not when it starts
         }
         CHECK(row.lines("D") == Lines{"D0 OOR?", "D0 CBK", "D0 OOR?", "D0 CBK"});
         CHECK(row.log->ordered);
@@ -335,7 +337,7 @@ TEST_CASE("headers: the last frame that has one gives it back, and a packet allo
     ring.route(Scripted{.script = script});
     ring.send({0}, {1}, "x", {.size = 10});
     script->results.reserve(1'000'000), script->times.reserve(1'000'000);
-    ring.run_for(10ms);
+    ring.run_for(500ms);
     const std::uint64_t before = test::allocations();
     const std::size_t results = script->results.size();
     ring.run_for(10ms);

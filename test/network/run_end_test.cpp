@@ -77,7 +77,7 @@ TEST_CASE("unicast: one that its destination cannot hear has a reason") {
     net.finish();
     const MetricValues values = net.metrics();
     CHECK(values.delivery_ratio == 0.0);
-    CHECK(dropped(values, "NRTE") == 1);
+    CHECK(dropped(values, "OOR") == 1);
     CHECK(values.cut_off == 0);
 }
 

@@ -149,6 +149,7 @@ class Records(unittest.TestCase):
             "link_down": "t_ns robot sender",
             "air_sent": "t_ns robot next_hop kind attempt bytes reserved_ns",
             "control_received": "t_ns robot sender kind bytes reason",
+            "routed": "t_ns robot uid origin heard_from next_hop ttl hops",
         }
         for kind, names in columns.items():
             self.assertEqual(run.records(kind).dtype.names, tuple(names.split()), kind)
