@@ -64,6 +64,7 @@ requires requires(T t) { t.value = 1; }
 void change(T& value) { change(value.value); }
 void change(Vec3& v) { v.y += 1; }
 void change(const ControlFrame*& control) { control = control ? nullptr : &wifi_rts; }
+void change(std::string_view& text) { text = text.empty() ? "other" : ""; }
 template <class T>
 void change(std::optional<T>& value) {
     value ? value.reset() : void(value.emplace());
