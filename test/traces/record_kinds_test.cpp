@@ -242,7 +242,7 @@ TEST_CASE("kinds of records: layouts in recorded traces") {
             " reserved:z header:v n:v n*time:z(after the one before, the first after this time) "
             "n*node:z(after the one before, the first after the sender) n*fate:b(2 fate + "
             "delivered)",
-        "node:v " + frame + " reason:b",
+        "node:v " + frame + " reason:b protocol_decides:b",
         "node:v start:z(after this time) end:v(0 never, else + 1 - start) from:3d parts:b(1 "
         "velocity:3d to:3d, 2 heading:d, 4 turning:d; what is left out is 0, `to` is `from`)",
         "node:v",
@@ -250,9 +250,11 @@ TEST_CASE("kinds of records: layouts in recorded traces") {
         "node:v on:b",
         "from:v to:v",
         "from:v to:v",
-        air + " bytes:v",
+        air + " bytes:v header:v",
         air + " node:v fate:b(2 fate + delivered) bytes:v",
+        frame + " heard_from:node?",
     };
+    REQUIRE(kinds.size() == std::size(expected));
     for (std::size_t i = 0; i < std::size(expected); ++i) CHECK(kinds[i].layout == expected[i]);
 }
 
