@@ -32,6 +32,10 @@ inline void* counted(void* memory) {
     const auto a = static_cast<std::size_t>(alignment);
     return rovernet::test::counted(std::aligned_alloc(a, (size + a - 1) / a * a));
 }
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    ++rovernet::test::allocations();
+    return std::malloc(std::max(size, std::size_t{1}));
+}
 [[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept {
