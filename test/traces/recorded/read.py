@@ -98,7 +98,7 @@ def lines(number, time, m, uids):
     elif number == 5:
         node = m.v()
         uid, rest = frame(m, uids)
-        yield f"{time} Dropped {node} {uid} {rest} {m.b()}"
+        yield f"{time} Dropped {node} {uid} {rest} {m.b()} {m.b()}"
     elif number == 6:
         node, start, end, place = m.v(), time + m.z(), m.v(), m.d3()
         if end:
@@ -118,9 +118,12 @@ def lines(number, time, m, uids):
     elif number in (10, 11):
         yield f"{time} {'LinkUp' if number == 10 else 'LinkDown'} {m.v()} {m.v()}"
     elif number == 12:
-        yield f"{time} AirSent {air(m, uids)} {m.v()}"
+        yield f"{time} AirSent {air(m, uids)} {m.v()} {m.v()}"
     elif number == 13:
         yield f"{time} ControlReceived {air(m, uids)} {m.v()} {fate(m.b())} {m.v()}"
+    elif number == 14:
+        uid, rest = frame(m, uids)
+        yield f"{time} Routed {uid} {rest} {m.node()}"
     assert m.at == len(m.data), "the message is longer than its record"
 
 
