@@ -8,7 +8,7 @@
 //   served  the same, and each event counts one up in the 64 bytes of its node
 #include "bench/least.hpp"
 #include "sim/random.hpp"
-#include "sim/scheduler.hpp"
+#include "sim/events/scheduler.hpp"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/ids.hpp"
-#include "sim/scheduler.hpp"
+#include "sim/events/scheduler.hpp"
 
 #include <cstdint>
 

@@ -11,7 +11,7 @@
 #include "sim/legs.hpp"
 #include "sim/message.hpp"
 #include "sim/random.hpp"
-#include "sim/scheduler.hpp"
+#include "sim/events/scheduler.hpp"
 #include "sim/slots.hpp"
 #include "sim/time.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim/event_line.hpp"
+#include "sim/events/event_line.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "sim/event_heap.hpp"
-#include "sim/event_line.hpp"
+#include "sim/events/event_heap.hpp"
+#include "sim/events/event_line.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim/event_queue.hpp"
+#include "sim/events/event_queue.hpp"
 
 #include <bit>
 #include <utility>

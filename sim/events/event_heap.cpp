@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim/event_heap.hpp"
+#include "sim/events/event_heap.hpp"
 
 namespace rovernet {
 namespace {

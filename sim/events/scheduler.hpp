@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "sim/event_queue.hpp"
+#include "sim/events/event_queue.hpp"
 #include "sim/time.hpp"
 
 #include <cassert>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim/scheduler.hpp"
+#include "sim/events/scheduler.hpp"
 
 #include "sim/error.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "sim/event_heap.hpp"
+#include "sim/events/event_heap.hpp"
 
 #include <cstddef>
 #include <span>
