@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mobility/draws.hpp"
 #include "mobility/movement.hpp"
 #include "mobility/way.hpp"
 #include "sim/ids.hpp"

@@ -9,6 +9,7 @@
 #include "sim/units.hpp"
 
 #include <concepts>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -161,6 +162,17 @@ class Movement {
         std::shared_ptr<const T> model;
     };
     std::unique_ptr<Concept> self_;  // null: Fixed
+};
+
+/// Sequence of random numbers for one movement.
+///
+/// They depend only on seed, replication, the robot's name and the number of its movement, not on
+/// other robots.
+struct Draws {
+    std::uint32_t used = 0;  // number of draws so far; 2^32 are enough for a billion legs
+
+    double uniform(const Mover& mover) { return rovernet::uniform(mover.key(used++)); }
+    double normal(const Mover& mover) { return rovernet::normal(mover.key(used++)); }
 };
 
 }  // namespace rovernet

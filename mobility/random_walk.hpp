@@ -2,7 +2,6 @@
 #pragma once
 
 #include "mobility/area.hpp"
-#include "mobility/draws.hpp"
 #include "mobility/movement.hpp"
 #include "sim/fields.hpp"
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "mobility/movement.hpp"
-#include "network/heard.hpp"
 #include "network/neighbour.hpp"
 #include "network/robot.hpp"
 #include "network/settings.hpp"

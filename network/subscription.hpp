@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "sim/ids.hpp"
+#include "sim/message.hpp"
+#include "sim/units.hpp"
+
 #include <memory>
+#include <optional>
 #include <utility>
 
-// Handles that end callbacks, returned by Network::on_receive and similar functions.
+// Callbacks of a Network: handles that end them, and what those for messages get.
 
 namespace rovernet {
 
@@ -29,6 +34,24 @@ class Subscription {
   private:
     // Flag in the callback's state, which it keeps alive; null after end().
     std::shared_ptr<bool> ended_;
+};
+
+/// Message that a node receives, and the frame that brought it. References are valid during the
+/// callback.
+struct Heard {
+    const Message& message;
+    /// Number of hops that the message travelled.
+    int hops;
+    /// Transmitter of the frame.
+    NodeId last_hop;
+    /// Received power of the frame [dBm], if the callback asked for it.
+    std::optional<Dbm> level = {};
+};
+
+/// Options of a callback for received messages.
+struct HearOptions {
+    /// True: Heard::level is computed, at the start of each frame that this node can decode.
+    bool level = false;
 };
 
 }  // namespace rovernet

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "routing/flood.hpp"
+#include "routing/flood_router.hpp"
 
 #include <algorithm>
 

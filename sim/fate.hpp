@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "sim/ids.hpp"
+#include "sim/time.hpp"
+
 #include <cstdint>
 #include <string_view>
 
@@ -42,6 +45,27 @@ constexpr bool is_decoded(Fate fate) {
         bit(Fate::waiting) | bit(Fate::ttl) | bit(Fate::duplicate) | bit(Fate::arrived);
     return (decoded >> static_cast<unsigned>(fate) & 1) != 0;
 }
+
+/// Reception of one transmission at one receiver that could decode it without interference.
+/// Medium::find_receivers sets node and time when the frame starts, whatever moves later; reception
+/// model and routing protocol set the other fields when the frame ends.
+struct Reception {
+    /// Time at which the frame ends at this receiver.
+    Time time;
+    NodeId node;
+    /// Fate of the copy at this receiver.
+    Fate fate = Fate::waiting;
+    /// True if the application gets the message: it is the node's first copy, and the node is a
+    /// destination.
+    bool delivered = false;
+    /// True if the receiver locked onto the frame. For a lost frame `sinr` sets whether it did.
+    bool locked = true;
+
+    /// Order in which the receptions of a transmission are served: by time, then by node.
+    friend bool operator<(const Reception& a, const Reception& b) {
+        return a.time != b.time ? a.time < b.time : a.node < b.node;
+    }
+};
 
 /// Reason for the loss of a copy outside a reception. Sinks read it in Dropped.
 ///

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "sim/fit.hpp"
-#include "sim/range.hpp"
+#include "sim/parameter.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 

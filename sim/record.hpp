@@ -4,7 +4,6 @@
 #include "sim/fate.hpp"
 #include "sim/ids.hpp"
 #include "sim/message.hpp"
-#include "sim/reception.hpp"
 #include "sim/record_field.hpp"
 #include "sim/record_kind.hpp"
 #include "sim/robot_record.hpp"

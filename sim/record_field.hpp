@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "sim/fate.hpp"
 #include "sim/fields.hpp"
 #include "sim/leg.hpp"
 #include "sim/message.hpp"
@@ -107,6 +108,15 @@ struct FieldsOf<Leg> {
                         field("from", &Leg::from), field<not_hashed>("velocity", &Leg::velocity),
                         field("to", &Leg::to), field<not_hashed>("heading", &Leg::heading),
                         field<not_hashed>("turning", &Leg::turning));
+    }
+};
+
+template <>
+struct FieldsOf<Reception> {
+    static constexpr auto fields() {
+        return describe(field("node", &Reception::node), field("time", &Reception::time),
+                        field("fate", &Reception::fate), field("delivered", &Reception::delivered),
+                        field<not_visited>("locked", &Reception::locked));
     }
 };
 

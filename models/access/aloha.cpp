@@ -1,9 +1,44 @@
 // SPDX-License-Identifier: MIT
 #include "models/access/aloha.hpp"
 
+#include "models/access/transmit_queue.hpp"
+#include "models/phy/wifi.hpp"
+
 #include <algorithm>
+#include <vector>
 
 namespace rovernet {
+
+/// Queues and transmissions of all nodes under ALOHA.
+class AlohaAccess final : public Access {
+  public:
+    /// @param settings  settings, as given
+    explicit AlohaAccess(const Aloha& settings) : settings_(settings) {}
+
+    void add() override { stations_.emplace_back(); }
+    void send(Air& air, const QueuedFrame& frame) override;
+    void on_timer(Air& air, NodeId node, std::uint32_t tag) override;
+    std::vector<QueuedFrame> take(NodeId node, NodeId next_hop) override;
+    void switch_off(Air& air, NodeId node) override;
+    Phy phy() const override { return Wifi{}; }
+    bool has_priority() const override { return settings_.priority; }
+
+  private:
+    /// State of one node: its queue, and the end of its last frame.
+    struct Station {
+        /// End of the node's last frame: the next one starts no earlier.
+        Time free_from = start_of_run;
+        /// Frames that wait at the node; a timer is set for the first.
+        TransmitQueue queue = {};
+    };
+    // Sets the timer for the first frame of the queue.
+    void expect(Air& air, NodeId node);
+
+    // Settings, as given.
+    Aloha settings_;
+    // Stations by node.
+    std::vector<Station> stations_;
+};
 
 std::unique_ptr<Access> Aloha::make_access() const { return std::make_unique<AlohaAccess>(*this); }
 

@@ -2,15 +2,12 @@
 #pragma once
 
 #include "models/access/access.hpp"
-#include "models/access/transmit_queue.hpp"
-#include "models/phy/wifi.hpp"
 #include "sim/fields.hpp"
 
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string_view>
-#include <vector>
 
 // Pure and slotted ALOHA: the simplest access model with a queue. In code:
 //
@@ -18,7 +15,18 @@
 
 namespace rovernet {
 
-/// Settings of ALOHA.
+/// Access model "aloha": a frame is transmitted at once, or in the next slot, without carrier
+/// sensing; it only waits for earlier frames of the same node.
+///
+///   pure      |==1==|==2==|   |==3==|       a frame during another starts at its end
+///   slotted   |==1==|   |==2==|   |==3==|   frames start at multiples of the slot
+///
+/// A unicast is sent once, without an acknowledgement. With many senders of total load G, in frames
+/// per frame time, the fraction of frames received is e^-2G, slotted e^-G; bench/aloha.hpp measures
+/// it.
+///
+/// Source: N. Abramson, The ALOHA system, AFIPS 1970; L. Roberts, ALOHA packet system with and
+/// without slots and capture, 1975.
 struct Aloha {
     static constexpr std::string_view name = "aloha";
 
@@ -41,48 +49,6 @@ struct Aloha {
 
     /// Creates the access model for one Network.
     std::unique_ptr<Access> make_access() const;
-};
-
-/// Access model "aloha": a frame is transmitted at once, or in the next slot, without carrier
-/// sensing; it only waits for earlier frames of the same node.
-///
-///   pure      |==1==|==2==|   |==3==|       a frame during another starts at its end
-///   slotted   |==1==|   |==2==|   |==3==|   frames start at multiples of the slot
-///
-/// A unicast is sent once, without an acknowledgement. With many senders of total load G, in frames
-/// per frame time, the fraction of frames received is e^-2G, slotted e^-G; bench/aloha.hpp measures
-/// it.
-///
-/// Source: N. Abramson, The ALOHA system, AFIPS 1970; L. Roberts, ALOHA packet system with and
-/// without slots and capture, 1975.
-class AlohaAccess final : public Access {
-  public:
-    /// @param settings  settings, as given
-    explicit AlohaAccess(const Aloha& settings) : settings_(settings) {}
-
-    void add() override { stations_.emplace_back(); }
-    void send(Air& air, const QueuedFrame& frame) override;
-    void on_timer(Air& air, NodeId node, std::uint32_t tag) override;
-    std::vector<QueuedFrame> take(NodeId node, NodeId next_hop) override;
-    void switch_off(Air& air, NodeId node) override;
-    Phy phy() const override { return Wifi{}; }
-    bool has_priority() const override { return settings_.priority; }
-
-  private:
-    /// State of one node: its queue, and the end of its last frame.
-    struct Station {
-        /// End of the node's last frame: the next one starts no earlier.
-        Time free_from = start_of_run;
-        /// Frames that wait at the node; a timer is set for the first.
-        TransmitQueue queue = {};
-    };
-    // Sets the timer for the first frame of the queue.
-    void expect(Air& air, NodeId node);
-
-    // Settings, as given.
-    Aloha settings_;
-    // Stations by node.
-    std::vector<Station> stations_;
 };
 
 }  // namespace rovernet

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/arrival.hpp"
 #include "models/radio.hpp"
-#include "models/transmission.hpp"
 #include "sim/fields.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "models/propagation/propagation_model.hpp"
-#include "models/propagation/shadowed_range.hpp"
 #include "sim/fields.hpp"
 #include "sim/units.hpp"
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/propagation/shadowed_range.hpp"
 #include "scene/scene.hpp"
 #include "sim/geometry.hpp"
+#include "sim/math.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -26,6 +27,39 @@
 //     };
 
 namespace rovernet {
+
+/// Path loss [dB] with log-normal shadowing, at distance d [m] >= 0 for a standard normal draw x:
+///
+///   L(d, x) = max(0, median(d) + sigma clamp(x, -5, 5)),
+///   median(d) = L0 + S log10(max(d / d0, 1)).
+struct ShadowedLoss {
+    /// Number of standard deviations at which draws are cut [-].
+    static constexpr double cut_sigmas = 5;
+
+    /// Loss at the reference distance, L0 [dB].
+    double at_reference;
+    /// Slope S [dB per decade of distance], > 0.
+    double per_decade;
+    /// Reference distance d0 [m], > 0.
+    double reference_distance;
+    /// Standard deviation of shadowing [dB], >= 0.
+    double sigma;
+
+    /// Median loss at distance d relative to that at the reference distance [dB].
+    double rise(double d) const {
+        return per_decade * math::log10(std::max(d / reference_distance, 1.0));
+    }
+    /// Median loss [dB] at distance d [m].
+    double median(double d) const { return at_reference + rise(d); }
+    /// Loss [dB] at distance d for the standard normal deviate x, clipped to +-5.
+    double operator()(double d, double x) const {
+        return std::max(0.0, median(d) + sigma * std::clamp(x, -cut_sigmas, cut_sigmas));
+    }
+    /// Distance [m] at which the median loss is `loss` [dB], except for rounding; at least d0.
+    double distance(double loss) const {
+        return reference_distance * math::exp10(std::max(0.0, (loss - at_reference) / per_decade));
+    }
+};
 
 /// Links from one transmitter to its receivers: the complete input of a propagation model.
 ///

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/propagation/propagation_model.hpp"
 #include "sim/math.hpp"
 #include "sim/random.hpp"
 #include "sim/units.hpp"
@@ -17,39 +18,6 @@
 // draws decide a link by the distance alone, with a table. A model supports it by shadowed_loss().
 
 namespace rovernet {
-
-/// Path loss [dB] with log-normal shadowing, at distance d [m] >= 0 for a standard normal draw x:
-///
-///   L(d, x) = max(0, median(d) + sigma clamp(x, -5, 5)),
-///   median(d) = L0 + S log10(max(d / d0, 1)).
-struct ShadowedLoss {
-    /// Number of standard deviations at which draws are cut [-].
-    static constexpr double cut_sigmas = 5;
-
-    /// Loss at the reference distance, L0 [dB].
-    double at_reference;
-    /// Slope S [dB per decade of distance], > 0.
-    double per_decade;
-    /// Reference distance d0 [m], > 0.
-    double reference_distance;
-    /// Standard deviation of shadowing [dB], >= 0.
-    double sigma;
-
-    /// Median loss at distance d relative to that at the reference distance [dB].
-    double rise(double d) const {
-        return per_decade * math::log10(std::max(d / reference_distance, 1.0));
-    }
-    /// Median loss [dB] at distance d [m].
-    double median(double d) const { return at_reference + rise(d); }
-    /// Loss [dB] at distance d for the standard normal deviate x, clipped to +-5.
-    double operator()(double d, double x) const {
-        return std::max(0.0, median(d) + sigma * std::clamp(x, -cut_sigmas, cut_sigmas));
-    }
-    /// Distance [m] at which the median loss is `loss` [dB], except for rounding; at least d0.
-    double distance(double loss) const {
-        return reference_distance * math::exp10(std::max(0.0, (loss - at_reference) / per_decade));
-    }
-};
 
 /// Standard normal draws x of the shadowing, one for each unordered pair of robots' keys.
 inline PairDraws shadowing_draws(std::uint64_t seed, std::uint32_t replication) {

@@ -3,7 +3,7 @@
 
 #include "scenario/document/value.hpp"
 #include "sim/fields.hpp"
-#include "study/statistics/interval_method.hpp"
+#include "study/statistics/interval.hpp"
 
 #include <optional>
 #include <string>

@@ -3,7 +3,7 @@
 
 #include "models/propagation/propagation.hpp"
 #include "scenario/scenario.hpp"
-#include "sim/fit.hpp"
+#include "sim/parameter.hpp"
 #include "study/calibration/known_links.hpp"
 
 #include <map>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "study/statistics/interval_method.hpp"
+#include "study/statistics/interval.hpp"
 #include "study/statistics/metric_bounds.hpp"
 
 #include <array>

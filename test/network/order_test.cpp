@@ -3,7 +3,7 @@
 #include "mobility/random_waypoint.hpp"
 #include "models/propagation/list.hpp"
 #include "network/network.hpp"
-#include "routing/flood.hpp"
+#include "routing/flood_router.hpp"
 #include "test/network/reception_log.hpp"
 #include "test/scene/drawn_map.hpp"
 

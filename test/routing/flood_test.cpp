@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "routing/flood.hpp"
-
 #include "models/propagation/disc.hpp"
 #include "network/network.hpp"
+#include "routing/flood_router.hpp"
 #include "test/scene/drawn_map.hpp"
 
 #include <doctest/doctest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a node makes of later copies, one by one.
-#include "routing/flood.hpp"
+#include "routing/flood_router.hpp"
 #include "test/routing/fake_link_layer.hpp"
 
 #include <doctest/doctest.h>
