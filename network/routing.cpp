@@ -42,6 +42,7 @@ SendResult result_of(DropReason reason) {
 void Routing::set(Router router) {
     if (router_) throw std::invalid_argument("this network has a routing protocol already");
     router_.emplace(std::move(router));
+    world_.router = &*router_;
     world_.on_forgotten = [this](MessageId id) { router_->forget(id); };
     world_.on_header_forgotten = [this](std::uint32_t header) { router_->forget_header(header); };
     if (router_->traits().wants_levels) world_.levels_wanted = true;

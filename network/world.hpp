@@ -8,10 +8,10 @@
 #include "network/occurrence.hpp"
 #include "network/recorder.hpp"
 #include "scene/scene.hpp"
+#include "sim/events/scheduler.hpp"
 #include "sim/legs.hpp"
 #include "sim/message.hpp"
 #include "sim/random.hpp"
-#include "sim/events/scheduler.hpp"
 #include "sim/slots.hpp"
 #include "sim/time.hpp"
 
@@ -40,7 +40,7 @@ struct World {
     /// Passes a record to all sinks that want its kind.
     template <class R>
     void emit(const R& record) {
-        records.emit(record, {legs, messages});
+        records.emit(record, {legs, messages, router});
     }
     /// Number of robots.
     std::size_t size() const { return legs.size(); }
@@ -113,6 +113,8 @@ struct World {
     MessageTable messages;
     /// Sinks, which get the records of emit().
     Recorder records;
+    /// Routing protocol, for sinks; null until Routing sets it.
+    const Router* router = nullptr;
     /// Called after the last reference to a message was removed; set by Routing.
     std::function<void(MessageId)> on_forgotten = {};
     /// Called after the last reference to a header of a frame was removed; set by Routing.

@@ -114,12 +114,12 @@ void note_payloads(Scenario& out) {
 void note_unicasts(Scenario& out) {
     if (out.routing.make().traits().routes_unicasts) return;
     Affected unicasts;
-    const auto note = [&](const Location& where, std::string_view to, std::string_view silent) {
+    const auto note = [&](const Location& where, std::string_view to, std::string_view advice) {
         unicasts.add([&] {
             return fmt::format(
                 "{}: to: the routing protocol does not route messages to one robot, "
                 "so those to \"{}\" go over one hop{}",
-                where.text(), to, silent);
+                where.text(), to, advice);
         });
     };
     for (const TrafficTable& traffic : out.traffic) {

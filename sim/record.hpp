@@ -30,6 +30,7 @@
 namespace rovernet {
 
 class Legs;
+class Router;
 
 /// An application passes a message to the routing protocol, or to the MAC if it is sent over one
 /// hop. Control packets of a protocol have no Sent. Applications emit it before any other record of
@@ -191,6 +192,9 @@ struct RecordContext {
     const Legs& legs;
     /// Messages in use, including those of the record.
     const MessageTable& messages;
+    /// Routing protocol, which describes its control packets; null without one, and for records
+    /// that were read from a file.
+    const Router* router = nullptr;
 };
 
 }  // namespace rovernet

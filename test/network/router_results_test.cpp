@@ -7,6 +7,7 @@
 #include "models/reception/list.hpp"
 #include "network/network.hpp"
 #include "test/counted_allocations.hpp"
+#include "traces/ns2/ns2_trace.hpp"
 
 #include <doctest/doctest.h>
 
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -69,6 +71,10 @@ struct Scripted {
     }
     void forget_header(std::uint32_t header) { script->forget_header(header); }
     bool keeps(MessageId) const { return script->keeps; }
+    void describe(const Message& message, const Frame& frame, std::string& text) const {
+        text += "[0x2 " + std::to_string(message.payload.size()) + " " +
+                std::to_string(frame.hops) + "] (REQUEST)";
+    }
 };
 
 /// Sink that writes down the records of packets, and checks that they do not go back in time.
@@ -384,6 +390,33 @@ TEST_CASE("priority: a control packet displaces the last message of a full queue
     CHECK(row.script->results ==
           std::vector{SendResult::queue_full, SendResult::acked, SendResult::acked});
     CHECK(row.lines("D") == Lines{"D0 IFQ?", "D0 CBK"});
+}
+
+TEST_CASE("traces: a protocol describes its control packets, and no other packet") {
+    Row row;
+    std::string lines;
+    const auto trace = std::make_shared<Ns2Trace>([&](std::string_view text) { lines += text; });
+    row.net.add_sink(trace);
+    row.script->send = [](LinkLayer& link, NodeId node, MessageId m) {
+        const MessageId packet = link.originate(node, everyone, "AODV", 48, "abc");
+        link.send({.message = packet, .sender = node, .ttl = 1, .hops = 1}, {}, link.now());
+        link.release(packet);
+        link.send({.message = m, .sender = node, .ttl = 1, .hops = 1, .next_hop = {1}}, {},
+                  link.now());
+    };
+    row.net.send({0}, {1}, "hello");
+    row.net.run_for(1s);
+    trace->close();
+    std::istringstream each(lines);
+    int described = 0, packets = 0;
+    for (std::string line; std::getline(each, line);) {
+        if (line[0] == 'M') continue;
+        const bool is_control = line.find(" AODV ") != std::string::npos;
+        CHECK(line.ends_with(" [0x2 3 1] (REQUEST)") == is_control);
+        (is_control ? described : packets) += 1;
+    }
+    CHECK(described == 2);  // s RTR and r RTR
+    CHECK(packets == 5);    // s AGT, r RTR, s RTR, r RTR, r AGT
 }
 
 TEST_CASE("snr: a reception's level over the noise floor of its receiver") {

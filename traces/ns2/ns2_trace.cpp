@@ -4,6 +4,7 @@
 #include "files/part_file.hpp"
 #include "sim/error.hpp"
 #include "sim/legs.hpp"
+#include "sim/router.hpp"
 #include "traces/ns2/decimal.hpp"
 
 #include <cmath>
@@ -58,9 +59,18 @@ struct Line {
 
 /// Fields of lines about a message's packets.
 struct PacketLine : Line {
+    PacketLine(Line common, MessageId id, unsigned hops) : Line(common), message(id), ttl(hops) {}
+    PacketLine(Line common, const Frame& its_frame, std::uint32_t below_router = 0)
+        : Line(common),
+          message(its_frame.message),
+          ttl(its_frame.ttl),
+          added(below_router),
+          frame(&its_frame) {}
+
     MessageId message;
     unsigned ttl;
-    std::uint32_t added = 0;  ///< [bytes] by what is below the router
+    std::uint32_t added = 0;       ///< [bytes] by what is below the router
+    const Frame* frame = nullptr;  ///< frame of the packet, if it has one yet
 };
 
 }  // namespace
@@ -111,6 +121,7 @@ class Ns2Trace::Writer {
     void lines(const Other&, const RecordContext&) {}
 
     void packet(const PacketLine&, const RecordContext&);
+    void describe(const PacketLine&, const Message&, const Router&);
     void old_packet(const PacketLine&, const Message&);
     void new_packet(const PacketLine&, const Message&, Vec3 position);
     void control(const Line&, const AirFrame&, std::uint32_t bytes, const RecordContext&);
@@ -144,6 +155,7 @@ class Ns2Trace::Writer {
     std::size_t used_ = 0;
     char* at_ = nullptr;  ///< where the current line goes on
     bool finished_ = false, closed_ = false;
+    std::string description_;  ///< of a control packet; kept to reuse its memory
 };
 
 void Ns2Trace::Writer::lines(const Sent& r, const RecordContext& context) {
@@ -177,14 +189,14 @@ void Ns2Trace::Writer::router_line(Time time, const Frame& frame, std::optional<
                                    const RecordContext& context) {
     const char op = frame.sender == context.messages[frame.message].origin ? 's' : 'f';
     const MacHeader mac = heard_from ? ip_header(*heard_from) : MacHeader{};
-    packet({{op, time, frame.sender, "RTR", "---", mac}, frame.message, frame.ttl}, context);
+    packet({{op, time, frame.sender, "RTR", "---", mac}, frame}, context);
 }
 
 void Ns2Trace::Writer::lines(const Received& r, const RecordContext& context) {
     const Frame& frame = r.frame;
     const MacHeader mac = ip_header(frame.sender, frame.next_hop, r.reserved);
     for (const Reception& rx : r.receptions) {
-        PacketLine line{{'r', rx.time, rx.node, "MAC", "---", mac}, frame.message, frame.ttl};
+        PacketLine line{{'r', rx.time, rx.node, "MAC", "---", mac}, frame};
         const bool repeated = frame.next_hop != everyone && rx.fate == Fate::duplicate;
         if (repeated || !is_decoded(rx.fate)) {
             if (mac_ == MacTrace::off) continue;
@@ -213,14 +225,14 @@ void Ns2Trace::Writer::lines(const Dropped& r, const RecordContext& context) {
     if (r.frame.sender != r.node) mac = ip_header(r.frame.sender, r.frame.next_hop);
     const auto [code, layer] = r.loss();
     if (layer == "MAC" && mac_ == MacTrace::off) return;
-    packet({{'D', r.time, r.node, layer, code, mac}, r.frame.message, r.frame.ttl}, context);
+    packet({{'D', r.time, r.node, layer, code, mac}, r.frame}, context);
 }
 
 void Ns2Trace::Writer::lines(const AirSent& r, const RecordContext& context) {
     const AirFrame& air = r.air;
     const Line line{'s', r.time, air.frame.sender, "MAC", "---", mac_header(air)};
     if (air.control) return control(line, air, r.bytes, context);
-    packet({line, air.frame.message, air.frame.ttl, on_air(r.header)}, context);
+    packet({line, air.frame, on_air(r.header)}, context);
 }
 
 void Ns2Trace::Writer::lines(const ControlReceived& r, const RecordContext& context) {
@@ -254,7 +266,19 @@ void Ns2Trace::Writer::packet(const PacketLine& line, const RecordContext& conte
     } else {
         new_packet(line, message, context.legs.position(line.node, line.time));
     }
+    if (!message.kind.empty() && line.frame && context.router)
+        describe(line, message, *context.router);
     end_line();
+}
+
+/// Appends what the routing protocol says of its control packet, as ns-2 does in brackets.
+void Ns2Trace::Writer::describe(const PacketLine& line, const Message& message,
+                                const Router& router) {
+    constexpr std::size_t longest = 2048;
+    description_.clear();
+    router.describe(message, *line.frame, description_);
+    if (description_.empty()) return;
+    text(" "), text(std::string_view(description_).substr(0, longest));
 }
 
 /// Writes a frame without a network part.
