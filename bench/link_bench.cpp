@@ -9,6 +9,7 @@
 //   philox    the same, with a draw by bits(Key) for each link
 #include "bench/least.hpp"
 #include "models/propagation/log_distance.hpp"
+#include "models/propagation/shadowed_range.hpp"
 #include "network/network.hpp"
 
 #include <benchmark/benchmark.h>

@@ -2,6 +2,7 @@
 #include "models/propagation/log_distance.hpp"
 
 #include "models/propagation/friis.hpp"
+#include "models/propagation/shadowed_range.hpp"
 #include "sim/math.hpp"
 
 namespace rovernet {

@@ -3,6 +3,7 @@
 #include "models/medium/loss_bounds.hpp"
 #include "models/propagation/friis.hpp"
 #include "models/propagation/log_distance.hpp"
+#include "models/propagation/shadowed_range.hpp"
 #include "sim/math.hpp"
 #include "sim/random.hpp"
 #include "study/validation/validation_charts.hpp"
