@@ -7,8 +7,8 @@
 //   events  with a payload of 16 bytes, or a std::function that holds as much; not looked at
 //   served  the same, and each event counts one up in the 64 bytes of its node
 #include "bench/least.hpp"
-#include "sim/random.hpp"
 #include "sim/events/scheduler.hpp"
+#include "sim/random.hpp"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>

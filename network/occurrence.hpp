@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "sim/ids.hpp"
 #include "sim/events/scheduler.hpp"
+#include "sim/ids.hpp"
 
 #include <cstdint>
 
