@@ -10,9 +10,9 @@ ClientRadios::~ClientRadios() {
     for (auto& [robot, listeners] : listeners_) listeners.subscription.end();
 }
 
-void ClientRadios::join(ClientId client, const std::vector<NodeId>& robots) {
+void ClientRadios::join(ClientId client, const std::vector<NodeId>& robots, bool hears) {
     clients_[client] = {.robots = robots};
-    set_hearing(client, true);
+    set_hearing(client, hears);
 }
 
 void ClientRadios::leave(ClientId client) {

@@ -36,7 +36,8 @@ class ClientRadios {
     /// Adds a client, which gets the messages that `robots` receive from now on.
     /// @param client  id of a client that has not joined yet, for the calls below
     /// @param robots  each listed once; may be empty
-    void join(ClientId client, const std::vector<NodeId>& robots);
+    /// @param hears   whether messages are queued for heard(), as set_hearing()
+    void join(ClientId client, const std::vector<NodeId>& robots, bool hears);
     /// Removes a client and its queued messages. Does nothing if it has not joined.
     void leave(ClientId client);
     /// Whether a client has joined with that robot.
@@ -52,7 +53,7 @@ class ClientRadios {
     /// Fetches the messages that a client got since its last call, in order of time, then of robot.
     /// @throws std::out_of_range if the client has not joined
     std::vector<HeardMessage> heard(ClientId client);
-    /// Sets whether messages are queued for heard(); true after join(). False also drops the queue.
+    /// Sets whether messages are queued for heard(). False also drops the queue.
     /// @throws std::out_of_range if the client has not joined
     void set_hearing(ClientId client, bool hears);
 

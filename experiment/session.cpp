@@ -75,7 +75,7 @@ bool Session::run(std::optional<double> speed, const std::function<bool(double)>
     }
 }
 
-ClientId Session::attach(const std::vector<NodeId>& robots, std::string name) {
+ClientId Session::attach(const std::vector<NodeId>& robots, std::string name, bool hears) {
     for (const NodeId robot : robots) {
         const std::string robot_name = network_->name(robot);
         if (drivers_.contains(robot)) {
@@ -86,15 +86,15 @@ ClientId Session::attach(const std::vector<NodeId>& robots, std::string name) {
             throw std::invalid_argument(fmt::format("robot {} is listed twice", robot_name));
         }
     }
-    const ClientId client = attach_radios(robots, std::move(name));
+    const ClientId client = attach_radios(robots, std::move(name), hears);
     for (const NodeId robot : robots) drivers_[robot] = client;
     return client;
 }
 
-ClientId Session::attach_radios(const std::vector<NodeId>& robots, std::string name) {
+ClientId Session::attach_radios(const std::vector<NodeId>& robots, std::string name, bool hears) {
     const ClientId client = next_client_++;
     clients_[client] = {.name = std::move(name), .robots = robots};
-    radios_->join(client, robots);          // first, so that frames of this time have levels
+    radios_->join(client, robots, hears);   // first, so that frames of this time have levels
     advance(network_->now(), every_event);  // a command comes after all events of its time
     radios_->heard(client);                 // what came before the client
     return client;

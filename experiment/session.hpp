@@ -63,11 +63,13 @@ class Session {
     /// Adds a client that drives `robots`, which no other client may drive. Events of the current
     /// time are processed first, so that a command takes effect after all events of its time.
     /// @throws std::invalid_argument naming a robot that is taken or listed twice
-    /// @param name  name of the client, for on_input()
-    ClientId attach(const std::vector<NodeId>& robots, std::string name = {});
+    /// @param name   name of the client, for on_input()
+    /// @param hears  whether messages are queued for heard(), as set_hearing()
+    ClientId attach(const std::vector<NodeId>& robots, std::string name = {}, bool hears = true);
     /// Adds a client that uses the radios of `robots` without driving them: it sends messages from
     /// these robots, and gets the messages that they receive. Each robot is listed once.
-    ClientId attach_radios(const std::vector<NodeId>& robots, std::string name = {});
+    ClientId attach_radios(const std::vector<NodeId>& robots, std::string name = {},
+                           bool hears = true);
     /// Removes a client and its queued messages. Robots that it drives stop.
     void detach(ClientId client);
 
@@ -102,8 +104,8 @@ class Session {
     /// Fetches the messages that the client's robots received since the last call, in order of
     /// time, then of robot.
     std::vector<HeardMessage> heard(ClientId client);
-    /// Sets whether messages are queued for heard(); true after attach(). A client that never calls
-    /// heard() should set false, or its queue fills the memory.
+    /// Sets whether messages are queued for heard(). A client that never calls heard() should set
+    /// false, or its queue fills the memory.
     void set_hearing(ClientId client, bool hears);
     /// Whether the robot is commanded to drive ahead but stands still, blocked (by a wall, say).
     bool is_stalled(NodeId robot) const;

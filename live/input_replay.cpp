@@ -156,9 +156,7 @@ class Replayed {
   private:
     ClientId driver_of(NodeId robot) {
         if (const auto driver = session_.driver(robot)) return *driver;
-        const ClientId driver = session_.attach({robot});
-        session_.set_hearing(driver, false);
-        return driver;
+        return session_.attach({robot}, {}, false);
     }
 
     void run_to(Time time) {

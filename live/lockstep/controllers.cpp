@@ -12,7 +12,7 @@ Controller::Controller(std::optional<Connection> from, HelloRequest hello_of)
 }
 
 void Controller::join(Session& session) {
-    client = session.attach(hello.robots, hello.name);
+    client = session.attach(hello.robots, hello.name, hello.observes_heard);
     state = State::owes;
     has_stepped = false;
     step.commands.clear();

@@ -14,8 +14,7 @@ PlayerRobot::PlayerRobot(Session& session, NodeId robot)
 /// Makes this client the robot's driver. @return whether it is
 bool PlayerRobot::take() {
     if (!client_ && !session_.driver(id_)) {
-        client_ = session_.attach({id_}, "player");
-        session_.set_hearing(*client_, listens_);
+        client_ = session_.attach({id_}, "player", listens_);
     }
     return client_.has_value();
 }
