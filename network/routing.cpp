@@ -12,16 +12,6 @@
 namespace rovernet {
 namespace {
 
-/// Frame as its sender received it, before the changes of forwarding.
-Frame as_received(const QueuedFrame& sending) {
-    Frame frame = sending.frame;
-    if (!sending.heard_from) return frame;
-    frame.sender = *sending.heard_from;
-    ++frame.ttl;
-    --frame.hops;
-    return frame;
-}
-
 SendResult result_of(DropReason reason) {
     switch (reason) {
         case DropReason::queue_full: return SendResult::queue_full;
@@ -176,7 +166,7 @@ void Routing::on_send(SendHandle handle) {
 void Routing::send_now(const QueuedFrame& frame) {
     const NodeId sender = frame.frame.sender;
     if (!world_.medium.stations().is_on(sender)) {
-        drop_sending(sender, as_received(frame), frame.frame, DropReason::off);
+        drop_sending(sender, frame.as_received(), frame.frame, DropReason::off);
         if (wants_result(frame.frame)) tell(frame, SendResult::off);
         world_.release(frame.frame);
         return;

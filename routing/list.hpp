@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "routing/aodv.hpp"
 #include "routing/flood.hpp"
 
 #include <tuple>
@@ -8,6 +9,6 @@
 namespace rovernet {
 
 /// Routing protocols that scenario files can name.
-using RoutingProtocols = std::tuple<Flood>;
+using RoutingProtocols = std::tuple<Flood, Aodv>;
 
 }  // namespace rovernet

@@ -86,6 +86,17 @@ struct QueuedFrame {
     /// True for a control packet of the routing protocol, which an access model with priority
     /// sends before messages of applications.
     bool is_control = false;
+
+    /// Frame as its sender received it, before the changes of forwarding; the frame itself if the
+    /// sender is the message's origin.
+    Frame as_received() const {
+        Frame received = frame;
+        if (!heard_from) return received;
+        received.sender = *heard_from;
+        ++received.ttl;
+        --received.hops;
+        return received;
+    }
 };
 
 /// Control frame of an access model: its name in traces, "RTS", and its size [bytes].

@@ -29,8 +29,8 @@ struct Three {
 TEST_CASE("client radios: who stays at a shared radio hears on, with last hop and level") {
     Three robots;
     ClientRadios radios(robots.net);
-    radios.join(1, {robots.b, robots.c});
-    radios.join(2, {robots.b});
+    radios.join(1, {robots.b, robots.c}, true);
+    radios.join(2, {robots.b}, true);
     CHECK(radios.has(2, robots.b));
     CHECK_FALSE(radios.has(2, robots.c));
     radios.leave(1);
@@ -48,7 +48,7 @@ TEST_CASE("client radios: who stays at a shared radio hears on, with last hop an
 TEST_CASE("client radios: what robots hear at one time is in their order, not in that of events") {
     Three robots;
     ClientRadios radios(robots.net);
-    radios.join(1, {robots.b, robots.c});
+    radios.join(1, {robots.b, robots.c}, true);
     radios.send(robots.a, {.to = robots.c, .payload = "x"});
     radios.send(robots.a, {.to = robots.b, .payload = "y"});
     robots.net.run_for(1s);
@@ -62,7 +62,7 @@ TEST_CASE("client radios: what robots hear at one time is in their order, not in
 TEST_CASE("client radios: a robot that is off sends nothing, which has no number and no port") {
     Three robots;
     ClientRadios radios(robots.net);
-    radios.join(1, {robots.a, robots.b});
+    radios.join(1, {robots.a, robots.b}, true);
     const auto first = radios.send(robots.a, {.payload = "x"});
     REQUIRE(first.has_value());
     robots.net.switch_off(robots.a);

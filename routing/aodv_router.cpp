@@ -1,0 +1,418 @@
+// SPDX-License-Identifier: MIT
+#include "routing/aodv_router.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace rovernet {
+namespace {
+
+// Tags of timers.
+constexpr std::uint64_t searches = 0, hello = 1;
+// Time that a packet waits for a route, as ns-2 and ns-3 have it.
+constexpr Duration longest_wait = std::chrono::seconds{30};
+constexpr int allowed_hello_loss = 2;
+
+}  // namespace
+
+Aodv::operator Router() const { return AodvRouter{AodvRules::of(*this)}; }
+
+Time AodvRouter::RateLimit::take(Time now) {
+    constexpr std::size_t most = 10;
+    constexpr Duration window = std::chrono::seconds{1};
+    if (last_.size() == most) {
+        if (now < last_.front() + window) return last_.front() + window;
+        last_.erase(last_.begin());
+    }
+    last_.push_back(now);
+    return now;
+}
+
+AodvRouter::Node& AodvRouter::node(NodeId id) {
+    while (nodes_.size() <= id.index()) nodes_.emplace_back().number = rules_.first_number;
+    return nodes_[id.index()];
+}
+
+Route* AodvRouter::route(NodeId at, NodeId destination, Time now) {
+    return node(at).routes.find(destination, now, rules_.delete_period);
+}
+
+Route* AodvRouter::valid_route(NodeId at, NodeId destination, Time now) {
+    Route* found = route(at, destination, now);
+    return found && found->is_valid ? found : nullptr;
+}
+
+/// Lengthens the lifetime of a route in use (6.2).
+void AodvRouter::refresh(NodeId at, NodeId destination, Time now) {
+    Route* used = valid_route(at, destination, now);
+    if (used) used->until = std::max(used->until, now + rules_.active_route_timeout);
+}
+
+std::vector<Route> AodvRouter::routes(NodeId at, Time now) const {
+    std::vector<Route> all;
+    if (at.index() >= nodes_.size()) return all;
+    RouteTable table = nodes_[at.index()].routes;
+    table.for_each(now, rules_.delete_period, [&](const Route& each) { all.push_back(each); });
+    return all;
+}
+
+void AodvRouter::forget(MessageId message) {
+    if (message.index() < arrived_.size()) arrived_[message.index()] = false;
+}
+
+bool AodvRouter::keeps(MessageId message) const {
+    return std::any_of(nodes_.begin(), nodes_.end(), [&](const Node& each) {
+        const auto& packets = each.buffer.packets();
+        return std::any_of(packets.begin(), packets.end(),
+                           [&](const auto& p) { return p.queued.frame.message == message; });
+    });
+}
+
+void AodvRouter::on_start(LinkLayer& link, NodeId at) {
+    Node& here = node(at);
+    if (rules_.hello == Duration{0} || std::exchange(here.is_started, true)) return;
+    const double u = link.draw(Purpose::hello, at, 0);
+    link.timer(at, link.now() + from_seconds(u * seconds(rules_.hello)), hello);
+}
+
+/// A node that is switched off loses what it knows, and begins in silence (6.13).
+void AodvRouter::on_switched(LinkLayer& link, NodeId at, bool on) {
+    Node& here = node(at);
+    if (on) {
+        here.silent_until = link.now() + rules_.silence;
+        return;
+    }
+    for (const auto& packet : here.buffer.take_all()) lose(link, at, packet, DropReason::off);
+    const bool is_started = here.is_started;
+    here = {};
+    here.number = rules_.first_number;
+    here.is_started = is_started;
+}
+
+void AodvRouter::send(LinkLayer& link, NodeId at, MessageId id) {
+    const Message& message = link.message(id);
+    const NodeId to = message.to;
+    QueuedFrame own{.frame = {.message = id,
+                              .sender = at,
+                              .path = link.key(at),
+                              .ttl = initial_ttl(),
+                              .hops = 1,
+                              .bytes = message.size + rules_.data_header}};
+    const Time now = link.now();
+    if (to == everyone) {
+        own.frame.ttl = 1;
+        link.send(own.frame, {}, now);
+        return;
+    }
+    if (const Route* known = valid_route(at, to, now)) {
+        refresh(at, to, now);
+        refresh(at, known->next_hop, now);
+        send_on(link, own, *known, now);
+        return;
+    }
+    keep(link, at, to, own);
+    search(link, at, to, now);
+}
+
+void AodvRouter::send_on(LinkLayer& link, const QueuedFrame& queued, const Route& route, Time at) {
+    Frame frame = queued.frame;
+    frame.next_hop = route.next_hop;
+    link.send(frame, queued.heard_from, at);
+}
+
+/// Lets a packet wait for a route.
+void AodvRouter::keep(LinkLayer& link, NodeId at, NodeId to, const QueuedFrame& queued) {
+    link.hold(queued.frame);
+    const auto oldest = node(at).buffer.add({to, queued, link.now() + longest_wait}, rules_.buffer);
+    if (oldest) lose(link, at, *oldest, DropReason::buffer_full);
+    set_timer(link, at);
+}
+
+/// Ends a packet that waited.
+void AodvRouter::lose(LinkLayer& link, NodeId at, const SendBuffer::Packet& packet,
+                      DropReason reason) {
+    link.drop(at, packet.queued.as_received(), reason);
+    link.release(packet.queued.frame);
+}
+
+void AodvRouter::on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions) {
+    // Nodes that receive at the same time act in the order of their keys.
+    const auto is_before = [&](const Reception& a, const Reception& b) {
+        return a.time != b.time ? a.time < b.time : link.key(a.node) < link.key(b.node);
+    };
+    std::vector<Reception*> in_order;
+    for (Reception& each : receptions) in_order.push_back(&each);
+    std::sort(in_order.begin(), in_order.end(),
+              [&](const auto* a, const auto* b) { return is_before(*a, *b); });
+    const Message& message = link.message(frame.message);
+    if (message.kind.empty()) {
+        for (Reception* each : in_order) receive_message(link, frame, *each);
+        return;
+    }
+    const aodv::Packet packet = aodv::packet_of(message.payload);
+    for (Reception* each : in_order) {
+        each->fate = Fate::arrived;
+        if (const auto* request = std::get_if<aodv::Request>(&packet)) {
+            each->fate = receive_request(link, frame, *request, *each);
+        } else if (const auto* reply = std::get_if<aodv::Reply>(&packet)) {
+            each->fate = receive_reply(link, frame, *reply, *each);
+        } else if (const auto* error = std::get_if<aodv::Error>(&packet)) {
+            receive_error(link, frame, *error, *each);
+        }
+    }
+}
+
+void AodvRouter::receive_message(LinkLayer& link, const Frame& frame, Reception& r) {
+    const NodeId at = r.node;
+    const Message& message = link.message(frame.message);
+    const NodeId to = message.to, origin = message.origin;
+    r.fate = Fate::arrived;
+    r.delivered = to == everyone;
+    if (to == everyone) return;
+    // 6.2: a packet lengthens the lives of four routes.
+    refresh(at, origin, r.time);
+    refresh(at, frame.sender, r.time);
+    if (to == at) {
+        const std::size_t i = frame.message.index();
+        if (i >= arrived_.size()) arrived_.resize(i + 1);
+        r.delivered = !arrived_[i];
+        if (arrived_[i]) r.fate = Fate::duplicate;
+        arrived_[i] = true;
+        return;
+    }
+    r.fate = frame.ttl > 1 ? Fate::waiting : Fate::ttl;
+    if (frame.ttl <= 1) return;
+    QueuedFrame onward{.frame = frame, .heard_from = frame.sender};
+    onward.frame.sender = at;
+    onward.frame.path = combine(frame.path, link.key(at));
+    --onward.frame.ttl;
+    ++onward.frame.hops;
+    if (const Route* known = valid_route(at, to, r.time)) {
+        refresh(at, to, r.time);
+        refresh(at, known->next_hop, r.time);
+        return send_on(link, onward, *known, r.time + least_reaction);
+    }
+    const auto& running = node(at).searches;
+    const bool is_repaired = std::any_of(running.begin(), running.end(), [&](const Search& each) {
+        return each.destination == to && each.repaired_hops > 0;
+    });
+    if (is_repaired) return keep(link, at, to, onward);
+    // 6.11 (ii): no route, and none is repaired.
+    Route* broken = route(at, to, r.time);
+    if (broken && broken->has_number) ++broken->number;
+    if (r.time < node(at).silent_until) node(at).silent_until = r.time + rules_.silence;  // 6.13
+    const aodv::Error::Lost lost{to, broken && broken->has_number ? broken->number : 0};
+    send_errors(link, at, {&lost, 1}, r.time + least_reaction,
+                {.asker = frame.sender, .is_first = true});
+    link.drop(at, frame, DropReason::no_route);
+}
+
+void AodvRouter::on_sent(LinkLayer& link, const QueuedFrame& queued, SendResult result) {
+    const NodeId at = queued.frame.sender, next_hop = queued.frame.next_hop;
+    if (result == SendResult::acked || result == SendResult::sent) return;
+    const Message& message = link.message(queued.frame.message);
+    if (result != SendResult::retries) {
+        if (!message.kind.empty() || message.to == everyone) return;
+        return link.drop(at, queued.as_received(),
+                         result == SendResult::off ? DropReason::off : DropReason::queue_full);
+    }
+    if (message.kind == aodv::reply_kind) node(at).one_way.push_back({next_hop, link.now()});
+    std::vector<QueuedFrame> stranded = link.take_queued(at, next_hop);
+    stranded.insert(stranded.begin(), queued);
+    on_broken(link, at, next_hop, stranded);
+    for (std::size_t i = 1; i < stranded.size(); ++i) link.release(stranded[i].frame);
+}
+
+/// Whether a node repairs the route of a packet that it could not forward (6.12).
+bool AodvRouter::repairs(const Route& route, const QueuedFrame& queued) const {
+    constexpr Hops farthest = 10;  // MAX_REPAIR_TTL is 0.3 of the net diameter
+    if (!rules_.local_repair || !queued.heard_from) return false;
+    const int hops_so_far = queued.frame.hops - 1;
+    return rules_.repairs_near_destination ? hops_so_far > route.hops : route.hops <= farthest;
+}
+
+/// Breaks the routes over a neighbour that cannot be reached, and ends the packets that were on
+/// their way to it (6.11 (i)).
+void AodvRouter::on_broken(LinkLayer& link, NodeId at, NodeId neighbour,
+                           std::span<const QueuedFrame> stranded) {
+    const Time now = link.now();
+    std::vector<aodv::Error::Lost> lost;
+    std::vector<Search> repairs_to_do;
+    const auto is_repaired = [&](const Route& broken) {
+        return std::any_of(stranded.begin(), stranded.end(), [&](const QueuedFrame& each) {
+            const Message& message = link.message(each.frame.message);
+            return message.kind.empty() && message.to == broken.destination &&
+                   repairs(broken, each);
+        });
+    };
+    node(at).routes.for_each(now, rules_.delete_period, [&](Route& each) {
+        if (!each.is_valid || each.next_hop != neighbour) return;
+        const bool repaired = is_repaired(each);
+        each.is_valid = false;
+        each.number += each.has_number ? 1 : 0;
+        each.until = now + rules_.delete_period;
+        if (repaired) {
+            repairs_to_do.push_back({.destination = each.destination, .repaired_hops = each.hops});
+        } else {
+            lost.push_back({each.destination, each.has_number ? each.number : 0});
+        }
+    });
+    const auto& running = node(at).searches;
+    for (Search& each : repairs_to_do) {
+        // 6.12: max(hops of the old route, half the hops to the source) + LOCAL_ADD_TTL.
+        Hops to_source = 0;
+        for (const QueuedFrame& q : stranded) {
+            if (link.message(q.frame.message).to == each.destination)
+                to_source = std::max(to_source, static_cast<Hops>(q.frame.hops - 1));
+        }
+        each.ttl = std::max<int>(each.repaired_hops, to_source / 2) + 2;
+        node(at).searches.push_back(each);
+    }
+    for (const QueuedFrame& each : stranded) {
+        const Message& message = link.message(each.frame.message);
+        if (!message.kind.empty()) continue;
+        const NodeId to = message.to;
+        const bool waits = std::any_of(running.begin(), running.end(), [&](const Search& search) {
+            return search.destination == to && search.repaired_hops > 0;
+        });
+        if (waits) {
+            keep(link, at, to, each);
+        } else {
+            link.drop(at, each.as_received(), DropReason::broken);
+        }
+    }
+    // 6.12: other routes over the neighbour are reported when a packet needs them.
+    if (repairs_to_do.empty()) send_errors(link, at, lost, now, {.is_first = true});
+    for (const Search& each : repairs_to_do) {
+        for (Search& search : node(at).searches) {
+            if (search.destination == each.destination) request(link, at, search, now);
+        }
+    }
+    set_timer(link, at);
+}
+
+/// Reports lost destinations to the neighbours that used the routes, and to the one whose packet
+/// could not be forwarded (6.11).
+void AodvRouter::send_errors(LinkLayer& link, NodeId at, std::span<const aodv::Error::Lost> lost,
+                             Time when, ErrorOptions options) {
+    Node& here = node(at);
+    std::vector<aodv::Error::Lost> reported;
+    std::vector<NodeId> users;
+    if (options.asker) users.push_back(*options.asker);
+    const bool needs_no_users = options.asker || (options.is_first && rules_.errors_for_all);
+    for (const aodv::Error::Lost& each : lost) {
+        const std::vector<NodeId> own = here.routes.precursors(each.destination);
+        if (own.empty() && !needs_no_users) continue;
+        reported.push_back(each);
+        for (const NodeId user : own) {
+            if (std::find(users.begin(), users.end(), user) == users.end()) users.push_back(user);
+        }
+        if (!options.is_repaired) here.routes.clear_precursors(each.destination);
+    }
+    constexpr std::size_t most = 255;  // DestCount has one byte
+    for (std::size_t from = 0; from < reported.size(); from += most) {
+        if (here.errors.take(when) > when) return;
+        const std::size_t count = std::min(most, reported.size() - from);
+        aodv::Error error{.is_repaired = options.is_repaired, .lost = {}};
+        error.lost.assign(reported.begin() + static_cast<std::ptrdiff_t>(from),
+                          reported.begin() + static_cast<std::ptrdiff_t>(from + count));
+        const auto bytes = static_cast<std::uint32_t>(rules_.error_bytes + 8 * count);
+        const MessageId id = link.originate(at, everyone, aodv::error_kind, bytes, to_bytes(error));
+        const bool is_for_one = users.size() == 1 && !rules_.errors_for_all;
+        link.send({.message = id,
+                   .sender = at,
+                   .path = link.key(at),
+                   .ttl = 1,
+                   .hops = 1,
+                   .next_hop = is_for_one ? users.front() : everyone},
+                  {}, when);
+        link.release(id);
+    }
+}
+
+void AodvRouter::receive_error(LinkLayer& link, const Frame& frame, const aodv::Error& error,
+                               const Reception& r) {
+    const NodeId at = r.node;
+    std::vector<aodv::Error::Lost> passed_on;
+    for (const auto& [destination, number] : error.lost) {
+        Route* known = valid_route(at, destination, r.time);
+        if (!known || known->next_hop != frame.sender) continue;
+        if (error.is_repaired) {
+            passed_on.push_back({destination, number});
+            continue;
+        }
+        const bool is_unknown = number == 0 || !known->has_number;
+        if (rules_.numbers_may_fall) {
+            known->number = number;
+        } else if (is_unknown) {
+            known->number += known->has_number ? 1 : 0;
+        } else if (is_newer(known->number, number)) {
+            continue;  // 6.1: stale information is discarded
+        } else {
+            known->number = number;  // 6.11 (iii), the larger one: A14
+        }
+        known->is_valid = false;
+        known->until = r.time + rules_.delete_period;
+        passed_on.push_back({destination, known->has_number ? known->number : 0});
+    }
+    const Duration late = rules_.delays_errors ? jitter(link, at, frame.message) : Duration{0};
+    send_errors(link, at, passed_on, r.time + least_reaction + late,
+                {.is_repaired = error.is_repaired});
+}
+
+Duration AodvRouter::jitter(LinkLayer& link, NodeId at, MessageId message) const {
+    return from_seconds(link.draw(Purpose::routing_jitter, at, message, 0) *
+                        seconds(rules_.jitter));
+}
+
+void AodvRouter::on_timer(LinkLayer& link, NodeId at, std::uint64_t tag) {
+    if (tag == hello) return send_hello(link, at);
+    const Time now = link.now();
+    if (node(at).timer != now) return;  // an earlier one was set since
+    node(at).timer.reset();
+    for (const auto& packet : node(at).buffer.take_expired(now)) {
+        lose(link, at, packet, DropReason::timeout);
+    }
+    auto& all = node(at).searches;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (due(all[i]) <= now) proceed(link, at, all[i], now);
+    }
+    set_timer(link, at);
+}
+
+/// Sends a HELLO if routes are in use and nothing was broadcast meanwhile, and looks for neighbours
+/// that have fallen silent (6.9, 6.10).
+void AodvRouter::send_hello(LinkLayer& link, NodeId at) {
+    Node& here = node(at);
+    const Time now = link.now();
+    link.timer(at, now + rules_.hello, hello);
+    if (!link.is_on(at)) return;
+    bool is_in_use = false;
+    here.routes.for_each(now, rules_.delete_period,
+                         [&](const Route& each) { is_in_use = is_in_use || each.is_valid; });
+    if (is_in_use && now - here.last_broadcast >= rules_.hello && !is_silent(at, now)) {
+        const aodv::Reply hello{.destination = at,
+                                .number = here.number,
+                                .originator = at,
+                                .lifetime = allowed_hello_loss * rules_.hello};
+        const MessageId id =
+            link.originate(at, everyone, aodv::hello_kind, rules_.reply_bytes, to_bytes(hello));
+        link.send({.message = id, .sender = at, .path = link.key(at), .ttl = 1, .hops = 1}, {},
+                  now);
+        link.release(id);
+        here.last_broadcast = now;
+    }
+    std::vector<NodeId> silent;
+    std::erase_if(here.neighbours, [&](const Neighbour& each) {
+        if (now - each.last <= allowed_hello_loss * rules_.hello) return false;
+        silent.push_back(each.node);
+        return true;
+    });
+    for (const NodeId each : silent) {
+        const std::vector<QueuedFrame> stranded = link.take_queued(at, each);
+        on_broken(link, at, each, stranded);
+        for (const QueuedFrame& queued : stranded) link.release(queued.frame);
+    }
+}
+
+}  // namespace rovernet

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "routing/sequence.hpp"
+#include "sim/ids.hpp"
+#include "sim/time.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace rovernet {
+
+/// Numbers of the packets that a node has received, by originator: the highest number and which of
+/// the 64 below it. Each originator numbers its packets upwards. Numbers of an originator are
+/// forgotten if none came for a time, so that it may start again.
+class SeenIds {
+  public:
+    /// Notes a number. Numbers more than 64 below the highest one count as seen.
+    /// @param memory  time [ns] after which the numbers of a silent originator are forgotten
+    /// @return whether the number is new
+    bool note(NodeId originator, std::uint32_t id, Time now, Duration memory) {
+        const auto place =
+            std::lower_bound(of_.begin(), of_.end(), originator,
+                             [](const Of& each, NodeId node) { return each.originator < node; });
+        if (place == of_.end() || place->originator != originator) {
+            of_.insert(place, {originator, id, 0, now});
+            return true;
+        }
+        Of& known = *place;
+        if (now - known.last > memory) known = {originator, id - 1, 0, now};
+        known.last = now;
+        if (is_newer(id, known.highest)) {
+            const std::uint32_t step = id - known.highest;
+            known.below = step > 64 ? 0 : (step == 64 ? 0 : known.below << step) | bit(step);
+            known.highest = id;
+            return true;
+        }
+        const std::uint32_t back = known.highest - id;
+        if (back == 0 || back > 64 || (known.below & bit(back)) != 0) return false;
+        known.below |= bit(back);
+        return true;
+    }
+    void clear() { of_.clear(); }
+
+  private:
+    /// Numbers of one originator. Bit k of `below` stands for highest - 1 - k.
+    struct Of {
+        NodeId originator;
+        std::uint32_t highest;
+        std::uint64_t below;
+        Time last;
+    };
+    static std::uint64_t bit(std::uint32_t back) { return std::uint64_t{1} << (back - 1); }
+
+    // Originators in the order of their ids.
+    std::vector<Of> of_;
+};
+
+}  // namespace rovernet
