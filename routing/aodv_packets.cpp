@@ -149,22 +149,30 @@ std::string on_air(std::string_view bytes, const Frame& frame,
     return changed;
 }
 
-void describe(const Message& message, const Frame& frame, std::string& text) {
+void describe(const Message& message, const Frame& frame, PacketStyle style, std::string& text) {
     const Packet packet = packet_of(message.payload);
-    const auto to = std::back_inserter(text);
+    const auto write = [&](std::string_view brackets, std::string_view tags,
+                           const auto&... values) {
+        fmt::vformat_to(std::back_inserter(text), style == PacketStyle::tags ? tags : brackets,
+                        fmt::make_format_args(values...));
+    };
     // ns-2 counts the hop that a packet is about to make.
     if (const auto* asked = std::get_if<Request>(&packet)) {
-        fmt::format_to(to, "[0x2 {} {} [{} {}] [{} {}]] (REQUEST)", frame.hops, asked->id,
-                       asked->destination.value, asked->number.value_or(0), asked->originator.value,
-                       asked->originator_number);
+        write("[0x2 {} {} [{} {}] [{} {}]] (REQUEST)",
+              "-P aodv -Pt 0x2 -Ph {} -Pb {} -Pd {} -Pds {} -Ps {} -Pss {} -Pc REQUEST ",
+              frame.hops, asked->id, asked->destination.value, asked->number.value_or(0),
+              asked->originator.value, asked->originator_number);
     } else if (const auto* reply = std::get_if<Reply>(&packet)) {
         const bool is_hello = message.kind == hello_kind;
-        fmt::format_to(to, "[0x{} {} [{} {}] {:.6f}] ({})", is_hello ? 1 : 4,
-                       reply->hops + frame.hops, reply->destination.value, reply->number,
-                       seconds(reply->lifetime), is_hello ? "HELLO" : "REPLY");
+        write("[0x{} {} [{} {}] {:.6f}] ({})",
+              "-P aodv -Pt 0x{} -Ph {} -Pd {} -Pds {} -Pl {:.6f} -Pc {} ", is_hello ? 1 : 4,
+              reply->hops + frame.hops, reply->destination.value, reply->number,
+              seconds(reply->lifetime), is_hello ? "HELLO" : "REPLY");
     } else if (const auto* error = std::get_if<Error>(&packet)) {
-        fmt::format_to(to, "[0x8 {} [{} {}] {:.6f}] (ERROR)", error->lost.size(),
-                       error->lost.front().destination.value, error->lost.front().number, 0.0);
+        const Error::Lost& first = error->lost.front();
+        write("[0x8 {} [{} {}] {:.6f}] (ERROR)",
+              "-P aodv -Pt 0x8 -Ph {} -Pd {} -Pds {} -Pl {:.6f} -Pc ERROR ", error->lost.size(),
+              first.destination.value, first.number, 0.0);
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include "sim/ids.hpp"
 #include "sim/message.hpp"
+#include "sim/routing_protocol.hpp"
 #include "sim/time.hpp"
 
 #include <cstdint>
@@ -75,7 +76,7 @@ Packet packet_of(std::string_view bytes);
 std::string on_air(std::string_view bytes, const Frame& frame,
                    const std::function<std::uint32_t(NodeId)>& address);
 
-/// Appends the bracket of ns-2's old trace format to `text`: "[0x2 1 1 [3 0] [0 4]] (REQUEST)".
-void describe(const Message& message, const Frame& frame, std::string& text);
+/// Appends the content of a packet to `text`, as ns-2 writes it.
+void describe(const Message& message, const Frame& frame, PacketStyle style, std::string& text);
 
 }  // namespace rovernet::aodv

@@ -170,8 +170,10 @@ void AodvRouter::receive_message(LinkLayer& link, const Frame& frame, Reception&
     r.delivered = to == everyone;
     if (to == everyone) return;
     // 6.2: a packet lengthens the lives of four routes.
-    refresh(at, origin, r.time);
-    refresh(at, frame.sender, r.time);
+    if (rules_.meets_neighbours) {
+        refresh(at, origin, r.time);
+        refresh(at, frame.sender, r.time);
+    }
     if (to == at) {
         const std::size_t i = frame.message.index();
         if (i >= arrived_.size()) arrived_.resize(i + 1);
@@ -341,15 +343,15 @@ void AodvRouter::receive_error(LinkLayer& link, const Frame& frame, const aodv::
             passed_on.push_back({destination, number});
             continue;
         }
-        const bool is_unknown = number == 0 || !known->has_number;
         if (rules_.numbers_may_fall) {
             known->number = number;
-        } else if (is_unknown) {
-            known->number += known->has_number ? 1 : 0;
-        } else if (is_newer(known->number, number)) {
-            continue;  // 6.1: stale information is discarded
-        } else {
-            known->number = number;  // 6.11 (iii), the larger one: A14
+        } else if (known->has_number) {
+            const bool is_known = number != 0;
+            // 6.1: stale information is discarded, also in a RERR.
+            if (is_known && is_newer(known->number, number)) continue;
+            // 6.11 (iii) and A14. A report with our own number may be late, of the route before.
+            const std::uint32_t next = known->number + 1;
+            known->number = is_known ? newest(number, next) : next;
         }
         known->is_valid = false;
         known->until = r.time + rules_.delete_period;

@@ -37,12 +37,18 @@ class AodvRouter {
     void on_switched(LinkLayer& link, NodeId node, bool on);
     void forget(MessageId message);
     bool keeps(MessageId message) const;
-    void describe(const Message& message, const Frame& frame, std::string& text) const {
-        aodv::describe(message, frame, text);
+    void describe(const Message& message, const Frame& frame, PacketStyle style,
+                  std::string& text) const {
+        aodv::describe(message, frame, style, text);
     }
 
     /// Routing table of a node at `now`, in the order of destinations.
     std::vector<Route> routes(NodeId node, Time now) const;
+    /// The same as it is stored: a route whose time is over is among them.
+    std::span<const Route> stored_routes(NodeId node) const {
+        return node.index() < nodes_.size() ? nodes_[node.index()].routes.stored()
+                                            : std::span<const Route>{};
+    }
 
   private:
     /// Search for a route, for packets that wait.

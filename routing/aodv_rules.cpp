@@ -31,6 +31,7 @@ AodvRules rfc() {
             .measures_latency = false,
             .poll = {},
             .pause_after_failure = {},
+            .meets_neighbours = true,
             .errors_for_all = false,
             .delays_errors = false,
             .repairs_near_destination = false,
@@ -55,6 +56,7 @@ AodvRules ns2() {
     r.measures_latency = true;
     r.poll = 500ms;
     r.pause_after_failure = 10s;
+    r.meets_neighbours = false;
     r.errors_for_all = true;
     r.delays_errors = true;
     r.repairs_near_destination = true;

@@ -177,6 +177,7 @@ void AodvRouter::set_timer(LinkLayer& link, NodeId at) {
 
 /// Notes that a neighbour was heard: there is a route to it, whatever its number (6.5, 6.7).
 void AodvRouter::meet(NodeId at, NodeId neighbour, Time now) {
+    if (!rules_.meets_neighbours) return;
     Node& here = node(at);
     Route& direct = here.routes.add(neighbour, now, rules_.delete_period);
     const Time until = now + rules_.active_route_timeout;
@@ -216,6 +217,7 @@ Fate AodvRouter::receive_request(LinkLayer& link, const Frame& frame, const aodv
                                  const Reception& r) {
     const NodeId at = r.node, from = frame.sender;
     const Time when = r.time + least_reaction;
+    if (is_silent(at, r.time)) return Fate::arrived;  // 6.13
     Node& here = node(at);
     std::erase_if(here.one_way, [&](const Neighbour& each) {
         return r.time - each.last > rules_.path_discovery_time();
@@ -242,8 +244,10 @@ Fate AodvRouter::receive_request(LinkLayer& link, const Frame& frame, const aodv
            .is_valid = true,
            .until = r.time + std::max(lifetime, rules_.node_traversal_time)},
           r.time);
+    // 6.1: a request that is older than what is known of its originator is discarded; whoever got it
+    // from here would have a route over this node, which has none.
+    if (!valid_route(at, request.originator, r.time)) return Fate::arrived;
     end_search(link, at, request.originator, when);
-    if (is_silent(at, r.time)) return Fate::arrived;  // 6.13
     if (request.destination == at) {
         here.number = newest(here.number, request.number.value_or(here.number));  // 6.1, 6.6.1
         reply(link, at,
@@ -320,6 +324,7 @@ Fate AodvRouter::receive_reply(LinkLayer& link, const Frame& frame, const aodv::
                                const Reception& r) {
     const NodeId at = r.node, from = frame.sender;
     const Time when = r.time + least_reaction;
+    if (is_silent(at, r.time)) return Fate::arrived;  // 6.13
     meet(at, from, r.time);
     end_search(link, at, from, when);
     const auto hops = static_cast<Hops>(reply.hops + frame.hops);
@@ -339,7 +344,7 @@ Fate AodvRouter::receive_reply(LinkLayer& link, const Frame& frame, const aodv::
     }
     end_search(link, at, reply.destination, when);
     const bool is_hello = reply.originator == reply.destination;
-    if (reply.originator == at || is_hello || !is_new || is_silent(at, r.time)) {
+    if (reply.originator == at || is_hello || !is_new) {
         return Fate::arrived;
     }
     // 6.7: along the reverse route, whose life it lengthens.

@@ -42,12 +42,15 @@ struct Message {
     std::uint32_t flow = 0;
     /// Port, which selects a program of the receiver; 0 for none.
     std::uint16_t port = 0;
-    /// Kind of a routing protocol's control packet, as in a trace (a literal): "REQUEST"; empty for
-    /// a message of an application.
+    /// Protocol and kind of a routing protocol's control packet, a literal: "AODV REQUEST"; empty
+    /// for a message of an application.
     std::string_view kind = {};
     /// True if the routing protocol forwards it to its destination; false if it is sent over one
     /// hop without the protocol.
     bool is_routed = false;
+
+    /// Protocol of a control packet, the first word of its kind: its type in ns-2 traces.
+    std::string_view protocol() const { return kind.substr(0, kind.find(' ')); }
 };
 
 /// Number of hops, such as a time-to-live.

@@ -49,8 +49,8 @@ class Router {
     void forget(MessageId m) { self_->forget(m); }
     void forget_header(std::uint32_t header) { self_->forget_header(header); }
     bool keeps(MessageId m) const { return self_->keeps(m); }
-    void describe(const Message& m, const Frame& f, std::string& text) const {
-        self_->describe(m, f, text);
+    void describe(const Message& m, const Frame& f, PacketStyle style, std::string& text) const {
+        self_->describe(m, f, style, text);
     }
     /// Initial TTL of a message [hops].
     Hops initial_ttl(const Message& m) const { return self_->initial_ttl(m); }
@@ -84,7 +84,7 @@ class Router {
         virtual void forget(MessageId) = 0;
         virtual void forget_header(std::uint32_t) = 0;
         virtual bool keeps(MessageId) const = 0;
-        virtual void describe(const Message&, const Frame&, std::string&) const = 0;
+        virtual void describe(const Message&, const Frame&, PacketStyle, std::string&) const = 0;
         virtual Hops initial_ttl(const Message&) const = 0;
     };
     // Protocol of type T; functions that it lacks do nothing.
@@ -121,8 +121,9 @@ class Router {
             return false;
         }
         void describe([[maybe_unused]] const Message& m, [[maybe_unused]] const Frame& f,
+                      [[maybe_unused]] PacketStyle style,
                       [[maybe_unused]] std::string& text) const override {
-            if constexpr (DescribesPackets<T>) protocol.describe(m, f, text);
+            if constexpr (DescribesPackets<T>) protocol.describe(m, f, style, text);
         }
         Hops initial_ttl([[maybe_unused]] const Message& m) const override {
             if constexpr (HasOwnTtls<T>) return protocol.initial_ttl(m);

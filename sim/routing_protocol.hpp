@@ -88,12 +88,19 @@ template <class T>
 concept KeepsMessages = requires(const T router, MessageId message) {
     { router.keeps(message) } -> std::convertible_to<bool>;
 };
+/// Style of a packet's content in ns-2 traces: of the old format, or of the new one.
+enum class PacketStyle {
+    /// "[0x2 1 1 [3 0] [0 4]] (REQUEST)"
+    brackets,
+    /// "-P aodv -Pt 0x2 -Ph 1 ... -Pc REQUEST "
+    tags,
+};
 /// Protocol that shows the content of its control packets in traces: describe() appends it to
-/// `text`, as ns-2 does in brackets: "[0x2 1 1 [3 0] [0 4]] (REQUEST)".
+/// `text`.
 template <class T>
 concept DescribesPackets = requires(const T router, const Message& message, const Frame& frame,
-                                    std::string& text) {
-    {router.describe(message, frame, text)};
+                                    PacketStyle style, std::string& text) {
+    {router.describe(message, frame, style, text)};
 };
 /// Protocol that is notified of node starts: on_start is called for each node when the run begins,
 /// in the order of keys, or when the node is added later. HELLO messages start here.

@@ -47,8 +47,9 @@ class ToDestination {
     void forget(MessageId message) { protocol_.forget(message); }
     void forget_header(std::uint32_t header) { protocol_.forget_header(header); }
     bool keeps(MessageId message) const { return protocol_.keeps(message); }
-    void describe(const Message& message, const Frame& frame, std::string& text) const {
-        protocol_.describe(message, frame, text);
+    void describe(const Message& message, const Frame& frame, PacketStyle style,
+                  std::string& text) const {
+        protocol_.describe(message, frame, style, text);
     }
 
   private:

@@ -71,7 +71,8 @@ struct Scripted {
     }
     void forget_header(std::uint32_t header) { script->forget_header(header); }
     bool keeps(MessageId) const { return script->keeps; }
-    void describe(const Message& message, const Frame& frame, std::string& text) const {
+    void describe(const Message& message, const Frame& frame, PacketStyle,
+                  std::string& text) const {
         text += "[0x2 " + std::to_string(message.payload.size()) + " " +
                 std::to_string(frame.hops) + "] (REQUEST)";
     }

@@ -22,10 +22,12 @@
 namespace rovernet::test {
 
 /// A graph that runs any routing protocol without radio: a frame takes `hop_time` to each
-/// neighbour, none is lost, and a unicast over an edge that is not there ends with `retries`.
+/// neighbour, none is lost, and a unicast over an edge that is not there ends with `retries`. With
+/// `faults` frames are lost and late, too.
 class Graph final : public LinkLayer {
   public:
     using Edge = std::pair<std::uint32_t, std::uint32_t>;
+    static constexpr Duration hop_time{1'000'000};
 
     /// @param edges  pairs of nodes that hear each other
     Graph(std::size_t nodes, const std::vector<Edge>& edges, Router router)
@@ -35,6 +37,26 @@ class Graph final : public LinkLayer {
         send_outbox();
     }
 
+    /// What may happen to frames: shares that are lost, and of unicasts that arrive without the
+    /// sender's notice; longest time of a frame; seed of the draws.
+    struct Faults {
+        double loss = 0, unnoticed = 0;
+        Duration longest = hop_time;
+        std::uint64_t seed = 0;
+    };
+    Faults faults{};
+    /// Called after each event.
+    std::function<void()> after_event{};
+    /// Called as a message of an application arrives at a node.
+    std::function<void(const Message&, NodeId)> on_message_at{};
+
+    /// Does something at a time.
+    void at(Time time, std::function<void()> act) { schedule(time, std::move(act)); }
+    void switch_node(std::uint32_t node, bool on) {
+        if (on ? off_.erase(node) == 0 : !off_.insert(node).second) return;
+        router_.on_switched(*this, NodeId{node}, on);
+        send_outbox();
+    }
     void join(std::uint32_t a, std::uint32_t b) { edges_.insert({a, b}), edges_.insert({b, a}); }
     void cut(std::uint32_t a, std::uint32_t b) { edges_.erase({a, b}), edges_.erase({b, a}); }
     /// Cuts all edges of a node.
@@ -69,6 +91,7 @@ class Graph final : public LinkLayer {
             now_ = event.time;
             event.act();
             send_outbox();
+            if (after_event) after_event();
         }
         now_ = std::max(now_, end);
     }
@@ -76,7 +99,7 @@ class Graph final : public LinkLayer {
     Time now() const override { return now_; }
     std::size_t size() const override { return nodes_; }
     const Message& message(MessageId id) const override { return messages_[id]; }
-    bool is_on(NodeId) const override { return true; }
+    bool is_on(NodeId node) const override { return !off_.contains(node.value); }
     std::uint64_t key(NodeId node) const override { return node.value; }
     Vec3 position(NodeId) const override { return {}; }
     MessageId originate(NodeId from, NodeId to, std::string_view kind, std::uint32_t bytes,
@@ -142,7 +165,6 @@ class Graph final : public LinkLayer {
         return uniform({.purpose = purpose, .a = node.value, .index = index});
     }
 
-    static constexpr Duration hop_time{1'000'000};
     /// Nodes at which each message of an application was delivered, with the hops.
     std::vector<std::vector<std::pair<NodeId, int>>> delivered{};
     /// Number of frames by kind of their message; "" for those of applications.
@@ -175,18 +197,31 @@ class Graph final : public LinkLayer {
     }
     void transmit(const QueuedFrame& queued) {
         const Frame frame = queued.frame;
+        if (!is_on(frame.sender)) {
+            router_.on_sent(*this, queued, SendResult::off);
+            release(frame);
+            return;
+        }
         ++frames[messages_[frame.message].kind];
+        const Duration more = faults.longest - hop_time;
+        const Time end = now_ + hop_time + from_seconds(fault() * seconds(more));
         std::vector<Reception> receptions;
         for (std::uint32_t i = 0; i < nodes_; ++i) {
             const bool is_for = frame.next_hop == everyone || frame.next_hop == NodeId{i};
-            if (is_for && edges_.contains({frame.sender.value, i}))
-                receptions.push_back({now_ + hop_time, NodeId{i}});
+            if (is_for && edges_.contains({frame.sender.value, i}) && fault() >= faults.loss)
+                receptions.push_back({end, NodeId{i}});
         }
-        schedule(now_ + hop_time, [this, queued, receptions] { arrive(queued, receptions); });
+        schedule(end, [this, queued, receptions] { arrive(queued, receptions); });
     }
     void arrive(const QueuedFrame& queued, std::vector<Reception> receptions) {
         const Frame& frame = queued.frame;
-        const bool is_missed = receptions.empty() && frame.next_hop != everyone;
+        std::erase_if(receptions, [&](const Reception& r) { return !is_on(r.node); });
+        const bool is_unnoticed = frame.next_hop != everyone && fault() < faults.unnoticed;
+        const bool is_missed = frame.next_hop != everyone && (receptions.empty() || is_unnoticed);
+        for (const Reception& r : receptions) {
+            const Message& message = messages_[frame.message];
+            if (on_message_at && message.kind.empty()) on_message_at(message, r.node);
+        }
         if (!receptions.empty()) router_.on_receive(*this, frame, receptions);
         const Message message = messages_[frame.message];
         for (const Reception& r : receptions) {
@@ -200,8 +235,19 @@ class Graph final : public LinkLayer {
         release(frame);
     }
 
+    /// Draw for a fault, in (0, 1).
+    double fault() {
+        return uniform({.seed = faults.seed,
+                        .purpose = Purpose::bit_errors,
+                        .a = 0,
+                        .b = 0,
+                        .index = next_fault_++});
+    }
+
     std::size_t nodes_;
     Router router_;
+    std::set<std::uint32_t> off_;
+    std::uint64_t next_fault_ = 0;
     std::set<Edge> edges_;
     Time now_ = start_of_run;
     std::priority_queue<Event> events_;

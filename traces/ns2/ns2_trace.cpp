@@ -43,8 +43,15 @@ MacHeader mac_header(const AirFrame& air) {
     return header;
 }
 
+/// Whether the routing protocol brings the message to one node. Such packets are written as ns-2's
+/// protocols write them, and not as messages of a flood.
+bool is_routed_unicast(const Message& message) {
+    return message.kind.empty() && message.is_routed && message.to != everyone;
+}
+
 std::string_view type_of(const Message& message) {
-    return message.kind.empty() ? "message" : message.kind;
+    if (!message.kind.empty()) return message.protocol();
+    return is_routed_unicast(message) ? "cbr" : "message";
 }
 
 /// Common fields of all packet lines.
@@ -71,6 +78,25 @@ struct PacketLine : Line {
     unsigned ttl;
     std::uint32_t added = 0;       ///< [bytes] by what is below the router
     const Frame* frame = nullptr;  ///< frame of the packet, if it has one yet
+
+    std::uint32_t size(const Message& m) const {
+        return (frame && frame->bytes > 0 ? frame->bytes : m.size) + added;
+    }
+    /// Source in the IP header: each forwarder of a protocol's broadcast writes itself.
+    NodeId source(const Message& m) const {
+        return frame && !m.kind.empty() && m.to == everyone ? frame->sender : m.origin;
+    }
+    /// Hops that the packet has made so far.
+    unsigned hops() const {
+        if (!frame) return 0;
+        return frame->sender == node && frame->hops > 0 ? frame->hops - 1U : frame->hops;
+    }
+    /// Next hop, once a protocol has chosen it.
+    std::optional<NodeId> next_hop(const Message& m) const {
+        const bool is_chosen =
+            frame && frame->next_hop != everyone && (!m.kind.empty() || is_routed_unicast(m));
+        return is_chosen ? std::optional(frame->next_hop) : std::nullopt;
+    }
 };
 
 }  // namespace
@@ -121,12 +147,12 @@ class Ns2Trace::Writer {
     void lines(const Other&, const RecordContext&) {}
 
     void packet(const PacketLine&, const RecordContext&);
-    void describe(const PacketLine&, const Message&, const Router&);
+    void describe(const PacketLine&, const Message&, const RecordContext&);
     void old_packet(const PacketLine&, const Message&);
     void new_packet(const PacketLine&, const Message&, Vec3 position);
     void control(const Line&, const AirFrame&, std::uint32_t bytes, const RecordContext&);
     void old_start(const Line&, std::uint64_t uid, std::string_view type, std::uint32_t bytes);
-    void new_start(const Line&, Vec3 position);
+    void new_start(const Line&, Vec3 position, std::optional<NodeId> next_hop = {});
 
     void text(std::string_view s) { at_ = write_text(at_, s); }
     void integer(std::uint64_t value) { at_ = write_integer(at_, value); }
@@ -156,6 +182,7 @@ class Ns2Trace::Writer {
     char* at_ = nullptr;  ///< where the current line goes on
     bool finished_ = false, closed_ = false;
     std::string description_;  ///< of a control packet; kept to reuse its memory
+    Duration reserved_{0};     ///< by the last routed unicast that was received
 };
 
 void Ns2Trace::Writer::lines(const Sent& r, const RecordContext& context) {
@@ -187,14 +214,21 @@ void Ns2Trace::Writer::lines(const Routed& r, const RecordContext& context) {
 
 void Ns2Trace::Writer::router_line(Time time, const Frame& frame, std::optional<NodeId> heard_from,
                                    const RecordContext& context) {
-    const char op = frame.sender == context.messages[frame.message].origin ? 's' : 'f';
-    const MacHeader mac = heard_from ? ip_header(*heard_from) : MacHeader{};
+    const Message& message = context.messages[frame.message];
+    const bool is_flooded = frame.next_hop == everyone;
+    const bool is_new = frame.sender == message.origin || (is_flooded && !message.kind.empty());
+    const char op = is_new ? 's' : 'f';
+    MacHeader mac;
+    if (heard_from && is_flooded) mac = ip_header(*heard_from);
+    if (heard_from && !is_flooded) mac = ip_header(*heard_from, frame.sender, reserved_);
     packet({{op, time, frame.sender, "RTR", "---", mac}, frame}, context);
 }
 
 void Ns2Trace::Writer::lines(const Received& r, const RecordContext& context) {
     const Frame& frame = r.frame;
     const MacHeader mac = ip_header(frame.sender, frame.next_hop, r.reserved);
+    const bool is_unicast = is_routed_unicast(context.messages[frame.message]);
+    if (is_unicast) reserved_ = r.reserved;
     for (const Reception& rx : r.receptions) {
         PacketLine line{{'r', rx.time, rx.node, "MAC", "---", mac}, frame};
         const bool repeated = frame.next_hop != everyone && rx.fate == Fate::duplicate;
@@ -208,7 +242,7 @@ void Ns2Trace::Writer::lines(const Received& r, const RecordContext& context) {
         }
         if (mac_ == MacTrace::on) packet(line, context);
         line.layer = "RTR";
-        packet(line, context);
+        if (!is_unicast || !rx.delivered) packet(line, context);
         if (rx.delivered) {
             line.layer = "AGT";
             packet(line, context);
@@ -225,6 +259,7 @@ void Ns2Trace::Writer::lines(const Dropped& r, const RecordContext& context) {
     if (r.frame.sender != r.node) mac = ip_header(r.frame.sender, r.frame.next_hop);
     const auto [code, layer] = r.loss();
     if (layer == "MAC" && mac_ == MacTrace::off) return;
+    if (layer != "MAC" && r.protocol_decides) return;  // the protocol's drop follows
     packet({{'D', r.time, r.node, layer, code, mac}, r.frame}, context);
 }
 
@@ -266,19 +301,26 @@ void Ns2Trace::Writer::packet(const PacketLine& line, const RecordContext& conte
     } else {
         new_packet(line, message, context.legs.position(line.node, line.time));
     }
-    if (!message.kind.empty() && line.frame && context.router)
-        describe(line, message, *context.router);
+    describe(line, message, context);
     end_line();
 }
 
-/// Appends what the routing protocol says of its control packet, as ns-2 does in brackets.
+/// Appends the content of the packet: what the routing protocol says of its own, and the number and
+/// the hops of a routed message.
 void Ns2Trace::Writer::describe(const PacketLine& line, const Message& message,
-                                const Router& router) {
+                                const RecordContext& context) {
+    const bool is_old = format_ == Ns2Format::old_format;
+    if (is_routed_unicast(message)) {
+        text(is_old ? "[" : "-Pn cbr -Pi "), integer(message.number);
+        text(is_old ? "] " : " -Pf "), integer(line.hops());
+        return text(is_old ? " 0" : " -Po 0 ");
+    }
+    if (message.kind.empty() || !line.frame || !context.router) return;
     constexpr std::size_t longest = 2048;
     description_.clear();
-    router.describe(message, *line.frame, description_);
-    if (description_.empty()) return;
-    text(" "), text(std::string_view(description_).substr(0, longest));
+    context.router->describe(message, *line.frame,
+                             is_old ? PacketStyle::brackets : PacketStyle::tags, description_);
+    text(std::string_view(description_).substr(0, longest));
 }
 
 /// Writes a frame without a network part.
@@ -312,19 +354,22 @@ void Ns2Trace::Writer::old_start(const Line& line, std::uint64_t uid, std::strin
 
 // A packet of type `message` has no payload in the line, which ends with the blank before it.
 void Ns2Trace::Writer::old_packet(const PacketLine& line, const Message& message) {
-    old_start(line, message.uid, type_of(message), message.size + line.added);
-    text("------- ["), integer(message.origin.value);
-    text(":0 "), destination(message.to);
-    text(":0 "), integer(line.ttl);
-    text(" 0] ");
+    old_start(line, message.uid, type_of(message), line.size(message));
+    const std::string_view port = message.kind.empty() ? ":0 " : ":255 ";
+    text("------- ["), integer(line.source(message).value);
+    text(port), destination(message.to);
+    text(port), integer(line.ttl);
+    *at_++ = ' ', integer(line.next_hop(message).value_or(NodeId{0}).value);
+    text("] ");
 }
 
-// -Hd, the next hop, is -2 (not set) for broadcasts of DumbAgent and of AODV alike.
-void Ns2Trace::Writer::new_start(const Line& line, Vec3 position) {
+/// @param next_hop  -Hd; none: -2, which stands for broadcasts, too
+void Ns2Trace::Writer::new_start(const Line& line, Vec3 position, std::optional<NodeId> next_hop) {
     *at_++ = line.op == 'D' ? 'd' : line.op;
     text(" -t "), at_ = write_seconds(at_, line.time);
     text(" -Hs "), integer(line.node.value);
-    text(" -Hd -2 -Ni "), integer(line.node.value);
+    text(" -Hd "), next_hop ? integer(next_hop->value) : text("-2");
+    text(" -Ni "), integer(line.node.value);
     text(" -Nx "), fixed2(position.x);
     text(" -Ny "), fixed2(position.y);
     text(" -Nz "), fixed2(position.z);
@@ -338,11 +383,12 @@ void Ns2Trace::Writer::new_start(const Line& line, Vec3 position) {
 }
 
 void Ns2Trace::Writer::new_packet(const PacketLine& line, const Message& message, Vec3 position) {
-    new_start(line, position);
-    text("-Is "), integer(message.origin.value);
-    text(".0 -Id "), destination(message.to);
-    text(".0 -It "), text(type_of(message));
-    text(" -Il "), integer(message.size + line.added);
+    new_start(line, position, line.next_hop(message));
+    const std::string_view port = message.kind.empty() ? ".0" : ".255";
+    text("-Is "), integer(line.source(message).value);
+    text(port), text(" -Id "), destination(message.to);
+    text(port), text(" -It "), text(type_of(message));
+    text(" -Il "), integer(line.size(message));
     text(" -If 0 -Ii "), integer(message.uid);
     text(" -Iv "), integer(line.ttl);
     *at_++ = ' ';
