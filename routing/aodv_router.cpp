@@ -120,12 +120,11 @@ void AodvRouter::send_on(LinkLayer& link, const QueuedFrame& queued, const Route
     link.send(frame, queued.heard_from, at);
 }
 
-/// Lets a packet wait for a route.
+/// Lets a packet wait for a route; set_timer() is to follow.
 void AodvRouter::keep(LinkLayer& link, NodeId at, NodeId to, const QueuedFrame& queued) {
     link.hold(queued.frame);
     const auto oldest = node(at).buffer.add({to, queued, link.now() + longest_wait}, rules_.buffer);
     if (oldest) lose(link, at, *oldest, DropReason::buffer_full);
-    set_timer(link, at);
 }
 
 /// Ends a packet that waited.
@@ -198,7 +197,10 @@ void AodvRouter::receive_message(LinkLayer& link, const Frame& frame, Reception&
     const bool is_repaired = std::any_of(running.begin(), running.end(), [&](const Search& each) {
         return each.destination == to && each.repaired_hops > 0;
     });
-    if (is_repaired) return keep(link, at, to, onward);
+    if (is_repaired) {
+        keep(link, at, to, onward);
+        return set_timer(link, at);
+    }
     // 6.11 (ii): no route, and none is repaired.
     Route* broken = route(at, to, r.time);
     if (broken && broken->has_number) ++broken->number;
