@@ -244,8 +244,8 @@ Fate AodvRouter::receive_request(LinkLayer& link, const Frame& frame, const aodv
            .is_valid = true,
            .until = r.time + std::max(lifetime, rules_.node_traversal_time)},
           r.time);
-    // 6.1: a request that is older than what is known of its originator is discarded; whoever got it
-    // from here would have a route over this node, which has none.
+    // 6.1: a request that is older than what is known of its originator is discarded; whoever got
+    // it from here would have a route over this node, which has none.
     if (!valid_route(at, request.originator, r.time)) return Fate::arrived;
     end_search(link, at, request.originator, when);
     if (request.destination == at) {

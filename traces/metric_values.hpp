@@ -38,6 +38,27 @@ struct LatencyValues {
     friend bool operator==(const LatencyValues&, const LatencyValues&) = default;
 };
 
+/// Cost of a routing protocol. A packet counts once for each hop, as lines s and f at RTR in ns-2.
+/// Source: J. Broch et al., A performance comparison of multi-hop wireless ad hoc network routing
+/// protocols, MobiCom 1998.
+struct RoutingValues {
+    std::uint64_t packets = 0;         ///< control packets that the protocol sent
+    std::uint64_t bytes = 0;           ///< size of these packets, above the MAC [bytes]
+    std::optional<double> load;        ///< packets for each delivery [-]; empty without deliveries
+    std::optional<double> load_bytes;  ///< their bytes for each byte delivered [-]
+    std::uint64_t data = 0;            ///< messages that the protocol sent or forwarded
+
+    static constexpr auto fields() {
+        using R = RoutingValues;
+        return describe(field("routing_packets", &R::packets, "control packets, each hop counts"),
+                        field("routing_bytes", &R::bytes, "size of the control packets"),
+                        field("routing_load", &R::load, "control packets for each delivery"),
+                        field("routing_load_bytes", &R::load_bytes, "the same in bytes"),
+                        field("data_transmissions", &R::data, "messages to one robot, each hop"));
+    }
+    friend bool operator==(const RoutingValues&, const RoutingValues&) = default;
+};
+
 /// Codes of all reasons for which a copy is lost or not forwarded, without repetition: the order of
 /// MetricValues::drops. DUP is first, the others follow in the order of sim/fate.hpp.
 inline constexpr auto loss_codes = [] {
@@ -150,6 +171,10 @@ struct MetricValues {
     std::uint32_t max_hops = 0;       ///< largest number of hops of a delivery [-]
     std::vector<std::uint64_t> hops;  ///< number of deliveries after h hops, h = 0 ... max_hops
 
+    /// Cost of the routing protocol; empty if it sent no control packets and no message to one
+    /// robot.
+    std::optional<RoutingValues> routing;
+
     std::vector<PartValues> flows;   ///< values of each flow, at index flow - 1, if measured
     std::vector<PartValues> robots;  ///< values of each robot, by its id, if measured
 
@@ -166,6 +191,7 @@ struct MetricValues {
                         field("latency", &M::latency, "of the deliveries"),
                         field("hops_mean", &M::mean_hops, "hops of a delivery"),
                         field("hops_max", &M::max_hops, "most hops of a delivery"),
+                        field("routing", &M::routing, "cost of the routing protocol"),
                         field("drops", &M::drops, "copies lost, by reason"));
     }
 

@@ -78,6 +78,19 @@ void Metrics::on(const Record& record, const RecordContext& context) {
         count(*sent, context);
     } else if (const auto* dropped = std::get_if<Dropped>(&record)) {
         count(*dropped, context);
+    } else if (const auto* routed = std::get_if<Routed>(&record)) {
+        count_routed(routed->frame, routed->time, context);
+    }
+}
+
+/// Counts a frame that the routing protocol sends over a hop: a unicast, or a control packet.
+void Metrics::count_routed(const Frame& frame, Time time, const RecordContext& context) {
+    const Message& message = context.messages[frame.message];
+    if (message.kind.empty()) {
+        routing_.data += message.is_routed && message.created >= begin_ ? 1 : 0;
+    } else if (time >= begin_) {
+        ++routing_.packets;
+        routing_.bytes += frame.bytes > 0 ? frame.bytes : message.size;
     }
 }
 
@@ -124,6 +137,9 @@ void Metrics::count(const Sent& sent, const RecordContext& context) {
 
 void Metrics::count(const Transmitted& transmitted, const RecordContext& context) {
     const Frame& frame = transmitted.frame;
+    if (frame.next_hop == everyone && !context.messages[frame.message].kind.empty()) {
+        count_routed(frame, transmitted.time, context);
+    }
     if (!counts(frame, context)) return;
     ++totals_.transmissions;
     if (frame.sender == context.messages[frame.message].origin) return;
@@ -150,6 +166,7 @@ void Metrics::deliver(const Reception& rx, const Frame& frame, const RecordConte
     if (hops_.size() <= frame.hops) hops_.resize(frame.hops + std::size_t{1});
     ++hops_[frame.hops];
     delays_.push_back(delay);
+    bytes_ += message.size;
     if (state_of(frame.message, context).reachable) ++reached_;
     const auto add_to = [&](PartValues& part) {
         ++part.deliveries;
@@ -185,6 +202,11 @@ MetricValues Metrics::values() const {
         }
     });
     v.flows = flows_;
+    if (routing_.packets + routing_.data > 0) {
+        v.routing = routing_;
+        v.routing->load = ratio(routing_.packets, v.deliveries);
+        v.routing->load_bytes = ratio(routing_.bytes, bytes_);
+    }
     if (parts_.robots) v.robots = robots();
     v.delivery_ratio = ratio(v.deliveries, others_);
     if (v.reach_known) v.reach = ratio(reached_, reachable_);

@@ -29,7 +29,7 @@ class Metrics {
                                : *parts_.reach ? kind_reachable
                                                : 0;
         return kind_of<Sent>() | kind_of<Transmitted>() | kind_of<Received>() | kind_of<Dropped>() |
-               reach;
+               kind_of<Routed>() | reach;
     }
     void on(const Record& record, const RecordContext& context);
 
@@ -58,6 +58,7 @@ class Metrics {
     void count(const Received&, const RecordContext&);
     void deliver(const Reception&, const Frame&, const RecordContext&);
     void count(const Dropped&, const RecordContext&);
+    void count_routed(const Frame&, Time, const RecordContext&);
     void count_parts(const Message&, std::uint64_t others, bool is_cut_off);
     bool counts(const Frame& frame, const RecordContext& context) const {
         const Message& message = context.messages[frame.message];
@@ -82,6 +83,8 @@ class Metrics {
     std::uint64_t reachable_ = 0;   ///< sum of the messages' `reachable`
     std::uint64_t reached_ = 0;     ///< deliveries of messages with `reachable`
     std::uint64_t forwarders_ = 0;  ///< number of pairs of a message and a robot that forwarded it
+    RoutingValues routing_;         ///< counts of the routing protocol
+    std::uint64_t bytes_ = 0;       ///< size of the messages delivered [bytes]
     std::vector<Duration> delays_;  ///< latencies of the deliveries, unsorted
     std::vector<std::uint64_t> hops_;   // deliveries by number of hops
     std::vector<MessageState> states_;  ///< states of the messages, by index of the MessageId

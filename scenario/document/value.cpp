@@ -26,6 +26,9 @@ Value::Value(double v) : data(v) {}
 Value::Value(const std::optional<double>& v) {
     if (v) data = *v;
 }
+Value::Value(const std::optional<std::uint64_t>& v) {
+    if (v) *this = Value(*v);
+}
 Value::Value(const char* v) : data(std::string(v)) {}
 Value::Value(std::string_view v) : data(std::string(v)) {}
 Value::Value(std::string v) : data(std::move(v)) {}

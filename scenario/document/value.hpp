@@ -70,6 +70,7 @@ struct Value {
     Value(std::uint32_t v);
     Value(double v);
     Value(const std::optional<double>& v);  ///< empty if `v` is empty
+    Value(const std::optional<std::uint64_t>& v);  ///< empty if `v` is empty
     Value(const char* v);
     Value(std::string_view v);
     Value(std::string v);
