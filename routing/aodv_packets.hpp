@@ -20,6 +20,8 @@
 
 namespace rovernet::aodv {
 
+/// UDP port of the packets (RFC 3561, section 11).
+inline constexpr std::uint16_t port = 654;
 /// Kinds of packets: the type in ns-2 traces, and the name.
 inline constexpr std::string_view request_kind = "AODV REQUEST", reply_kind = "AODV REPLY",
                                   error_kind = "AODV ERROR", hello_kind = "AODV HELLO";

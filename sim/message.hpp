@@ -51,6 +51,8 @@ struct Message {
 
     /// Protocol of a control packet, the first word of its kind: its type in ns-2 traces.
     std::string_view protocol() const { return kind.substr(0, kind.find(' ')); }
+    /// Whether the routing protocol brings the message to one node.
+    bool is_routed_unicast() const { return kind.empty() && is_routed && to != everyone; }
 };
 
 /// Number of hops, such as a time-to-live.

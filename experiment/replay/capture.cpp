@@ -4,6 +4,7 @@
 #include "experiment/replay/recorded_air.hpp"
 #include "experiment/reports/link_table.hpp"
 #include "experiment/reports/range_of_model.hpp"
+#include "routing/packet_on_air.hpp"
 #include "traces/pcapng/wifi_packet.hpp"
 
 #include <charconv>
@@ -76,6 +77,7 @@ class Capturing {
     void add_packet(NodeId at, Time time, PcapngWriter::Way way, const RecordedFrame& frame,
                     std::optional<RadiotapFacts::Signal> signal);
     PacketAddresses addresses(const AirFrame& air) const;
+    std::uint32_t ip_of(NodeId node) const;
 
     RecordedReader& trace_;
     RecordedAir air_;
@@ -136,8 +138,14 @@ void Capturing::add_packet(NodeId at, Time time, PcapngWriter::Way way, const Re
                      .signal = signal},
                     bytes_);
     if (!air.control) {
-        append_data_frame(air, trace_.context().messages[air.frame.message], frame.bytes,
-                          addresses(air), bytes_);
+        const Message& message = trace_.context().messages[air.frame.message];
+        const auto own =
+            message.kind.empty()
+                ? std::nullopt
+                : packet_on_air(message, air.frame, [&](NodeId node) { return ip_of(node); });
+        const UdpContent content = own ? UdpContent{own->port, own->bytes} : UdpContent{};
+        append_data_frame(air, message, frame.bytes, addresses(air), own ? &content : nullptr,
+                          bytes_);
     } else {
         append_control_frame(air, addresses(air), bytes_);
     }
@@ -151,12 +159,15 @@ PacketAddresses Capturing::addresses(const AirFrame& air) const {
                          .receiver = to == everyone ? every_station : hosts_[to.index()].mac};
     if (air.control) return both;
     const Message& message = trace_.context().messages[air.frame.message];
-    const auto ip_of_robot = [&](NodeId node) {
-        return node.index() < hosts_.size() ? hosts_[node.index()].ip : every_host;
-    };
-    both.origin = ip_of_robot(message.origin);
-    both.destination = ip_of_robot(message.to);
+    // Who forwards a protocol's broadcast is its source.
+    const bool is_own = !message.kind.empty() && message.to == everyone;
+    both.origin = ip_of(is_own ? air.frame.sender : message.origin);
+    both.destination = ip_of(message.to);
     return both;
+}
+
+std::uint32_t Capturing::ip_of(NodeId node) const {
+    return node.index() < hosts_.size() ? hosts_[node.index()].ip : every_host;
 }
 
 }  // namespace

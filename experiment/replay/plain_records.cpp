@@ -29,7 +29,7 @@ bool PlainRecords::take(Time time, NodeId node) {
 }
 
 bool PlainRecords::takes_message(MessageId id, const RecordContext& context) {
-    const std::string_view kind = context.messages[id].kind;
+    const std::string_view kind = context.messages[id].protocol();
     if (id.index() >= kinds_.size()) kinds_.resize(id.index() + 1);
     if (kind.empty() || kinds_[id.index()] == kind.data()) return true;
     if (!is_plain_kind(kind)) return false;

@@ -52,6 +52,8 @@ class RecordedCounter {
   private:
     bool count(const Sent&);
     bool count(const Transmitted&);
+    bool count(const Routed& r) { return count_routed(r.frame, r.time); }
+    bool count_routed(const Frame&, Time);
     bool count(const Received&);
     bool count(const Dropped&);
     bool count(const Moved&) { return add_lines(1); }
@@ -114,7 +116,8 @@ std::uint32_t RecordedCounter::flow_of(const Message& message) {
     if (is_new) flow_values_.emplace_back();
     if (is_new && counter_.by() == TraceRows::flow) {
         const std::string to = message.to == everyone ? "-1" : std::to_string(message.to.value);
-        counter_.name_flow(next, fmt::format("message {}:0 -> {}:0", message.origin.value, to));
+        counter_.name_flow(
+            next, fmt::format("{} {}:0 -> {}:0", ns2_type(message), message.origin.value, to));
     }
     return entry->second;
 }
@@ -132,12 +135,17 @@ bool RecordedCounter::count(const Sent& r) {
     return add_packets(r.reachable ? 3 : 2);
 }
 
+/// A unicast of the routing protocol has the line of its Routed.
 bool RecordedCounter::count(const Transmitted& r) {
-    if (const Known* message = known(r.frame.message)) {
-        counter_.transmitted(r.frame.sender, message->sending.flow, r.time);
-    } else if (const Message& packet = context_->messages[r.frame.message];
-               TraceCounter::is_of_routing(packet.kind)) {
-        counter_.routed(packet.size);
+    const bool is_routed = context_->messages[r.frame.message].is_routed;
+    return (is_routed && r.frame.next_hop != everyone) || count_routed(r.frame, r.time);
+}
+
+bool RecordedCounter::count_routed(const Frame& frame, Time time) {
+    if (const Known* message = known(frame.message)) {
+        counter_.transmitted(frame.sender, message->sending.flow, time);
+    } else if (const Message& packet = context_->messages[frame.message]; !packet.kind.empty()) {
+        counter_.routed(frame.bytes > 0 ? frame.bytes : packet.size);
     }
     return add_packets(1);
 }
@@ -145,13 +153,15 @@ bool RecordedCounter::count(const Transmitted& r) {
 bool RecordedCounter::count(const Received& r) {
     Known* message = known(r.frame.message);
     const bool is_unicast = r.frame.next_hop != everyone;
+    const bool is_routed = context_->messages[r.frame.message].is_routed_unicast();
     auto& fates = receptions_[is_unicast];
     const bool has_rows = counter_.by() != TraceRows::none;
     for (const Reception& rx : r.receptions) {
         ++fates[static_cast<std::size_t>(rx.fate)];
         if (!rx.delivered && !has_rows) continue;
         const bool has_line = rx.delivered && !is_lost_on_air(rx.fate, is_unicast);
-        if (has_line) ++deliveries_;
+        // r AGT, which a routed unicast has in place of its r RTR.
+        if (has_line && !is_routed) ++deliveries_;
         if (message) receive(rx, is_unicast, *message);
     }
     return true;  // tell() adds the lines
@@ -172,7 +182,8 @@ void RecordedCounter::receive(const Reception& rx, bool is_unicast, Known& messa
 }
 
 bool RecordedCounter::count(const Dropped& r) {
-    if (r.protocol_decides) return add_packets(1);
+    // The protocol's own drop follows; what the MAC gives up has a line nevertheless.
+    if (r.protocol_decides) return r.loss().layer != "MAC" || add_packets(1);
     ++drops_[static_cast<std::size_t>(r.reason)];
     if (const Known* message = known(r.frame.message)) {
         counter_.lost(r.node, message->sending.flow, r.time);

@@ -43,17 +43,6 @@ MacHeader mac_header(const AirFrame& air) {
     return header;
 }
 
-/// Whether the routing protocol brings the message to one node. Such packets are written as ns-2's
-/// protocols write them, and not as messages of a flood.
-bool is_routed_unicast(const Message& message) {
-    return message.kind.empty() && message.is_routed && message.to != everyone;
-}
-
-std::string_view type_of(const Message& message) {
-    if (!message.kind.empty()) return message.protocol();
-    return is_routed_unicast(message) ? "cbr" : "message";
-}
-
 /// Common fields of all packet lines.
 struct Line {
     char op;
@@ -94,12 +83,17 @@ struct PacketLine : Line {
     /// Next hop, once a protocol has chosen it.
     std::optional<NodeId> next_hop(const Message& m) const {
         const bool is_chosen =
-            frame && frame->next_hop != everyone && (!m.kind.empty() || is_routed_unicast(m));
+            frame && frame->next_hop != everyone && (!m.kind.empty() || m.is_routed_unicast());
         return is_chosen ? std::optional(frame->next_hop) : std::nullopt;
     }
 };
 
 }  // namespace
+
+std::string_view ns2_type(const Message& message) {
+    if (!message.kind.empty()) return message.protocol();
+    return message.is_routed_unicast() ? "cbr" : "message";
+}
 
 class Ns2Trace::Writer {
   public:
@@ -227,7 +221,7 @@ void Ns2Trace::Writer::router_line(Time time, const Frame& frame, std::optional<
 void Ns2Trace::Writer::lines(const Received& r, const RecordContext& context) {
     const Frame& frame = r.frame;
     const MacHeader mac = ip_header(frame.sender, frame.next_hop, r.reserved);
-    const bool is_unicast = is_routed_unicast(context.messages[frame.message]);
+    const bool is_unicast = context.messages[frame.message].is_routed_unicast();
     if (is_unicast) reserved_ = r.reserved;
     for (const Reception& rx : r.receptions) {
         PacketLine line{{'r', rx.time, rx.node, "MAC", "---", mac}, frame};
@@ -310,7 +304,7 @@ void Ns2Trace::Writer::packet(const PacketLine& line, const RecordContext& conte
 void Ns2Trace::Writer::describe(const PacketLine& line, const Message& message,
                                 const RecordContext& context) {
     const bool is_old = format_ == Ns2Format::old_format;
-    if (is_routed_unicast(message)) {
+    if (message.is_routed_unicast()) {
         text(is_old ? "[" : "-Pn cbr -Pi "), integer(message.number);
         text(is_old ? "] " : " -Pf "), integer(line.hops());
         return text(is_old ? " 0" : " -Po 0 ");
@@ -354,7 +348,7 @@ void Ns2Trace::Writer::old_start(const Line& line, std::uint64_t uid, std::strin
 
 // A packet of type `message` has no payload in the line, which ends with the blank before it.
 void Ns2Trace::Writer::old_packet(const PacketLine& line, const Message& message) {
-    old_start(line, message.uid, type_of(message), line.size(message));
+    old_start(line, message.uid, ns2_type(message), line.size(message));
     const std::string_view port = message.kind.empty() ? ":0 " : ":255 ";
     text("------- ["), integer(line.source(message).value);
     text(port), destination(message.to);
@@ -387,7 +381,7 @@ void Ns2Trace::Writer::new_packet(const PacketLine& line, const Message& message
     const std::string_view port = message.kind.empty() ? ".0" : ".255";
     text("-Is "), integer(line.source(message).value);
     text(port), text(" -Id "), destination(message.to);
-    text(port), text(" -It "), text(type_of(message));
+    text(port), text(" -It "), text(ns2_type(message));
     text(" -Il "), integer(line.size(message));
     text(" -If 0 -Ii "), integer(message.uid);
     text(" -Iv "), integer(line.ttl);

@@ -17,6 +17,10 @@ enum class Ns2Format { old_format, new_format };
 /// Whether lines of the MAC layer are written: `-macTrace` of ns-2, which is also OFF by default.
 enum class MacTrace { off, on };
 
+/// Type of a message's packets in a trace: that of ns-2's flows if the routing protocol brings it
+/// to one node, "message" otherwise; of a control packet its protocol.
+std::string_view ns2_type(const Message& message);
+
 /// Sink that writes the run as a wireless trace of ns-2.35, for tools that read such traces.
 ///
 /// | record             | lines                                                               |

@@ -109,10 +109,12 @@ void append_radiotap(const RadiotapFacts& facts, ByteWriter& to) {
 }
 
 void append_data_frame(const AirFrame& air, const Message& message, std::uint32_t bytes,
-                       const PacketAddresses& addresses, ByteWriter& to) {
+                       const PacketAddresses& addresses, const UdpContent* content,
+                       ByteWriter& to) {
     const std::size_t begin = to.size();
     const std::size_t carried = std::min<std::size_t>(message.size, longest_captured);
-    const std::size_t udp_size = 8 + message_header + carried;
+    const std::size_t udp_size = 8 + (content ? content->bytes.size() : message_header + carried);
+    const std::uint16_t port = content ? content->port : capture_port;
     to.fixed(std::uint8_t{0x08});  // data
     to.fixed(static_cast<std::uint8_t>(air.attempt > 0 ? 0x08 : 0));
     to.fixed(duration_field(air.reserved));
@@ -122,11 +124,15 @@ void append_data_frame(const AirFrame& air, const Message& message, std::uint32_
     to.fixed(static_cast<std::uint16_t>((air.number & 0xfff) << 4));
     to.bytes({"\xaa\xaa\x03\0\0\0\x08\0", 8});  // LLC and SNAP: IPv4
     append_ip(air, message, addresses, udp_size, to);
-    put_big(capture_port, to);
-    put_big(capture_port, to);
+    put_big(port, to);
+    put_big(port, to);
     put_big(static_cast<std::uint16_t>(udp_size), to);
     put_big(std::uint16_t{0}, to);  // without a checksum
-    append_message(air, message, bytes, carried, to);
+    if (content) {
+        to.bytes(content->bytes);
+    } else {
+        append_message(air, message, bytes, carried, to);
+    }
     put_check_sequence(begin, to);
 }
 

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 // Bytes of a frame as captured by a wireless card in monitor mode: a radiotap header, the 802.11
 // frame, and its frame check sequence.
@@ -39,6 +40,12 @@ struct PacketAddresses {
     /// Origin and destination of the message; all ones for everyone.
     std::uint32_t origin = 0, destination = 0;
 };
+/// Content of a UDP packet in place of the message's.
+struct UdpContent {
+    /// UDP port of source and destination.
+    std::uint16_t port = 0;
+    std::string_view bytes;
+};
 /// UDP port of source and destination in captured packets.
 inline constexpr std::uint16_t capture_port = 49'600;
 /// Size of the header before the message in a UDP packet [bytes]; docs/trace.md has its layout.
@@ -50,11 +57,12 @@ inline constexpr std::size_t longest_captured = 65'000;
 /// Appends an 802.11 data frame (ad hoc), LLC/SNAP, IPv4 and UDP with the message: Message::size
 /// bytes, the payload filled up with zeros.
 ///
-/// @param bytes  size of the frame in the simulation
+/// @param bytes    size of the frame in the simulation
+/// @param content  content of the UDP packet, without the header of messages; null: the message
 ///
 /// Sources: IEEE 802.11-2020, 9.2 and 9.3.2; RFC 791; RFC 768.
 void append_data_frame(const AirFrame& air, const Message& message, std::uint32_t bytes,
-                       const PacketAddresses& addresses, ByteWriter& to);
+                       const PacketAddresses& addresses, const UdpContent* content, ByteWriter& to);
 /// Appends an RTS, CTS or ACK. Source: IEEE 802.11-2020, 9.3.1.
 void append_control_frame(const AirFrame& air, const PacketAddresses& addresses, ByteWriter& to);
 

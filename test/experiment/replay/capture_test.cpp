@@ -3,6 +3,7 @@
 
 #include "experiment/replay/recorded_air.hpp"
 #include "experiment/run.hpp"
+#include "routing/aodv_packets.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/scenario_file.hpp"
 #include "sim/error.hpp"
@@ -11,6 +12,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -264,6 +266,99 @@ TEST_CASE("tshark reads a capture: no frame is malformed; times, addresses, leng
     CHECK(tshark("-T fields -e frame.interface_name -e frame.time_epoch -e frame.len "
                  "-e wlan.fc.type_subtype -e wlan.ra -e wlan.ta -e radiotap.dbm_antsignal "
                  "-e ip.src -e ip.dst -e udp.length") == lines_of(run.trace));
+}
+
+/// Five robots in a line whose messages are routed; one in the middle is switched off.
+const std::string routed = R"(
+[scenario]
+duration = "3 s"
+[propagation]
+model = "disc"
+range = "250 m"
+[access]
+model = "csma"
+[routing]
+protocol = "aodv"
+[[robot]]
+name = "n0"
+at = ["0 m", "0 m"]
+[[robot]]
+name = "n1"
+at = ["200 m", "0 m"]
+[[robot]]
+name = "n2"
+at = ["400 m", "0 m"]
+off = ["2 s"]
+[[robot]]
+name = "n3"
+at = ["600 m", "0 m"]
+[[traffic]]
+kind = "unicast"
+from = "n0"
+to = "n3"
+size = "64 B"
+start = "1 s"
+every = "250 ms"
+)";
+
+/// What tshark has to print of an AODV packet: IP source and destination, TTL, type, hops, then the
+/// fields of its type.
+std::string aodv_line(const Frame& frame, const Message& message) {
+    const auto ip = [](NodeId node) {
+        return node == everyone ? "255.255.255.255" : fmt::format("10.0.0.{}", node.value + 1);
+    };
+    const std::string ends =
+        fmt::format("{}\t{}\t{}\t", ip(message.to == everyone ? frame.sender : message.origin),
+                    ip(message.to), frame.ttl);
+    const auto packet = aodv::packet_of(message.payload);
+    if (const auto* r = std::get_if<aodv::Request>(&packet)) {
+        return ends + fmt::format("1\t{}\t{}\t{}\t{}\t{}\t{}\t\t\n", frame.hops - 1, r->id,
+                                  ip(r->destination), r->number.value_or(0), ip(r->originator),
+                                  r->originator_number);
+    }
+    if (const auto* r = std::get_if<aodv::Reply>(&packet)) {
+        return ends + fmt::format("2\t{}\t\t{}\t{}\t{}\t\t{}\t\n", r->hops + frame.hops - 1,
+                                  ip(r->destination), r->number, ip(r->originator),
+                                  r->lifetime / std::chrono::milliseconds{1});
+    }
+    const auto& error = std::get<aodv::Error>(packet);
+    std::string lost, numbers;
+    for (const auto& each : error.lost) {
+        lost += (lost.empty() ? "" : ",") + ip(each.destination);
+        numbers += (numbers.empty() ? "" : ",") + std::to_string(each.number);
+    }
+    return ends + fmt::format("3\t\t\t\t{}\t\t\t\t{}\n", numbers, lost);
+}
+
+TEST_CASE("tshark reads AODV's packets: type, hops, addresses, numbers are ours") {
+    if (std::system("tshark --version > /dev/null 2>&1") != 0) {
+        MESSAGE("tshark is missing: not checked");
+        return;
+    }
+    const Recorded run(routed);
+    capture_recorded(run.trace, run.capture);
+    std::string expected;
+    std::map<std::string_view, int> kinds;
+    RecordedReader trace(run.trace);
+    while (const Record* record = trace.next()) {
+        const auto* sent = std::get_if<AirSent>(record);
+        if (!sent || sent->air.control) continue;
+        const Message& message = trace.context().messages[sent->air.frame.message];
+        if (message.kind.empty()) continue;
+        expected += aodv_line(sent->air.frame, message);
+        ++kinds[message.kind];
+    }
+    CHECK(kinds.size() == 3);
+    const std::string printed = run.folder / "printed";
+    const std::string line =
+        "HOME=" + run.folder / "." + " tshark -n -r " + run.capture +
+        " -Y 'aodv and frame.packet_flags_direction == 2'"
+        " -T fields -e ip.src -e ip.dst -e ip.ttl -e aodv.type -e aodv.hopcount -e aodv.rreq_id"
+        " -e aodv.dest_ip -e aodv.dest_seqno -e aodv.orig_ip -e aodv.orig_seqno -e aodv.lifetime"
+        " -e aodv.unreach_dest_ip > " +
+        printed;
+    REQUIRE(std::system(line.c_str()) == 0);
+    CHECK(content(printed) == expected);
 }
 
 TEST_CASE("a capture of a trace that is cut or broken has what is left of it") {

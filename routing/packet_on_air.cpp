@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#include "routing/packet_on_air.hpp"
+
+#include "routing/aodv_packets.hpp"
+
+namespace rovernet {
+
+std::optional<PacketOnAir> packet_on_air(const Message& message, const Frame& frame,
+                                         const std::function<std::uint32_t(NodeId)>& address) {
+    if (message.protocol() == "AODV") {
+        return PacketOnAir{.port = aodv::port,
+                           .bytes = aodv::on_air(message.payload, frame, address)};
+    }
+    return std::nullopt;
+}
+
+}  // namespace rovernet

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/message.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace rovernet {
+
+/// Control packet of a routing protocol as it is on the air, for captures: what follows the IP
+/// header.
+struct PacketOnAir {
+    /// UDP port of source and destination.
+    std::uint16_t port = 0;
+    /// Bytes after the UDP header.
+    std::string bytes;
+};
+
+/// Control packet as it is on the air in `frame`; none if its protocol has no format of its own.
+/// @param address  IPv4 address of a node, in host order
+std::optional<PacketOnAir> packet_on_air(const Message& message, const Frame& frame,
+                                         const std::function<std::uint32_t(NodeId)>& address);
+
+}  // namespace rovernet
