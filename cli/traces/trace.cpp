@@ -111,11 +111,13 @@ Table stats_table(const ToldStats& stats, const std::string& by) {
     Table table;
     append_metrics(table, stats.metrics);
     append_drops(table, stats);
-    table.set("routing_packets", stats.routing_packets);
-    table.set("routing_bytes", stats.routing_bytes);
-    table.set("routing_load", per(stats.routing_packets, stats.metrics.deliveries));
-    table.set("routing_load_bytes", per(stats.routing_bytes, stats.delivered_bytes));
-    if (stats.routing_packets > 0) table.set("data_transmissions", stats.metrics.transmissions);
+    if (stats.routing_packets > 0) {
+        table.set("routing_packets", stats.routing_packets);
+        table.set("routing_bytes", stats.routing_bytes);
+        table.set("routing_load", per(stats.routing_packets, stats.metrics.deliveries));
+        table.set("routing_load_bytes", per(stats.routing_bytes, stats.delivered_bytes));
+        table.set("data_transmissions", stats.metrics.transmissions);
+    }
     table.set("jitter_mean_s", stats.jitter_mean);
     table.set("jitter_rfc3550_s", stats.jitter_rfc3550);
     table.set("jitter_sd_s", stats.jitter_sd);

@@ -154,11 +154,26 @@ TEST_CASE("run --seed and --set change the run; the same seed again gives the sa
 }
 
 TEST_CASE("trace stats: the metrics of the summary to the last digit, in both formats") {
-    for (const std::string format : {"old", "new"}) {
+    std::string routed =
+        "[scenario]\nduration = \"4 s\"\n[routing]\nprotocol = \"aodv\"\n"
+        "[propagation]\nmodel = \"disc\"\nrange = \"250 m\"\n"
+        "[access]\nmodel = \"csma\"\n"
+        "[[traffic]]\nkind = \"unicast\"\nfrom = \"n0\"\nto = \"n3\"\n"
+        "size = \"64 B\"\nstart = \"1 s\"\nevery = \"250 ms\"\n";
+    for (int i = 0; i < 4; ++i) {
+        routed += "[[robot]]\nname = \"n" + std::to_string(i) + "\"\nat = [\"" +
+                  std::to_string(200 * i) + " m\", \"0 m\"]\n" +
+                  (i == 2 ? "off = [\"3 s\"]\n" : "");
+    }
+    for (const auto& [format, scenario] : {std::pair<std::string, std::string>{"old", relay},
+                                           {"new", relay},
+                                           {"old", routed},
+                                           {"new", routed}}) {
         CAPTURE(format);
+        CAPTURE(scenario);
         const TemporaryFolder folder;
         const std::string out = folder.path("out");
-        json_of(folder, {"run", folder.write("s.toml", relay), "--out", out, "--set",
+        json_of(folder, {"run", folder.write("s.toml", scenario), "--out", out, "--set",
                          "trace.ns2=" + format, "--set", "trace.mac=true"});
         const Json summary = Json::parse(content(out + "/summary.json"));
         const Json stats = json_of(folder, {"trace", "stats", out + "/trace.tr"});
@@ -167,10 +182,14 @@ TEST_CASE("trace stats: the metrics of the summary to the last digit, in both fo
             const std::string key = metric.key();
             CAPTURE(key);
             if (!summary.contains(key)) continue;
-            CHECK(summary[key].dump() == metric.value().dump());
             ++compared;
+            // As in ns-2, lines at RTR have one transmission for each hop, however often the MAC
+            // repeats it; a routed unicast has none where it arrives; D MAC RET is no end.
+            const bool differs = key == "transmissions" || key == "receptions" || key == "drops";
+            if (scenario == routed && differs) continue;
+            CHECK(summary[key].dump() == metric.value().dump());
         }
-        CHECK(compared == 15);
+        CHECK(compared == 20);
         CHECK(stats["format"] == format);
         CHECK(stats["refused"] == 0);
         CHECK(stats["lines"] == stats["event_lines"]);
