@@ -5,12 +5,12 @@
 
 namespace rovernet {
 
-/// One passage of a segment a-b through a wall; entry and exit are distances from a.
+/// One passage of a segment a-b (the direct path between two points) through a wall.
 struct Crossing {
-    double entry;              ///< distance of the entry from a [m]
-    double exit;               ///< distance of the exit from a [m]
-    double length;             ///< exit - entry [m]; the same bits from a to b as from b to a
-    std::size_t material = 0;  ///< index into Scene::materials()
+    double entry;              ///< distance from the segment's start to the entry into the wall [m]
+    double exit;               ///< distance from the segment's start to the exit of the wall [m]
+    double length;             ///< exit - entry [m]; bitwise equal for the reversed segment
+    std::size_t material = 0;  ///< material of the wall: index into Scene::materials()
     friend constexpr bool operator==(Crossing, Crossing) = default;
 };
 
