@@ -25,6 +25,7 @@
 #include "models/reception/judge.hpp"
 #include "models/reception/sinr.hpp"
 #include "network/network.hpp"
+#include "routing/aodv.hpp"
 #include "routing/flood.hpp"
 #include "scenario/document/toml.hpp"
 #include "scenario/scenario_file.hpp"

@@ -25,11 +25,11 @@ set(ROVERNET_PUBLIC_HEADERS
     models/variation/fading.hpp models/variation/shadowing.hpp
     network/neighbour.hpp network/network.hpp network/robot.hpp network/settings.hpp
     network/subscription.hpp
-    routing/flood.hpp
+    routing/aodv.hpp routing/flood.hpp
     rovernet.hpp
     scenario/document/toml.hpp scenario/document/value.hpp
     scenario/scenario_file.hpp
-    scene/crossing.hpp scene/doors.hpp scene/map_frame.hpp
+    scene/doors.hpp scene/map_frame.hpp
     scene/materials/material.hpp scene/materials/p2040.hpp
     scene/occupancy.hpp scene/scene.hpp scene/scene_change.hpp scene/storeys.hpp
     sim/error.hpp sim/fate.hpp sim/fields.hpp sim/geometry.hpp sim/ids.hpp sim/leg.hpp

@@ -7,7 +7,7 @@
 
 namespace rovernet {
 
-/// Settings of a Network for this scenario; loads the scenario's map.
+/// Settings of a Network for a scenario. Loads the scenario's map unless it is already loaded.
 /// @throws InputError at the line of the scenario, followed by the error of the map
 NetworkSettings network_settings(const Scenario& scenario);
 
@@ -15,7 +15,8 @@ NetworkSettings network_settings(const Scenario& scenario);
 /// network_settings(scenario).
 /// @throws InputError for errors that need the map: a robot in a wall, a goal that no path reaches
 void populate(Network& network, const Scenario& scenario);
-/// Puts the scenario into a Network with another routing protocol than the file's.
+/// Puts a scenario into a Network, as the other overload, but with the routing protocol `router`
+/// instead of the scenario's protocol.
 void populate(Network& network, const Scenario& scenario, Router router);
 
 }  // namespace rovernet

@@ -12,8 +12,8 @@ namespace rovernet {
 /// Builder of start positions and movements of a scenario's robots, checked against the map.
 class MotionBuilder {
   public:
-    /// Number of a movement of a robot: the movement at the start, or a movement of one of its
-    /// reactions. Each number has its own random stream.
+    /// Number of one of a robot's movements: 0 for the movement at the start, other numbers for the
+    /// movements of the robot's reactions. Each number has a separate random stream.
     using Plan = std::uint64_t;
     static constexpr Plan from_the_start = 0;
 
@@ -49,8 +49,8 @@ class MotionBuilder {
 
     Network& network_;
     const Scenario& scenario_;
-    std::map<const MoveTable*, Movement> shared_;  // robots of one table share the parameters
-    // All robots, including robots that are not built yet.
+    std::map<const MoveTable*, Movement> shared_;  // movements that robots of one table share
+    // Ids of all robots by name, including robots that are not yet in the network.
     std::map<std::string, NodeId, std::less<>> ids_;
 };
 

@@ -17,13 +17,13 @@
 
 namespace rovernet {
 
-/// Radios of robots, used by clients of a Session: a client sends messages from robots, and gets
-/// the messages that these robots receive. Several clients may share the radio of a robot; each
-/// client gets every message.
+/// Radios of robots, used by clients (external programs) of a Session. A client sends messages from
+/// robots, and gets the messages that these robots receive. Several clients may share the radio of
+/// a robot. Then each client gets every message.
 ///
 /// Messages are queued for each client until heard() fetches them. A client that never fetches must
-/// call set_hearing(), or its queue fills the memory. A robot whose clients do not hear costs the
-/// network nothing.
+/// call set_hearing(), or its queue fills the memory. A robot for which no client hears messages
+/// costs the network no computing time.
 class ClientRadios {
   public:
     /// @param network  must outlive this object
@@ -34,26 +34,28 @@ class ClientRadios {
     ClientRadios& operator=(const ClientRadios&) = delete;
 
     /// Adds a client, which gets the messages that `robots` receive from now on.
-    /// @param client  id of a client that has not joined yet, for the calls below
-    /// @param robots  each listed once; may be empty
-    /// @param hears   whether messages are queued for heard(), as set_hearing()
+    /// @param client  id of a client that has not joined yet; identifies the client in other calls
+    /// @param robots  robots whose radios the client uses, each listed once; may be empty
+    /// @param hears   whether messages are queued for the client, as set_hearing()
     void join(ClientId client, const std::vector<NodeId>& robots, bool hears);
     /// Removes a client and its queued messages. Does nothing if it has not joined.
     void leave(ClientId client);
-    /// Whether a client has joined with that robot.
+    /// Whether a client uses the radio of a robot: has joined with this robot in its list.
     bool has(ClientId client, NodeId robot) const;
 
-    /// Sends a message from a robot for any client; the right to use the robot's radio is not
-    /// checked.
+    /// Sends a message from a robot, on behalf of any client. This function does not check whether
+    /// a client may use the robot's radio.
     /// @return uid of the message, unique in the run; none if the robot is off and sends nothing
     /// @throws std::invalid_argument if the message is for everyone and the network has no routing
     /// protocol
     std::optional<std::uint64_t> send(NodeId robot, const SendCommand& command);
 
-    /// Fetches the messages that a client got since its last call, in order of time, then of robot.
+    /// Fetches the messages that were queued for a client since its last call, in order of time,
+    /// and at the same time in order of the receiving robots.
     /// @throws std::out_of_range if the client has not joined
     std::vector<HeardMessage> heard(ClientId client);
-    /// Sets whether messages are queued for heard(). False also drops the queue.
+    /// Sets whether messages are queued for a client until heard() fetches them. If `hears` is
+    /// false, queued messages are dropped.
     /// @throws std::out_of_range if the client has not joined
     void set_hearing(ClientId client, bool hears);
 

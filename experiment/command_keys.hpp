@@ -14,11 +14,11 @@
 #include <type_traits>
 #include <variant>
 
-// Keys of commands, for those who read commands from a text or a program.
+// Keys of robot commands, for code that reads commands from a text or from a program.
 
 namespace rovernet {
 
-/// List of all commands, and of those that are no messages.
+/// List of the command types in a std::variant, without the type `Left`, as a std::tuple.
 template <class Variant, class Left = void>
 struct CommandList;
 template <class... Commands, class Left>
@@ -53,7 +53,8 @@ constexpr auto keys_of() {
     return keys;
 }
 
-/// Command with its defaults. Those of a robot's height and heading are where it is now.
+/// Command with default values. A height and a heading have the current values of the robot as
+/// defaults.
 template <class Command>
 Command command_at(const Network& network, NodeId robot) {
     Command command{};

@@ -22,19 +22,19 @@ class DrivenRobots {
     DrivenRobots(const DrivenRobots&) = delete;
     DrivenRobots& operator=(const DrivenRobots&) = delete;
 
-    // Actions of commands.
+    // Actions of the robot commands, called by their carry_out().
 
-    /// Drives a robot ahead and turns it. @param timeout  the robot stops then; none: never
+    /// Makes a robot drive ahead and turn. @param timeout  time until it stops [ns]; none: no limit
     void drive(NodeId robot, MetersPerSecond speed, RadiansPerSecond turn_rate,
                std::optional<Duration> timeout);
     /// Lets a robot drive to a point, around the walls.
     void go(NodeId robot, Vec3 to, MetersPerSecond speed);
     void stop(NodeId robot);
-    /// Puts a robot elsewhere, at rest.
+    /// Moves a robot to another position [m] in zero time, where it rests.
     void place(NodeId robot, Vec3 at, Radians heading);
     Network& network() { return network_; }
 
-    /// Gives a robot any movement, instead of a command.
+    /// Gives a robot any movement, which replaces its last command.
     void move(NodeId robot, Movement movement);
 
     /// Whether the robot is commanded to drive ahead but stands still, blocked (by a wall, say).
@@ -48,7 +48,7 @@ class DrivenRobots {
     /// Drive command (velocity) of a robot.
     struct Driving {
         Time until;
-        double speed;  // [m/s] as commanded
+        double speed;  // commanded speed [m/s]
         std::shared_ptr<DrivenArc> arc;
     };
     const Driving* driving(NodeId robot) const;

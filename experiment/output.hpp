@@ -14,11 +14,11 @@ struct OutputFile {
     std::string bytes;
 };
 
-/// Writes files, each completely or not at all, see PartFile. Files get their final names once all
-/// of them are written.
-/// @throws RunError if one cannot be written
+/// Writes files, each completely or not at all, see PartFile. The files get their final names when
+/// all of them are written.
+/// @throws RunError if a file cannot be written
 void write_files(const std::vector<OutputFile>& files);
-/// Writes one file. @throws RunError if it cannot be written
+/// Writes one file, completely or not at all. @throws RunError if it cannot be written
 void write_file(const std::string& path, std::string_view bytes);
 
 /// Function that writes the next piece of a text.

@@ -8,10 +8,10 @@
 
 namespace rovernet {
 
-/// Callback that gets the simulated time reached, called now and then while a network runs.
+/// Callback that gets the current simulated time; called repeatedly while a network runs.
 using TellTime = std::function<void(Time)>;
 
-/// Runs the network until `end` and reports its progress. @param tell  may be empty
+/// Runs the network until the time `end`. @param tell  gets the progress; may be empty
 void play_until(Network& network, Time end, const TellTime& tell);
 
 }  // namespace rovernet

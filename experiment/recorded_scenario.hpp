@@ -7,24 +7,25 @@
 #include <string>
 #include <vector>
 
-// Storing a scenario in a recorded trace, and loading it from there.
+// Storing a scenario in a recorded trace, and loading a scenario from a recorded trace.
 
 namespace rovernet {
 
 /// Scenario in the form in which a recorded trace stores it.
 struct RecordedScenario {
-    /// Scenario as TOML with every default. Paths of attached files are those of the attachment,
-    /// such as map/office.yaml; other paths are relative to the folder of the trace.
+    /// Scenario as TOML, with every default. An attached file is named by its path as attachment,
+    /// such as map/office.yaml. Other paths are relative to the folder of the trace.
     std::string text;
     /// Attached files: the map with its picture and the movement file, unless they are larger than
     /// 64 MB. Files of a Stage world are not attached.
     std::vector<AttachedFile> files;
 };
-/// Scenario in the form in which a recorded trace stores it. @param folder  folder of the trace
+/// Converts a scenario to the form in which a recorded trace stores it.
+/// @param folder  folder of the trace
 RecordedScenario recorded_scenario(const Scenario& scenario, const std::string& folder);
 
-/// Scenario of a recorded trace, unpacked with its attached files into a temporary folder. It must
-/// outlive the runs of the scenario.
+/// Scenario of a recorded trace, unpacked with its attached files into a temporary folder. This
+/// object must outlive the runs of the scenario.
 class ReplayedScenario {
   public:
     /// @param path  path of the trace, for errors, and to find files that are not attached
@@ -45,7 +46,8 @@ class ReplayedScenario {
         std::string path;
     };
 
-    /// Path of a file of the scenario, relative to the temporary folder.
+    /// Path of a file that the scenario names: relative to the temporary folder if the file is
+    /// attached, otherwise the absolute path of a file beside the trace.
     std::string find_file(const RecordedRun& run, const std::string& name) const;
 
     std::string trace_;  // path of the trace
@@ -54,8 +56,9 @@ class ReplayedScenario {
 };
 
 /// Checks that the robots listed in a trace are the robots of its scenario, in the same order,
-/// since records refer to robots by this order. @param path  path of the trace. @throws InputError
-/// if they differ
+/// since records identify robots by their index in this order.
+/// @param path  path of the trace, for the error message
+/// @throws InputError if the robots differ
 void check_robots(const RecordedRun& run, const Scenario& scenario, const std::string& path);
 
 }  // namespace rovernet

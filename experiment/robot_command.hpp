@@ -16,10 +16,10 @@
 
 // Commands from external programs to robots. A session executes them; an input log stores them.
 //
-// The fields() of a command are its vocabulary: keys and ranges in the lock-step protocol, in the
-// log of inputs, in ROS messages and in Python follow from them. Places and payloads must be given;
-// other fields have defaults. A command that is no message says by carry_out() what DrivenRobots
-// does with the robot.
+// The fields() of a command define its keys and their ranges in the lock-step protocol, in the log
+// of inputs, in ROS messages and in Python. Positions and payloads must be given. Other fields have
+// defaults. Each command except SendCommand has a function carry_out(), which calls the function of
+// DrivenRobots that moves the robot.
 
 namespace rovernet {
 
@@ -27,13 +27,13 @@ inline constexpr Range drive_speeds{.low = -1000, .high = 1000, .text = "from -1
 inline constexpr Range drive_turns{.low = -1000, .high = 1000, .text = "from -1000 to 1000 rad/s"};
 inline constexpr Range drive_times{.low = 0, .low_included = false, .text = "> 0 s"};
 
-/// Command to drive ahead and turn, as Driven does, until the next command.
+/// Command to drive ahead and turn (see the movement Driven) until the next command.
 struct DriveCommand {
     static constexpr std::string_view name = "drive";
 
     MetersPerSecond speed{0};       ///< speed ahead [m/s], < 0: backwards
     RadiansPerSecond turn_rate{0};  ///< turn rate [rad/s], counter-clockwise
-    /// The robot stops after this time; none: it does not stop.
+    /// Time after which the robot stops [ns]; none: the robot does not stop.
     std::optional<Duration> timeout = {};
 
     static constexpr auto fields() {
@@ -54,8 +54,8 @@ inline constexpr Range goal_places{.low = -1e9, .high = 1e9, .text = "from -1e9 
 struct GoalCommand {
     static constexpr std::string_view name = "goal";
 
-    Vec3 to;                   ///< goal [m]
-    MetersPerSecond speed{1};  ///< speed [m/s], > 0
+    Vec3 to;                   ///< position of the goal [m]
+    MetersPerSecond speed{1};  ///< speed of the robot [m/s], > 0
 
     static constexpr auto fields() {
         return describe(field("goal", &GoalCommand::to, goal_places, "goal"),
@@ -64,7 +64,7 @@ struct GoalCommand {
     void carry_out(auto& robots, NodeId robot) const { robots.go(robot, to, speed); }
 };
 
-/// Command to stand still.
+/// Command to a robot to stop and stand still.
 struct StopCommand {
     static constexpr std::string_view name = "stop";
 
@@ -72,7 +72,7 @@ struct StopCommand {
     void carry_out(auto& robots, NodeId robot) const { robots.stop(robot); }
 };
 
-/// Command that moves the robot to another position at once (teleport), at rest.
+/// Command that moves the robot to another position in zero time (teleport), where it rests.
 struct PlaceCommand {
     static constexpr std::string_view name = "place";
 
@@ -108,7 +108,7 @@ struct SendCommand {
     }
 };
 
-/// Command of a client.
+/// Command of a client (external program) to a robot.
 using RobotCommand =
     std::variant<DriveCommand, GoalCommand, StopCommand, PlaceCommand, SendCommand>;
 
@@ -120,7 +120,8 @@ void check(const RobotCommand& command, std::string_view robot);
 inline constexpr Duration shortest_step{
     1'000};  ///< shortest step [ns] that a lock-step controller may request
 
-/// Accepted command of a client. The scenario and all inputs together reproduce a run.
+/// Input of a run: an accepted command of a client, with its time. The scenario and all inputs
+/// together reproduce a run.
 struct Input {
     Time time;
     NodeId robot;
@@ -136,14 +137,14 @@ using ClientId = std::uint32_t;
 struct HeardMessage {
     Time time;    ///< delivery to the robot, 1 us after the frame was received
     NodeId at;    ///< robot that received the message
-    NodeId from;  ///< origin of the message
-    int hops;     ///< number of hops, from 1
+    NodeId from;  ///< robot that sent the message (its origin)
+    int hops;     ///< number of hops that the message took, from 1
     std::string payload;
     NodeId last_hop = {};           ///< transmitter of the frame that brought the message
-    std::optional<Dbm> level = {};  ///< level of that frame at the receiver [dBm]; none if the
+    std::optional<Dbm> level = {};  ///< received level of the message's frame [dBm]; none if the
                                     ///< frame was on air before the first client joined
     std::uint16_t port = 0;         ///< port given by the sending client; 0: none
-    bool is_for_everyone = true;    ///< false: a unicast to `at`
+    bool is_for_everyone = true;    ///< true: a broadcast; false: a unicast to the robot `at`
     friend bool operator==(const HeardMessage&, const HeardMessage&) = default;
 };
 

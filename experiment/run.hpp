@@ -33,10 +33,10 @@ struct TraceFile;
 struct RunOptions {
     std::optional<std::string> folder;  ///< folder for the results of the run; none: run_folder()
     std::optional<double> speed;        ///< simulated time over real time [-]; none: unpaced
-    /// Called now and then with the finished share, 0 ... 1; returning false stops the run.
+    /// Callback, called repeatedly with the finished share, 0 ... 1; returning false stops the run.
     std::function<bool(double)> progress = {};
-    /// Runs the session instead of Session::run(), for external programs; it may end early. Returns
-    /// false if the run was stopped.
+    /// Function that runs the session for external programs, instead of Session::run(). It may end
+    /// the run early. It returns false if the run was stopped.
     std::function<bool(ScenarioRun&)> drive = {};
 };
 
@@ -51,14 +51,14 @@ struct RunResult {
     std::optional<std::string> trace;  ///< path of the ns-2 trace, or else of the recorded trace
     MetricValues metrics;
     std::string fingerprint;
-    std::shared_ptr<const TopologyValues> topology;  ///< null: not measured
-    Table added;  ///< tables that were added to the run, see ScenarioRun::add_part()
+    std::shared_ptr<const TopologyValues> topology;  ///< topology metrics; null: not measured
+    Table added;  ///< tables that were added to the results, see ScenarioRun::add_part()
     std::uint64_t events = 0;
-    Duration warmup{0};  ///< time after which metrics begin [ns]
-    /// Simulated time of the run [ns]; shorter than the scenario's if it ended early.
+    Duration warmup{0};  ///< warm-up of the run, which is not measured [ns]
+    /// Simulated duration of the run [ns]; shorter than the scenario's duration if it ended early.
     Duration simulated{0};
-    std::uint64_t searches = 0;  ///< number of path searches not answered by kept planners
-    std::optional<Db> interference_left_out;  ///< bound on ignored interference, see Network
+    std::uint64_t searches = 0;  ///< number of path searches by kept planners; without them 0
+    std::optional<Db> interference_left_out;  ///< bound on the effect of neglected interference
     double wall_s = 0;                        ///< duration of the run in real time [s]
     std::string started;                      ///< start of the run in real time, UTC, ISO 8601
     std::shared_ptr<const Timeline> timeline;
@@ -68,17 +68,17 @@ struct RunResult {
     Duration measured() const { return std::max(simulated - warmup, Duration{0}); }
 };
 
-/// What is observed of a run, besides the sinks that its caller adds.
+/// Choice of the results that a run collects, in addition to the sinks that its caller adds.
 enum class Observed {
-    everything,    ///< fingerprint, [metrics] topology, warm-up and timeline
-    measurements,  ///< no timeline
-    metrics,       ///< those of the network alone, without warm-up
-    nothing        ///< what sinks of the caller observe: no metrics either
+    everything,    ///< metrics without warm-up, topology if [metrics] has it, fingerprint, timeline
+    measurements,  ///< everything except the timeline
+    metrics,       ///< metrics of the network only, including the warm-up
+    nothing        ///< no results, not even metrics
 };
 
-/// Run of a scenario whose session the caller advances: the one place where a run's settings,
-/// planners, warm-up and sinks are set up, and its results are gathered. run_scenario(), measure(),
-/// verify_replay() and flood_bench() use it.
+/// Run of a scenario whose session the caller advances. This class sets up the run's settings,
+/// planners, warm-up and sinks, and gathers its results. run_scenario(), measure(), verify_replay()
+/// and flood_bench() use it.
 ///
 ///   ScenarioRun run(scenario);
 ///   run.write_to("runs/mine");           // optional: without it nothing is written
@@ -86,8 +86,8 @@ enum class Observed {
 ///   RunResult result = run.finish();
 class ScenarioRun {
   public:
-    /// Makes the network. @throws InputError for errors that need the map, such as a robot in a
-    /// wall
+    /// Makes the network of the run.
+    /// @throws InputError for errors found with the map, such as a robot in a wall
     /// @param scenario  must outlive the run
     /// @param kept      store of path planners, shared by runs in one scene; may be null
     explicit ScenarioRun(const Scenario& scenario, KeptPlanners* kept = nullptr,
@@ -100,9 +100,9 @@ class ScenarioRun {
     /// before the session's first step. @throws RunError if the folder or a trace cannot be written
     void write_to(const std::string& folder);
     Session& session() { return *session_; }
-    /// Fingerprint of the run so far.
+    /// Fingerprint (hash) of the run's records so far.
     const Fingerprint& fingerprint() const { return *fingerprint_; }
-    /// Adds a table to summary.json, under the key `name`.
+    /// Adds a table to the run's results (summary.json), under the key `name`.
     void add_part(std::string name, Table part) { result_.added.set(std::move(name), part); }
     /// Ends the run at the current time, and writes the results if a folder was given. Must be
     /// called once. @throws RunError
@@ -116,11 +116,11 @@ class ScenarioRun {
     std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
     RunResult result_;  // result as far as it is known
     std::unique_ptr<Session> session_;
-    std::shared_ptr<Planners> planners_;        // null: the run's own
-    std::uint64_t searched_ = 0;                // searches of these planners before the run
-    std::shared_ptr<Fingerprint> fingerprint_;  // null: not observed
-    std::shared_ptr<Timeline> timeline_;        // null: not observed
-    std::shared_ptr<Topology> topology_;        // null: not measured
+    std::shared_ptr<Planners> planners_;        // kept path planners; null: the network has its own
+    std::uint64_t searched_ = 0;                // path searches of planners_ before the run
+    std::shared_ptr<Fingerprint> fingerprint_;  // sink of the fingerprint; null: not observed
+    std::shared_ptr<Timeline> timeline_;        // sink of the timeline; null: not observed
+    std::shared_ptr<Topology> topology_;        // sink of the topology; null: not measured
     std::vector<TraceFile> traces_;
 };
 

@@ -23,14 +23,14 @@ class ScenarioFile;
 struct Scanner;
 struct Scenario;
 
-/// Run of a scenario that external clients control. The run advances in steps, or paced by the
-/// clock. Clients drive robots, and send and receive messages by robots' radios (ClientRadios). A
-/// command takes effect at the current time of the session. The network may outlive the session; it
-/// has no clients then.
+/// Run of a scenario that clients (external programs) control. The run advances in steps, or paced
+/// by the clock. Clients drive robots, and send and receive messages by robots' radios
+/// (ClientRadios). A command takes effect at the current simulated time. The network may outlive
+/// the session. Then it has no clients.
 /// Example: examples/session.cpp.
 class Session {
   public:
-    /// @throws InputError for errors that need the map, such as a robot in a wall
+    /// Makes the network. @throws InputError for errors found with the map: a robot in a wall, say
     explicit Session(const Scenario& scenario);
     /// Makes a session of a scenario file, overridden by `settings` (values by path, as for --set).
     explicit Session(const ScenarioFile& file, const Table& settings = {});
@@ -50,19 +50,19 @@ class Session {
     /// Runs until `until`, or until the end of the scenario if that is earlier.
     /// @throws InputError, RunError
     void step(Time until) { advance(until, every_event); }
-    /// Runs like step(), but processes at most `most_events` events. @return whether the time is
-    /// reached
+    /// Runs like step(), but processes at most `most_events` events. @return whether the time
+    /// `until` is reached
     bool advance(Time until, std::uint64_t most_events);
     /// Runs to the end of the scenario.
     /// @param speed     simulated time over real time [-]; none: as fast as possible
-    /// @param progress  called now and then with the finished share, 0 ... 1; returning false stops
+    /// @param progress  called repeatedly with the finished share, 0 ... 1; returning false stops
     /// the run
     /// @return false if the run was stopped
     bool run(std::optional<double> speed, const std::function<bool(double)>& progress);
 
     /// Adds a client that drives `robots`, which no other client may drive. Events of the current
     /// time are processed first, so that a command takes effect after all events of its time.
-    /// @throws std::invalid_argument naming a robot that is taken or listed twice
+    /// @throws std::invalid_argument naming a robot that another client drives or is listed twice
     /// @param name   name of the client, for on_input()
     /// @param hears  whether messages are queued for heard(), as set_hearing()
     ClientId attach(const std::vector<NodeId>& robots, std::string name = {}, bool hears = true);
@@ -75,37 +75,37 @@ class Session {
 
     /// Client that drives the robot; none: no client does.
     std::optional<ClientId> driver(NodeId robot) const;
-    /// Calls `tell` for every command of a client from now on, before it is executed. The scenario
-    /// and these commands reproduce the run. When a client leaves, a StopCommand for each of its
-    /// robots is included.
+    /// Sets a callback `tell`, called for every command of a client before the command is executed.
+    /// The scenario and these commands reproduce the run. They include a StopCommand for each robot
+    /// that a leaving client drives.
     void on_input(std::function<void(const Input&)> tell) { tell_ = std::move(tell); }
 
-    // Commands to robots that the client drives, and SendCommands to robots whose radios it uses.
-    // @throws std::invalid_argument for any other robot
+    // Commands of a client to robots that it drives, and SendCommands to robots whose radios it
+    // uses. @throws std::invalid_argument for any other robot
 
     /// Executes a command of a client now.
     /// @param number  number that the client gave to the command, for on_input()
-    /// @return uid of the message, unique in the run, if a message was sent; a robot that is off
-    /// sends none
+    /// @return uid of the sent message, unique in the run; none: no message was sent, since the
+    /// command is no SendCommand or the robot is off
     std::optional<std::uint64_t> carry_out(ClientId client, NodeId robot,
                                            const RobotCommand& command, std::uint64_t number = 0);
-    /// Drives a robot ahead and turns it, see Driven, until the next command or for `timeout`.
+    /// Makes a robot drive ahead and turn (see Driven), until the next command or for `timeout`.
     void drive(ClientId client, NodeId robot, MetersPerSecond speed, RadiansPerSecond turn_rate,
                std::optional<Duration> timeout = {}) {
         carry_out(client, robot, DriveCommand{speed, turn_rate, timeout});
     }
-    /// Gives a robot any movement. on_input() does not report it.
+    /// Gives a robot any movement. The callback of on_input() is not called for it.
     void move(ClientId client, NodeId robot, Movement movement);
-    /// Sends a message from a robot to `to`, as Network::send; none: to everyone.
+    /// Sends a message from a robot to the robot `to` (none: to everyone), see Network::send.
     void send(ClientId client, NodeId robot, std::optional<NodeId> to, std::string payload) {
         carry_out(client, robot, SendCommand{.to = to, .payload = std::move(payload)});
     }
 
     /// Fetches the messages that the client's robots received since the last call, in order of
-    /// time, then of robot.
+    /// time, and at the same time in order of the robots.
     std::vector<HeardMessage> heard(ClientId client);
-    /// Sets whether messages are queued for heard(). A client that never calls heard() should set
-    /// false, or its queue fills the memory.
+    /// Sets whether messages are queued for a client until heard() fetches them. A client that
+    /// never calls heard() should set false, or its queue fills the memory.
     void set_hearing(ClientId client, bool hears);
     /// Whether the robot is commanded to drive ahead but stands still, blocked (by a wall, say).
     bool is_stalled(NodeId robot) const;
@@ -119,8 +119,8 @@ class Session {
 
     /// Range finders of a robot, in the order of the scenario; valid as long as the session.
     std::span<const Scanner> range_finders(NodeId robot) const;
-    /// Distances [m] that a range finder of a robot measures now, one for each beam: to walls, and
-    /// to the bodies of other robots. The scan is computed by this call only.
+    /// Distances [m] from a range finder of a robot to the nearest wall or other robot at the
+    /// current time, one for each beam. They are computed only when this function is called.
     /// @param number  index of the range finder, from 0
     /// @throws std::out_of_range if the robot has no such range finder
     std::vector<double> scan(NodeId robot, std::size_t number = 0) const;
@@ -139,15 +139,15 @@ class Session {
     /// @throws std::invalid_argument unless the client drives the robot
     void check_robot(ClientId client, NodeId robot) const;
 
-    std::string file_;  // scenario file, for errors
+    std::string file_;  // path of the scenario file, for error messages
     std::shared_ptr<Network> network_;
     Time end_;
-    bool has_border_;  // true for a map; robots may leave the walls of a Stage world
+    bool has_border_;  // true if the map's border bounds robots; false for a Stage world
     std::unique_ptr<DrivenRobots> driven_;
     std::unique_ptr<ClientRadios> radios_;
     std::map<ClientId, Client> clients_;
     std::map<NodeId, ClientId> drivers_;
-    // Shared by all robots of one [[robot]] table.
+    // Range finders that all robots of one [[robot]] table share.
     using Scanners = std::shared_ptr<const std::vector<Scanner>>;
     std::map<NodeId, Scanners> range_finders_;
     std::function<void(const Input&)> tell_;

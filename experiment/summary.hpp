@@ -16,25 +16,27 @@ struct PartMetrics;
 struct RunResult;
 struct Scenario;
 
-/// Appends the metrics to a table, as in summary.json and `rovernet trace stats --json`.
+/// Appends the metrics of a run to a table, in the form of summary.json and of `rovernet trace
+/// stats --json`.
 void append_metrics(Table& table, const MetricValues& metrics);
 
-/// Calls visit(kind, name, metrics) for each flow ("flows") and each robot ("robots") whose metrics
-/// [metrics] asks for, in order. The names follow from the scenario alone.
-/// @param measured  duration of the measurement: the run without its warm-up
+/// Calls visit(kind, name, metrics) for each flow (kind "flows") and each robot (kind "robots"), in
+/// their order, if the table [metrics] of the scenario requests metrics of flows or robots. Names
+/// depend only on the scenario.
+/// @param measured  duration of the measurement [ns]: the run without its warm-up
 void for_each_part(const Scenario& scenario, const MetricValues& metrics, Duration measured,
                    const std::function<void(std::string_view kind, const std::string& name,
                                             const PartMetrics& metrics)>& visit);
-/// Appends the metrics chosen in [metrics], as tables "flows", "robots" and "topology", and the
-/// tables that were added to the run.
+/// Appends the metrics that [metrics] requests, as tables "flows", "robots" and "topology", and the
+/// tables that were added by ScenarioRun::add_part().
 void append_parts(Table& table, const Scenario& scenario, const RunResult& result);
 
-/// Document of the results without their timeline. Start time, duration and machine of the run are
-/// only in summary.json.
+/// Document of a run's results, without the timeline. The start in real time and the name of the
+/// machine are not included. Only summary.json contains them.
 Table run_summary(const Scenario& scenario, const RunResult& result);
-/// Writes the results with their timeline as JSON, piece by piece: summary.json, and what `run
-/// --json` prints.
-/// @param more  further entries, which follow the results
+/// Writes a run's results with the timeline as JSON, piece by piece: the text of summary.json and
+/// the output of `rovernet run --json`.
+/// @param more  further entries, which are written after the results
 void write_summary(const Scenario& scenario, const RunResult& result, const Write& write,
                    const Table& more = {});
 

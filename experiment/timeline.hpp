@@ -17,10 +17,11 @@
 
 namespace rovernet {
 
-/// Timeline of a run with few robots, for human readers: first transmission of each text, its
-/// receptions with time and hops, arrivals, blocked paths, failures of robots.
+/// Timeline of a run with few robots, for users: a list of events with their times. Its entries are
+/// the first transmission of each text by a robot, the first reception of the text at each robot
+/// with the number of hops, arrivals, blocked paths, and robots that are switched off and on.
 ///
-/// Messages without a text have no entry.
+/// Messages whose payload is no text have no entry.
 ///
 /// Memory: 24 bytes for each entry, 16 for each position, and about 16 for each pair of text and
 /// receiver. Sentences are made when the timeline is shown.
@@ -33,7 +34,7 @@ class Timeline {
         std::string text;  ///< event as a text: "hears \"F\" from A over 2 hops"
     };
 
-    /// The network, which has the robots' names, must outlive the timeline.
+    /// Makes an empty timeline. The network must outlive it, since it has the robots' names.
     explicit Timeline(const Network& network) : network_(&network) {}
 
     KindMask kinds() const {
@@ -42,15 +43,17 @@ class Timeline {
     }
     void on(const Record& record, const RecordContext& context);
 
-    /// Largest number of entries of the timeline; longer runs are better examined by a trace.
+    /// Largest number of entries of the timeline. A run with more events is better examined by a
+    /// trace.
     static constexpr std::size_t most = 10'000;
 
     std::size_t size() const { return entries_.size(); }
     /// Number of entries beyond the limit `most`, which are dropped.
     std::uint64_t left_out() const { return left_out_; }
-    /// Entry number i of the timeline, in order of time.
+    /// Entry number i of the timeline, in order of time, from 0.
     Happening operator[](std::size_t i) const;
-    /// Appends entry number i as a JSON object; its lines after the first are indented by 4 blanks.
+    /// Appends to `out` the entry number i as a JSON object, i from 0. Lines of the object after
+    /// its first line are indented by 4 blanks.
     void append_json(std::size_t i, std::string& out) const;
 
   private:
@@ -58,7 +61,7 @@ class Timeline {
     struct Entry {
         Time time;
         NodeId node;
-        std::uint32_t about;  // index into words_ or places_
+        std::uint32_t about;  // text or position of the event: index into words_ or places_
         Event event;
         Hops hops;
     };
@@ -95,11 +98,11 @@ class Timeline {
     const Network* network_;
     Chunks<Entry> entries_;
     std::uint64_t left_out_ = 0;
-    std::deque<Words> words_;  // stable addresses: word_index_ refers to the payloads
+    std::deque<Words> words_;  // texts, at stable addresses: word_index_ refers to their payloads
     std::map<std::pair<NodeId, std::string_view>, std::uint32_t> word_index_;
-    // Uid and text of each message, by MessageId.
+    // Uid of each message and index of its text in words_, by MessageId.
     std::vector<std::pair<std::uint64_t, std::uint32_t>> by_message_;
-    std::vector<std::pair<double, double>> places_;  // x and y of each place [m]
+    std::vector<std::pair<double, double>> places_;  // positions of events: x and y [m]
     Pairs known_;
 };
 

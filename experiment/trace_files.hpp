@@ -14,16 +14,17 @@ namespace rovernet {
 struct TraceFile {
     std::string path;
     Sink sink;  ///< sink that writes the file
-    /// Gives the file its final name, once the sink has finished. @throws RunError if that fails
+    /// Function that gives the file its final name; called when the sink has finished.
+    /// @throws RunError if the file cannot be renamed
     std::function<void()> give_name;
 };
 
-/// Opens the traces that [trace] lists, in the folder of the results. Removes unfinished trace
-/// files of a killed run.
+/// Opens the trace files that the table [trace] of the scenario requests, in the folder of the
+/// results. Removes unfinished trace files of a killed run from the folder.
 /// @throws RunError if a trace cannot be written
 std::vector<TraceFile> trace_files(const Scenario& scenario, const std::string& folder);
 
-/// Removes the traces that an earlier run left in that folder, except `files`.
+/// Removes the trace files that an earlier run left in a folder, except `files`.
 void remove_other_traces(const std::string& folder, const std::vector<TraceFile>& files);
 
 }  // namespace rovernet

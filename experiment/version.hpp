@@ -15,7 +15,8 @@ std::string_view version();
 /// differ from the commit, or the commit is unknown, XXH64 of the running program is appended.
 const std::string& code_version();
 
-/// Build information of the program: version, commit, dirty, compiler, type, flags.
+/// Table of build information: version, commit, dirty (true if the sources differ from the commit),
+/// compiler, build_type, flags.
 Table build_provenance();
 
 /// Current date and time (UTC), as "2025-06-30T23:59:59Z".

@@ -6,9 +6,10 @@
 
 namespace rovernet {
 
-/// Warm-up [ns] of a scenario's run, by [study] warmup: metrics start after it. With "mser5", a
-/// first run is made, and mser5() is applied to the series of the messages' delivery ratios.
-/// @param settings  from network_settings(scenario); their planners are shared by all runs
+/// Warm-up of a scenario's run [ns], by the key warmup of [study]. Metrics exclude the warm-up.
+/// With "mser5", a first run is made, and mser5() is applied to the series of its messages'
+/// delivery ratios.
+/// @param settings  made by network_settings(scenario); all runs share the planners in it
 Duration warmup_of(const Scenario& scenario, NetworkSettings settings);
 
 }  // namespace rovernet

@@ -6,7 +6,7 @@
 #include <array>
 #include <string_view>
 
-// Antennas: gain of a radio by direction. link_gain.hpp adds it to links.
+// Antennas: gain of a radio by direction. link_gain.hpp adds the gains to link budgets.
 
 namespace rovernet {
 
@@ -28,7 +28,7 @@ struct EnumNames<AntennaShape> {
     static constexpr std::array<std::string_view, 3> values = {"isotropic", "cosine", "table"};
 };
 
-/// Point of a pattern's table.
+/// Point of an antenna pattern that is given as a table.
 struct PatternPoint {
     /// Angle from the antenna's direction, counter-clockwise [degrees].
     double degrees = 0;
@@ -38,7 +38,7 @@ struct PatternPoint {
     friend bool operator==(const PatternPoint&, const PatternPoint&) = default;
 };
 
-/// Valid range of beamwidths, in radians.
+/// Valid range of antenna beamwidths [rad].
 inline constexpr Range beamwidths{
     .low = 0, .high = 6.28318, .low_included = false, .text = "> 0 deg and < 360 deg"};
 

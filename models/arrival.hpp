@@ -10,20 +10,20 @@
 #include <limits>
 #include <optional>
 
-// Frames between sender and receiver, for reception models: a Transmission is how a frame is sent,
-// an Emission is the frame on air, an Arrival is that frame at one node.
+// Frames between sender and receiver, for reception models: a Transmission has the rate, coding and
+// durations of a frame, an Emission is the frame on air, an Arrival is the frame at one node.
 
 namespace rovernet {
 
-/// Modulation and coding, as a number within a physical layer.
+/// Modulation and coding scheme, as a number that the physical layer defines.
 enum class Coding : std::uint8_t {};
 
-/// How a frame is transmitted. The physical layer makes one for each frame; the medium, the
-/// reception model and records use it.
+/// Transmission parameters of a frame. The physical layer computes them for each frame; the medium,
+/// the reception model and records use them.
 struct Transmission {
     /// Bit rate of the payload [bit/s].
     BitRate rate;
-    /// Modulation and coding of the payload; 0 if the layer does not know the rate.
+    /// Modulation and coding of the payload; 0 if the physical layer does not know the bit rate.
     Coding coding{};
     /// Bandwidth of the signal [Hz].
     Hertz bandwidth;
@@ -32,20 +32,20 @@ struct Transmission {
     /// Size of the frame [bytes], including the bytes that the access model adds.
     std::uint32_t bytes;
 
-    /// Time on air [ns].
+    /// Time on air of the whole frame [ns]: preamble and payload.
     Duration airtime() const { return preamble + payload; }
 };
 
-/// Rule for the detection of a preamble.
+/// Rule of a physical layer for the detection of a preamble.
 struct PreambleDetection {
-    /// Time from the start of the preamble at which its level counts [ns].
+    /// Time [ns] after the start of the preamble at which its SINR is compared with the threshold.
     Duration after{4'000};
-    /// Smallest SINR [dB] at which it is detected; none: that of the reception model.
+    /// Smallest SINR [dB] at which a preamble is detected; empty: threshold of the reception model.
     std::optional<Db> threshold = std::nullopt;
 };
 
-/// Frame as transmitted. Interference stores it while it may overlap with other frames. The judge
-/// of the reception model stores its own data about the frame at the index `flight`.
+/// Frame as transmitted. Interference stores the Emission while the frame may overlap with others.
+/// The judge of the reception model stores its own data of the frame at the index `flight`.
 struct Emission {
     /// Begin and end of the frame at its sender.
     Time begin, end;
@@ -67,7 +67,7 @@ struct Emission {
 
 /// State of a receiver of the model "sinr" for a frame that it could decode.
 enum class Lock : std::uint8_t {
-    /// Not yet decided whether the receiver locks onto the frame.
+    /// Undecided: whether the receiver locks onto the frame is not computed yet.
     open,
     /// The receiver locked onto the frame: it was free and detected the preamble.
     held,
@@ -79,8 +79,8 @@ enum class Lock : std::uint8_t {
 /// frame starts.
 struct Sensing {
     NodeId node;
-    /// True if the signal is strong enough to be decoded; the access model is then notified of the
-    /// result.
+    /// True if the signal is strong enough to be decoded. The access model is then also notified at
+    /// the end of the frame whether it was received.
     bool decodable;
     /// Modulation and coding of the frame.
     Coding coding{};
@@ -88,8 +88,8 @@ struct Sensing {
     Time begin, end;
 };
 
-/// Frame at one node, the input of a judge. Times are those at the node, including the propagation
-/// delay.
+/// Frame as it arrives at one node: the input of a reception model's judge. Its times include the
+/// propagation delay to the node.
 struct Arrival {
     /// Begin and end of the frame at this node.
     Time begin;
@@ -101,15 +101,14 @@ struct Arrival {
     double squared_distance;
     /// Node that transmits the frame.
     NodeId from;
-    /// True if the node itself transmits the frame; it cannot receive other frames at that time.
+    /// True if the node itself transmits the frame. The node cannot receive other frames meanwhile.
     bool own = false;
     /// Modulation and coding of the frame.
     Coding coding{};
     /// Lock state for the model "sinr"; null if the node cannot decode the frame.
     Lock* lock = nullptr;
 
-    /// Whether both frames are on air at the same time at this node; adjacent frames do not
-    /// overlap.
+    /// Whether this frame and `other` overlap in time at the node; adjacent frames do not overlap.
     bool overlaps(const Arrival& other) const { return begin < other.end && other.begin < end; }
 };
 

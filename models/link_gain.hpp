@@ -7,8 +7,8 @@
 
 #include <algorithm>
 
-// Link budgets: received powers from transmit power, gains and losses. Used by Medium; all gains of
-// a link are added in LinkGain.
+// Link budgets: received powers from transmit power, gains and losses. Medium uses these functions;
+// LinkGain adds all gains of a link.
 
 namespace rovernet {
 
@@ -31,21 +31,21 @@ struct Headings {
 /// @param radio  checked by check_antenna()
 Db pattern_gain(const Radio& radio, const Pose& pose, Vec3 place);
 
-/// Checks the pattern table of an antenna, which fields() cannot check: for the shape `table` it
-/// needs points, at angles that ascend within one turn, with gains of at most 0 dB.
-/// @throws std::invalid_argument with the fault
+/// Checks the pattern table of an antenna, which fields() cannot check: for the shape `table` the
+/// antenna needs points, at angles that ascend within one turn, with gains of at most 0 dB.
+/// @throws std::invalid_argument with a description of the fault
 void check_antenna(const Radio& radio);
 
-/// Gains of antennas and cables on a link [dB], by end. All gains of a link are computed here.
+/// Gain [dB] of antenna and cable at each end of a link. All gains of a link are computed here.
 struct LinkGain {
     /// Gain minus cable loss of the sender's and of the receiver's antenna.
     Db sender, receiver;
 
-    /// Largest gains for any poses of the antennas: an upper bound in the search for receivers.
+    /// Largest gains over all poses of the antennas: an upper bound, for the search for receivers.
     static constexpr LinkGain most(const Radio& from, const Radio& to) {
         return {from.antenna_gain - from.cable_loss, to.antenna_gain - to.cable_loss};
     }
-    /// Gains for the antennas' poses; at no cost if both antennas are isotropic.
+    /// Gains for the antennas' poses, which are not computed if both antennas are isotropic.
     /// @param poses  returns the poses of the sender's and the receiver's antenna as a pair; called
     ///               only if one of the antennas is directional
     template <class Poses>
@@ -60,24 +60,24 @@ struct LinkGain {
 };
 
 /// Largest path loss [dB] at which `to` receives `from`: power + gain - cable loss of the
-/// transmitter, + gain - cable loss - sensitivity of the receiver. The link is up if its loss is
-/// not larger. Two radios with all defaults have 16.53 dBm - (-75 dBm) = 91.53 dB.
+/// transmitter, + gain - cable loss - sensitivity of the receiver. The link is up if its path loss
+/// is at most this budget. Two radios with all defaults have 16.53 dBm - (-75 dBm) = 91.53 dB.
 ///
 /// Source: the 2007 thesis (docs/worlds.md), table 3.1, corrected: the sensitivity is subtracted.
 constexpr Db link_budget(const Radio& from, const Radio& to, LinkGain gain) {
     return (from.power - to.sensitivity) + gain.sender + gain.receiver;
 }
-/// Link budget [dB] for any poses of the antennas: with their largest gains.
+/// Link budget [dB] with the largest gains of the antennas: an upper bound for all poses.
 constexpr Db link_budget(const Radio& from, const Radio& to) {
     return link_budget(from, to, LinkGain::most(from, to));
 }
 
-/// Largest path loss [dB] at which `to` senses a transmission of `from`; not below link_budget.
+/// Largest path loss [dB] at which `to` senses a transmission of `from`; >= link_budget().
 constexpr Db sensing_budget(const Radio& from, const Radio& to, LinkGain gain) {
     const Dbm threshold = to.carrier_sense_threshold.value_or(to.sensitivity);
     return link_budget(from, to, gain) + std::max(Db{0}, to.sensitivity - threshold);
 }
-/// Sensing budget [dB] for any poses of the antennas: with their largest gains.
+/// Sensing budget [dB] with the largest gains of the antennas: an upper bound for all poses.
 constexpr Db sensing_budget(const Radio& from, const Radio& to) {
     return sensing_budget(from, to, LinkGain::most(from, to));
 }
@@ -87,7 +87,7 @@ constexpr Db sensing_budget(const Radio& from, const Radio& to) {
 constexpr Dbm received_power(const Radio& from, Db path_loss, LinkGain gain) {
     return from.power + gain.sender - path_loss + gain.receiver;
 }
-/// Received power [dBm] for any poses of the antennas: with their largest gains.
+/// Received power [dBm] with the largest gains of the antennas: an upper bound for all poses.
 constexpr Dbm received_power(const Radio& from, const Radio& to, Db path_loss) {
     return received_power(from, path_loss, LinkGain::most(from, to));
 }

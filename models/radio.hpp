@@ -19,9 +19,9 @@
 
 namespace rovernet {
 
-/// Gate of a radio: restricts the radios with which it can have links.
+/// Gate of a radio: restriction of the radios with which a radio can have links.
 enum class Gate {
-    /// Only radios of its own network: same essid ("any" matches all), channel and frequency.
+    /// Links only within a network: same essid ("any" matches all), channel and frequency.
     network,
     /// Radios of any network.
     none,
@@ -32,8 +32,7 @@ struct EnumNames<Gate> {
     static constexpr std::array<std::string_view, 2> values = {"network", "none"};
 };
 
-/// Mode of a wireless device in its network (IEEE 802.11), for the robot's own tables; it does not
-/// affect links.
+/// Mode of a radio in its network (IEEE 802.11); a label for tables, without effect on links.
 enum class WifiMode { automatic, adhoc, infrastructure, master, repeater, secondary };
 /// Names of the values of `mode` in scenario files.
 template <>
@@ -51,7 +50,7 @@ struct Radio {
     /// Weakest signal that is received [dBm].
     Dbm sensitivity{-75};
     /// Weakest signal that is sensed [dBm]; equal to the sensitivity if not given. Weaker signals
-    /// have no effect on access.
+    /// have no effect on channel access.
     std::optional<Dbm> carrier_sense_threshold = std::nullopt;
     /// Carrier frequency [Hz], for path losses and for the gate.
     Hertz frequency{2450e6};
@@ -78,19 +77,19 @@ struct Radio {
     Db cable_loss{0};
     /// Height of the antenna above the robot's z [m].
     Meters antenna_height{1};
-    /// Bandwidth of the receiver's filter [Hz], for its noise.
+    /// Bandwidth of the receiver's filter [Hz], for the noise floor.
     Hertz bandwidth{22e6};
     /// Noise figure of the receiver [dB].
     Db noise_figure{7};
-    /// Fraction of its frames that are received without errors within range [-], drawn for each
-    /// receiver and frame.
+    /// Probability [-] that a frame of this radio is received without errors within range, drawn
+    /// for each receiver and frame.
     double success_rate = 1;
 
     /// Name of the radio's network (essid); "any" matches all.
     std::string essid = "any";
     /// Channel number that both ends must share; 0 if not used.
     int channel = 0;
-    /// Gate of the radio: which radios it may have links with.
+    /// Gate of the radio: links only with radios of its own network, or with any radio.
     Gate gate = Gate::network;
     /// IP address of the radio, unique; generated if not given.
     std::optional<std::string> ip = std::nullopt;
@@ -105,15 +104,15 @@ struct Radio {
     /// Received power [dBm] at which pictures draw a contour line around the radio.
     std::optional<Dbm> range_db = std::nullopt;
 
-    /// Whether the gain of its antenna depends on the direction.
+    /// Whether the gain of the radio's antenna depends on the direction.
     bool is_directional() const {
         return antenna.value_or(AntennaShape::isotropic) != AntennaShape::isotropic;
     }
 
     friend bool operator==(const Radio&, const Radio&) = default;
 
-    /// Parameters in scenario files, including labels and addresses, which tables and pictures show
-    /// and links do not depend on.
+    /// Parameters in scenario files. Labels and addresses are included: tables and pictures show
+    /// them, links do not depend on them.
     static constexpr auto fields() {
         return describe(
             field("power", &Radio::power, "transmitter output power"),
@@ -157,7 +156,7 @@ struct Radio {
     }
 };
 
-/// Noise floor of a receiver: thermal noise at 290 K in its bandwidth, plus its noise figure:
+/// Noise floor of a receiver [dBm]: thermal noise at 290 K in its bandwidth, plus its noise figure:
 /// -173.975 dBm + 10 log10(B / 1 Hz) + NF. With the defaults of a radio it is -93.55 dBm.
 ///
 /// Source: k T_0 with the CODATA 2018 value of k.

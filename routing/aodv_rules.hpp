@@ -39,8 +39,8 @@ struct AodvRules {
     Duration poll;
     /// Time without searches after the last one; 0: the next packet begins a new one.
     Duration pause_after_failure;
-    /// Whether there is a route to each neighbour that was heard, and a packet lengthens the lives of
-    /// all routes that it uses, and not of the destination's alone.
+    /// Whether there is a route to each neighbour that was heard, and a packet lengthens the lives
+    /// of all routes that it uses, and not of the destination's alone.
     bool meets_neighbours;
     /// Whether a RERR lists routes that no neighbour uses, and goes to everyone.
     bool errors_for_all;

@@ -11,7 +11,7 @@
 
 namespace rovernet {
 
-/// Robots that a notice to the user concerns: text about the first robot, number of the others.
+/// Notice to the user about several robots: text about the first robot, number of further robots.
 struct Affected {
     std::string first;
     std::size_t others = 0;

@@ -33,7 +33,8 @@ struct DoorTable {
     Meters thickness{0.05};
     /// Name of a material of [scene.materials]; none: the propagation model decides the loss.
     std::optional<std::string> material = {};
-    /// Times at which the door closes and opens [ns]; it is open at the start.
+    /// Times since the start of the run [ns] at which the door closes and opens. The door is open
+    /// at the start.
     std::vector<Duration> closes = {}, opens = {};
     /// File positions of the [[scene.door]] table and of its key `material`, for error messages.
     Location where = {}, material_where = {};

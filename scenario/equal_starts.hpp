@@ -11,9 +11,9 @@
 
 namespace rovernet {
 
-/// Least time between the starts of two frames [ns] with which they do not collide. Under csma the
-/// sender of the second frame then senses the first one, or both senders back off; under other
-/// access models the first frame has ended. 0 if frames never collide.
+/// Least time between the starts of two frames [ns] with which the frames do not collide. Under
+/// csma the second sender then senses the first frame, or both senders back off. Under other access
+/// models the first frame has ended. The result is 0 if frames never collide.
 /// @param bytes  size of a message [bytes]
 Duration collision_free_gap(const Scenario& scenario, std::uint32_t bytes);
 

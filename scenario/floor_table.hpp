@@ -26,13 +26,13 @@
 
 namespace rovernet {
 
-/// ceiling = { ... } of a floor: the slab between its storey and the storey above. The loss is
-/// given by `per_crossing`, or by `itu` and `thickness`; without these the propagation model
-/// decides it.
+/// ceiling = { ... } of a floor: the slab between the floor's storey and the storey above. Its loss
+/// is given by `per_crossing`, or by `itu` and `thickness`. If none of these keys is given, the
+/// propagation model determines the loss.
 struct CeilingTable {
-    /// Loss of the ceiling [dB].
+    /// Loss of a signal that crosses the ceiling [dB]; none: `itu` or the model determines it.
     std::optional<Db> per_crossing;
-    /// Material of the ceiling, a slab of `thickness` [m], by ITU-R P.2040.
+    /// ITU-R P.2040 material and thickness [m] of the ceiling, whose loss is that of such a slab.
     std::optional<ItuMaterial> itu;
     std::optional<Meters> thickness;
 
@@ -48,9 +48,9 @@ struct CeilingTable {
 struct FloorTable {
     /// Height of the floor [m]: z of robots that drive on it.
     Meters height{0};
-    /// ROS map.yaml, or a picture with a `size`; relative to the scenario file.
+    /// Path of the map, relative to the scenario file: a ROS map.yaml, or a picture with a `size`.
     std::string map;
-    /// Width and height of a picture [m]: two lengths > 0.
+    /// Width and height of a map that is a picture [m]: two lengths > 0.
     std::optional<std::vector<Meters>> size;
     /// Ceiling of the storey on this floor; none: the propagation model decides its loss.
     std::optional<CeilingTable> ceiling = {};
@@ -71,7 +71,8 @@ std::vector<FloorTable> read_floors(const Value& value);
 /// Tables [[scene.floor]] from which read_floors() reads the same floors.
 Array floors_document(const std::vector<FloorTable>& floors);
 
-/// Checks the size of a picture used as a map. @throws InputError at `where`
+/// Checks the size of a picture used as a map: it must be a width and a height [m], both > 0.
+/// @throws InputError at `where`
 void check_map_size(const std::vector<Meters>& size, const Location& where);
 
 }  // namespace rovernet

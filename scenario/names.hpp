@@ -15,13 +15,13 @@ namespace rovernet {
 /// @throws InputError at the first wrong name, with a suggestion
 void check_names(const Scenario& scenario);
 
-/// Names of all robots in the order of their ids in the network: those of [[robot]], then those
-/// that only the movement file has.
+/// Names of all robots in the order of their ids in the network: first the robots of [[robot]]
+/// tables, then the robots that only the movement file names.
 std::vector<std::string> robot_names(const Scenario& scenario);
 
-/// Checks the addresses in a scenario: no two robots have the same ip or the same mac. Stage worlds
-/// are not checked: Stage allows equal addresses, and stage_document() gives a notice.
-/// @throws InputError at the second robot, naming both
+/// Checks that no two robots of a scenario have the same ip or the same mac. Robots of a Stage
+/// world are not checked: Stage allows equal addresses, and stage_document() adds a notice.
+/// @throws InputError at the second robot with an address; the message names both robots
 void check_addresses(const Scenario& scenario);
 
 }  // namespace rovernet

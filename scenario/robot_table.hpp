@@ -26,16 +26,16 @@
 
 namespace rovernet {
 
-/// place = { ... }: a random start position, drawn for each replication; its random stream is keyed
-/// by the robot's name.
+/// place = { ... }: a random start position of a robot, drawn in each replication. The key of its
+/// random stream includes the robot's name.
 struct PlaceTable {
     /// Distribution of the start: uniform in an area, or one of several points.
     enum class Model { uniform, choice };
 
     Model model = Model::uniform;
-    /// Lower-left and upper-right corner of the area [m], for uniform.
+    /// Lower-left and upper-right corner of the area [m]; used by the model uniform.
     std::vector<Vec3> area;
-    /// Possible start positions [m], for choice; at least one.
+    /// Possible start positions [m], at least one; used by the model choice.
     std::vector<Vec3> points;
     Location where = {};
 
@@ -71,31 +71,33 @@ struct EnumNames<Trigger> {
                                                                "on_link_lost", "on_time"};
 };
 
-/// on_receive = { ... }, on_arrival, on_link_lost or on_time; a list of such tables stands for
-/// several reactions. At least one of `move`, `send` and `stop` is given.
+/// Reaction of a robot to an event: on_receive = { ... }, on_arrival, on_link_lost or on_time. A
+/// list of tables stands for several reactions. At least one of `move`, `send` and `stop` is given.
 struct ReactionTable {
     Trigger trigger{};
-    /// Start of the payload of the message; empty: any message. Used by on_receive.
+    /// Text with which the payload of the received message must begin; empty: any message. Used by
+    /// on_receive.
     std::string payload = {};
     /// Robot that sent the message, or whose link is lost; none: any robot. Used by on_receive and
     /// on_link_lost.
     std::optional<std::string> from = {};
     /// Largest number of hops of the message; none: any number. Used by on_receive.
     std::optional<int> hops = {};
-    /// Time since the start of the run [ns]. Used by on_time.
+    /// Time of the reaction since the start of the run [ns]. Used by on_time.
     Duration time{0};
-    /// True if the robot reacts the first time only. Not used by on_time, which happens once.
+    /// True if the robot reacts to the first such event only. Not used by on_time, which happens
+    /// once.
     bool once = true;
-    /// Movement that the robot starts.
+    /// Movement that the robot starts as its reaction; none: the robot starts no movement.
     std::optional<MoveTable> move = {};
-    /// Payload of the message that the robot sends.
+    /// Payload of the message that the robot sends as its reaction; none: it sends no message.
     std::optional<std::string> send = {};
     /// Destination of the message that the robot sends: a robot's name, or "sender"; none:
     /// everyone.
     std::optional<std::string> to = {};
     /// Size [bytes] of the message that the robot sends; none: the length of its payload.
     std::optional<Bytes> size = {};
-    /// True if the robot stops where it is; excludes `move`.
+    /// True if the robot stops at its current position; excludes `move`.
     bool stop = false;
     /// File positions of the reaction's table, and of its keys `from` and `to`.
     Location where = {}, from_where = {}, to_where = {};
@@ -104,14 +106,14 @@ struct ReactionTable {
     static constexpr std::string_view sender = "sender";
 };
 
-/// File positions of a radio's keys, for errors that are found after reading. A key that a robot
-/// does not give has its position in [radio].
+/// File positions of the keys of a robot's radio, for errors that are found after reading. A key
+/// that the robot's table lacks has its position in [radio].
 struct RadioPlaces {
     Location sensitivity = {}, frequency = {}, rate = {};
     Location ip = {}, netmask = {}, mac = {};
 };
-/// Reads [radio], or the `radio` table of a robot, into `out`. Missing keys change neither values
-/// nor file positions.
+/// Reads [radio], or the `radio` table of a robot, into `out` and `places`. A missing key changes
+/// neither its value in `out` nor its file position in `places`.
 /// @param name  name of the table, for error messages
 /// @throws InputError for an unknown key, a wrong type or a value out of range
 void read_radio(const Value& value, const std::string& name, Radio& out, RadioPlaces& places);
@@ -119,9 +121,11 @@ void read_radio(const Value& value, const std::string& name, Radio& out, RadioPl
 /// [[robot]]: one robot, or `count` equal robots.
 struct RobotTable {
     std::string name;
-    /// Number of robots, which are called name0, name1, ...; none: one robot called `name`.
+    /// Number of robots of the table, which are called name0, name1, ...; none: one robot, called
+    /// `name`.
     std::optional<int> count;
-    /// Start position [m]. Given by `at`, by `place`, or drawn by the movement model.
+    /// Start position [m], fixed (`at`) or random (`place`). If neither is given, the movement
+    /// model draws the position.
     std::optional<Vec3> at;
     std::optional<PlaceTable> place;
     /// Heading at the start [rad].
@@ -130,7 +134,7 @@ struct RobotTable {
     Meters radius{0.2};
     /// Speed that no movement of the robot exceeds [m/s]; none: no limit.
     std::optional<MetersPerSecond> top_speed;
-    /// Rate at which the robot turns in place before it drives [rad/s]; none: it turns at once.
+    /// Rate at which the robot turns in place before it drives [rad/s]; none: turns take no time.
     std::optional<RadiansPerSecond> turn_rate;
     /// Radio of the robot: [radio], overridden by the keys of the robot's `radio` table.
     Radio radio;
@@ -142,12 +146,14 @@ struct RobotTable {
     bool own_model = false;
     /// Movement of the robot; by default it stays where it is.
     MoveTable move;
-    /// Range finders, for external programs (`rovernet live`).
+    /// Range finders of the robot; external programs read their distances (`rovernet live`).
     std::vector<Scanner> scan;
     std::vector<ReactionTable> reactions;
-    /// Times at which the robot is switched off and on [ns]; it is on at the start.
+    /// Times since the start of the run [ns] at which the robot is switched off and on. The robot
+    /// is on at the start.
     std::vector<Duration> off, on;
-    /// File positions of the [[robot]] table and of its keys; a missing key has that of the table.
+    /// File positions of the [[robot]] table and of its keys. A missing key has the table's
+    /// position.
     Location where, at_where, radio_where, propagation_where, on_where, off_where;
 
     /// Name of the i-th of `count` robots, i from 0.

@@ -25,8 +25,8 @@
 #include <string>
 #include <vector>
 
-// A scenario file as plain structs: each table is a struct and each key a field of the same name,
-// with its default. experiment/build.hpp makes a Network of a Scenario.
+// Structs for the tables of a scenario file. Each table has a struct, and each key has a field of
+// the same name, with its default. experiment/build.hpp makes a Network of a Scenario.
 //
 //     table and key of the file                         struct and field
 //     [scenario] seed     ---- read_scenario() --->     Scenario::scenario.seed
@@ -40,7 +40,7 @@ struct ScenarioTable {
     std::string name = "run";
     /// Simulated time of a run [ns], > 0.
     Duration duration = std::chrono::seconds{60};
-    /// Seed of every random draw, and number of the independent repetition.
+    /// Seed of every random draw, and number of the replication (independent repetition), from 0.
     std::uint64_t seed = 1;
     std::uint64_t replication = 0;
     /// Largest number of events of a run; a run with more events fails.
@@ -61,7 +61,7 @@ struct ScenarioTable {
 
 /// [medium]: settings of all radios.
 struct MediumTable {
-    /// True if frames travel at the speed of light; false: they arrive at once.
+    /// True if frames travel at the speed of light; false: the propagation delay is 0.
     bool propagation_delay = true;
 
     static constexpr auto fields() {
@@ -70,12 +70,12 @@ struct MediumTable {
     }
 };
 
-/// [links]: accuracy of the search for link changes, see LinkSearch.
+/// [links]: accuracy of the search for times at which links come up or go down, see LinkSearch.
 struct LinksTable {
-    /// Largest error [ns] of the time of a link change behind walls.
+    /// Largest error [ns] of the computed time at which a link through walls comes up or goes down.
     Duration tolerance = LinkSearch{}.tolerance;
-    /// Shortest link state [ns] that is surely found, for propagation models whose loss is not a
-    /// known function of distance.
+    /// Shortest up or down time of a link [ns] that the search does not miss, for propagation
+    /// models whose loss is not a known function of distance.
     Duration min_dwell = LinkSearch{}.min_dwell;
 
     static constexpr auto fields() {
@@ -89,41 +89,42 @@ struct LinksTable {
 };
 
 /// Complete scenario, with every default filled in and every name and value checked.
-/// network_settings() and populate() of experiment/build make a Network of it. Each member has the
-/// name of its table in the scenario file.
+/// network_settings() and populate() of experiment/build.hpp make a Network of a Scenario. Each
+/// member has the name of its table in the scenario file.
 struct Scenario {
-    /// Scenario file as the user named it; the paths in it are relative to its folder.
+    /// Path of the scenario file, as the user typed it. Paths in it are relative to its folder.
     std::string file;
     ScenarioTable scenario;
     SceneTable scene;
     /// Scene with the walls; null: not yet loaded, or an open field.
     std::shared_ptr<const Scene> walls;
-    /// Changes of `walls` by doors, if a Study has computed them already; null: not yet.
+    /// Changes of the scene `walls` by its doors, if a Study has computed them; null: not computed.
     std::shared_ptr<const std::vector<SceneChange>> changes;
-    /// Radio of robots without own keys ([radio]), with the file positions of the given keys.
+    /// [radio]: default radio of all robots, and the file positions of the keys in [radio].
     Radio radio;
     RadioPlaces radio_places;
     MediumTable medium;
     PropagationTable propagation;
     Location propagation_where;  ///< file position of [propagation], for error messages
-    /// [shadowing] and [fading]; printed only if a model is chosen.
+    /// [shadowing] and [fading]: random variation of the path loss. Each table is printed only if
+    /// the file chooses a model.
     Shadowing shadowing;
     Fading fading;
     ReceptionTable reception;
     AccessTable access;
-    /// File position of [access] basic_rates if this key is given, or else of the table [access].
+    /// File position of the key basic_rates of [access], or of the table [access] without this key.
     Location access_where;
     LinksTable links;
     MovementTable movement;
-    /// Robots in the order of the file; robots of a Stage world come first. Robots that only a
-    /// movement file names are in `movement`.
+    /// Robots, in the order of their [[robot]] tables; robots of a Stage world come first. Robots
+    /// that only a movement file names are not included; see MovementTable::robots.
     std::vector<RobotTable> robots;
     RoutingTable routing;
     /// Flows, in the order of the file; each has a name.
     std::vector<TrafficTable> traffic;
     TraceTable trace;
     MetricsTable metrics;
-    /// Points of `rovernet sweep`; a single run uses `warmup` and `metrics` only.
+    /// [study]: varied keys of `rovernet sweep`; a single run uses only its `warmup` and `metrics`.
     StudyTable study;
     /// Notices to the user about the files that were read.
     std::vector<std::string> notices;
@@ -138,7 +139,7 @@ struct Scenario {
 /// @throws InputError at the first mistake
 Scenario read_scenario(const Value& document, const std::string& file, bool needs_robots = true);
 
-/// Document of a scenario with every default; it reads back as the same scenario.
+/// Document of a scenario with every default, from which read_scenario() reads the same scenario.
 Table to_document(const Scenario& scenario);
 
 }  // namespace rovernet

@@ -16,23 +16,26 @@ struct WorldFile;
 struct ScenarioOptions {
     /// Assignments "path=value", see set_option(): --set.
     std::vector<std::string> set = {};
-    /// Folders to search for parts of a Stage world, relative to the current folder: --world-path.
+    /// Folders in which includes and bitmaps of a Stage world are searched, relative to the current
+    /// folder: --world-path.
     std::vector<std::string> world_path = {};
-    /// Replacements "OLD=NEW": read file NEW wherever the Stage world names bitmap OLD: --bitmap.
+    /// Replacements "OLD=NEW": NEW is read wherever the Stage world names the bitmap OLD: --bitmap.
     std::vector<std::string> bitmaps = {};
-    /// True if a missing part of a Stage world is a notice, not an error: --lenient.
+    /// True if a missing include or bitmap of a Stage world is a notice, not an error: --lenient.
     bool lenient = false;
-    /// True if a scenario without robots is an error. Pictures of a map need no robots.
+    /// True if a scenario without robots is an error. False for pictures of a map, which need no
+    /// robots.
     bool needs_robots = true;
 };
 
-/// Input file of a scenario, overridden by the options of the command line. It is a scenario file,
-/// a Stage world (NAME.world) or a movement file. The file is read once; a study makes a Scenario
-/// of it for each of its points.
+/// Input file of a scenario, overridden by options of the command line. The file is a scenario
+/// file, a Stage world (NAME.world) or a movement file. It is read once. A study makes a Scenario
+/// from a ScenarioFile for each combination of varied values.
 /// Example: examples/parameters.cpp.
 class ScenarioFile {
   public:
-    /// @param path  file; "-": a scenario from standard input, relative to the current folder
+    /// @param path  file; "-": a scenario from standard input, whose paths are relative to the
+    ///              current folder
     /// @throws InputError if the file is no scenario; the message names its kind and the remedy
     ScenarioFile(const std::string& path, const ScenarioOptions& options);
     /// Makes a ScenarioFile of a document that was made in code.
@@ -48,21 +51,21 @@ class ScenarioFile {
     Scenario scenario(const Table& settings = {}) const;
 
   private:
-    // File name as the user wrote it, and its document with the values of the command line.
+    // Path of the file as the user typed it, and its document, overridden by the command line.
     std::string path_;
     Value document_;
     bool needs_robots_;
-    // Notices of reading the Stage world.
+    // Notices to the user about the Stage world.
     std::vector<std::string> notices_;
-    std::shared_ptr<const WorldFile> world_;  // null unless [scene] names a world
+    std::shared_ptr<const WorldFile> world_;  // Stage world; null unless [scene] names a world
 };
 
-/// Loads the scenario of ScenarioFile(path, options) and its map, and checks the robots' positions
-/// on the map. Used by commands that need one scenario.
-/// @throws InputError as ScenarioFile, and for the map
+/// Loads the scenario of ScenarioFile(path, options) with its map, and adds notices about unlikely
+/// values, such as a robot that starts off the map. Used by commands that need one scenario.
+/// @throws InputError as ScenarioFile, and if the map is invalid
 Scenario load_scenario(const std::string& path, const ScenarioOptions& options);
-/// Loads the scenario of a file that was read before, and its map, and checks the robots' positions
-/// on the map.
+/// Loads the scenario of a file that was read before, with its map, and adds notices about unlikely
+/// values, such as a robot that starts off the map.
 /// @param settings  values by path, see ScenarioFile::scenario()
 Scenario load_scenario(const ScenarioFile& file, const Table& settings = {});
 

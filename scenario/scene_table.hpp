@@ -29,13 +29,14 @@
 
 namespace rovernet {
 
-/// [scene.materials] NAME = { ... }: the material of walls of a grey level or a colour. Its loss is
-/// the sum of `per_crossing` and `per_metre`, or follows from `itu` and `thickness`.
+/// [scene.materials] NAME = { ... }: material of the walls that have a given grey level or colour.
+/// The loss of a wall is the sum of `per_crossing` and of `per_metre` times the length inside, or
+/// follows from `itu` and `thickness`.
 struct MaterialTable {
     /// Grey level of walls of this material in a map: mean of red, green and blue, 0 ... 255; none:
     /// `greys` or `color` is given, or only doors have this material.
     std::optional<int> grey;
-    /// First and last grey level of walls of this material in a map.
+    /// First and last grey level of walls of this material in a map, both included, 0 ... 255.
     std::optional<std::vector<int>> greys;
     /// Colour of walls of this material in a Stage world.
     std::optional<std::string> color;
@@ -43,10 +44,10 @@ struct MaterialTable {
     std::optional<Db> per_crossing;
     /// Loss per length of path inside a wall [dB/m].
     std::optional<DbPerMeter> per_metre;
-    /// ITU-R P.2040 material: each wall is a slab of it, `thickness` [m] thick.
+    /// ITU-R P.2040 material, and thickness [m]: each wall has the loss of such a slab.
     std::optional<ItuMaterial> itu;
     std::optional<Meters> thickness;
-    /// Height of walls of this material [m]; none: [scene] wall_height.
+    /// Height of walls of this material [m]; none: the key wall_height of [scene].
     std::optional<Meters> height;
     /// Name of the material (key of the table), and file position of the table.
     std::string name = {};
@@ -64,9 +65,10 @@ struct MaterialTable {
             field("thickness", &MaterialTable::thickness, positive, "of the slab"),
             field("height", &MaterialTable::height, positive, "of its walls"));
     }
-    /// Whether walls of the map or world use this material; otherwise only doors do.
+    /// Whether walls of the map or of the Stage world can have this material. A material without
+    /// grey level and colour is for doors only.
     bool has_walls() const { return grey || greys || color; }
-    /// Whether walls of this grey level have this material.
+    /// Whether walls of the given grey level (0 ... 255) have this material.
     bool has_grey(int level) const {
         return grey == level || (greys && (*greys)[0] <= level && level <= (*greys)[1]);
     }
@@ -75,25 +77,28 @@ struct MaterialTable {
 /// [scene]: the map, the floors or the Stage world, and the materials of walls. Without these the
 /// scene is an open field.
 struct SceneTable {
-    /// ROS map.yaml, or a picture with a `size`; relative to the scenario file.
+    /// Path of the map, relative to the scenario file: a ROS map.yaml, or a picture with a `size`.
     std::optional<std::string> map;
-    /// Width and height of a picture [m]: two lengths > 0.
+    /// Width and height of a map that is a picture [m]: two lengths > 0.
     std::optional<std::vector<Meters>> size;
     /// Floors of a building of several storeys, from the lowest up; instead of a map.
     std::vector<FloorTable> floors = {};
-    /// Stage world, instead of a map; its robots are added to those of the scenario file.
+    /// Path of a Stage world file, given instead of a map. The robots of the world are added to the
+    /// robots of the scenario file.
     std::optional<std::string> world;
-    /// Further folders to search for includes and bitmaps of the Stage world; replacements of
-    /// bitmaps, "OLD=NEW"; true if a missing file is a notice.
+    /// Options of reading the Stage world: further folders to search for includes and bitmaps;
+    /// replacements of bitmaps, "OLD=NEW"; whether a missing file is a notice instead of an error.
     std::optional<std::vector<std::string>> world_path;
     std::optional<std::vector<std::string>> bitmaps;
     bool lenient = false;
-    /// Height of one storey [m], for floor losses; none: one storey, or heights given by `floors`.
+    /// Height of one storey [m], by which the floors between two antennas are counted. None: there
+    /// is one storey, or `floors` gives the heights.
     std::optional<Meters> floor_height;
-    /// Height [m] above the floor of walls whose material gives no height; none: infinite, or up to
-    /// the ceiling.
+    /// Height above the floor [m] of walls whose material gives no height. None: walls reach up to
+    /// the ceiling, or are infinitely high without a ceiling.
     std::optional<Meters> wall_height;
-    /// Materials in the order of the file: the first match decides the material of a wall.
+    /// Materials, in the order of the file. A wall has the first material with the wall's grey
+    /// level or colour.
     std::vector<MaterialTable> materials = {};
     /// Doors, in the order of the file.
     std::vector<DoorTable> doors = {};
@@ -128,8 +133,8 @@ SceneTable read_scene(const Value& value);
 /// Table from which read_scene() reads the same scene, with every default but `lenient`.
 Table scene_document(const SceneTable& scene);
 
-/// Options for reading the Stage world of the scene.
-/// @param file  scenario file; the folders are relative to its folder
+/// Options for reading the Stage world of the scene, from keys of [scene].
+/// @param file  path of the scenario file; search folders are relative to its folder
 WorldOptions world_options(const SceneTable& scene, const std::string& file);
 
 /// Scene of the map or of the floors; null for an open field. A file NAME.materials.toml beside a
@@ -150,7 +155,7 @@ std::shared_ptr<const Scene> load_walls(const SceneTable& scene, const std::stri
 
 /// Doors of a scene, with their materials.
 std::vector<Door> doors_of(const SceneTable& scene);
-/// Changes of a scene's walls when its doors open and close; empty without doors.
+/// Changes of a scene during the run, when its doors open and close; empty without doors.
 /// @param open  scene with all doors open, from load_map() or load_walls()
 /// @throws InputError for a door that lies off the map, or on two storeys
 std::vector<SceneChange> load_doors(const SceneTable& scene,

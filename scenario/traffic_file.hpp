@@ -13,7 +13,7 @@ struct TrafficFile {
     /// Unicast flows between robots n0, n1, ..., in the order in which the file creates their
     /// applications; without names.
     std::vector<TrafficTable> flows;
-    /// Notices to the user: where intervals are random in ns-2 but not here.
+    /// Notices to the user about flows whose intervals are random in ns-2 but constant here.
     std::vector<std::string> notices;
 };
 
@@ -33,12 +33,12 @@ struct TrafficFile {
 ///
 /// packetSize_ (default 210 B), interval_ or rate_ (448 kb/s) and maxpkts_ are read; the defaults
 /// are those of ns-2.35. Flows that are never started are omitted. The first packet is sent at the
-/// start, none at or after the stop.
+/// start time. No packet is sent at or after the stop time.
 /// @throws InputError with file, line and column for any other statement, such as TCP
 TrafficFile read_traffic_file(const std::string& path);
 
-/// Adds the flows of a traffic file. `value` is a table with the key `file`: [traffic] file =
-/// "cbr.tcl". The path is relative to the scenario file.
+/// Adds the flows of an ns-2 traffic file to the scenario `out`. `value` is the table [traffic]
+/// with the key `file`, such as file = "cbr.tcl". The path is relative to the scenario file.
 /// @throws InputError as read_traffic_file(), or at the key if the file cannot be read
 void read_flows(const Value& value, Scenario& out);
 

@@ -21,36 +21,37 @@ namespace rovernet {
 /// nothing
 void note_unlikely(Scenario& scenario);
 
-/// Adds notices about robots that start off the map, or in a wall of a world that is read with
-/// `lenient` (in any other scene a start in a wall is an error later).
+/// Adds notices about robots that start off the map, or in a wall of a Stage world. On a map a
+/// start in a wall is no notice but an error, when the network is built.
 /// @param scene  scene of the scenario; null: an open field
 void note_places(Scenario& scenario, const Scene* scene);
 
-/// Adds notices about antennas that are so high that they lie in another storey than their robots.
+/// Adds a notice about antennas whose height puts them in another storey than their robots.
 /// @param scene  scene of the scenario; null: an open field
 void note_antennas(Scenario& scenario, const Scene* scene);
 
-/// Adds a notice if wall losses count twice: a coefficient N of raytrace_2007 above 22 includes the
-/// walls of an average building, and the walls of the map are added.
+/// Adds a notice if wall losses are counted twice: a coefficient N of the model raytrace_2007 above
+/// 22 includes the walls of an average building, but the losses of the map's walls are added.
 /// @param scene  scene of the scenario; null: an open field
 void note_walls_twice(Scenario& scenario, const Scene* scene);
 
-/// Adds a notice if the model sums fields of paths (coherent) but walls are oblique to the map's
-/// grid: the phases are wrong then.
+/// Adds a notice if the model `rays` adds the fields of paths with their phases (sum = "coherent")
+/// although walls are oblique to the map's grid, since the phases are wrong then.
 /// @param scene  scene of the scenario; null: an open field
 void note_coherent_slants(Scenario& scenario, const Scene* scene);
 
-/// Adds one notice, with the first such wall, about walls without a material that are thicker than
-/// 0.5 m, the limit of the model `rays`: such walls are furniture, pillars or shafts.
+/// Adds one notice about walls without a material that are thicker than 0.5 m, the limit of the
+/// model `rays`: they may be furniture, pillars or shafts. The notice names the first such wall.
 /// @param scene  scene of the scenario; null: an open field
 void note_thick_walls(Scenario& scenario, const Scene* scene);
 
-/// Adds notices about robots with their own propagation model if [study] varies [propagation]: the
-/// study does not change their model.
+/// Adds a notice about robots with their own propagation model if [study] varies [propagation],
+/// since the study does not change the models of these robots.
 void note_own_models(Scenario& scenario);
 
-/// Rejects the model disc in commands that compare levels, since disc has no levels.
-/// @param who  command or method that compares, for the message
+/// Rejects the propagation model disc for commands that compare received power levels, since disc
+/// has no levels.
+/// @param who  name of the command or method, for the error message
 /// @throws InputError if the model is disc
 void refuse_disc(const Propagation& model, const Location& where, std::string_view who);
 

@@ -18,15 +18,17 @@ class ClosedDoors {
     /// @param scene  scene with the storeys of the doors
     ClosedDoors(const Scene& scene, std::span<const Door> doors);
 
-    /// Whether a disc of that radius [m] can move straight from a to b; touching is allowed. If any
-    /// part of the path is on a door's storey, the whole path is checked against that door.
+    /// Whether a disc of the given radius [m] can move straight from a to b without entering a
+    /// closed door; touching is allowed. If any part of the path is on a door's storey, the whole
+    /// path is checked against that door.
     bool passable(Vec3 a, Vec3 b, Meters radius) const;
-    /// Position on the path from a to b where the disc stops, a micrometre before it touches a
-    /// door; a if it cannot move at all; empty if the whole path is free.
+    /// Position on the straight path from a to b where a disc of the given radius [m] stops, a
+    /// micrometre before it touches a closed door. The position is a if the disc cannot move at
+    /// all. Empty if the whole path is free.
     std::optional<Vec3> stop(Vec3 a, Vec3 b, Meters radius) const;
 
   private:
-    // Door as an obstacle, and the heights [m] of its storey's bottom and top.
+    // Closed door as an obstacle, with the heights [m] of the bottom and top of the door's storey.
     struct Closed {
         Obstacles door;
         double bottom, top;

@@ -9,8 +9,8 @@
 
 namespace rovernet {
 
-/// Set of non-negative integers that counts its members below a number in constant time: a bit for
-/// each integer, and a count for every 64 of them.
+/// Set of non-negative integers that counts its members below a number in constant time. It stores
+/// a bit for each integer, and a count for every 64 bits.
 class CountedBits {
   public:
     CountedBits() = default;
@@ -21,8 +21,8 @@ class CountedBits {
         for (std::size_t i = 1; i < bits_.size(); ++i)
             before_[i] = before_[i - 1] + static_cast<std::uint32_t>(std::popcount(bits_[i - 1]));
     }
-    /// Number of members below `n`.
-    /// @param n  at most `end`
+    /// Number of members of the set that are below `n`.
+    /// @param n  at most the `end` given to the constructor
     std::size_t below(std::size_t n) const {
         const std::uint64_t lower = (std::uint64_t{1} << n % 64) - 1;
         return before_[n / 64] + static_cast<std::size_t>(std::popcount(bits_[n / 64] & lower));
@@ -30,7 +30,7 @@ class CountedBits {
 
   private:
     std::vector<std::uint64_t> bits_;
-    std::vector<std::uint32_t> before_;  // members before each 64
+    std::vector<std::uint32_t> before_;  // number of members before each word of bits_
 };
 
 }  // namespace rovernet

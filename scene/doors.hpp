@@ -13,8 +13,8 @@
 #include <span>
 #include <vector>
 
-// Doors: pieces of wall that exist only at some times. For each set of doors that are closed
-// together a run has one scene; it changes scenes at run time.
+// Doors: pieces of wall that exist only while they are closed. A run has one scene for each set of
+// doors that are closed at the same time, and changes from scene to scene.
 
 namespace rovernet {
 
@@ -34,19 +34,20 @@ struct Door {
     /// first. No time may be in both lists.
     std::vector<Duration> closes = {}, opens = {};
 
-    /// Whether the door is closed at `t`; a change takes effect at its own instant.
+    /// Whether the door is closed at time `t`. At the time of a change the new state is valid.
     bool is_closed(Time t) const;
-    /// Corners of the door in plan [m], counter-clockwise.
+    /// Corners of the door in the horizontal plane [m], counter-clockwise.
     std::array<Vec3, 4> corners() const;
 };
 
-/// Scene with walls in place of the closed doors; materials that it lacks are appended.
+/// Copy of the scene `open` with walls in place of the closed doors. Materials of doors that the
+/// scene lacks are appended to its materials.
 /// @param closed  closed doors, each within the maps
 Scene with_closed(const Scene& open, std::span<const Door> closed);
 
-/// Scene changes caused by doors that close and open, in ascending order of time; one for each time
-/// at which the set of closed doors changes. Equal sets share a scene.
-/// @param open  scene without its doors; not null
+/// Scene changes caused by doors that close and open, in ascending order of time: one for each time
+/// at which the set of closed doors changes. Equal sets of closed doors share a scene.
+/// @param open  scene in which all doors are open; not null
 std::vector<SceneChange> scene_changes(const std::shared_ptr<const Scene>& open,
                                        std::span<const Door> doors);
 

@@ -19,34 +19,36 @@ namespace rovernet {
 
 /// Straight vertical side of a wall that reflects radio waves, from the floor to a height.
 struct Face {
-    /// Ends of the face in plan [m], z = 0; the wall is on the left side when going from `from` to
-    /// `to`.
+    /// Ends of the face in the horizontal plane [m], z = 0. The wall is on the left when going from
+    /// `from` to `to`.
     Vec3 from, to;
-    /// Unit vector in plan, pointing out of the wall.
+    /// Unit normal of the face: a horizontal vector that points out of the wall.
     Vec3 normal;
-    /// Distance between the ends [m]; 0 if nothing of the side is left between its two neighbours.
+    /// Length of the face [m]; 0 if the two adjacent faces meet before it, so that nothing is left.
     double length = 0;
-    /// Largest distance between the drawn outline and the face's line [m]; 0 if the outline follows
-    /// the grid.
+    /// Largest distance between the wall's outline as drawn on the map and the straight line of the
+    /// face [m]; 0 if the outline follows the grid.
     double deviation = 0;
-    /// True if the drawn outline climbs by two cells or more along the face; otherwise a deviation
-    /// is only a bump.
+    /// True if the drawn outline extends over two cells or more in both directions of the grid: the
+    /// face is oblique. False: any deviation is only a bump.
     bool slants = false;
-    /// Thickness of the wall behind the face [m]: the median of three measurements perpendicular to
-    /// the face, each to the line of the opposite face if that is nearly parallel; at most 5 m.
+    /// Thickness of the wall behind the face [m], at most 5 m: the median of three measurements
+    /// perpendicular to the face. Each one ends at the line of the opposite face if the two faces
+    /// are nearly parallel.
     double thickness = 0;
     /// Material of the wall: index into Scene::materials().
     std::size_t material = 0;
-    /// Height of the wall at the face [m].
+    /// Height of the upper end of the wall at the face [m].
     double height = std::numeric_limits<double>::infinity();
-    /// Number of the wall outline to which the face belongs. The faces of an outline are
-    /// consecutive, in its order; the first follows the last.
+    /// Number of the wall outline to which the face belongs. The faces of an outline have
+    /// consecutive indices, in the order of the closed outline: the first face follows the last.
     std::size_t outline = 0;
 
-    /// Distance of a point in front of the face's line [m]; negative behind it.
+    /// Distance of a point from the face's line [m], positive in front of the wall's face, negative
+    /// behind the face.
     double in_front(Vec3 p) const { return (p.x - from.x) * normal.x + (p.y - from.y) * normal.y; }
-    /// Whether both faces are sides of one straight wall: they face away from each other within 25
-    /// degrees.
+    /// Whether this face and the other face may be the two sides of one straight wall: their
+    /// normals are opposite to within 25 degrees.
     bool opposite(const Face& other) const { return dot(normal, other.normal) < -0.9; }
 };
 
@@ -55,47 +57,48 @@ struct WallsOfMap {
     MapFrame frame;
     std::shared_ptr<const WallIndex> walls;  ///< spatial index of the walls; not null
     std::size_t material;                    ///< index into Scene::materials()
-    double height;                           ///< height of the walls [m]
+    double height;                           ///< height of the walls' upper end [m]
     std::size_t map;                         ///< index of the map in the scene
 };
 
 /// Walls of a scene as straight faces, which follow the drawn walls and not the cell edges.
 ///
-/// A slanting wall on a map is a staircase of cells, which would reflect only along rows and
+/// A map draws an oblique wall as a staircase of cells, which would reflect only along rows and
 /// columns. A face is the straight line fitted to a staircase, see straight_sides(). Consecutive
-/// faces meet where their lines intersect, if that is within 1.5 cells of the outline's corner.
-/// Touching walls of one map have one common outline, whatever their materials; a face has one
-/// material. Floors and ceilings are not faces.
+/// faces meet at the intersection of their lines, if it is within 1.5 cells of the outline's
+/// corner. Touching walls of one map have one common outline, whatever their materials. A face has
+/// one material. Floors and ceilings are not faces.
 ///
-/// Faces are computed on first use; several threads may call at once.
+/// Faces are computed on first use. Several threads may call the functions concurrently.
 class Faces {
   public:
-    /// @param walls  walls of all maps; those of one map are consecutive
+    /// @param walls  walls of all maps; entries of the same map are consecutive
     explicit Faces(std::vector<WallsOfMap> walls) : walls_(std::move(walls)) {}
 
     /// All faces, ordered by map and outline.
     std::span<const Face> all() const { return made().faces; }
-    /// Whether any face replaces a staircase of cells that deviates from its line.
+    /// Whether any face is a line fitted to a staircase of cells, with a deviation above 0.
     bool any_stair() const { return made().any_stair; }
-    /// Index of the face on whose drawn outline a point lies, in plan, within a millionth of a
-    /// cell.
+    /// Index of the face whose outline, as drawn on the map, contains the point p within a
+    /// millionth of a cell; the height of p is ignored. Empty if there is no such face.
     /// @param material  material of the face
     std::optional<std::size_t> at(Vec3 p, std::size_t material) const;
 
   private:
-    /// Consecutive edges of an outline on one grid line.
+    /// Run of consecutive outline edges on one line of the grid, all of one face.
     struct Run {
-        std::size_t edge;  // index of the first edge
-        int end;           // end behind the last edge, along the line [cells]
+        std::size_t edge;  // number of the first edge, see Lines::number()
+        int end;           // coordinate of the end of the last edge, along the line [cells]
         std::size_t face;
     };
-    /// Edges of one map's grid between neighbouring grid points, numbered line by line: first on
-    /// the columns' lines u = 0 ... columns, then on the rows' lines v = 0 ... rows.
+    /// Grid lines of one map, with the runs of outline edges on them. Edges between neighbouring
+    /// grid points are numbered line by line: first on the vertical lines u = 0 ... columns, then
+    /// on the horizontal lines v = 0 ... rows.
     struct Lines {
         MapFrame frame;
         int columns, rows;
         std::vector<Run> runs = {};  // in ascending order of edge number
-        CountedBits begins = {};     // numbers of the first edges of runs
+        CountedBits begins = {};     // numbers of the edges with which runs begin
 
         std::size_t number(bool upright, int line, int along) const;
     };

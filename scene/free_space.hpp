@@ -15,8 +15,8 @@ struct CellStep {
     int column;
     int row;
 };
-/// Steps to the neighbours, counter-clockwise from the right; the indices of opposite steps differ
-/// by 4.
+/// Steps from a cell to its 8 neighbours, counter-clockwise from the right neighbour. The indices
+/// of opposite steps differ by 4.
 inline constexpr std::array<CellStep, 8> cell_steps{
     {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
 
@@ -25,15 +25,15 @@ struct FreeSpace {
     /// @param radius  radius of the robot [m], >= 0
     FreeSpace(const Scene& scene, Meters radius);
 
-    /// Flag of each cell, rows from the bottom: 1 if the distance of the cell's centre to every
-    /// obstacle is at least the radius.
+    /// Flag of each cell, row by row from the bottom: 1 (free) if the distance of the cell's centre
+    /// to every obstacle is at least the robot's radius, otherwise 0.
     std::vector<std::uint8_t> free;
-    /// Step bits of each cell: bit d is set if the robot may move straight to the centre of
-    /// neighbour cell_steps[d]. A diagonal step needs both adjacent cells to be free, so no corner
-    /// is cut.
+    /// Bits of the allowed steps from each cell, row by row from the bottom. Bit d is set if the
+    /// robot may move straight to the centre of the neighbour at cell_steps[d]. A diagonal step
+    /// requires that both cells beside it are free, so that no corner is cut.
     std::vector<std::uint8_t> steps;
-    /// Component number of each cell: cells connected by steps share a number; -1 if the cell is
-    /// not free.
+    /// Number of the connected component of each cell, row by row from the bottom: cells connected
+    /// by steps share a number. -1 if the cell is not free.
     std::vector<std::int32_t> part;
 };
 

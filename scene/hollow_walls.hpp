@@ -14,11 +14,11 @@
 
 namespace rovernet {
 
-/// Solid and free cells of a map, row by row.
+/// Map of solid (wall) and free cells.
 struct CellMap {
     int columns, rows;
     double cell;              ///< longer side of a cell [m]
-    std::vector<bool> solid;  ///< true for solid cells; columns * rows
+    std::vector<bool> solid;  ///< true for solid cells, row by row; columns * rows elements
 
     bool is_solid(int column, int row) const {
         return solid[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
@@ -26,17 +26,18 @@ struct CellMap {
     }
 };
 
-/// Calls visit(cells) for each free area that is enclosed by walls and nowhere wider than `widest`,
-/// to within a cell. Cells of an area are connected by their sides; walls that touch only at a
-/// corner also enclose.
+/// Calls visit(cells) for each free area that walls enclose and that is nowhere wider than `widest`
+/// [m], to within a cell. `cells` are the indices of the area's cells. Cells of an area are
+/// connected by their sides. Walls that touch only at a corner also enclose an area.
 void for_each_hollow(const CellMap& map, Meters widest,
                      const std::function<void(std::span<const std::size_t> cells)>& visit);
 
-/// Interiors of walls that a map draws as outlines: enclosed areas so narrow that the wall is at
-/// most half a metre thick, and whose border is mostly a line one or two cells wide.
+/// Interiors of walls that a map draws as outlines (hollow walls). An interior is an enclosed free
+/// area so narrow that the wall is at most 0.5 m thick. Most of its border is a line of one or two
+/// cells. A cavity between two walls of three or more cells is not an interior. A slot that is open
+/// at one end is not an interior, either.
 ///
-/// A cavity between two walls of three or more cells is not an interior, and neither is a slot open
-/// at one end. The interiors are found on first use; several threads may call at once.
+/// The interiors are found on first use. Several threads may call the functions concurrently.
 class HollowWalls {
   public:
     /// @param walls  walls of all materials on the map; none is null
@@ -44,7 +45,7 @@ class HollowWalls {
 
     /// Whether the map has any hollow wall.
     bool any() const { return !cells().empty(); }
-    /// Whether the cell is in the interior of a wall.
+    /// Whether the cell is in the interior of a hollow wall.
     bool holds(int column, int row) const;
     bool holds(CellPoint p) const;
 
@@ -55,7 +56,7 @@ class HollowWalls {
     double cell_;  // longer side of a cell [m]
     std::vector<std::shared_ptr<const WallIndex>> walls_;
     mutable Once found_;
-    mutable std::vector<bool> cells_;  // by row and column; empty if there are none
+    mutable std::vector<bool> cells_;  // true for cells in interiors, row by row; empty: no cell is
 };
 
 }  // namespace rovernet

@@ -17,7 +17,8 @@ struct CellPoint {
     friend constexpr bool operator==(CellPoint, CellPoint) = default;
 };
 
-/// Tolerance [cells]: coordinates nearer to a grid line lie on it, shorter lengths count as 0.
+/// Tolerance of coordinates and lengths [cells]. A coordinate nearer than this to a grid line lies
+/// on the line. A length shorter than this counts as 0.
 inline constexpr double cell_tolerance = 1e-9;
 
 /// Placement of a map in the world: converts metres to cells and back.
@@ -34,15 +35,16 @@ class MapFrame {
         cosine_ = cosine;
     }
 
-    /// Point in units of cells. A coordinate within cell_tolerance of a grid line is moved onto it,
-    /// so that decimals such as 0.15 m in cells of 0.05 m are exact.
+    /// Point of the map, in units of cells, for a point in the world [m]. A coordinate within
+    /// cell_tolerance of a grid line is moved onto the line, so that decimals such as 0.15 m in
+    /// cells of 0.05 m are exact.
     CellPoint to_cells(Vec3 p) const {
         const double x = p.x - origin_.x;
         const double y = p.y - origin_.y;
         return {snap((cosine_ * x + sine_ * y) / cell_width_),
                 snap((cosine_ * y - sine_ * x) / cell_height_)};
     }
-    /// Point in the world [m], at height z [m].
+    /// Point in the world [m], at height z [m], for a point of the map in units of cells.
     Vec3 to_world(CellPoint p, double z = 0) const {
         const double x = p.u * cell_width_;
         const double y = p.v * cell_height_;
@@ -52,7 +54,7 @@ class MapFrame {
     double yaw() const { return yaw_; }  ///< direction of the map's rows [rad], counter-clockwise
     double cell_width() const { return cell_width_; }    ///< width of a cell [m]
     double cell_height() const { return cell_height_; }  ///< height of a cell [m]
-    /// Map with this placement, with all cells free.
+    /// Map with this placement and the given number of columns and rows; all its cells are free.
     OccupancyGrid map(int columns, int rows) const;
 
   private:

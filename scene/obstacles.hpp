@@ -16,15 +16,18 @@ namespace rovernet {
 /// Obstacles on one map: cells that robots must not enter.
 class Obstacles {
   public:
-    /// @param index  not null
+    /// @param index  spatial index of the cells that robots must not enter; not null
     Obstacles(const MapFrame& frame, std::shared_ptr<const WallIndex> index)
         : frame_(frame), index_(std::move(index)) {}
 
-    /// Distance to the nearest obstacle [m]: 0 inside or touching, infinity without obstacles.
+    /// Distance from p to the nearest obstacle [m]: 0 if p is in an obstacle or touches it,
+    /// infinity without obstacles.
     double clearance(Vec3 p) const;
-    /// Whether a disc of that radius [m] can move straight from a to b; touching is allowed.
+    /// Whether a disc of the given radius [m] can move straight from a to b without entering an
+    /// obstacle; touching is allowed.
     bool passable(Vec3 a, Vec3 b, Meters radius) const;
-    /// Appends the contacts of a disc of that radius at p, which is outside all obstacles.
+    /// Appends to `out` the contacts with obstacles of a disc of the given radius [m] at p. The
+    /// position p must be outside of all obstacles.
     void add_contacts(Vec3 p, Meters radius, std::vector<Contact>& out) const;
 
   private:

@@ -24,18 +24,19 @@ struct OccupancyGrid {
     double cell_height = 1;   ///< height of a cell, along the columns [m], > 0
     Vec3 origin{};            ///< lower-left corner of cell (0, 0) [m]
     double yaw = 0;           ///< rotation about the origin, counter-clockwise [rad]
-    std::vector<Cell> cells;  ///< states of the cells: columns * rows; row 0 is the bottom row
-    /// Mean of red, green and blue of each cell's pixel [0..255]; empty without an image.
+    std::vector<Cell> cells;  ///< state of each cell, columns * rows; row 0 is the bottom row
+    /// Grey level of each cell: mean of red, green and blue of its pixel [0..255]; empty if the map
+    /// has no image.
     std::vector<std::uint8_t> greys = {};
     std::uint8_t material = 0;  ///< material of all walls: index into Scene::materials()
     std::vector<std::uint8_t> cell_materials =
-        {};  ///< material of each cell; empty if all have `material`
+        {};  ///< material of each cell; empty: `material` for all cells
 
-    /// Material of the cell with that index; meaningful only for walls.
+    /// Material of a cell, by the cell's index in `cells`; meaningful only for occupied cells.
     std::uint8_t material_of(std::size_t cell) const {
         return cell_materials.empty() ? material : cell_materials[cell];
     }
-    /// State of the cell in that column and row; both must lie in the grid.
+    /// State of the cell in a column and row, counted from 0; both must lie in the grid.
     Cell at(int column, int row) const {
         return cells[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
                      static_cast<std::size_t>(column)];
@@ -52,18 +53,19 @@ struct OccupancyGrid {
 ///   scale    a pixel that is not opaque is unknown
 ///   raw      shade * 255, rounded, is occ in percent (negate has no effect); above 100: unknown
 /// Source: nav2_map_server, map_io.cpp (its intermediate percentages are unknown here). If the file
-/// gives only one threshold, the default of the other is adapted to it, so that free_thresh is at
-/// most occupied_thresh.
-/// @param notices  appended: keys that a map cannot have, "file:line:column: text"
+/// gives only one threshold, the default of the other threshold is adapted, so that free_thresh is
+/// at most occupied_thresh.
+/// @param notices  receives "file:line:column: text" for each key that a map cannot have
 /// @throws InputError with file, line and column; a misspelt key is an error
 OccupancyGrid read_ros_map(const std::string& yaml_path, std::vector<std::string>& notices);
 /// Reads a ROS map and ignores its notices.
 OccupancyGrid read_ros_map(const std::string& yaml_path);
 
-/// Map from an image without a YAML file, of that size [m], both > 0, lower-left corner at (0, 0).
+/// Map made of an image without a YAML file. `width` and `height` of the map [m] must be > 0. The
+/// lower-left corner is at (0, 0).
 ///
-/// A pixel is a wall if the mean of red, green and blue is below one half, free otherwise; a fully
-/// transparent pixel is free.
+/// A pixel is a wall if the mean of red, green and blue is below one half. Otherwise it is free. A
+/// fully transparent pixel is free, too.
 /// @throws InputError as read_image(); std::invalid_argument if a size is not positive and finite
 OccupancyGrid image_map(const std::string& path, Meters width, Meters height);
 

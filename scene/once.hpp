@@ -6,13 +6,14 @@
 
 namespace rovernet {
 
-/// Work done once, on first use, by the first thread that calls; other threads wait for it.
+/// Execution of some work once, on first use, by the first thread that calls. Other threads that
+/// call meanwhile wait until the work is done.
 ///
 /// A later call costs only the test of a flag; std::call_once would call the C library.
 class Once {
   public:
-    /// Calls work(), unless it was done. An exception of work() reaches the caller, and the next
-    /// call tries again.
+    /// Calls work(), unless an earlier call has completed it. If work() throws, the exception
+    /// reaches the caller, and the next call runs work() again.
     template <class Work>
     void operator()(Work work) {
         if (done_.load(std::memory_order_acquire)) return;

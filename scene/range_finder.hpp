@@ -34,21 +34,21 @@ struct RoundBody {
 struct RangeFinder {
     RangeFinderKind kind = RangeFinderKind::laser;
     int beams = 181;                    ///< number of beams, 1 ... 10,000
-    Radians from{-1.5707963267948966};  ///< direction of the first beam, from the heading [rad]
-    Radians to{1.5707963267948966};     ///< direction of the last beam [rad], not below the first
+    Radians from{-1.5707963267948966};  ///< direction of the first beam from the heading [rad]
+    Radians to{1.5707963267948966};     ///< direction of the last beam from heading [rad], >= from
     Meters range{8};                    ///< largest measured distance [m]
     Duration every = Duration{100'000'000};  ///< time between two measurements [ns]
 
     /// Angle between two beams [rad]; 0 for one beam.
     Radians step() const;
-    /// Angle of a beam from the robot's heading [rad].
+    /// Angle of a beam from the robot's heading [rad]; beams are numbered from 0.
     Radians angle(int beam) const { return from + beam * step(); }
 
-    /// Measures in the horizontal plane at the height of `at`. A beam that starts in a wall or in a
-    /// body measures 0.
+    /// Measures the distance along each beam to the nearest wall or body, in the horizontal plane
+    /// at the height of `at`. A beam that starts in a wall or in a body measures 0.
     /// @param at, heading  pose of the robot
     /// @param bodies       bodies of the other robots
-    /// @param out          distance of each beam [m], 0 ... range; `range` means nothing nearer
+    /// @param out          receives the distance of each beam [m]; `range` if nothing is nearer
     /// @throws std::invalid_argument if the size of `out` is not the number of beams
     void measure(const Scene& scene, Vec3 at, Radians heading, std::span<const RoundBody> bodies,
                  std::span<double> out) const;

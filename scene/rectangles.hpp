@@ -25,9 +25,9 @@ enum class Solid {
 
 /// Covers the solid cells exactly with disjoint rectangles.
 ///
-/// Greedy and deterministic: from the lowest, then leftmost, uncovered cell, it takes the larger of
-/// two rectangles: one grown right then up, one grown up then right. No rectangle can grow further
-/// right or up.
+/// The algorithm is greedy and deterministic. From the lowest, then leftmost uncovered cell, it
+/// takes the larger of two rectangles: one grown first right and then up, the other first up and
+/// then right. No rectangle can grow further right or up.
 std::vector<CellRectangle> solid_rectangles(const OccupancyGrid& grid, Solid solid);
 
 /// Selection of the wall cells of one material.

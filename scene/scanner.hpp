@@ -10,7 +10,8 @@
 
 namespace rovernet {
 
-/// Position and direction in the plane, in the frame of a scanner, of its robot or of the world.
+/// Pose (position and direction) in the horizontal plane, of a beam, a scanner or a robot. Its
+/// coordinate frame is that of the scanner, of the robot or of the world.
 struct ScannerPose {
     Vec3 at = {};          ///< position [m]; x ahead and y to the left in the frame of a robot
     Radians heading = {};  ///< direction [rad], counter-clockwise from the x axis
@@ -20,31 +21,31 @@ struct ScannerPose {
 /// frame of `outer`.
 ScannerPose operator*(const ScannerPose& outer, const ScannerPose& inner);
 
-/// Range finder mounted on a robot: a fan of beams from one point of the robot, or a ring of single
-/// beams, such as sonars, each with a direction and a position:
+/// Range finder mounted on a robot. It is a fan of beams from one point of the robot, or a ring: a
+/// set of single beams, such as sonars, each with a direction and a position:
 ///
 ///   scan = [{ kind = "laser", at = ["0.1 m", "0 m"], beams = 181 },
 ///           { kind = "sonar", angles = ["90 deg", "-90 deg"], places = [["0 m", "0.1 m"], ...] }]
 struct Scanner {
-    RangeFinder finder = {};  ///< kind, range and period; also the beams, unless it is a ring
+    RangeFinder finder = {};  ///< kind, range and period of measuring; also the beams of a fan
     std::string name = {};    ///< name of the scanner; empty: the name of its kind
     Vec3 at = {};             ///< position in the frame of the robot [m]
     Radians heading = {};     ///< direction from the robot's heading [rad]
-    std::vector<Radians> angles = {};  ///< ring: directions of the beams, from `heading` [rad]
-    /// Ring: starts of the beams, relative to `at` [m]; empty: all at `at`.
+    std::vector<Radians> angles = {};  ///< beam directions of a ring, from `heading` [rad]
+    /// Starting points of the beams of a ring, relative to `at` [m]; empty: `at` for all beams.
     std::vector<Vec3> places = {};
 
     bool is_ring() const { return !angles.empty(); }
-    /// Name of the scanner for client programs.
+    /// Name of the scanner for client programs: `name`, or the name of its kind if `name` is empty.
     std::string label() const;
     /// Number of beams.
     std::size_t size() const;
     /// Pose of the scanner in the frame of its robot.
     ScannerPose pose() const { return {at, heading}; }
-    /// Pose of a beam in the frame of the scanner.
+    /// Pose of a beam in the frame of the scanner; beams are numbered from 0.
     ScannerPose beam(std::size_t number) const;
 
-    /// Measures as RangeFinder::measure.
+    /// Measures the distance along each beam to the nearest wall or body, see RangeFinder::measure.
     /// @param robot   pose of the robot in the world
     /// @param bodies  bodies of the other robots
     /// @param out     distance of each beam [m]

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scene/crossing.hpp"
 #include "scene/map_frame.hpp"
 #include "scene/materials/material.hpp"
 #include "scene/occupancy.hpp"
@@ -26,17 +25,17 @@ struct WallLayer;
 
 /// Rectangular part of a wall.
 struct WallRectangle {
-    std::array<Vec3, 4> corners;  ///< [m], counter-clockwise, on the floor of the wall's map
+    std::array<Vec3, 4> corners;  ///< corners [m], counter-clockwise, on the floor of the map
     std::size_t material;         ///< index into Scene::materials()
     double bottom, top;  ///< heights of the wall's lower and upper end [m]; may be infinite
 };
 
 /// Wall that a segment a-b passes through.
 struct Wall {
-    double entry;   ///< distance of the entry from a [m]
-    double exit;    ///< distance of the exit from a [m]
-    double length;  ///< length inside its material [m]; gaps at steps and interiors of outlines do
-                    ///< not count
+    double entry;   ///< distance from the segment's start to the entry into the wall [m]
+    double exit;    ///< distance from the segment's start to the exit of the wall [m]
+    double length;  ///< length of the segment inside the wall's material [m], without gaps at steps
+                    ///< of a staircase and interiors of outlines
     std::size_t material;  ///< index into Scene::materials()
     Meters thickness;      ///< drawn thickness at the middle of the passage [m]
 };
@@ -44,13 +43,13 @@ struct Wall {
 /// Walls of the world, for radio, motion and pictures. Immutable once built.
 ///
 /// A default Scene is an open field without walls and bounds. The walls are the union of the
-/// occupied cells of its maps (usually one), from the floor to their material's height; maps may
+/// occupied cells of its maps (usually one), from the floor to their material's height. A map may
 /// have several materials. A segment along the common edge of two occupied cells is inside the
-/// wall; a segment along an outer edge is outside. Touching a corner or an edge does not count;
-/// adjacent walls of one material are one crossing. Where walls of two materials overlap, both
-/// count. Unknown cells are no walls for radio, but obstacles for robots; outside the maps there
+/// wall. A segment along an outer edge is outside. Touching a corner or an edge is no crossing.
+/// Adjacent walls of one material are one crossing. Where walls of two materials overlap, both are
+/// counted. Unknown cells are no walls for radio, but obstacles for robots. Outside the maps there
 /// are no walls. Coordinates and lengths that differ by less than 1e-9 of a cell are equal: a point
-/// so near to a grid line lies on it, a gap so short is closed, a crossing so short is none.
+/// that near to a grid line lies on the line, a gap or a crossing that short is ignored.
 ///
 /// Maps whose origins have different heights are storeys. A wall stands only in its storey, from
 /// the storey's floor to its ceiling or to the material's height above the floor. A wall that
@@ -67,23 +66,23 @@ class Scene {
     ///         uses a material that is not in the list
     explicit Scene(OccupancyGrid grid, std::vector<Material> materials = {Material{}});
     /// Scene of several maps, each with its own placement; maps may overlap.
-    /// @param ceilings  see Storeys
+    /// @param ceilings  materials of the ceilings, see Storeys
     Scene(std::vector<OccupancyGrid> maps, std::vector<Material> materials,
           std::vector<Material> ceilings = {});
 
     /// Whether the scene has no map.
     bool open_field() const { return grid_.columns == 0; }
 
-    /// Storeys: one for each height at which there are maps, at least one.
+    /// Storeys of the scene: one for each different height of a map's origin, at least one.
     const Storeys& storeys() const { return storeys_; }
-    /// Storey as a scene of its own, with its maps and walls; this scene if it has only one storey.
+    /// Scene of one storey, with the storey's maps and walls; this scene if it has only one storey.
     const Scene& storey(std::size_t number) const {
         return plans_.empty() ? *this : *plans_[number];
     }
-    /// Storey at the height z [m].
+    /// Scene of the storey at the height z [m], with the storey's maps and walls.
     const Scene& storey_at(double z) const { return storey(storeys_.number_at(z)); }
 
-    /// Wall crossings between two points; lengths [m] are along the 3-D segment from a.
+    /// Crossings of the segment a-b through walls. Distances [m] are along the 3-D segment from a.
     ///
     /// Crossings from b to a are in the opposite order with exactly the same `length`. A vertical
     /// segment inside a wall is one crossing.
@@ -91,7 +90,7 @@ class Scene {
     void crossings(Vec3 a, Vec3 b, std::vector<Crossing>& out) const;
     std::vector<Crossing> crossings(Vec3 a, Vec3 b) const;
 
-    /// Walls that a segment passes through, in order from a, each wall once.
+    /// Walls that the segment a-b passes through, in order from a, each wall once.
     ///
     /// A slanting wall is drawn in steps, and a segment may leave and enter it at each step.
     /// Crossings between which the segment leaves and re-enters by one face (see Faces) belong to
@@ -100,54 +99,54 @@ class Scene {
     /// (see HollowWalls) belong to one wall, too. Any other gap, however narrow, separates two
     /// walls.
     std::vector<Wall> walls(Vec3 a, Vec3 b) const;
-    /// Whether a segment passes through any of walls().
+    /// Whether the segment a-b passes through at least one wall, see walls().
     bool passes_wall(Vec3 a, Vec3 b) const;
 
-    /// Total length of the segment a-b inside walls [m]; the same bits from a to b as from b to a.
+    /// Total length of the segment a-b inside walls [m]; bitwise equal for the segment b-a.
     double wall_length(Vec3 a, Vec3 b) const {
         return wall_length(a, b, std::numeric_limits<double>::infinity());
     }
-    /// Total length of a-b inside walls [m]; counting may stop once the total exceeds `enough` [m]:
-    /// a result above `enough` is only a lower bound, any other result is exact.
+    /// Total length of the segment a-b inside walls [m]. Counting may stop once the total exceeds
+    /// `enough` [m]: a result above `enough` is only a lower bound, any other result is exact.
     double wall_length(Vec3 a, Vec3 b, double enough) const;
 
-    /// Loss [dB] of the walls that a-b passes through, at the rate of each wall's material;
-    /// counting may stop once the total exceeds `enough` [dB]. A wall that is only touched has its
-    /// loss per metre. The same bits from a to b as from b to a.
-    /// @param rates    one for each material
-    /// @param scratch  vector whose memory is reused
+    /// Total loss [dB] of the walls on the segment a-b, by the rates of their materials. Counting
+    /// may stop once the total exceeds `enough` [dB]. A wall that the segment only touches has only
+    /// its loss per metre. The result is bitwise equal for the segment b-a.
+    /// @param rates    losses of a wall by its material, one element for each material
+    /// @param scratch  vector whose memory is reused; its content is overwritten
     double wall_loss(Vec3 a, Vec3 b, std::span<const WallRate> rates, double enough,
                      std::vector<Crossing>& scratch) const;
-    /// Loss [dB] of the walls that a-b passes through, at rates by material and drawn thickness.
+    /// Total loss [dB] of the walls on the segment a-b, by rates for material and drawn thickness.
     double wall_loss(Vec3 a, Vec3 b, const WallRates& rates, double enough,
                      std::vector<Crossing>& scratch) const;
-    /// Drawn thickness [m] of the walls of the storey at a point, whatever their height; 0 outside
-    /// walls. See WallThickness.
+    /// Drawn thickness [m] of the wall at point p on the storey of p, whatever the wall's height; 0
+    /// outside walls. See WallThickness.
     Meters wall_thickness(Vec3 p) const;
-    /// Walls as straight faces; null on an open field; with several storeys, faces of the lowest
-    /// storey.
+    /// Walls as straight faces; null on an open field. If there are several storeys, the faces are
+    /// those of the lowest storey.
     const Faces* faces() const { return faces_.get(); }
     /// Materials of the walls; at least one.
     const std::vector<Material>& materials() const { return materials_; }
-    /// Whether all walls follow the propagation model and are infinitely high, so that the loss
-    /// depends only on the length inside.
+    /// Whether the propagation model gives the loss of all walls and all walls are infinitely high,
+    /// so that the loss of a link's walls depends only on the length inside walls.
     bool plain_walls() const { return plain_; }
 
     /// Whether the point lies in an occupied cell; a cell includes its left and lower edges only.
     bool occupied(Vec3 p) const;
     /// Whether the point lies within the maps, edges included; true everywhere on an open field.
     bool inside_map(Vec3 p) const;
-    /// Distance to the nearest obstacle [m]: 0 inside or touching, infinity without obstacles.
+    /// Distance from p to the nearest obstacle [m]: 0 in or at an obstacle, infinity without any.
     double clearance(Vec3 p) const;
-    /// Whether a disc of that radius [m] can move straight from a to b; touching an obstacle is
-    /// allowed.
+    /// Whether a disc of the given radius [m] can move straight from a to b; touching an obstacle
+    /// is allowed.
     ///
-    /// Exact: the distance of the segment to each obstacle, less 1e-9 m, is compared with the
-    /// radius. Between storeys each part of the path is checked against the obstacles of its
-    /// storey.
+    /// The check is exact: the radius is compared with the distance of the segment to each
+    /// obstacle, plus 1e-9 m. On a path between storeys each part is checked against the obstacles
+    /// of its storey.
     bool passable(Vec3 a, Vec3 b, Meters radius) const;
-    /// Contacts of a disc of that radius [m] at p: with obstacles of its storey, and with the map's
-    /// border, which its centre must not cross.
+    /// Contacts of a disc of the given radius [m] at p: with obstacles of the storey of p, and with
+    /// the map's border, which the disc's centre must not cross.
     std::vector<Contact> contacts(Vec3 p, Meters radius) const;
 
     /// Corners of the smallest axis-parallel box around the maps [m]; both (0, 0) on an open field.
@@ -155,13 +154,13 @@ class Scene {
     Vec3 upper_right() const { return upper_right_; }
     /// Walls as rectangles, disjoint on each map.
     std::vector<WallRectangle> wall_rectangles() const;
-    /// Maps from which the same walls can be built: the map itself; for several maps, one for each
-    /// map and material, with the walls only.
+    /// Maps from which the same walls can be built: the map itself, if there is one. For several
+    /// maps: one for each map and material, with the walls only.
     std::vector<OccupancyGrid> maps() const;
     /// Scene with the walls of `other` for radio and the obstacles of this scene for robots.
     Scene with_walls_of(const Scene& other) const;
-    /// Map of the scene; for several maps, a grid around all maps in which a cell is free if no
-    /// obstacle enters it; for several storeys, the map of the lowest.
+    /// Map of the scene. For several maps: a grid around all maps, in which a cell is free if no
+    /// obstacle enters the cell. For several storeys: the grid of the lowest storey.
     const OccupancyGrid& grid() const { return grid_; }
     const MapFrame& frame() const { return frame_; }
     /// Obstacles for robots, in cells of grid().
@@ -174,7 +173,7 @@ class Scene {
     void add_storey(std::vector<OccupancyGrid> maps);
     void add_map(const OccupancyGrid& grid, double bottom, double top);
     void bound(const OccupancyGrid& grid, const MapFrame& frame);
-    // Returns the walls, if they are of one material, on one map and endless; otherwise null.
+    // Walls of the scene if they are of one material, on one map, and at all heights; else null.
     const WallLayer* only_layer() const;
     void merged_crossings(Vec3 a, Vec3 b, std::vector<Crossing>& out) const;
     template <class RateOf>

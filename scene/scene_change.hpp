@@ -16,7 +16,7 @@ class Scene;
 /// changes, so the scene is a function of time.
 struct SceneChange {
     Time time;
-    /// Scene from `time` on; not null.
+    /// Scene that is used from the time of the change on; not null.
     std::shared_ptr<const Scene> scene;
     /// Closed doors of the scene, at which robots stop; null if there are none.
     std::shared_ptr<const ClosedDoors> doors;

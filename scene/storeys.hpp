@@ -11,20 +11,21 @@
 
 namespace rovernet {
 
-/// Height of a storey in scenes where height does not define storeys [m].
+/// Storey height [m] of scenes in which floors are not counted by a storey height: infinity.
 inline constexpr Meters no_storeys{std::numeric_limits<double>::infinity()};
 
 /// Storeys of a scene, from the lowest: heights of their floors, and the ceilings between them.
 ///
-/// A storey extends from its floor to below the next floor; the lowest has no lower end, the
-/// highest no upper end. Ceilings are thin and have no holes; their loss depends on the material or
-/// on the propagation model.
+/// A storey extends from its floor to below the next floor. The lowest storey has no lower end, the
+/// highest storey has no upper end. Ceilings are thin and have no holes. The loss of a ceiling
+/// depends on its material or on the propagation model.
 class Storeys {
   public:
-    /// One storey at all heights, with its floor at 0.
+    /// Makes one storey that comprises all heights, with its floor at 0 m.
     Storeys() = default;
-    /// @param floors    heights [m], ascending, at least one
-    /// @param ceilings  ceilings of all storeys but the highest; empty: all follow the model
+    /// @param floors    heights of the floors [m], ascending, at least one
+    /// @param ceilings  materials of the ceilings of all storeys but the highest; empty: the
+    ///                  propagation model gives their loss
     /// @throws std::invalid_argument if the number of ceilings does not match
     Storeys(std::vector<double> floors, std::vector<Material> ceilings);
 
@@ -34,8 +35,8 @@ class Storeys {
     std::size_t number_at(double z) const { return floors_.size() == 1 ? 0 : highest_below(z); }
     /// Height of a storey's floor [m].
     double floor(std::size_t number) const { return floors_[number]; }
-    /// Height of a storey's lower and upper end [m]: its floor, or -infinity for the lowest; the
-    /// next floor, or infinity for the highest.
+    /// Lower and upper end of a storey [m]. The lower end is its floor, or -infinity for the lowest
+    /// storey. The upper end is the next floor, or infinity for the highest storey.
     double bottom(std::size_t number) const;
     double top(std::size_t number) const;
     /// Ceilings between two heights [m], from the lowest; the heights may be in any order.

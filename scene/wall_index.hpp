@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scene/crossing.hpp"
 #include "scene/map_frame.hpp"
+#include "scene/materials/material.hpp"
 #include "scene/rectangles.hpp"
 
 #include <array>
@@ -12,19 +12,20 @@
 
 namespace rovernet {
 
-/// Spatial index of a map's solid cells: rectangles in square tiles, for tracing a segment.
+/// Spatial index of a map's solid cells: rectangles in square tiles, for finding the passages of a
+/// segment through solid cells.
 ///
-/// All calculations are in cells. A grid line x = k is crossed at the fraction (k - ax) * (1 / (bx
-/// - ax)) of the segment, the same for every rectangle. So adjacent rectangles share their
-/// fractions exactly, and the union of the pieces is the same to the last bit for any division into
-/// rectangles. Rectangles are cut at tile borders: each lies in one tile, and tiles along the
+/// All calculations are in cells. A segment crosses a grid line x = k at the fraction (k - ax) * (1
+/// / (bx - ax)) of its length, the same for every rectangle. So adjacent rectangles share their
+/// fractions exactly. The union of the pieces is the same to the last bit for any division into
+/// rectangles. Rectangles are cut at tile borders, so that each lies in one tile. Tiles along the
 /// segment are visited in order.
 class WallIndex {
   public:
     static constexpr int tile_size = 64;  ///< side of a tile [cells]
 
     WallIndex() = default;
-    /// @param rectangles  disjoint, inside columns x rows; may touch
+    /// @param rectangles  solid cells: disjoint rectangles inside columns x rows, which may touch
     WallIndex(int columns, int rows, const std::vector<CellRectangle>& rectangles);
 
     bool empty() const { return rectangles_.empty(); }
@@ -34,17 +35,18 @@ class WallIndex {
     bool solid(int column, int row) const;
     int tile_columns() const { return tile_columns_; }
     int tile_rows() const { return tile_rows_; }
-    /// Rectangles in one tile.
+    /// Rectangles of solid cells in one tile, given by the tile's column and row.
     std::span<const CellRectangle> tile(int column, int row) const {
         const std::size_t i = tile_number(column, row);
         return std::span(rectangles_).subspan(first_[i], first_[i + 1] - first_[i]);
     }
 
-    /// Writes the passages of a segment of `length` [m] through solid cells, in order from a.
-    /// @param out  replaced by the crossings
+    /// Computes the passages of the segment a-b through solid cells, in order from a.
+    /// @param length  length of the segment [m]
+    /// @param out     replaced by the passages
     void crossings(CellPoint a, CellPoint b, double length, std::vector<Crossing>& out) const;
-    /// Length of a segment of `length` [m] inside solid cells [m]; counting stops once it exceeds
-    /// `enough` [m].
+    /// Total length of the segment a-b inside solid cells [m]; counting stops once the total
+    /// exceeds `enough` [m]. `length` is the length of the segment [m].
     double solid_length(CellPoint a, CellPoint b, double length, double enough) const;
     /// Whether the point lies in a solid cell; a cell includes its left and lower edges only.
     bool holds(CellPoint p) const;
@@ -54,10 +56,10 @@ class WallIndex {
   private:
     /// Two numbers, for a SIMD instruction.
     using Pair [[gnu::vector_size(16)]] = double;
-    /// Two rectangles of a tile.
+    /// Coordinates of two rectangles of a tile, for SIMD instructions.
     struct Two {
         enum Side { left, right, bottom, top };
-        std::array<Pair, 4> sides;  // coordinates by side [cells]
+        std::array<Pair, 4> sides;  // coordinates of both rectangles, by Side [cells]
     };
     class TilePieces;
 
@@ -84,8 +86,8 @@ class WallIndex {
     std::vector<std::size_t> first_;  ///< index of each tile's first rectangle; size: tiles + 1
     std::vector<CellRectangle> rectangles_;  ///< rectangles of all tiles, row by row of tiles
     std::vector<std::size_t> first_two_;  ///< index in twos_ of each tile's first; size: tiles + 1
-    std::vector<Two> twos_;  ///< rectangles of a tile in pairs; the last of an odd number is alone
-    std::vector<bool> solid_;  ///< true for solid cells; columns * rows
+    std::vector<Two> twos_;  ///< rectangles of each tile in pairs; the last pair may be half empty
+    std::vector<bool> solid_;  ///< true for solid cells, row by row; columns * rows elements
 };
 
 }  // namespace rovernet

@@ -28,13 +28,14 @@ struct WallLayer {
     std::size_t material = 0;                             ///< index into Scene::materials()
     std::size_t storey = 0;                               ///< storey of the map; the lowest is 0
     double bottom = -endless;                             ///< height of the walls' lower end [m]
-    double top = endless;  ///< height of the walls' upper end [m], which is above them
+    double top = endless;  ///< height of the walls' upper end [m]; not part of the walls
 
     /// Whether the walls stand at all heights.
     bool is_endless() const { return bottom == -endless && top == endless; }
-    /// Writes the passages through the walls of a segment of `length` [m], in order from a, as if
-    /// the walls stood at all heights.
-    /// @param out  replaced by the crossings
+    /// Computes the passages of the segment a-b through the walls, in order from a, as if the walls
+    /// extended over all heights.
+    /// @param length  length of the segment [m]
+    /// @param out     replaced by the passages
     void crossings(CellPoint a, CellPoint b, double length, std::vector<Crossing>& out) const {
         walls->crossings(a, b, length, out);
         for (Crossing& c : out) c.material = material;

@@ -12,16 +12,17 @@
 
 namespace rovernet {
 
-/// Thickness of the walls of one layer; the interior of a wall drawn as an outline is included.
+/// Thickness of the walls of one material on one map. The interior of a wall that is drawn as an
+/// outline is included.
 ///
-/// The thickness at a cell is the shortest chord along rows, columns or diagonals of the map. For a
-/// slanting wall it is the mean of neighbouring chords whose lengths differ by at most one cell,
-/// times the sine of their angle to the wall, so that the steps of the outline do not count. A
-/// table with 4 bytes per cell is made on first use (temporarily 12 more); several threads may call
-/// at once.
+/// The thickness at a cell is the shortest chord through the wall along rows, columns or diagonals
+/// of the map. For an oblique wall it is the mean of neighbouring chords whose lengths differ by at
+/// most one cell, times the sine of their angle to the wall. So the steps of the outline have no
+/// effect. A table with 4 bytes per cell is made on first use (temporarily 12 more). Several
+/// threads may call the functions concurrently.
 class WallThickness {
   public:
-    /// @param walls    not null
+    /// @param walls    spatial index of the walls; not null
     /// @param hollows  hollow walls of the map; not null
     WallThickness(const MapFrame& frame, std::shared_ptr<const WallIndex> walls,
                   std::shared_ptr<const HollowWalls> hollows);

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-// List that grows without moving its values: references to them stay valid.
+// List that grows without moving its values: references to the values stay valid.
 
 namespace rovernet {
 

@@ -7,8 +7,8 @@
 #include <complex>
 
 // Complex functions with the same bits on every machine. Sums and products of std::complex are the
-// same bits everywhere. Its quotient, square root, std::abs, std::exp and std::polar depend on the
-// compiler and the C library; the functions below replace them.
+// same bits everywhere. Quotient, square root, std::abs, std::exp and std::polar of std::complex
+// depend on the compiler and the C library; the functions below replace these functions.
 
 namespace rovernet::math {
 

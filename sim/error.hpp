@@ -29,11 +29,11 @@ struct Location {
     std::string text() const;
 };
 
-/// Error in the input, which the user can correct. what() reads "place: what was found; what was
-/// expected; a suggestion", without the place if there is none.
+/// Error in the input of a run, which the user can correct. what() reads "place: what was found;
+/// what was expected; a suggestion", without the place if there is none.
 ///
-/// Readers of scenarios, worlds, movement files and traces throw it. The command prints what() and
-/// ends with the exit code for bad input, or for wrong use if the place is an option.
+/// Readers of scenarios, worlds, movement files and traces throw an InputError. The command prints
+/// what() and ends with the exit code for bad input, or for wrong use if the place is an option.
 class InputError : public std::runtime_error {
   public:
     /// @param where    place of the error
@@ -45,7 +45,7 @@ class InputError : public std::runtime_error {
     const std::string& message() const { return message_; }
 
   private:
-    // Place, and message without it.
+    // Place of the error, and message without the place.
     Location where_;
     std::string message_;
 };
@@ -70,9 +70,9 @@ class StalledRun : public RunError {
 /// The candidate with the least edit distance is suggested: number of letters to insert, remove or
 /// replace, and of neighbouring letters to swap. A candidate that differs only in upper and lower
 /// case has distance 0; a candidate that contains the word (three letters or more) has distance 1.
-/// A candidate is similar if at most half of the word's letters have to change (one may always),
-/// and not all of them. Words of more than 64 bytes get no suggestion. Among equal distances the
-/// first candidate is taken.
+/// A candidate is similar if at most half of the word's letters have to change (one letter may
+/// always change), and not all of them. Words of more than 64 bytes get no suggestion. Among equal
+/// distances the first candidate is taken.
 ///
 /// @param word        unknown word that was found
 /// @param candidates  words that are valid here

@@ -19,9 +19,9 @@ namespace rovernet {
 /// `arrived` for a packet that is not routed. The routing protocol sets all other fates in
 /// on_receive. Sinks read the fate in Received.
 enum class Fate : std::uint8_t {
-    /// Received; it will be forwarded after its delay.
+    /// Received: the node will forward the copy after a delay.
     waiting,
-    /// Received, but not forwarded: its TTL is used up.
+    /// Received, but not forwarded: the TTL of the copy is used up.
     ttl,
     /// Received, but suppressed: the receiver already had a copy.
     duplicate,
@@ -29,7 +29,7 @@ enum class Fate : std::uint8_t {
     off,
     /// Lost: received with bit errors.
     garbled,
-    /// Lost: it collided with another frame at the receiver.
+    /// Lost: the frame collided with another frame at the receiver.
     collided,
     /// Lost: the receiver was transmitting (half-duplex).
     busy,
@@ -37,8 +37,8 @@ enum class Fate : std::uint8_t {
     arrived,
 };
 
-/// Whether the frame was decoded, forwarded or not. Without a branch, because it is called for
-/// every reception.
+/// Whether a frame with this fate was decoded, forwarded or not. Without a branch, because it is
+/// called for every reception.
 constexpr bool is_decoded(Fate fate) {
     constexpr auto bit = [](Fate f) { return 1U << static_cast<unsigned>(f); };
     constexpr unsigned decoded =
@@ -55,10 +55,11 @@ struct Reception {
     NodeId node;
     /// Fate of the copy at this receiver.
     Fate fate = Fate::waiting;
-    /// True if the application gets the message: it is the node's first copy, and the node is a
-    /// destination.
+    /// True if the application gets the message: the copy is the first at this node, and the node
+    /// is a destination.
     bool delivered = false;
-    /// True if the receiver locked onto the frame. For a lost frame `sinr` sets whether it did.
+    /// True if the receiver locked onto the frame. Only reception model "sinr" sets false, for lost
+    /// frames.
     bool locked = true;
 
     /// Order in which the receptions of a transmission are served: by time, then by node.
@@ -83,7 +84,7 @@ enum class DropReason : std::uint8_t {
     end,
     /// Unicast without acknowledgements: the destination is out of the sender's range.
     unheard,
-    /// The run ended before the first frame of the message did.
+    /// The run ended before the first frame of the message ended.
     cut_off,
     /// The run ended while the routing protocol still held the message at its origin.
     held,
@@ -97,7 +98,7 @@ enum class DropReason : std::uint8_t {
     buffer_full,
     /// The packet waited too long for a route.
     timeout,
-    /// The packet was sent by other routes too often.
+    /// The packet was sent on an alternative route (salvaged) too often.
     salvaged,
     /// Reason of a protocol outside this list; Dropped::own_code names it.
     own,
@@ -113,9 +114,9 @@ struct LossReason {
     friend bool operator==(const LossReason&, const LossReason&) = default;
 };
 
-// Table of all reasons. It has no default: an enumerator without a line does not compile.
+// Table of all reasons. The switch has no default: an enumerator without a line does not compile.
 
-/// Loss reason of a reception with this fate; empty if the copy is delivered or will be forwarded.
+/// Loss reason of a reception with this fate; empty for a copy that is delivered or forwarded.
 constexpr LossReason reason_of(Fate fate) {
     switch (fate) {
         case Fate::waiting:
@@ -150,7 +151,8 @@ constexpr LossReason reason_of(DropReason reason) {
     return {};
 }
 
-// Last enumerators. Update when an enumerator is appended; the static_assert below fails otherwise.
+// Last enumerators of Fate and DropReason. Update these when an enumerator is appended; the
+// static_assert below fails otherwise.
 inline constexpr auto last_fate = Fate::arrived;
 inline constexpr auto last_drop_reason = DropReason::own;
 static_assert(reason_of(static_cast<Fate>(static_cast<int>(last_fate) + 1)) == LossReason{} &&

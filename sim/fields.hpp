@@ -26,7 +26,7 @@
 //     };
 //
 // The reader of scenario files, range checks, --set, the printed scenario, `rovernet models` and
-// the sweep of a study follow from that list.
+// the sweep of a study follow from this list.
 
 namespace rovernet {
 
@@ -49,7 +49,7 @@ struct Field {
     /// Way in which a fit determines the parameter.
     Fit fit = {};
 
-    /// This description, of a parameter that a fit determines: see Fit::Way.
+    /// Description of the same parameter, which a fit determines in this way, see Fit::Way.
     ///
     ///   field("exponent", &LogDistance::exponent, positive, "path loss exponent").linear(2)
     constexpr Field linear(double base) const { return with({Fit::Way::linear, base}); }
@@ -116,9 +116,8 @@ constexpr void for_each_field(Visitor&& visit) {
     T::fields().for_each(visit);
 }
 
-/// Number inside a parameter, for the range check and for printing: [s] of a Duration, the value of
-/// a quantity in its unit; empty for a value that is not a number, and for an optional without a
-/// value.
+/// Number in a parameter, for the range check and for printing: a Duration in [s], a quantity in
+/// its unit. Empty for a value that is not a number, and for an optional without a value.
 template <class T>
 constexpr std::optional<double> number_in(const T& v) {
     if constexpr (requires { v.has_value(); }) {
@@ -134,8 +133,8 @@ constexpr std::optional<double> number_in(const T& v) {
     }
 }
 
-/// Writes the number inside a parameter, in the unit in which number_in() returns it; an optional
-/// without a value gets one. A parameter that is not a number is left unchanged.
+/// Sets the number in a parameter, in the unit in which number_in() returns it. An optional without
+/// a value gets a value. A parameter that is not a number is left unchanged.
 template <class T>
 constexpr void set_number(T& v, double number) {
     if constexpr (requires { v.has_value(); }) {
@@ -148,7 +147,7 @@ constexpr void set_number(T& v, double number) {
 }
 
 /// Words in files for the values 0, 1, 2 ... of an enumeration. An enumeration that occurs in files
-/// specialises it:
+/// specialises EnumNames:
 ///
 ///   template <>
 ///   struct EnumNames<Duplicates> {
@@ -157,7 +156,7 @@ constexpr void set_number(T& v, double number) {
 template <class E>
 struct EnumNames;
 
-/// Word in files for a value of an enumeration, which must be a listed one.
+/// Word in files for a value of an enumeration; the value must be listed in EnumNames.
 template <class E>
 constexpr std::string_view name_of(E e) {
     return EnumNames<E>::values[static_cast<std::size_t>(e)];
@@ -172,11 +171,11 @@ constexpr std::string_view name_of(E e) {
 [[noreturn]] void throw_out_of_range(std::string_view owner, std::string_view name,
                                      std::string_view range, double got);
 
-/// Checks every numeric parameter of a struct against its range. A model calls it when it is
-/// constructed or first used; the scenario reader checks the same ranges earlier and reports the
-/// place in the file.
+/// Checks every numeric parameter of a struct against its range. Models call check_fields() when
+/// they are constructed or first used; the scenario reader checks the same ranges earlier and
+/// reports the place in the file.
 /// @param value  struct with fields()
-/// @param owner  name for the error
+/// @param owner  name of the struct in the error
 /// @throws std::invalid_argument with the first parameter that is out of range, its range and its
 ///         value
 template <Described T>

@@ -25,7 +25,7 @@ constexpr Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b
 constexpr Vec3 operator*(double s, Vec3 v) { return {s * v.x, s * v.y, s * v.z}; }
 constexpr double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/// Squared distance [m^2]; the same bits from a to b as from b to a. It overflows only for
+/// Squared distance [m^2]; the same bits from a to b as from b to a. The result overflows only for
 /// distances beyond 1e154 m.
 constexpr double squared_distance(Vec3 a, Vec3 b) { return dot(a - b, a - b); }
 /// Distance [m]; the same bits from a to b as from b to a, because IEEE 754 defines std::sqrt

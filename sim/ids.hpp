@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-// Ids of objects that a Network owns. They are values that can be copied, compared and stored in
+// Ids of objects that a Network owns. Ids are values that can be copied, compared and stored in
 // records; a pointer could dangle, and its address differs from run to run.
 
 namespace rovernet {
@@ -14,7 +14,7 @@ namespace rovernet {
 /// never removed, so an id is valid for the whole run.
 ///
 /// No random draw depends on an id: keys of draws use the robot's name instead, see World::key().
-/// So adding a robot does not change the draws of the other robots.
+/// Therefore adding a robot does not change the draws of the other robots.
 struct NodeId {
     std::uint32_t value = 0;
     /// Index into a table with an entry for each node.

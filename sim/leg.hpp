@@ -24,8 +24,8 @@ struct Leg {
     Vec3 from = {};
     /// Velocity [m/s]; zero while the robot turns or rests.
     Vec3 velocity = {};
-    /// Position at `end` [m], equal to `from` for a leg at rest. It is stored, so that rounding in
-    /// position() never makes a robot miss its goal.
+    /// Position at `end` [m], equal to `from` for a leg at rest. The position is stored, so that
+    /// rounding in position() never makes a robot miss its goal.
     Vec3 to = {};
     /// Heading at `start` [rad], counter-clockwise from the x axis.
     double heading = 0;
@@ -37,14 +37,14 @@ struct Leg {
         if (t >= end) return to;
         return from + seconds(t - start) * velocity;
     }
-    /// Heading at `t` >= start [rad]; constant from `end` on. It is not wrapped to -pi ... pi:
-    /// turns add up, so that an animation shows the direction of a turn.
+    /// Heading at `t` >= start [rad]; constant from `end` on. The heading is not wrapped to -pi ...
+    /// pi: turns add up, so that an animation shows the direction of a turn.
     double heading_at(Time t) const {
         return turning == 0 ? heading : heading + seconds(std::min(t, end) - start) * turning;
     }
 };
 
-/// Equivalent heading [rad] in -pi ... pi.
+/// Heading [rad] wrapped to -pi ... pi.
 inline double wrapped(double heading) {
     return std::abs(heading) < 3.141592653589793 ? heading
                                                  : std::remainder(heading, 6.283185307179586);

@@ -11,16 +11,16 @@
 #include <cstdint>
 #include <vector>
 
-// Positions of robots without ticks: position at any time, in constant time, from the current leg.
+// Positions of robots without time steps: at any time, in constant time, from the current leg.
 //
 //     const NodeId node = legs.add({.end = start_of_run + 10s, .velocity = {1, 0}, .to = {10, 0}});
 //     legs.position(node, start_of_run + 4s);  // {4, 0, 0}
 
 namespace rovernet {
 
-/// Motion of all robots as data: one current leg for each node. There are no ticks: the position of
-/// a robot at any time follows from its leg. Motion writes the legs that movement models return;
-/// medium, links and pictures only read them.
+/// Motion of all robots as data: one current leg for each node. There are no time steps: the
+/// position of a robot at any time follows from its leg. Motion writes the legs that movement
+/// models return; medium, links and pictures only read them.
 ///
 /// Memory: 48 bytes for a leg at rest, 40 more for a leg at constant height, 64 more for any other
 /// leg. All three kinds give exactly the positions of Leg::position(); the storage changes no
@@ -29,10 +29,10 @@ class Legs {
   public:
     /// Reserves memory for `nodes` nodes in total.
     void reserve(std::size_t nodes) { places_.reserve(nodes); }
-    /// Adds the next node, at rest or moving on `leg`. @return its id: the number of nodes before
+    /// Adds the next node, at rest or moving on `leg`. @return its id: number of nodes before
     NodeId add(const Leg& leg);
     /// Replaces a node's leg and increments its version. Events planned for the old leg (its end, a
-    /// link change) become void.
+    /// link change) are then ignored.
     void replace(NodeId node, const Leg& leg);
 
     /// Number of nodes.
@@ -58,7 +58,7 @@ class Legs {
         return leg;
     }
     /// Number of times that the node's leg was replaced. An event at the end of a leg stores the
-    /// version, and is void if the leg was replaced since.
+    /// version, and is ignored if the leg was replaced since.
     std::uint32_t version(NodeId node) const { return places_[node.index()].version; }
     /// Position of `node` at `t` [m], equal to Leg::position() of its leg; `t` must not be before
     /// the leg's start.
@@ -76,14 +76,14 @@ class Legs {
     }
 
   private:
-    // Place::motion of a leg at rest.
+    // Value of Place::motion for a leg at rest.
     static constexpr std::uint32_t at_rest = 0xffffffff;
     // Bit of Place::motion that marks an index into motions_.
     static constexpr std::uint32_t not_level = 0x80000000;
-    // Whether the part of a moving leg is in level_motions_.
+    // Whether a moving leg's Place::motion is an index into level_motions_.
     static bool is_level(std::uint32_t motion) { return !(motion & not_level); }
 
-    /// Data of every leg; `motion` refers to the data of a moving leg.
+    /// Data of every leg; `motion` refers to the additional data of a leg that is not at rest.
     struct Place {
         Time start;
         /// Position at the leg's start [m] and heading there [rad].

@@ -16,20 +16,20 @@
 #include <vector>
 
 // Interface of the link layer for routing protocols. Routing (network/routing.hpp) implements it
-// over the MAC; tests of protocols use a fake.
+// over the MAC; tests of protocols use a fake link layer.
 
 namespace rovernet {
 
-/// Shortest time between a reception and the node's reaction to it: 1 us. So one event can serve
-/// all receptions of a transmission.
+/// Shortest time [ns] between a reception and the node's reaction to it: 1 us. Therefore one event
+/// can serve all receptions of a transmission.
 inline constexpr Duration least_reaction{1000};
 
 /// Handle of a frame that waits for its send time, see LinkLayer::waiting.
 using SendHandle = std::uint32_t;
 
 /// Result of sending a frame, for protocols that satisfy HearsOfResults. A broadcast ends as `sent`
-/// at best, a unicast as `acked`. Access models without acknowledgements are an ideal MAC here: it
-/// knows at the end of the frame whether the next hop received it.
+/// at best, a unicast as `acked`. An access model without acknowledgements acts as an ideal MAC: at
+/// the end of the frame it knows whether the next hop received the frame.
 enum class SendResult : std::uint8_t {
     /// The next hop acknowledged the frame.
     acked,
@@ -44,8 +44,8 @@ enum class SendResult : std::uint8_t {
     off,
 };
 
-/// Functions that a routing protocol may call, only from within its own functions. One protocol
-/// object serves all nodes, so every call has the acting node as an argument.
+/// Link layer: functions that a routing protocol may call, only from within its own functions. One
+/// protocol object serves all nodes, so every call has the acting node as an argument.
 ///
 /// A protocol should use only what the acting node has received: reading the position or the state
 /// of another node models information that no radio carries.
@@ -85,19 +85,19 @@ class LinkLayer {
     /// @throws std::invalid_argument if `at` is too early
     virtual std::optional<SendHandle> send(const Frame& frame, std::optional<NodeId> heard_from,
                                            Time at) = 0;
-    /// Frame that waits for its send time: it may be changed, except for its message and its
-    /// sender. Null once the time has come. A handle may be reused for a later frame: compare
-    /// message and sender.
+    /// Frame that waits for its send time. The protocol may change the frame, except for its
+    /// message and its sender. Null once the send time has come. A handle may be reused for a later
+    /// frame: compare message and sender.
     virtual QueuedFrame* waiting(SendHandle) = 0;
     /// Cancels a frame that waits for its send time; does nothing after that time.
     virtual void cancel(SendHandle) = 0;
     /// Removes the frames for `next_hop` from the interface queue of `node`, except a frame that is
-    /// on air or waits for its acknowledgement; used when a route has broken. They have no result.
-    /// The caller then holds their references: release(frame.frame). Frames that wait for their
-    /// send time are not in this queue: cancel() them by their handles.
+    /// on air or waits for its acknowledgement; used when a route has broken. The removed frames
+    /// have no result. The caller then holds their references: release(frame.frame). Frames that
+    /// wait for their send time are not in this queue: cancel() them by their handles.
     virtual std::vector<QueuedFrame> take_queued(NodeId node, NodeId next_hop) = 0;
     /// Records that `node` loses a copy of a message. Within on_receive the record follows the
-    /// Received of the frame, at the time of the node's reception.
+    /// Received record of the frame, at the time of the node's reception.
     /// @param frame     frame as the node received it
     /// @param own_code  code in traces, a literal, for DropReason::own
     virtual void drop(NodeId node, const Frame& frame, DropReason reason,
@@ -105,8 +105,8 @@ class LinkLayer {
     /// Received power [dBm] of a reception passed to on_receive, only during that call; for
     /// protocols with `wants_levels`.
     virtual Dbm level(const Reception&) const = 0;
-    /// Ratio of a reception's power to the noise floor of its receiver [dB], under the conditions
-    /// of level().
+    /// Ratio of a reception's power to the noise floor of its receiver [dB]; may be called only
+    /// when level() may.
     virtual Db snr(const Reception&) const = 0;
 
     /// Calls the router's on_timer(node, tag) at `at`; in reaction to a reception at least
@@ -116,17 +116,17 @@ class LinkLayer {
     virtual void timer(NodeId node, Time at, std::uint64_t tag) = 0;
     /// Adds a reference to a message, which keeps it in the table while the router stores its id.
     virtual void hold(MessageId) = 0;
-    /// Removes a reference to a message. After the last one the router's forget() is called, and
-    /// the slot may be reused.
+    /// Removes a reference to a message. After the last reference is removed, the router's forget()
+    /// is called, and the slot may be reused.
     virtual void release(MessageId) = 0;
     /// Adds a reference to the message and to the header of a frame that the router stores.
     virtual void hold(const Frame&) = 0;
-    /// Removes the references of hold(frame). After the last one to a header the router's
+    /// Removes the references that hold(frame) added. After the last one to a header the router's
     /// forget_header() is called.
     virtual void release(const Frame&) = 0;
     /// Uniform draw in (0, 1), keyed by the run, the purpose, the node, the message and `index`.
     virtual double draw(Purpose, NodeId, MessageId, std::uint64_t index) const = 0;
-    /// Uniform draw in (0, 1), the node's `index`-th for this purpose, independent of messages.
+    /// Uniform draw in (0, 1), not for a message: number `index` of the node for this purpose.
     virtual double draw(Purpose, NodeId, std::uint64_t index) const = 0;
 
   protected:

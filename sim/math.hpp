@@ -6,9 +6,9 @@
 // received.
 
 /// Elementary functions with the same bits from every compiler and C library, for decisions and
-/// printed results. They are built from + - * / and bit operations, which IEEE 754 rounds in one
-/// way only; compile with -ffp-contract=off and in the default rounding mode. The square root needs
-/// no function here: IEEE 754 defines it. Usage: math::log10(x).
+/// printed results. The functions are built from + - * / and bit operations, which IEEE 754 rounds
+/// in one way only; compile with -ffp-contract=off and in the default rounding mode. The square
+/// root needs no function here: IEEE 754 defines it. Usage: math::log10(x).
 namespace rovernet::math {
 
 /// Natural logarithm; error below 1 ulp. log2 and log10 are as accurate, and exact if the result is
@@ -46,8 +46,9 @@ struct SinCos {
     double sin;
     double cos;
 };
-/// Sine and cosine of x [rad], |x| <= 1e9; exactly sin(-x) = -sin(x) and cos(-x) = cos(x). Both are
-/// NaN for larger |x| (where neighbouring doubles are 1e-7 rad apart), for infinity and for NaN.
+/// Sine and cosine of x [rad], |x| <= 1e9; exactly sin(-x) = -sin(x) and cos(-x) = cos(x). Sine and
+/// cosine are NaN for larger |x| (where neighbouring doubles are 1e-7 rad apart), for infinity and
+/// for NaN.
 SinCos sincos(double x);
 
 /// Angle of the vector (x, y) [rad], -pi ... pi with the sign of y, counter-clockwise from the x

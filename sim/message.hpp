@@ -16,16 +16,16 @@
 
 namespace rovernet {
 
-/// Message of an application, or control packet of a routing protocol. It does not change once it
-/// is in the table.
+/// Message of an application, or control packet of a routing protocol. A message does not change
+/// once it is in the MessageTable.
 struct Message {
     /// Node that created the message.
     NodeId origin;
     /// Number that is unique in the run, from 0 in the order of sending; World::new_message assigns
     /// it.
     std::uint64_t uid = 0;
-    /// Number among the messages of its origin, from 0; control packets of protocols are counted
-    /// separately.
+    /// Number of the message among the messages of its origin, from 0; control packets of protocols
+    /// are counted separately.
     std::uint32_t number = 0;
     /// Destination of the message; `everyone` for a broadcast.
     NodeId to = everyone;
@@ -36,7 +36,7 @@ struct Message {
     std::uint32_t size = 0;
     /// Time at which the message was created.
     Time created = start_of_run;
-    /// Content, for the receiver. Its length may differ from `size`.
+    /// Content of the message, for the receiver. The content's length may differ from `size`.
     std::string payload;
     /// Number of the application's flow, from 1; 0 for no flow. Metrics are computed for each flow.
     std::uint32_t flow = 0;
@@ -45,8 +45,8 @@ struct Message {
     /// Protocol and kind of a routing protocol's control packet, a literal: "AODV REQUEST"; empty
     /// for a message of an application.
     std::string_view kind = {};
-    /// True if the routing protocol forwards it to its destination; false if it is sent over one
-    /// hop without the protocol.
+    /// True if the routing protocol forwards the message to its destination; false if it is sent
+    /// over one hop without the protocol.
     bool is_routed = false;
 
     /// Protocol of a control packet, the first word of its kind: its type in ns-2 traces.
@@ -75,7 +75,7 @@ struct Frame {
     Hops hops = 0;
     /// Receiver of this hop; `everyone` for a broadcast.
     NodeId next_hop = everyone;
-    /// Size [bytes] at this hop, without the bytes that the access model adds; 0: the message's.
+    /// Size [bytes] at this hop, without the bytes that the access model adds; 0: Message::size.
     std::uint32_t bytes = 0;
     /// Header of this copy: number of an entry in the routing protocol's own table, from 1; 0 for
     /// none. See LinkLayer::send.
@@ -113,9 +113,9 @@ struct ControlFrame {
 
 /// Frame on air: a frame of a message (data), or a control frame of the access model.
 struct AirFrame {
-    /// Name of the kind of frame: "DATA", or the control frame's.
+    /// Name of the kind of frame: "DATA", or the name of the control frame.
     std::string_view kind() const { return control ? control->name : "DATA"; }
-    /// Whether it is a control frame of that name.
+    /// Whether the frame is a control frame with this name.
     bool is(std::string_view name) const { return control && control->name == name; }
 
     /// Frame of the message. In a control frame only `sender` and `next_hop` are valid.
@@ -126,10 +126,10 @@ struct AirFrame {
     const ControlFrame* control = nullptr;
     /// Number of earlier transmissions of a data frame; 0 for control frames.
     std::uint8_t attempt = 0;
-    /// Sequence number of a data frame, the same for all its retransmissions: a receiver detects a
-    /// repetition by it.
+    /// Sequence number of a data frame, equal for all its retransmissions: a receiver detects
+    /// retransmissions by this number.
     std::uint32_t number = 0;
-    /// Time [ns] after its end that the frame reserves for the response: the Duration field of IEEE
+    /// Time [ns] that the frame reserves after its end for the response: the Duration field of IEEE
     /// 802.11.
     Duration reserved{0};
 };
@@ -152,9 +152,9 @@ class MessageTable {
         return true;
     }
 
-    /// Message in that slot, which must be in use; the reference is valid until the next add().
+    /// Message with this id, which must be in use; the reference is valid until the next add().
     const Message& operator[](MessageId id) const { return slots_[id.index()].message; }
-    /// Marks the message: a frame of it has ended at a receiver.
+    /// Marks the message as having had a frame that ended at a receiver.
     void mark_ended(MessageId id) { slots_[id.index()].has_ended = true; }
     /// Calls visit(id) for every message in use of which no frame has ended at any receiver, in
     /// order of id. At the end of a run these messages are reported as cut off.
@@ -171,13 +171,13 @@ class MessageTable {
     std::size_t capacity() const { return slots_.size(); }
 
   private:
-    // Message, its number of references, and whether a frame of it has ended anywhere.
+    // Slot: message, number of its references, and whether a frame of the message has ended.
     struct Slot {
         Message message;
         std::uint32_t holders = 0;
         bool has_ended = false;
     };
-    // Slots by MessageId.
+    // Slots of the table, by MessageId.
     std::vector<Slot> slots_;
     // Free slots; the last one is reused first.
     std::vector<MessageId> free_;

@@ -34,19 +34,19 @@ inline constexpr Range non_negative{.low = 0, .text = ">= 0"};
 struct Fit {
     enum class Way {
         none,       ///< the parameter keeps its value
-        linear,     ///< the loss is linear in it
-        constant,   ///< a term of the loss that is equal for all links, and linear
+        linear,     ///< the loss is linear in the parameter
+        constant,   ///< the parameter is a linear term of the loss, equal for all links
         searched,   ///< the loss is linear only near the best value, which is searched for
-        decisions,  ///< links within it are up: the value with the fewest wrong decisions
-        spread      ///< the standard deviation of the losses about those of the model
+        decisions,  ///< range of links: the value with the fewest wrong up/down decisions
+        spread      ///< standard deviation of the measured losses about those of the model
     };
     Way way = Way::none;
-    /// Value, in the unit of number_in(), near which the loss is linear; no loss is clipped at 0
-    /// there.
+    /// Value of the parameter, in the unit of number_in(), near which the loss is linear: at this
+    /// value no loss is clipped at 0.
     double base = 0;
 };
 
-/// Base of a constant term [dB] at which no loss is clipped at 0.
+/// Value of Fit::base [dB] for a constant term of the loss: with it no loss is clipped at 0.
 inline constexpr double far_from_zero = 500;
 
 }  // namespace rovernet

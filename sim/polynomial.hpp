@@ -8,8 +8,8 @@
 
 namespace rovernet::math {
 
-/// Polynomial c[0] + c[1] x + c[2] x^2 + ... with an odd number of coefficients. Every compiler
-/// gives the same rounding.
+/// Value of the polynomial c[0] + c[1] x + c[2] x^2 + ..., with an odd number of coefficients.
+/// Every compiler gives the same rounding.
 ///
 /// Even and odd terms are summed separately, as polynomials in x^2: two short chains of
 /// multiplications instead of the long one of Horner's rule, so the latency is half. Used by

@@ -34,7 +34,7 @@ enum class Purpose : std::uint16_t {
     bit_errors = 9,
     /// Sender of a message in a flow from any robot. a = key of the flow's name.
     traffic_source = 10,
-    /// Delays and choices of other routing protocols. a = robot key, b = message key.
+    /// Delays and choices of a protocol without own purposes. a = robot key, b = message key.
     routing_jitter = 11,
     /// Time at which links are sampled for a fit [fraction of the duration].
     sample_time = 15,
@@ -61,7 +61,7 @@ enum class Purpose : std::uint16_t {
 struct Key {
     /// Seed of the run's random draws.
     std::uint64_t seed = 0;
-    /// Number of the independent repetition.
+    /// Number of the run's independent repetition (replication).
     std::uint32_t replication = 0;
     /// Purpose of the draw.
     Purpose purpose{};
@@ -131,7 +131,7 @@ constexpr std::uint64_t combine(std::uint64_t first, std::uint64_t second) {
 /// 2^-64. Shadowing of links uses one draw for each pair of robots.
 class PairDraws {
   public:
-    /// Draws of a run for one purpose.
+    /// Creates the draws of a run for one purpose.
     PairDraws(std::uint64_t seed, std::uint32_t replication, Purpose purpose);
 
     /// Contribution of one key to the draw of each of its pairs, for a caller that stores it.
@@ -150,7 +150,7 @@ class PairDraws {
     static double normal_of(std::uint64_t bits);
 
   private:
-    // Part of the key shared by all pairs: s.
+    // Number s made of seed, replication and purpose, which all pairs share.
     std::uint64_t stream_;
 };
 

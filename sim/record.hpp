@@ -32,9 +32,8 @@ namespace rovernet {
 class Legs;
 class Router;
 
-/// An application passes a message to the routing protocol, or to the MAC if it is sent over one
-/// hop. Control packets of a protocol have no Sent. Applications emit it before any other record of
-/// the message.
+/// Record that an application passes a message to the routing protocol, or to the MAC if it is sent
+/// over one hop; not for control packets. Applications emit it before other records of the message.
 struct Sent {
     Time time;
     NodeId node;
@@ -44,9 +43,9 @@ struct Sent {
     /// Robots that the message concerns, including the sender: all robots that exist now; 2 for a
     /// unicast.
     std::uint32_t robots;
-    /// Number of these robots that a chain of links connects to the sender now, without the sender;
-    /// set only if a sink requests it (see kind_reachable, kind_cheap_reachable). It is the largest
-    /// number that any protocol could reach if no robot moved.
+    /// Number of robots that a chain of links connects to the sender now, without the sender: the
+    /// most that any protocol could reach if no robot moved. Set only if a sink requests it (see
+    /// kind_reachable, kind_cheap_reachable).
     std::optional<std::uint32_t> reachable;
 
     static constexpr std::string_view name = "Sent";
@@ -58,8 +57,8 @@ struct Sent {
     }
 };
 
-/// A node starts to transmit a frame of a message. A frame that csma repeats has one record for
-/// each attempt. The MAC emits it at the start of the frame; Received has the end.
+/// Record that a node starts to transmit a frame of a message. A frame that csma retransmits has a
+/// record for each attempt. The MAC emits the record; Received has the end of the frame.
 struct Transmitted {
     Time time;
     Frame frame;
@@ -73,12 +72,12 @@ struct Transmitted {
     }
 };
 
-/// A frame of a message ends at some of its receivers: a broadcast at all of them at once, or in
-/// several records if other events lie between; a unicast at its destination. Routing emits it when
-/// the protocol has set the fate of each copy, and before applications react.
+/// Record that a frame of a message ends at its receivers: a unicast at its destination, a
+/// broadcast at all receivers, in several records if other events lie between. Routing emits it
+/// after the protocol has set the fate of each copy, before applications react.
 struct Received {
     Frame frame;
-    /// Receptions in order of time, then of node; all later than those of earlier records.
+    /// Receptions in order of time, then of node; all are later than those of earlier records.
     std::span<const Reception> receptions;
     /// Time [ns] that a unicast under csma reserves after its end, for the acknowledgement.
     Duration reserved{0};
@@ -97,8 +96,8 @@ struct Received {
     }
 };
 
-/// A routing protocol passes a unicast frame to the MAC, once for each hop. A broadcast has none:
-/// its Transmitted says the same.
+/// Record that a routing protocol passes a unicast frame to the MAC, once for each hop. A broadcast
+/// only has Transmitted, with the same data.
 struct Routed {
     Time time;
     Frame frame;
@@ -112,23 +111,24 @@ struct Routed {
     }
 };
 
-/// A node loses a copy outside a reception: while the copy waits, or before it is transmitted.
-/// Dropped and the fates of Received together cover every copy that is lost or not forwarded.
+/// Record that a node loses a copy outside a reception: while the copy waits, or before its
+/// transmission. Dropped and the fates of Received together cover every copy that is lost or not
+/// forwarded.
 struct Dropped {
     Time time;
     NodeId node;
-    /// Frame as the node received it; or, if the access model drops it, as it would have been
+    /// Frame as the node received it; if the access model drops the frame, as it would have been
     /// transmitted.
     Frame frame;
     /// Reason for the loss.
     DropReason reason;
-    /// Code of the reason, if that is DropReason::own: a literal.
+    /// Code of the reason, a literal, if `reason` is DropReason::own.
     std::string_view own_code = {};
     /// True if only one attempt at a link was lost: the routing protocol was notified, and sends
     /// the packet again or drops it by another record. Such a record is not counted as a loss.
     bool protocol_decides = false;
 
-    /// Code and layer of the reason.
+    /// Code and layer of the reason for the loss.
     LossReason loss() const {
         const LossReason listed = reason_of(reason);
         return reason == DropReason::own ? LossReason{own_code, listed.layer} : listed;
@@ -144,8 +144,8 @@ struct Dropped {
     }
 };
 
-/// The MAC starts to transmit a frame: a data frame, directly after its Transmitted record, or a
-/// control frame. A monitor of the channel would capture the same frames.
+/// Record that the MAC starts to transmit a frame: a data frame, directly after its Transmitted
+/// record, or a control frame. A monitor of the channel would capture the same frames.
 struct AirSent {
     Time time;
     /// Frame on air: data or control frame.
@@ -163,8 +163,8 @@ struct AirSent {
     }
 };
 
-/// A control frame ends at its destination, if that is on. Other stations that overhear it have no
-/// record.
+/// Record that a control frame ends at its destination, if that is on. Other stations that overhear
+/// the frame have no record.
 struct ControlReceived {
     AirFrame air;
     /// Reception at the destination; its fate is `waiting` if the frame was decoded, otherwise the

@@ -15,7 +15,7 @@
 // Descriptions of records. A record lists its fields once, by fields(); recorded traces, their
 // text, tables of rows and fingerprints visit them in that order. A field is a number, a quantity,
 // a bool, Time, Duration, NodeId, MessageId, Vec3, an optional NodeId or unsigned number, a Fate or
-// a DropReason, or a described struct: its fields then stand in its place.
+// a DropReason, or a described struct, whose fields are then visited in its place.
 //
 //     struct Arrived {
 //         Time time;
@@ -26,43 +26,43 @@
 //         }
 //     };
 //
-// `time` is the time of the record, with which each of them begins.
+// Most records begin with `time`, the time of the record.
 
 namespace rovernet {
 
-/// Use of a field where it differs from that of other fields: bits, added by |.
+/// Exceptions in the use of a record's field: bits, combined by |; 0 for no exceptions.
 using FieldUse = unsigned;
 /// Field that fingerprints do not contain.
 inline constexpr FieldUse not_hashed = 1;
 /// Field that recorded traces do not contain, so that replays do not compare it.
 inline constexpr FieldUse not_recorded = 2;
-/// Field without any use by sinks that visit all fields.
+/// Field that fingerprints, recorded traces and tables of rows do not contain.
 inline constexpr FieldUse not_visited = 4 | not_hashed | not_recorded;
-/// NodeId that may be `everyone`.
+/// Field of type NodeId whose value may be `everyone`.
 inline constexpr FieldUse or_everyone = 8;
-/// MessageId of which fingerprints contain not only the uid, but the message's origin and size too.
+/// Field of type MessageId: fingerprints contain the message's origin and size besides its uid.
 inline constexpr FieldUse with_origin = 16;
-/// Field that is not in recorded traces of formats before `format`; it then has its default.
+/// Field that recorded traces contain from format `format` on; for older traces it has its default.
 constexpr FieldUse since(unsigned format) { return format << 8; }
-/// First format of recorded traces with the field.
+/// First format of recorded traces that contains a field with this use, see since().
 constexpr unsigned first_format(FieldUse use) { return use >> 8; }
 
 /// Description of one field of a record.
 template <class Struct, class T, FieldUse its_use>
 struct RecordField {
     static constexpr FieldUse use = its_use;
-    /// Name in layouts of recorded traces, and of the column in tables.
+    /// Name of the field in layouts of recorded traces, and of its column in tables.
     std::string_view name;
     T Struct::*member;
 };
 
-/// Description of a field: field<not_hashed>("reachable", &Sent::reachable).
+/// Description of a field, with its use: field<not_hashed>("reachable", &Sent::reachable).
 template <FieldUse use = 0, class Struct, class T>
 constexpr RecordField<Struct, T, use> field(std::string_view name, T Struct::*member) {
     return {name, member};
 }
 
-/// Whether the field is the time of its record, or of a reception.
+/// Whether the field is the member `time` of its record, or of a reception.
 template <class Struct, class T, FieldUse use>
 constexpr bool is_time_of_record(const RecordField<Struct, T, use>& field) {
     if constexpr (std::is_same_v<T, Time> && requires { &Struct::time; }) {
@@ -71,7 +71,7 @@ constexpr bool is_time_of_record(const RecordField<Struct, T, use>& field) {
     return false;
 }
 
-/// Whether the frame is one of a message, whose slot it then contains; false for a control frame.
+/// Whether the frame transmits a message, whose id it then contains; false for a control frame.
 constexpr bool has_message(const AirFrame& air) { return !air.control; }
 
 /// Descriptions of structs that are parts of records.

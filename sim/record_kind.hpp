@@ -13,9 +13,9 @@
 //   - a struct in sim/record.hpp, with its name and its fields(),
 //   - a place at the end of RecordKinds below,
 //   - code that emits it: World::emit.
-// The variant Record, its bit, recorded traces, their text, tables of rows and the fingerprint
-// follow from that. Request bits, from 29 on, fill optional fields (reachable, levels) of other
-// records; the work is done once for all sinks.
+// The variant Record, the bit of the kind, recorded traces, their text, tables of rows and the
+// fingerprint follow from these. Request bits, from 29 on, fill optional fields (reachable, levels)
+// of other records; the work is done once for all sinks.
 
 namespace rovernet {
 
@@ -24,7 +24,7 @@ template <class... R>
 struct RecordList {};
 
 /// Kinds of records, in the order of their bits and of the alternatives of Record. The bits are
-/// fixed for ever, because fingerprints and recorded traces contain them: append, never renumber.
+/// fixed forever, because fingerprints and recorded traces contain them: append, never renumber.
 using RecordKinds =
     RecordList<struct Sent, struct Transmitted, struct Received, struct Dropped, struct Moved,
                struct Arrived, struct NoWay, struct Switched, struct LinkUp, struct LinkDown,
@@ -51,23 +51,25 @@ consteval KindMask kind_of() {
     return bit_in<T>(RecordKinds{});
 }
 
-/// Both link records. They need a search for link changes, which runs only if a sink wants them.
+/// Kinds LinkUp and LinkDown. These records need a search for link changes, which runs only if a
+/// sink wants them.
 inline constexpr KindMask kind_links = kind_of<LinkUp>() | kind_of<LinkDown>();
-/// Records that are in no fingerprint, as they follow from others or depend on who listens. All
-/// other kinds are, with all fields but those that are marked not_hashed.
+/// Kinds of records that are in no fingerprint, because they follow from other records or depend on
+/// the sinks. Fingerprints contain all other kinds, with all fields but those marked not_hashed.
 inline constexpr KindMask kind_unhashed = kind_links | kind_of<Arrived>() | kind_of<NoWay>() |
                                           kind_of<Switched>() | kind_of<AirSent>() |
                                           kind_of<ControlReceived>() | kind_of<Routed>();
 
-/// Request: fill Sent::reachable. It costs a search of the network for each message.
+/// Request of a sink: fill Sent::reachable, by a search of the network for each message.
 inline constexpr KindMask kind_reachable = 1U << 31;
-/// Request: fill Sent::reachable while the searches are cheap compared with the transmissions
-/// (Reachability::cheap_searches); after that it stays empty for the rest of the run.
+/// Request of a sink: fill Sent::reachable while the searches are cheap compared with the
+/// transmissions (Reachability::cheap_searches). Later Sent::reachable stays empty for the rest of
+/// the run.
 inline constexpr KindMask kind_cheap_reachable = 1U << 30;
-/// Request: fill Received::levels. It costs the level at each receiver of each frame. A routing
-/// protocol requests levels by its trait wants_levels.
+/// Request of a sink: fill Received::levels, by computing the level at each receiver of each frame.
+/// A routing protocol requests levels by its trait wants_levels.
 inline constexpr KindMask kind_levels = 1U << 29;
-/// All records, without requests.
+/// All kinds of records, without requests.
 inline constexpr KindMask kind_all = 0x1fffffff;
 
 }  // namespace rovernet

@@ -10,13 +10,13 @@
 #include <string_view>
 
 // Records of robots: their motion, their links, and whether their radios are on. sim/record.hpp has
-// those of frames, and all together.
+// the records of frames, and the variant Record of all.
 
 namespace rovernet {
 
-/// A node starts a new leg, which gives its position from `time` on. The first leg starts with the
-/// run, or when the robot is added. A robot that is switched off or on, or put to another place,
-/// also starts a leg.
+/// Record that a node starts a new leg, which gives its position from `time` on. The first leg
+/// starts with the run, or when the robot is added. A robot that is switched off or on, or put to
+/// another place, also starts a leg.
 struct Moved {
     Time time;
     NodeId node;
@@ -30,8 +30,8 @@ struct Moved {
     }
 };
 
-/// A node has reached the end of its movement and rests until it gets a new one. Motion emits it
-/// when the movement model returns AtRest.
+/// Record that a node has reached the end of its movement, and rests until it gets a new one.
+/// Motion emits the record when the movement model returns AtRest.
 struct Arrived {
     Time time;
     NodeId node;
@@ -42,8 +42,8 @@ struct Arrived {
     }
 };
 
-/// A node found no path around the walls to its goal, and stops. Motion emits it when the movement
-/// model returns Blocked.
+/// Record that a node found no path around the walls to its goal, and stops. Motion emits the
+/// record when the movement model returns Blocked.
 struct NoWay {
     Time time;
     NodeId node;
@@ -57,8 +57,9 @@ struct NoWay {
     }
 };
 
-/// Node `to` can hear `from` from now on. Links are directed: the opposite direction is a second
-/// link. LinkMonitor emits LinkUp and LinkDown at the instant of the change, if a sink wants them.
+/// Record that node `to` can hear node `from` from now on. Links are directed: the opposite
+/// direction is a second link. LinkMonitor emits LinkUp and LinkDown at the instant of the change,
+/// if a sink wants them.
 struct LinkUp {
     Time time;
     /// Robot that is heard (transmitter).
@@ -73,7 +74,7 @@ struct LinkUp {
     }
 };
 
-/// Node `to` cannot hear `from` any more.
+/// Record that node `to` cannot hear node `from` any more: the directed link is down.
 struct LinkDown {
     Time time;
     NodeId from;
@@ -86,8 +87,8 @@ struct LinkDown {
     }
 };
 
-/// A node's radio is switched on or off. Robots are on when they are added, without a record.
-/// Engine::switch_robot emits it, before the records of its consequences.
+/// Record that a node's radio is switched on or off. Robots are on when they are added, without a
+/// record. Engine::switch_robot emits the record, before the records of its consequences.
 struct Switched {
     Time time;
     NodeId node;

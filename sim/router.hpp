@@ -27,13 +27,13 @@ class Router {
           hears_of_starts_(HearsOfStarts<T>),
           self_(std::make_unique<Holder<T>>(std::move(protocol))) {}
 
-    /// Traits of the protocol.
+    /// Traits of the routing protocol.
     const RouterTraits& traits() const { return traits_; }
-    /// Whether the protocol has on_sent and on_start; the network skips the work for them
-    /// otherwise.
+    /// Optional functions of the protocol: whether it has on_sent, and on_start. The network skips
+    /// the work for missing functions.
     bool hears_of_results() const { return hears_of_results_; }
     bool hears_of_starts() const { return hears_of_starts_; }
-    /// Calls the protocol's function of the same name.
+    /// Calls of the protocol's functions of the same names.
     void send(LinkLayer& link, NodeId node, MessageId m) { self_->send(link, node, m); }
     void on_receive(LinkLayer& link, const Frame& f, std::span<Reception> r) {
         self_->on_receive(link, f, r);
@@ -56,13 +56,14 @@ class Router {
     Hops initial_ttl(const Message& m) const { return self_->initial_ttl(m); }
 
   private:
-    // Whether the protocol has on_sent; one that contains another protocol says so itself.
+    // Whether the protocol has on_sent; a protocol that contains another one decides by
+    // hears_of_results().
     template <class T>
     static bool hears_of_results_of(const T& protocol) {
         if constexpr (requires { protocol.hears_of_results(); }) return protocol.hears_of_results();
         return HearsOfResults<T>;
     }
-    // Traits from the static members of the protocol.
+    // Traits of a protocol, from its static members.
     template <class T>
     static constexpr RouterTraits traits_of() {
         RouterTraits traits;
@@ -72,7 +73,7 @@ class Router {
         return traits;
     }
 
-    // Functions of a protocol of any type.
+    // Interface to the functions of a protocol of any type.
     struct Concept {
         virtual ~Concept() = default;
         virtual void send(LinkLayer&, NodeId, MessageId) = 0;
@@ -131,11 +132,11 @@ class Router {
         }
         T protocol;
     };
-    // Facts about the protocol. The protocol itself is on the heap, so that moving a Router does
-    // not move it.
+    // Traits and optional functions of the protocol. The protocol itself is on the heap, so that
+    // moving a Router does not move it.
     RouterTraits traits_;
     bool hears_of_results_, hears_of_starts_;
-    // Never null, except in a moved-from Router.
+    // Routing protocol; never null, except in a moved-from Router.
     std::unique_ptr<Concept> self_;
 };
 

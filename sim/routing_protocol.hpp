@@ -13,7 +13,7 @@
 #include <utility>
 
 // Interface of routing protocols. A protocol is a plain struct that satisfies RouterProtocol; the
-// handle Router stores it by value. A complete one is in examples/router.cpp:
+// handle Router stores it by value. Complete example: examples/router.cpp.
 //
 //     struct Once {
 //         Hops initial_ttl() const { return 1; }
@@ -31,7 +31,7 @@ namespace rovernet {
 /// Routing protocol: one object for all its nodes, which calls the LinkLayer and is called by it.
 ///
 /// Callbacks never occur inside the protocol's own functions: frames that a function sends leave
-/// after it has returned. Easily overlooked:
+/// after the function has returned. Rules:
 ///
 /// - on_receive gets the receptions of a frame at several nodes in one call: state of a node is
 ///   looked up inside the loop, and link.now() is the time of the last reception; use
@@ -46,17 +46,17 @@ concept RouterProtocol = requires(T router, LinkLayer& link, NodeId node, Messag
                                   const Frame& frame, std::span<Reception> receptions) {
     /// Called for a message that the node's application sends, to message.to or to everyone.
     {router.send(link, node, message)};
-    /// Called for a frame at some of its destination nodes, in order of time and then of node; it
-    /// sets each reception's fate, and whether the message is delivered there.
+    /// Called for a frame at some of its destination nodes, in order of time and then of node;
+    /// on_receive sets the fate of each reception, and whether the message is delivered there.
     {router.on_receive(link, frame, receptions)};
-    /// Initial TTL [hops] of messages of this router, for records.
+    /// Initial TTL [hops] of messages of this protocol, for records.
     { std::as_const(router).initial_ttl() } -> std::convertible_to<Hops>;
 };
 
 // Optional functions of a protocol.
 
 /// Protocol with timers, set by LinkLayer::timer. A timer cannot be cancelled: on_timer checks
-/// whether it is still wanted. `tag` is the value passed to LinkLayer::timer.
+/// whether the timer is still wanted. `tag` is the value passed to LinkLayer::timer.
 template <class T>
 concept HasTimers = requires(T router, LinkLayer& link, NodeId node, std::uint64_t tag) {
     {router.on_timer(link, node, tag)};
@@ -75,15 +75,15 @@ concept ForgetsHeaders = requires(T router, std::uint32_t header) {
 };
 /// Protocol that is notified of the results of its frames: every frame that was sent and neither
 /// cancelled nor taken causes one call. The call never occurs inside a call of the protocol to the
-/// link layer. After a failure the protocol decides about the packet: it sends it again, or ends it
-/// by LinkLayer::drop.
+/// link layer. After a failure the protocol sends the packet again, or drops the packet by
+/// LinkLayer::drop.
 template <class T>
 concept HearsOfResults = requires(T router, LinkLayer& link, const QueuedFrame& frame,
                                   SendResult result) {
     {router.on_sent(link, frame, result)};
 };
-/// Protocol that says which messages it holds references to: a debug build checks at the end of
-/// the run that there are no others.
+/// Protocol that knows to which messages it holds references. A debug build checks at the end of
+/// the run that the protocol holds no other references.
 template <class T>
 concept KeepsMessages = requires(const T router, MessageId message) {
     { router.keeps(message) } -> std::convertible_to<bool>;
@@ -95,8 +95,8 @@ enum class PacketStyle {
     /// "-P aodv -Pt 0x2 -Ph 1 ... -Pc REQUEST "
     tags,
 };
-/// Protocol that shows the content of its control packets in traces: describe() appends it to
-/// `text`.
+/// Protocol that shows the content of its control packets in traces: describe() appends the content
+/// to `text`.
 template <class T>
 concept DescribesPackets = requires(const T router, const Message& message, const Frame& frame,
                                     PacketStyle style, std::string& text) {
@@ -122,13 +122,13 @@ concept HasOwnTtls = requires(const T router, const Message& message) {
 /// Traits of a protocol: optional static members, false by default. The network reads them once,
 /// when the protocol is set.
 struct RouterTraits {
-    /// The protocol routes messages to one node, not only to everyone; Network::send() sends them
-    /// over one hop otherwise.
+    /// True if the protocol routes messages to one node, not only to everyone. If false,
+    /// Network::send() sends unicasts over one hop.
     bool routes_unicasts = false;
-    /// on_receive also gets unicasts for other nodes; the fates that it sets for them are not
-    /// recorded.
+    /// True if on_receive also gets unicasts for other nodes (overhearing). The fates that it sets
+    /// for these unicasts are not recorded.
     bool overhears = false;
-    /// The protocol calls LinkLayer::level, which computes a path loss for each reception.
+    /// True if the protocol calls LinkLayer::level, which needs a path loss for each reception.
     bool wants_levels = false;
 };
 

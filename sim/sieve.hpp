@@ -19,7 +19,7 @@ namespace rovernet {
 ///   use(odd.kept());
 ///
 /// Reuse a Sieve for its memory, which grows to the largest number of kept values and is never
-/// freed. The medium finds receivers with it, a flood the copies that it has not received before.
+/// freed. The medium finds receivers with a Sieve, a flood the copies not received before.
 ///
 /// @tparam T  default-constructible and copyable, small
 template <class T>
@@ -34,8 +34,8 @@ class Sieve {
         *next_ = value;
         next_ += keep;
     }
-    /// Reserves memory for `count` more values, for a loop that writes them itself without a check
-    /// for each. Call keep_to() after the loop.
+    /// Reserves memory for `count` more values, for a loop that writes values itself without a
+    /// check of memory. Call keep_to() after the loop.
     /// @return pointer to the place of the next value
     T* room(std::size_t count) {
         if (end_ - next_ < static_cast<std::ptrdiff_t>(count)) grow(count);

@@ -12,7 +12,7 @@
 #include <utility>
 
 // Interface for observers of a run: traces, metrics, fingerprints, pictures. A sink is a plain
-// struct that satisfies RecordSink; the handle Sink shares it. examples/own_sink.cpp has one.
+// struct that satisfies RecordSink; the handle Sink shares it. Example: examples/own_sink.cpp.
 //
 //     struct Losses {
 //         std::uint64_t count = 0;
@@ -32,17 +32,18 @@ struct RunInfo {
     std::function<std::string()> scenario;
     /// Number of robots at the start; more may be added.
     std::size_t robots;
-    /// Name of a robot, valid until the next robot is added. @throws std::out_of_range
+    /// Name of a robot, valid until the next robot is added. @throws std::out_of_range if there is
+    /// no such robot
     std::function<std::string_view(NodeId)> name;
     /// Seed of the run's random draws.
     std::uint64_t seed;
-    /// Number of the independent repetition.
+    /// Number of the run's independent repetition (replication).
     std::uint32_t replication;
 };
 
 /// Observer of records. kinds() is called once, when the sink is added, and returns the kinds of
-/// records that it wants; on() then gets each of them, in the order of the run. `context` gives
-/// access to the state of the network.
+/// records that the sink wants. on() then gets each record of these kinds, in the order of the run.
+/// `context` gives access to the state of the network.
 ///
 /// A sink only observes: it must not change the network, nor add or remove sinks. Metrics,
 /// Fingerprint, Ns2Trace, Timeline and Trails are sinks.
@@ -69,7 +70,7 @@ concept FinishesWithRun = requires(T sink) {
 /// Example: examples/own_sink.cpp.
 class Sink {
   public:
-    /// @param sink  not null; its kinds() is called now
+    /// @param sink  sink, not null; its kinds() is called now
     template <RecordSink T>
     Sink(std::shared_ptr<T> sink)
         : kinds_(sink->kinds()),
@@ -83,8 +84,8 @@ class Sink {
               if constexpr (FinishesWithRun<T>) static_cast<T*>(p)->finish();
           }),
           self_(std::move(sink)) {}
-    /// Moves the sink into the handle, for sinks whose result is not read. Its type needs no base
-    /// class and no registration:
+    /// Moves the sink into the handle, for sinks whose result is not read. The type of the sink
+    /// needs no base class and no registration:
     ///
     ///   network.add_sink(Sink{Losses{}});
     template <RecordSink T>

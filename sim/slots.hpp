@@ -12,19 +12,19 @@
 namespace rovernet {
 
 /// Numbered slots for temporary values, such as frames in flight. Released slots are reused. Values
-/// do not move: references stay valid. Memory follows the largest number of slots in use at once.
+/// do not move: references stay valid. Memory follows the largest number of slots in use.
 ///
 ///   const std::size_t slot = flights.take();
 ///   flights[slot] = ...;
 ///   flights.release(slot);
 ///
-/// @tparam T  as for Chunks
+/// @tparam T  default-constructible and movable, see Chunks
 template <class T>
 class Slots {
   public:
-    /// Takes an unused slot, the last one that was released. @return its number. The slot contains
-    /// the value of its last user, whose memory (of a vector, for example) can be reused; a new
-    /// slot contains T{}.
+    /// Takes an unused slot, the last one that was released. @return number of the slot. The slot
+    /// contains the value of its last user, whose memory (of a vector, for example) can be reused;
+    /// a new slot contains T{}.
     std::size_t take() {
         if (free_.empty()) {
             values_.push_back({});
@@ -34,7 +34,7 @@ class Slots {
         free_.pop_back();
         return slot;
     }
-    /// Releases a slot, once. Its value stays, unused, until the slot is taken again.
+    /// Releases a slot that is in use. Its value stays, unused, until the slot is taken again.
     void release(std::size_t slot) { free_.push_back(slot); }
 
     /// Value in a slot that is in use; not checked.
@@ -42,9 +42,9 @@ class Slots {
     const T& operator[](std::size_t slot) const { return values_[slot]; }
 
   private:
-    // Values of all places, in use or free.
+    // Values of all slots, in use or free.
     Chunks<T> values_;
-    // Free places.
+    // Numbers of the free slots.
     std::vector<std::size_t> free_;
 };
 

@@ -9,8 +9,8 @@
 
 namespace rovernet {
 
-/// Clock of the simulation: signed 64-bit nanoseconds since the start of the run (292 years). It
-/// has no now(); World::now returns the current time.
+/// Clock of the simulation: signed 64-bit nanoseconds since the start of the run (292 years).
+/// SimClock has no now(); World::now is the current time.
 struct SimClock {
     /// Member types that std::chrono requires of a clock.
     using rep = std::int64_t;

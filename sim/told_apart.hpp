@@ -5,8 +5,9 @@
 
 namespace rovernet {
 
-/// Decimal number for a message that compares it with a limit: rounded to `decimals` places, or to
-/// more if the rounded number would not lie on the same side of the limit as `v`.
+/// Text of a decimal number, for a message that compares the number with a limit. The number is
+/// rounded to `decimals` places, or to more if rounding would put it on the other side of the
+/// limit.
 ///
 ///   told_apart(0.0996, 0.1, 3) == "0.0996";  // not 0.100, which is not below 0.1
 ///

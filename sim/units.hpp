@@ -5,7 +5,7 @@
 #include <cstdint>
 
 // Physical quantities as separate types: the compiler rejects a gain used as a level, or a distance
-// as a frequency. Each stores one double, `value`, in the unit of its name, at no extra cost.
+// as a frequency. Each has one double, `value`, in the unit of its name, at no extra cost.
 //
 //     const Dbm received = 16_dBm + 3_dB - 92_dB;   // a level and ratios: -73 dBm
 //     const Db margin = received - Dbm{-75};        // two levels: 2 dB

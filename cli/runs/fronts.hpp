@@ -13,19 +13,20 @@
 
 namespace rovernet::cli {
 
-/// Fronts that the commands live and emulate serve at an address, each by its option.
+/// Options of the commands live and emulate that each start a front: a server for one network
+/// protocol of external programs, such as rosbridge.
 inline constexpr std::array front_options = {
     &rosbridge_option,
 };
 
-/// Options for the fronts that are served.
+/// Values of the options for fronts (protocol servers): the address of each front, or none.
 struct FrontArguments {
     std::array<std::optional<std::string>, front_options.size()> addresses;
 
-    /// Adds the options to a command. @return the options
+    /// Adds the options of all fronts to a command. @return the added options
     std::vector<Option> add_to(Command command);
     bool any() const;
-    /// Adds the listeners of the fronts that were asked for.
+    /// Appends to `fronts` the listeners of each front whose option is given.
     void append_to(std::vector<FrontListeners>& fronts, const Reach& reach) const;
 };
 

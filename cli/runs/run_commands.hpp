@@ -22,7 +22,7 @@ struct RunArguments : FileArguments {
 };
 void run(const RunArguments& arguments);
 
-/// Arguments shared by the commands that run a study.
+/// Arguments shared by the commands that run a study: sweep, compare, advise.
 struct StudyArguments : FileArguments {
     std::optional<std::string> store;
     std::optional<std::uint64_t> replications, max_replications;
@@ -37,8 +37,8 @@ struct StudyArguments : FileArguments {
 struct SweepArguments : StudyArguments {
     std::optional<std::uint64_t> shard;
     std::uint64_t chunk = 50;
-    std::optional<std::string> except;  ///< store whose finished runs this sweep skips
-    std::vector<std::string> merge;     ///< stores to merge into the study's store
+    std::optional<std::string> except;  ///< path of a store whose finished runs this sweep skips
+    std::vector<std::string> merge;     ///< paths of stores to merge into the study's store
     std::string executor = "local", sbatch;
     bool dry_run = false, resume = false, fresh = false, yes = false;
 };
@@ -46,7 +46,7 @@ void sweep(const SweepArguments& arguments);
 
 struct CompareArguments : StudyArguments {
     std::vector<std::string> models;
-    std::optional<std::string> vary;  ///< KEY=VALUE,VALUE,...: values to compare, not models
+    std::optional<std::string> vary;  ///< values to compare instead of models: KEY=VALUE,VALUE,...
     std::string metric, baseline;
     std::optional<double> margin;
     std::optional<std::string> picture;

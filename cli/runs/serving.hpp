@@ -17,29 +17,32 @@
 /// Functions shared by the commands that serve external programs (live, emulate).
 namespace rovernet::cli {
 
-/// Reads a time of an option, such as "30 s" or 30s. @throws InputError
+/// Reads the value of a command-line option as a time > 0, such as "30 s" or 30s.
+/// @throws InputError at the option
 std::chrono::nanoseconds time_of(const std::string& option, const std::string& text);
 
-/// Folder for the results: `out`, or the default folder of `rovernet run`.
+/// Folder for the results of a run: `out` if it is given, or else the default folder of `rovernet
+/// run`.
 std::string results_folder(const std::optional<std::string>& out, const Scenario& scenario,
                            const ScenarioOptions& options);
 
-/// Options that decide which machines can reach the servers of a run.
+/// Options that determine which machines can reach the servers of a run: --listen, --insecure.
 struct Reach {
     std::optional<std::string> listen;
     bool insecure = false;
 
-    /// Adds the options of this struct to a command.
+    /// Adds the options --listen and --insecure to a command.
     void add_to(Command command);
-    /// Address of a server whose clients need a token if other machines can reach it.
+    /// Address of a server that requires a token if other machines can reach it, read from a text.
     /// @throws CommandEnd if the text is no address
     Address with_token(const std::string& text) const;
-    /// Address of a server without access control: a loopback address, unless --insecure is given.
+    /// Address of a server without access control, read from a text: a loopback address, unless
+    /// --insecure is given.
     Address without_token(const std::string& text) const;
 };
 
-/// Signal handling of a run that serves programs: a signal ends the run, and its results are
-/// written. While the network is set up, a signal ends the process at once.
+/// Signal handling of a run that serves programs. A signal (Ctrl-C, SIGTERM) ends the run, and the
+/// results are written. While the network is set up, a signal ends the process immediately.
 class ServingStop {
   public:
     /// Rules for stopping a run on signals; valid as long as this object.
@@ -54,8 +57,8 @@ enum class Announced {
     by_output,  ///< standard output, where programs can read them
     by_notice,  ///< standard error, like all notices, since standard output contains one document
 };
-/// Function that prints announcements of a run, for the user and for programs that wait for its
-/// addresses.
+/// Function that prints announcements of a run, such as server addresses, on the given channel. The
+/// user and programs that wait for an address read them.
 std::function<void(std::string_view)> announcer(Announced announced);
 
 }  // namespace rovernet::cli

@@ -5,8 +5,8 @@
 
 namespace rovernet::cli {
 
-/// Prints an advice: a table of the compared candidates, the advice as a sentence, and the chosen
-/// models as tables of a scenario file; or everything as JSON.
+/// Prints an advice on models: a table of the compared candidates, the advice as a sentence, and
+/// the chosen models as tables of a scenario file. With `json` all of this is printed as JSON.
 void print_advice(const Advice& advice, bool json);
 
 }  // namespace rovernet::cli

@@ -7,23 +7,24 @@
 
 namespace rovernet::cli {
 
-/// Options that override a study's scenario file, including options for its replications.
+/// Options that override a study's scenario file, including options that override its [study], such
+/// as the number of replications.
 ScenarioOptions study_options(const StudyArguments& arguments);
 
 /// Whether finished runs are kept or lost when a study is interrupted.
 enum class Finished { is_kept, is_lost };
 
-/// Runs a study with workers, and shows its progress. Ctrl-C stops it; running runs are completed
-/// first if finished runs are kept.
-/// @param options  selection of the runs to make; other options are set from `arguments`
+/// Runs a study with worker processes, and shows its progress. Ctrl-C stops the study. If finished
+/// runs are kept, the current runs are completed first.
+/// @param options  selection of the runs to make; its other members are set from `arguments`
 SweepResult run_study(const StudyArguments& arguments, Study& study, Store& store,
                       SweepOptions options = {}, Finished finished = Finished::is_kept);
 
-/// Checks how a study ended. @throws CommandEnd if it was interrupted, or some runs failed
+/// Checks that a study was completed. @throws CommandEnd if it was interrupted, or some runs failed
 void check_end(const StudyArguments& arguments, const Store& store, const SweepResult& result);
 
-/// Checks that every point has the precision of the study. @throws CommandEnd with the reached
-/// precision if not
+/// Checks that every point of a study (combination of varied values) has reached the precision that
+/// the study requires. @throws CommandEnd, naming the points and their precision, if not
 void check_precision(const Study& study, const SweepResult& result);
 
 }  // namespace rovernet::cli

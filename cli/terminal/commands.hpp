@@ -34,7 +34,8 @@ class CommandEnd : public std::runtime_error {
     ExitCode code_;
 };
 
-/// Argument FILE (a scenario, a Stage world or a movement file) and the options that override it.
+/// Argument FILE of a command (a scenario, a Stage world or a movement file), and the options that
+/// override the content of FILE.
 struct FileArguments {
     std::string file;
     std::optional<std::uint64_t> seed, replication;

@@ -17,9 +17,9 @@ namespace rovernet::cli {
 /// Adds --quiet and --verbose, which every command has.
 void add_verbosity(Command command);
 
-/// Adds a subcommand of `parent`. Its arguments live as long as the command; `run` gets them after
-/// parsing.
-/// @return the command and its arguments, to add options
+/// Adds a subcommand to `parent`. `run` executes the subcommand with its arguments after parsing.
+/// The arguments exist as long as the subcommand.
+/// @return the subcommand and its arguments, for adding options
 template <class Arguments>
 std::pair<Command, Arguments&> add_command(Command parent, const char* name, const char* what,
                                            void (*run)(const Arguments&)) {
@@ -38,18 +38,19 @@ struct ManualArguments {
 void print_completion(const ManualArguments& arguments);
 void print_man_page(const ManualArguments& arguments);
 
-/// Adds FILE and the options that override it, except options of a single run.
+/// Adds the argument FILE and the options that override it, except --replication, which is for
+/// commands of a single run.
 void add_study_file(Command command, FileArguments& arguments, const char* what);
-/// Adds FILE and the options that override it.
+/// Adds the argument FILE and all options that override it, including --replication.
 void add_file(Command command, FileArguments& arguments, const char* what);
 void add_json(Command command, bool& json);
-/// Adds --interval, the method for intervals of means: t, betting or star.
+/// Adds the option --interval, the method of confidence intervals of means: t, betting or star.
 void add_interval(Command command, std::optional<std::string>& interval);
 
 constexpr const char* any_file =
     "scenario (.toml; - for standard input), Stage world (.world) or movement file";
 
-/// Checks of the number given as an option's value. Their errors name what was found and expected.
+/// Checks of an option's value, a number. The error message names the found and the expected value.
 Check above_zero();
 Check not_negative();
 Check below_90_degrees();
@@ -67,7 +68,7 @@ void add_result_commands(Command app);
 void add_trace(Command app);
 /// Adds the command live.
 void add_live(Command app);
-/// Adds emulate, and `in`, which runs programs in an emulated network.
+/// Adds the commands `emulate` and `in`. The command `in` runs programs in an emulated network.
 void add_emulate(Command app);
 void add_in(Command app);
 /// Adds the command locate.

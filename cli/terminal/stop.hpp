@@ -7,8 +7,9 @@
 
 namespace rovernet::cli {
 
-/// Makes Ctrl-C (SIGINT), SIGTERM and SIGHUP end the process and the programs that it has started
-/// at once, with exit code 130. SIGHUP stays ignored if it was ignored before, as by nohup.
+/// Installs handlers by which Ctrl-C (SIGINT), SIGTERM and SIGHUP immediately end the process, with
+/// exit code 130, and the programs that it has started. If SIGHUP was ignored before (by nohup,
+/// say), it is still ignored.
 void end_on_signals();
 
 /// Guard that defers stop signals (Ctrl-C, SIGTERM) during its lifetime: they are only counted, so
@@ -21,11 +22,11 @@ class HeldStop {
     HeldStop& operator=(const HeldStop&) = delete;
 };
 
-/// Writes files with stop signals deferred, so that no file is written partly.
+/// Writes files while stop signals (Ctrl-C, SIGTERM) are deferred, so that no file is incomplete.
 /// @throws RunError as write_files()
 void write_whole(const std::vector<OutputFile>& files);
 
-/// Number of stop signals received while a HeldStop deferred them.
+/// Number of stop signals (Ctrl-C, SIGTERM) that were received while a HeldStop deferred them.
 int stops_asked();
 
 }  // namespace rovernet::cli

@@ -8,8 +8,8 @@
 
 namespace rovernet::cli {
 
-/// Progress display of a sweep on standard error: a changing line on a terminal, otherwise a new
-/// line every 10 s.
+/// Progress display of a sweep on standard error. On a terminal it is one line that is updated.
+/// Otherwise a new line is printed every 10 s.
 class SweepDisplay {
   public:
     SweepDisplay();
@@ -28,6 +28,7 @@ class SweepDisplay {
 };
 
 /// Text of a sweep's progress: "12 runs finished, 1 failed, 87 left; 3.4 runs/s, 26 s to go".
+/// @param elapsed_s  time since the start of the sweep [s]
 std::string progress_text(const SweepProgress& progress, double elapsed_s);
 
 /// Text of a duration [s]: "26 s", "4 min", "3.2 h".

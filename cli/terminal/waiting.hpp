@@ -7,9 +7,9 @@
 
 namespace rovernet::cli {
 
-/// Progress display of one step of a command, on a terminal, for steps longer than 1 s. It shows
-/// the finished share and the time left if tell() is called. With --verbose the duration of the
-/// step is printed. Only one display may exist at a time.
+/// Progress display of one step of a command, on a terminal, for steps longer than 1 s. If tell()
+/// is called, it shows the finished share and the remaining time. With --verbose the duration of
+/// the step is printed at its end. Only one display may exist at a time.
 class Waiting {
   public:
     /// @param what  description of the step, such as "reading office.toml"
@@ -18,8 +18,8 @@ class Waiting {
     Waiting(const Waiting&) = delete;
     Waiting& operator=(const Waiting&) = delete;
 
-    /// Reports the finished share of the step, 0 ... 1; cheap enough to be called often. A share
-    /// below the previous one starts a new part, with a separate time estimate.
+    /// Reports the finished share of the step, 0 ... 1. The function may be called often. A share
+    /// below the previous share starts a new part of the step, with a separate time estimate.
     void tell(double share);
 
   private:
@@ -30,12 +30,13 @@ class Waiting {
     Clock::time_point started_ = Clock::now();
     Clock::time_point next_;  // time of the next update of the line
     std::optional<Clock::time_point>
-        told_  // first report of the part; earlier time is no part of the estimate
+        told_  // time of the first report of the current part, from which the estimate starts
         = std::nullopt;
     double told_share_ = 0;
 };
 
-/// Progress bar: "[====      ]  42 %, 26 s to go"; without the time while the share is 0.
+/// Text of a progress bar: "[====      ]  42 %, 26 s to go". If the finished share (0 ... 1) is 0,
+/// the remaining time is omitted.
 std::string share_text(double share, double elapsed_s);
 
 }  // namespace rovernet::cli

@@ -25,7 +25,7 @@ void loss(const LossArguments& arguments);
 struct MaterialArguments {
     std::string material, thickness;
     std::string frequency = "2450 MHz";
-    double angle = 0;  ///< angle of incidence, from the normal [degrees]
+    double angle = 0;  ///< angle of incidence of the wave, from the wall's normal [degrees]
     bool json = false;
 };
 void material(const MaterialArguments& arguments);

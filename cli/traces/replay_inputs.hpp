@@ -5,7 +5,8 @@
 
 namespace rovernet::cli {
 
-/// Replays the inputs of a live run's log, and compares the fingerprints.
+/// Runs a scenario again with the inputs (commands) that a log of a live run contains, and compares
+/// the fingerprint of the new run with the fingerprint in the log.
 /// @throws CommandEnd if the fingerprints differ
 void verify_inputs(const ReplayArguments& arguments);
 

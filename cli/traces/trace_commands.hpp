@@ -51,12 +51,13 @@ void trace_follow(const TraceFollowArguments& arguments);
 struct ReplayArguments {
     std::string file;
     bool verify = false;
-    /// Radio settings, each "path=value", or several separated by ";".
+    /// Radios with which the recorded run is simulated again. Each element is a setting
+    /// "path=value", or several settings separated by ";".
     std::vector<std::string> with;
-    std::optional<std::string> map;  ///< map file to use with the radio settings `with`
+    std::optional<std::string> map;  ///< map file to use instead of the recorded map
     std::optional<double> speed;
-    // For an ns-2 trace: radio settings, as in `with`; routing of its messages, "flood" or
-    // "direct"; movement file of its robots.
+    // Options for an ns-2 trace: settings of the radio with which others are compared, in the form
+    // of `with`; routing of the messages, "flood" or "direct"; path of the robots' movement file.
     std::optional<std::string> as, routing, movements;
     std::optional<std::string> store;
     bool json = false;

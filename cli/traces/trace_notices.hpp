@@ -8,10 +8,11 @@
 
 namespace rovernet::cli {
 
-/// Prints on standard error which lines of a trace are no valid ns-2 lines, if any.
+/// Prints a notice on standard error about the lines of a trace that are no valid ns-2 lines.
 /// @throws InputError if a file of ns-2 text has no valid line
 void tell_refused(const std::string& file, const Ns2Counts& counts);
-/// Prints on standard error the broken or missing parts of a recorded trace.
+/// Prints notices on standard error about the broken or missing parts of a recorded trace.
+/// @param damage  sentences about these parts
 void tell_damage(const std::string& file, const std::vector<std::string>& damage);
 
 }  // namespace rovernet::cli

@@ -11,8 +11,8 @@ namespace rovernet {
 struct Capture {
     /// Number of packets in the capture.
     std::uint64_t packets = 0;
-    /// Number of transmissions and receptions missing in the capture, since the start of their
-    /// frame, or their robot, is in a broken part of the trace.
+    /// Number of transmissions and receptions that the capture lacks, since broken parts of the
+    /// trace contain the start of the frame or the description of the robot.
     std::uint64_t left_out = 0;
     /// Broken or missing parts of the trace, as sentences.
     std::vector<std::string> damage;

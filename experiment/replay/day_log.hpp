@@ -16,7 +16,7 @@
 
 namespace rovernet {
 
-/// Result of a recorded run that is simulated again with given radio models.
+/// Outcome of a recorded run ("day"), as recorded or as simulated again with other radio models.
 struct PlayedDay {
     MetricValues metrics;              ///< metrics without the warm-up of the recorded run
     std::vector<Delivery> deliveries;  ///< all deliveries, in order of time
@@ -41,16 +41,16 @@ struct DayLog {
         bool on;
     };
 
-    /// Legs (pieces of movement) by NodeId; empty: the robot stays at its scenario position.
+    /// Legs (pieces of movement) of each robot, by NodeId; empty if the trace has none.
     std::vector<std::vector<Leg>> legs;
-    std::vector<Said> said;            ///< sent messages, in order of time
+    std::vector<Said> said;            ///< messages sent by applications, in order of time
     std::vector<Turned> turned;        ///< switchings of robots on or off, in order of time
-    std::vector<Heard> heard;          ///< receptions, in order of time; of ns-2 traces only
-    PlayedDay recorded;                ///< recorded outcome, with the radio models of that run
-    std::vector<std::string> notices;  ///< sentences about missing parts of the trace
+    std::vector<Heard> heard;          ///< frame receptions, in order of time; ns-2 traces only
+    PlayedDay recorded;                ///< outcome of the run as recorded
+    std::vector<std::string> notices;  ///< sentences about broken or missing parts of the trace
 };
 
-/// Sink that logs movements, sent messages and switching of robots.
+/// Sink that adds movements, sent messages and switching of robots to a DayLog.
 struct DayLogSink {
     DayLog& log;
 

@@ -20,14 +20,15 @@ struct Delivery {
     NodeId at;
     Time sent;
 
-    /// Order by message, then by receiver; the sending time does not matter.
+    /// Compares deliveries by message (origin, number), then by receiver; `sent` is ignored.
     friend auto operator<=>(const Delivery& a, const Delivery& b) {
         return std::tie(a.origin, a.number, a.at) <=> std::tie(b.origin, b.number, b.at);
     }
     friend bool operator==(const Delivery& a, const Delivery& b) { return (a <=> b) == 0; }
 };
 
-/// Sink that stores every delivery (24 bytes each), in the order of the run.
+/// Sink that stores every delivery of an application's message, in order of time. Memory: 24 bytes
+/// for each delivery.
 struct Deliveries {
     std::vector<Delivery> all = {};
 

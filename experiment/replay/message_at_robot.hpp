@@ -14,23 +14,23 @@
 #include <string_view>
 #include <vector>
 
-// Explanation why a robot got a message or did not, from the records of a trace and from levels
-// that are computed with the trace's scenario.
+// Explanation why a robot received a message or did not receive it. It is derived from the records
+// of a trace and from received power levels that are computed with the trace's scenario.
 
 namespace rovernet {
 
 /// Outcome of a frame at a robot other than its sender.
 enum class Outcome : std::uint8_t {
-    received,       ///< received, for the first time
-    duplicate,      ///< received; the robot already had the message
-    too_weak,       ///< lost: level below the robot's sensitivity
-    off,            ///< lost: the robot was switched off
-    other_network,  ///< frequency, channel or essid of the radios differ
-    for_another,    ///< ignored: a unicast to another robot
-    collided,       ///< lost: other frames were on air
-    busy,           ///< lost: the robot was sending
-    garbled,        ///< lost: bit errors
-    not_told,       ///< unknown: strong enough, but the trace has no record of the frame's end
+    received,       ///< frame received, the first one with this message
+    duplicate,      ///< frame received, but the robot already had the message
+    too_weak,       ///< frame lost: its level is below the robot's sensitivity
+    off,            ///< frame lost: the robot was switched off
+    other_network,  ///< frame ignored: frequency, channel or essid of the radios differ
+    for_another,    ///< frame ignored: a unicast to another robot
+    collided,       ///< frame lost in a collision with other frames on air
+    busy,           ///< frame lost: the robot was sending
+    garbled,        ///< frame lost by bit errors
+    not_told,       ///< outcome unknown: strong enough, but the trace lacks the end of the frame
 };
 /// Names of the outcomes in reports, in the order of the enumeration.
 inline constexpr std::array<std::string_view, 10> names_of_outcome{
@@ -40,25 +40,26 @@ constexpr std::string_view name_of(Outcome outcome) {
     return names_of_outcome[static_cast<std::size_t>(outcome)];
 }
 
-/// Frame that overlapped the examined frame at the robot.
+/// Frame that overlapped the examined frame in time, at the robot that is examined.
 struct OverlappingFrame {
     NodeId from;            ///< sender of the frame; may be the robot itself
     std::string_view kind;  ///< kind of frame, see AirFrame::kind
-    Dbm level;              ///< level at the robot; infinite for the robot's own frame
-    bool has_level = true;  ///< false: the propagation model has no levels (disc)
+    Dbm level;              ///< received level at the robot; infinite for the robot's own frame
+    bool has_level = true;  ///< false if the propagation model (disc) gives no levels
 };
 
-/// Frame of a message at one robot.
+/// Frame of a message, as it arrived at one robot.
 struct FrameAtRobot {
     NodeId from;
     Time begin;  ///< start of the frame at the sender
     Time end;    ///< end of the frame at the robot
-    Dbm level;   ///< level of the frame at the robot, with shadowing and fading
-    Db margin;   ///< level minus the robot's sensitivity [dB]
+    Dbm level;   ///< received level at the robot [dBm], with shadowing and fading
+    Db margin;   ///< received level minus the robot's sensitivity [dB]
     std::size_t walls = 0;
     double wall_m = 0;  ///< length of the direct path inside walls [m]
     double distance_m = 0;
-    /// Range of a model without levels (disc); level and margin are meaningless then.
+    /// Range of the propagation model disc, which gives no levels, so that level and margin are
+    /// meaningless; none: another model.
     std::optional<Meters> range = {};
     Outcome outcome = Outcome::not_told;
     std::vector<OverlappingFrame> others;  ///< overlapping frames at the robot, strongest first
@@ -79,8 +80,8 @@ struct MessageAtRobot {
 /// Examines every frame of a message at a robot.
 /// @param path  recorded trace
 /// @param uid   uid of the message
-/// @throws InputError if the trace has no scenario, the scenario cannot be loaded, or it has no
-/// such robot
+/// @throws InputError if the trace has no scenario, the scenario cannot be loaded, or the trace has
+/// no such robot
 MessageAtRobot message_at_robot(const std::string& path, std::uint64_t uid, NodeId robot);
 
 /// Explanation, in one sentence, why the robot has the message or not:

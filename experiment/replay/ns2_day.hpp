@@ -8,17 +8,21 @@
 
 namespace rovernet {
 
-/// Routing of the replayed messages of an ns-2 trace; the trace's own protocol is not simulated.
+/// Routing of the messages of an ns-2 trace when they are simulated again. The routing protocol of
+/// the ns-2 run is not simulated.
 enum class DayRouting {
-    /// Flood: every robot forwards; a message for one robot is delivered at that robot only.
+    /// Flood: every robot forwards every message. A message for one robot is delivered only at that
+    /// robot.
     flood,
-    /// One hop: to the destination, or to all robots that receive the sender's frame.
+    /// One hop: only robots that receive the sender's frame get the message: its destination, or
+    /// all of these robots if it is a broadcast.
     direct,
 };
 
 struct Ns2DayOptions {
     DayRouting routing = DayRouting::flood;
-    /// Movement file to use instead of the positions in the trace.
+    /// Path of a movement file to use instead of the positions in the trace; none: the positions in
+    /// the trace are used.
     std::optional<std::string> movements = {};
 };
 
@@ -28,8 +32,8 @@ struct Ns2DayOptions {
 ///
 /// The scenario of the run has the default radio of ns-2: 914 MHz, two_ray, 250 m, collisions with
 /// a capture ratio of 10 dB, and the DCF of ns-2 at 1 Mb/s (its EIFS, its times, and a backoff
-/// before every frame). `recorded()` returns the outcome with the trace's own routing protocol: for
-/// display, not for comparison.
+/// before every frame). RecordedDay::recorded() returns the outcome with the routing protocol of
+/// the ns-2 run, which is for display, not for comparison.
 ///
 /// Messages to the sender itself and to addresses of no robot are dropped, with a notice. The trace
 /// does not record when robots are switched off.

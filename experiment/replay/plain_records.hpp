@@ -18,7 +18,7 @@ class PlainRecords {
     /// Checks the next record of a trace. @return whether the record is plain
     bool take(const Record& record, const RecordContext& context);
 
-    /// For each robot number: whether the robot occurs in ns-2 trace lines so far.
+    /// Flag for each robot number: true if the robot occurs in the ns-2 trace lines so far.
     const std::vector<bool>& seen() const { return seen_; }
     /// Number of robots that occur in ns-2 trace lines so far.
     std::uint32_t robots() const { return robots_; }

@@ -22,7 +22,7 @@ namespace rovernet {
 /// Frame that was on air in a recorded run.
 struct RecordedFrame {
     AirFrame air;
-    /// Uid of the frame's message; data frames only.
+    /// Uid of the frame's message; 0 for a frame that is no data frame.
     std::uint64_t uid = 0;
     /// Size of the frame on air [bytes].
     std::uint32_t bytes = 0;
@@ -36,8 +36,9 @@ struct RecordedFrame {
 
 /// Frames on air in a recorded run, and their levels at every robot.
 ///
-/// A recorded trace does not store levels. They are computed again from the scenario in the trace
-/// and the recorded legs, with the shadowing and fading of the run:
+/// A recorded trace does not store received power levels. They are computed again from the scenario
+/// in the trace and the recorded legs (pieces of movement), with the shadowing and fading of the
+/// run:
 ///
 ///   level = power + gains - max(0, L - g)   [dBm]
 ///
@@ -61,8 +62,9 @@ class RecordedAir {
     /// Frames that are on air at the time of the last record or ended in the 10 ms before, in the
     /// order of their starts.
     const std::deque<RecordedFrame>& frames() const { return frames_; }
-    /// Frame of a reception, to be called at the time of the reception's record.
-    /// @param uid  uid of the message; data frames only
+    /// Transmitted frame to which a reception belongs. Must be called when the record of the
+    /// reception is processed.
+    /// @param uid  uid of the message; 0 for a frame that is no data frame
     /// @return null if the record of the frame's start is missing
     const RecordedFrame* frame_of(const AirFrame& air, std::uint64_t uid,
                                   const Reception& reception) const;
@@ -75,7 +77,7 @@ class RecordedAir {
 
     /// Number of robots of the scenario.
     std::size_t robots() const { return names_.size(); }
-    /// Medium with the radios of all robots, in their current state (on or off).
+    /// Medium with the radios of all robots, which are on or off as at the last record.
     const Medium& medium() const { return medium_; }
     /// Scene of the run with all doors open.
     const Scene& scene() const { return *scene_; }
@@ -108,7 +110,7 @@ class RecordedAir {
     std::unique_ptr<const Fades> fades_;
     std::uint64_t records_ = 0;
     std::deque<RecordedFrame> frames_;
-    // Legs of each node that frames_ may still need, in order of time.
+    // Legs of each node in order of time, from the leg at the start of the first frame of frames_.
     std::vector<std::deque<Placed>> legs_;
 };
 

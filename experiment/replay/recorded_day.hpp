@@ -25,8 +25,8 @@ struct DeliveryChange {
 DeliveryChange change_of(const PlayedDay& before, const PlayedDay& after, std::size_t robots);
 
 /// Recorded run (movements and messages) that can be simulated again with other radio models.
-/// Robots move, send and are switched as recorded. Robots do not react to the new messages: to have
-/// them react, run the scenario with other settings.
+/// Robots move, send and are switched on and off as recorded. They do not react to the messages of
+/// the new simulation. To simulate reactions, run the scenario with other settings instead.
 ///
 ///     const RecordedDay day("runs/rescue-s7/trace.mcap");
 ///     const PlayedDay other = day.play({"propagation.model=friis"});
@@ -36,7 +36,7 @@ class RecordedDay {
     /// @param path  recorded trace
     /// @throws InputError if the file is no recorded trace, or has no scenario
     explicit RecordedDay(const std::string& path);
-    /// Recorded run whose trace, in any format, has already been read.
+    /// Makes a recorded run from a trace that has already been read, in any format.
     /// @param run   scenario, and names of robots by NodeId
     /// @param path  path of the trace, for errors, and to find files that are not attached
     /// @param log   actions of the robots, and outcome of the run, from the trace
@@ -51,8 +51,7 @@ class RecordedDay {
     const PlayedDay& recorded() const { return log_.recorded; }
     /// Simulates the recorded movements and messages with the radio models of the scenario,
     /// overridden by assignments "path=value". A routing protocol that only supports messages to
-    /// everyone also carries messages for one robot: it floods them, and they count as delivered at
-    /// that robot only.
+    /// everyone floods messages for one robot, too. They are delivered only at that robot.
     /// @param progress  called with the finished share, 0 ... 1; returning false stops the
     /// simulation
     /// @throws InputError, RunError, Interrupted
@@ -60,11 +59,13 @@ class RecordedDay {
                    const std::function<bool(double)>& progress = {}) const;
 
     /// Warning, as a sentence, that at least a tenth of the messages start at the same instant and
-    /// collide under the access model of the scenario with the assignments `set`; empty: fewer do.
+    /// collide under the access model of the scenario with the assignments `set`. Empty if fewer
+    /// messages collide.
     /// @throws InputError
     std::string starts_together(const std::vector<std::string>& set) const;
     /// Warning, as a sentence, that the farthest reception in the trace is out of range of the
-    /// radio with the assignments `set`; empty: it is in range, or the trace has no receptions.
+    /// radio of the scenario with the assignments `set`. Empty if the reception is in range, or if
+    /// the trace has no receptions.
     /// @throws InputError
     std::string hears_farther(const std::vector<std::string>& set) const;
 

@@ -9,18 +9,18 @@
 
 namespace rovernet {
 
-/// Path of a message in a recorded trace.
+/// Path of a message through the network, from a recorded trace.
 struct RecordedWay {
     FollowedMessage way;
     /// Names of the robots, by robot number.
     std::vector<std::string> robots;
-    /// Broken or missing parts of the trace.
+    /// Sentences about broken or missing parts of the trace.
     std::vector<std::string> damage;
 };
 
-/// Follows a message through a recorded trace. The result equals follow_ns2() on the ns-2 text of
-/// the run. ns-2 lines are made from records of that message only, or from all records if some line
-/// would be rejected. `way.counts` contains only the number of rejected lines.
+/// Follows a message through a recorded trace. The result equals that of follow_ns2() on the ns-2
+/// text of the run. Only records of this message are converted to ns-2 lines, or all records if
+/// some line would be rejected. `way.counts` contains only the number of rejected lines.
 /// @throws InputError as follow_ns2()
 RecordedWay follow_recorded(const std::string& path, std::uint64_t uid,
                             Ns2Strictness strictness = Ns2Strictness::tolerant);

@@ -11,13 +11,13 @@ namespace rovernet {
 
 /// Statistics of a recorded trace.
 struct RecordedStats {
-    /// Counts of ns-2 lines, including MAC lines. Metrics and drops are those of the run, without
-    /// the warm-up.
+    /// Statistics: counts of ns-2 lines, including MAC lines, and the metrics and drops of the run.
+    /// Only metrics and drops exclude the warm-up.
     TraceStats stats;
     /// Number of receptions in the whole file, including duplicates and the warm-up.
     std::uint64_t receptions = 0;
     std::uint64_t file_bytes = 0;  ///< size of the trace file [bytes]
-    /// Broken or missing parts of the trace.
+    /// Sentences about broken or missing parts of the trace.
     std::vector<std::string> damage;
 };
 

@@ -15,8 +15,8 @@ namespace rovernet {
 
 /// Result of running the scenario of a trace again and comparing its records with the trace.
 struct Verification {
-    /// First record that differs, recorded and as computed now: an ns-2 line, or the text of
-    /// append_text(); empty: that run has ended before.
+    /// First difference: a record of the trace and the record computed now, each as an ns-2 line or
+    /// as the text of append_text(). Empty if the recorded or the new run has already ended.
     struct Difference {
         std::string recorded, now;
     };
@@ -26,16 +26,16 @@ struct Verification {
     std::optional<Difference> difference;
     /// Version of rovernet that recorded the trace (empty: unknown), and the running version.
     std::string recorded_by, version;
-    /// Broken or missing parts of the trace.
+    /// Sentences about broken or missing parts of the trace.
     std::vector<std::string> damage;
 
     /// Whether the whole run is reproduced: nothing differs, and no part of the trace is missing.
     bool is_identical() const { return !difference && damage.empty(); }
 };
 
-/// Runs the scenario of a trace again, and compares every record (recorded trace, which includes
-/// its scenario) or every line (ns-2 trace of rovernet, whose scenario is the file `scenario.toml`
-/// beside it).
+/// Runs the scenario of a trace again, and compares the new run with the trace. For a recorded
+/// trace, which contains its scenario, every record is compared. For an ns-2 trace of rovernet,
+/// whose scenario is the file `scenario.toml` in the same folder, every line is compared.
 /// @param progress  called with the finished share, 0 ... 1; returning false stops the run
 /// @throws InputError, RunError, Interrupted
 Verification verify_replay(const std::string& path, const std::function<bool(double)>& progress);

@@ -11,8 +11,8 @@
 
 namespace rovernet {
 
-/// Adapter that lets a flooding protocol carry messages to one robot: all robots receive and
-/// forward them, and only the destination delivers them.
+/// Adapter by which a flooding protocol carries messages for one robot. All robots receive and
+/// forward such a message. Only the destination delivers it to its application.
 /// @tparam wants_level  RouterTraits::wants_levels of the protocol
 template <bool wants_level>
 class ToDestination {
@@ -56,8 +56,8 @@ class ToDestination {
     Router protocol_;
 };
 
-/// Protocol that also carries messages to one robot: `protocol` itself if it can, or else wrapped
-/// in ToDestination.
+/// Protocol that also carries messages for one robot: `protocol` itself if it routes unicasts, or
+/// else `protocol` wrapped in ToDestination.
 inline Router to_destinations(Router protocol) {
     if (protocol.traits().routes_unicasts) return protocol;
     const bool wants_levels = protocol.traits().wants_levels;

@@ -12,17 +12,18 @@
 namespace rovernet {
 
 /// Trace of either kind as ns-2 text: an ns-2 trace file, or a recorded trace, whose text is
-/// generated during reading. Every reader of ns-2 traces can read both.
+/// generated during reading. So every reader of ns-2 traces can also read recorded traces.
 ///
 ///     TraceInput trace("runs/rescue-s7/trace.mcap", {.format = Ns2Format::old_format});
 ///     const TraceStats stats = ns2_stats(trace.text());
 ///     for (const std::string& what : trace.damage()) notice(what);
 class TraceInput {
   public:
-    /// Format of the lines that are generated from a recorded trace.
+    /// Options of the ns-2 lines that are generated from a recorded trace.
     struct Lines {
         Ns2Format format = Ns2Format::new_format;
-        /// Whether MAC lines are generated; none: as [trace] mac of the scenario in the trace.
+        /// Choice whether MAC lines are generated; none: by the key mac of [trace] in the scenario
+        /// of the trace.
         std::optional<MacTrace> mac = {};
     };
 
@@ -34,18 +35,20 @@ class TraceInput {
     Ns2Source text() const;
     /// Names of the robots, by number; recorded traces only.
     const std::vector<std::string>& robots() const;
-    /// Broken or missing parts of a recorded trace, as far as it was read; empty: none.
+    /// Sentences about broken or missing parts of a recorded trace, as far as it was read; empty if
+    /// no part is broken or missing.
     const std::vector<std::string>& damage() const;
 
   private:
     struct Recorded;
 
     std::string path_;
-    std::shared_ptr<Recorded> recorded_;  // null: a file of ns-2 text
+    std::shared_ptr<Recorded> recorded_;  // recorded trace; null: the trace is a file of ns-2 text
 };
 
 /// Writes the ns-2 trace of a recorded run, byte for byte as the run would have written it.
-/// @return broken or missing parts of the recorded trace
+/// @param in, out  paths of the recorded trace and of the ns-2 trace
+/// @return sentences about broken or missing parts of the recorded trace
 /// @throws InputError, RunError
 std::vector<std::string> render_recorded(const std::string& in, const std::string& out,
                                          TraceInput::Lines lines);

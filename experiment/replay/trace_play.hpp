@@ -10,15 +10,15 @@ namespace rovernet {
 
 /// Callbacks of play_trace().
 struct TracePlay {
-    /// Called with each event of the trace, when its time has come.
+    /// Callback with the line of each event of the trace, called at the time of the event.
     std::function<void(std::string_view line)> show;
-    /// Called at least every 50 ms during waits; returning false stops the play.
+    /// Callback at least every 50 ms while play_trace() waits; returning false stops the playback.
     std::function<bool()> goes_on;
 };
 
-/// Plays a trace: shows its events in turn, paced by the clock, from the first event on.
-/// @param speed  > 0: seconds of the trace in a second of real time
-/// @return false if it was stopped
+/// Plays a trace: shows its events one after the other, paced by the clock, from the first event.
+/// @param speed  trace time over real time [-], > 0
+/// @return false if the callback `goes_on` stopped the playback
 /// @throws InputError as Ns2File
 bool play_trace(Ns2Source source, double speed, const TracePlay& play);
 

@@ -16,7 +16,8 @@ struct LinkGraph {
     int diameter = 0;              ///< longest shortest path between connected robots [hops]
 };
 
-/// Computes the topology of `robots` robots. @param links  pairs of linked robots, each once
+/// Computes the topology of a network of `robots` robots.
+/// @param links  pairs of robots with a bidirectional link, each once
 LinkGraph link_graph(std::size_t robots,
                      const std::vector<std::pair<std::uint32_t, std::uint32_t>>& links);
 

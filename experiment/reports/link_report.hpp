@@ -17,21 +17,21 @@ namespace rovernet {
 
 struct Scenario;
 
-/// Report of the link from robot A to robot B at a time.
+/// Report of the state of the radio link from one robot to another robot at a given time.
 struct LinkReport {
     std::string from, to, model;
     Time at;
     double distance_m;
     std::vector<Wall> walls;
-    std::vector<std::string> materials;  ///< material of each wall on the link
-    std::vector<Db> wall_losses;         ///< loss of each wall [dB]; included in the path loss
+    std::vector<std::string> materials;  ///< name of the material of each wall on the link
+    std::vector<Db> wall_losses;         ///< loss of each wall [dB], included in the path loss
     double wall_m;
     /// Number of ceilings between the antennas, in a scene with several storeys.
     std::size_t ceilings;
-    Db ceiling_loss;  ///< loss of all ceilings; included in the path loss
-    /// Number of floors between the antennas whose loss the propagation model gives.
+    Db ceiling_loss;  ///< loss of all ceilings on the link [dB], included in the path loss
+    /// Number of floors between the two antennas whose loss the propagation model gives.
     std::size_t floors;
-    Db floor_loss;  ///< loss of the floors counted in `floors`; included in the path loss
+    Db floor_loss;  ///< loss of the floors counted in `floors` [dB], included in the path loss
     Radio sender, receiver;
     Db path_loss;                 ///< total path loss of the link, including walls and shadowing
     std::optional<Db> shadowing;  ///< shadowing, included in the path loss; none: no shadowing
@@ -39,15 +39,17 @@ struct LinkReport {
     Dbm received;
     Db margin;
     bool up;               ///< true if the received level suffices and both robots are on
-    std::string why_down;  ///< reason, such as "B is off"; empty if the link is up
+    std::string why_down;  ///< reason why the link is down: "B is off"; empty if it is up
     std::optional<Rays::Paths> rays;  ///< propagation paths (rays), if the model is `rays`
-    /// Range of a propagation model without levels (disc); the values in dB are meaningless then.
+    /// Range of the propagation model disc, which gives no levels, so that the values in dB are
+    /// meaningless; none: another model.
     std::optional<Meters> range;
 };
 
-/// Runs the scenario until `at`, then reports one link. To save time, only these two robots move,
-/// and the robots on which their movements depend, unless the scenario has reactions.
-/// @throws std::invalid_argument if a robot does not exist or both are the same
+/// Runs the scenario until the time `at`, then reports the link from robot `from` to robot `to`. If
+/// no robot has reactions, only these two robots and the robots that they follow move, to save
+/// computing time.
+/// @throws std::invalid_argument if a robot does not exist, or if both are the same robot
 LinkReport report_link(const Scenario& scenario, const std::string& from, const std::string& to,
                        Time at, const TellTime& tell = {});
 

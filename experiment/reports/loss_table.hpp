@@ -15,15 +15,16 @@ struct LossRow {
     Db loss;
 };
 
-/// Heights of the antennas above the ground [m], >= 0.
+/// Heights above the ground of the sender's and the receiver's antenna [m], >= 0.
 struct LossAntennas {
     Meters from, to;
 };
 
-/// Median path loss (shadowing off) of a listed model over distance.
-/// @param parameters  "name=value" each; parameters that are not given take the model's defaults
-/// @param distances   [m] horizontal
-/// @param wall        [m] length of the path inside walls
+/// Median path loss (without shadowing) of a propagation model at several distances.
+/// @param model       name of the model, see list_models()
+/// @param parameters  texts "name=value"; parameters that are not given have the model's defaults
+/// @param distances   horizontal distances [m]
+/// @param wall        length of the path inside walls [m]
 /// @throws InputError with the name of the wrong option instead of a file
 std::vector<LossRow> loss_table(const std::string& model,
                                 const std::vector<std::string>& parameters, Hertz frequency,
@@ -36,7 +37,8 @@ Hertz option_frequency(const std::string& option, const std::string& text);
 Meters option_length(const std::string& option, const std::string& text);
 Duration option_time(const std::string& option, const std::string& text);
 
-/// List of propagation models: name, and name, default, range and meaning of each parameter.
+/// List of all propagation models: for each model its name, and the name, default, range and
+/// meaning of each parameter.
 Array list_models();
 /// List of shadowing and fading models, which vary the loss of any propagation model; in the form
 /// of list_models().

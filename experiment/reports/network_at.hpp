@@ -11,14 +11,15 @@ namespace rovernet {
 class Network;
 struct Scenario;
 
-/// Whether some robot of the scenario reacts to messages or arrivals.
+/// Whether any robot of the scenario has reactions (to messages, arrivals, lost links or times).
 bool somebody_reacts(const Scenario& scenario);
 
-/// Copy of the scenario without traffic that cannot affect robots and links: without any traffic,
-/// unless a robot reacts to messages.
+/// Copy of the scenario without traffic that cannot affect movements and links. If no robot has
+/// reactions, the copy has no traffic; otherwise it has all traffic.
 Scenario without_idle_traffic(const Scenario& scenario);
 
-/// Network with robots and links in the state of the scenario's run at time `at`.
+/// Network of the scenario, run until the time `at` with without_idle_traffic(): robots and links
+/// have their states at that time.
 std::unique_ptr<Network> network_at(const Scenario& scenario, Time at, const TellTime& tell = {});
 
 }  // namespace rovernet

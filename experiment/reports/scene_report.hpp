@@ -10,12 +10,12 @@
 
 namespace rovernet {
 
-/// Report of a map: size, walls, materials, and free area.
-/// @param walls  true: an entry for each wall rectangle; false: only their number
+/// Report of a scene as a table: size, walls, materials, and free area.
+/// @param walls  true: an entry for each wall rectangle; false: only the number of rectangles
 Table scene_report(const Scene& scene, bool walls);
 
-/// Appends the doors of a scene, open or closed at time `at`, and the stairs that robots of the
-/// scenario use.
+/// Appends to a report the doors of a scene, with their states (open or closed) at the time `at`,
+/// and the stairs that robots of the scenario use.
 void append_doors_and_stairs(Table& report, const Scenario& scenario, const Scene& scene, Time at);
 
 /// Stairs between two storeys.
@@ -25,8 +25,9 @@ struct Stairs {
 /// Stairs in the paths of a scenario's robots, each once.
 std::vector<Stairs> stairs_of(const Scenario& scenario, const Storeys& storeys);
 
-/// Appends the current robots of a network, their radios, and the topology: connected components,
-/// articulation points (robots without which a component would split), and the diameter in hops.
+/// Appends to a report the robots of a network in their current state, their radios, and the
+/// topology: connected components, articulation points (robots without which a component would
+/// split), and the diameter [hops].
 void append_robots(Table& report, const Network& network);
 
 }  // namespace rovernet

@@ -33,8 +33,8 @@ std::vector<Whereabouts> whereabouts(const Scenario& scenario, const std::vector
 /// Runs the scenario and returns the pieces of movement (legs) of every robot.
 std::vector<Track> tracks(const Scenario& scenario, const TellTime& tell = {});
 
-/// Movements of a scenario's robots as movement files: NAME.movements and NAME.params for
-/// BonnMotion, NAME.tcl or NAME.ns_movements for ns-2.
+/// Movement files with the movements of a scenario's robots: NAME.movements and NAME.params for
+/// BonnMotion, NAME.tcl or NAME.ns_movements for ns-2. The ending of `path` selects the format.
 /// @throws std::invalid_argument for any other ending of `path`
 std::vector<OutputFile> movement_files(const Scenario& scenario, const std::string& path,
                                        const TellTime& tell = {});

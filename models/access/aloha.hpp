@@ -15,28 +15,28 @@
 
 namespace rovernet {
 
-/// Access model "aloha": a frame is transmitted at once, or in the next slot, without carrier
-/// sensing; it only waits for earlier frames of the same node.
+/// Access model "aloha": a frame is transmitted immediately, or at the start of the next slot,
+/// without carrier sensing. A frame only waits for earlier frames of the same node.
 ///
 ///   pure      |==1==|==2==|   |==3==|       a frame during another starts at its end
 ///   slotted   |==1==|   |==2==|   |==3==|   frames start at multiples of the slot
 ///
 /// A unicast is sent once, without an acknowledgement. With many senders of total load G, in frames
 /// per frame time, the fraction of frames received is e^-2G, slotted e^-G; bench/aloha.hpp measures
-/// it.
+/// this fraction.
 ///
 /// Source: N. Abramson, The ALOHA system, AFIPS 1970; L. Roberts, ALOHA packet system with and
 /// without slots and capture, 1975.
 struct Aloha {
     static constexpr std::string_view name = "aloha";
 
-    /// Slot [ns]: frames start at multiples of it (slotted ALOHA); 0 or not given: at once (pure
-    /// ALOHA).
+    /// Slot duration [ns]: frames start at multiples of the slot (slotted ALOHA). 0 or empty:
+    /// frames start immediately (pure ALOHA).
     std::optional<Duration> slot = std::nullopt;
     /// Largest number of frames waiting at a node, including the frame to be sent next; further
     /// frames are dropped.
     int queue = 50;
-    /// True: control packets of the routing protocol are sent before messages of applications.
+    /// True if control packets of the routing protocol are sent before messages of applications.
     bool priority = false;
 
     static constexpr auto fields() {

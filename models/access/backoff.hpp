@@ -10,9 +10,9 @@
 
 namespace rovernet {
 
-/// Backoff of one station of the 802.11 DCF: the number of slots left, and the time from which they
-/// count. The time at which the station may send follows from these. The backoff is evaluated
-/// lazily: there is no event for a slot, and none while the medium is busy.
+/// Backoff of one station of the 802.11 DCF: the number of slots left, and the time from which
+/// these slots count. Both determine the time at which the station may send. The backoff is
+/// evaluated lazily: there is no event for a slot, and none while the medium is busy.
 ///
 ///   medium   ====frame====|      |   |   |   |   |=====frame=====|      |   |
 ///   counts                | DIFS | 7 | 6 | 5 | 4 |               | DIFS | 3 | ...
@@ -20,15 +20,16 @@ namespace rovernet {
 /// Slots count once the medium has been idle for an interframe space; a slot in which the medium is
 /// busy does not count. A station decides to send at the end of its last slot minus the turnaround
 /// time, from the energy that arrived more than the CCA time earlier: so two stations whose slots
-/// end together both send, whatever the delay between them and the order of events.
+/// end at the same time both send, whatever the propagation delay between them and the order of
+/// events.
 ///
-/// Dcf has one Backoff for each station. It reports sensed frames to the Backoff when they start,
+/// Dcf has one Backoff for each station. Dcf reports sensed frames to the Backoff when they start,
 /// and calls grant() when the station's timer is due.
 ///
 /// Source: IEEE 802.11-2020, 10.3.4.
 class Backoff {
   public:
-    /// @param timing  slots and interframe spaces; must outlive this
+    /// @param timing  slot and interframe spaces; must outlive the Backoff
     explicit Backoff(const WifiTiming& timing) : timing_(&timing) {}
 
     /// Reports that the station senses energy from `begin` to `end`. Calls may be out of order by
@@ -46,7 +47,7 @@ class Backoff {
     /// error-free frame ends in that time.
     void frame_lost(Time t, Duration eifs) { eifs_until_ = t + eifs; }
     /// Reports that a frame ended without errors.
-    /// @return whether it ends an EIFS: grant() may be earlier now
+    /// @return whether the frame ended an EIFS, so that grant() may now be earlier
     bool frame_decoded() { return std::exchange(eifs_until_, long_ago) != long_ago; }
 
     /// Starts a backoff of `slots` slots, which do not count before `from`.
@@ -68,19 +69,19 @@ class Backoff {
         return busy_since_ <
                counted_from_ + slots_ * timing_->slot - timing_->turnaround - timing_->cca_time;
     }
-    /// Whether the station senses energy at `t`, as far as reported.
+    /// Whether the station senses energy at `t`, by the calls of energy() so far.
     bool is_busy(Time t) const { return busy_until_ > t; }
 
   private:
     // Time before all relevant times: a station starts with an idle medium.
     static constexpr Time long_ago{Duration{-1'000'000'000'000}};
 
-    // Time from which slots count again, as far as reported.
+    // Time from which slots count again, by the energy and the lost frames reported so far.
     Time anchor() const {
         return std::max({not_before_, busy_until_ + timing_->difs, eifs_until_});
     }
-    // Slots left when the medium became busy: slots that were complete by then are subtracted, the
-    // current one is not.
+    // Number of slots left when the medium became busy. Slots that were complete by then are
+    // subtracted, the current slot is not.
     int left() const {
         if (busy_since_ == never) return slots_;
         const Duration idle = busy_since_ + timing_->turnaround + timing_->cca_time - counted_from_;
@@ -88,7 +89,7 @@ class Backoff {
         return static_cast<int>(std::max<std::int64_t>(slots_ - idle / timing_->slot, 0));
     }
 
-    // Slot and interframe spaces.
+    // Slot and interframe spaces of the standard.
     const WifiTiming* timing_;
     // Number of slots left at counted_from_.
     int slots_ = 0;
@@ -98,7 +99,7 @@ class Backoff {
     Time counted_from_ = start_of_run;
     // Start of the energy that paused the count; `never` if the count runs.
     Time busy_since_ = never;
-    // End of the energy, as far as reported.
+    // End of the latest energy reported so far.
     Time busy_until_ = long_ago;
     // End of the EIFS after a frame with errors.
     Time eifs_until_ = long_ago;

@@ -15,13 +15,13 @@
 
 namespace rovernet {
 
-/// Rule for the EIFS, a waiting time longer than DIFS (it includes time for an acknowledgement)
-/// after a frame that a station did not decode.
+/// Rule for the EIFS: a waiting time after a frame that a station did not decode, longer than a
+/// DIFS because it includes time for an acknowledgement.
 ///
 /// - standard: after a frame that the station had locked onto, until a frame without errors ends;
 ///   802.11-2020, 10.3.2.3.7
-/// - ns2: after each sensed frame, decodable or not, unless the station is transmitting; it is a
-///   reservation, so a DIFS follows, and no other frame ends it
+/// - ns2: after each sensed frame, decodable or not, unless the station is transmitting. The EIFS
+///   is a reservation: a DIFS follows, and no other frame ends it
 /// - none: never
 enum class EifsRule { standard, ns2, none };
 /// Names of the values of [access] eifs in scenario files.
@@ -30,8 +30,8 @@ struct EnumNames<EifsRule> {
     static constexpr std::array<std::string_view, 3> values = {"standard", "ns2", "none"};
 };
 
-/// Timing of a standard as in ns-2.35: energy is sensed at once, without turnaround time, and a
-/// backoff has 0 to CW - 1 slots.
+/// Timing of a standard, changed as in ns-2.35: energy is sensed without delay, there is no
+/// turnaround time, and a backoff has 0 to CW - 1 slots.
 constexpr WifiTiming ns2_timing(WifiTiming timing) {
     timing.cca_time = timing.turnaround = Duration{0};
     --timing.cw_min;
@@ -39,7 +39,7 @@ constexpr WifiTiming ns2_timing(WifiTiming timing) {
     return timing;
 }
 
-/// Settings of the 802.11 DCF, as a scenario file gives them. Values that are not given are those
+/// Settings of the 802.11 DCF, as a scenario file gives them. An empty value stands for the value
 /// of the standard. Example: examples/hidden_node.cpp.
 struct Csma {
     static constexpr std::string_view name = "csma";
@@ -48,7 +48,7 @@ struct Csma {
     std::optional<Duration> slot = std::nullopt;
     /// Largest number of frames waiting at a node; further frames are dropped (IFQ).
     int queue = 50;
-    /// Standard, which determines airtimes, the usual timing and the usual radio.
+    /// Standard of IEEE 802.11, which determines airtimes, default timing and default radio.
     WifiStandard standard = WifiStandard::b;
     /// Times [ns]: interframe spaces SIFS and DIFS; time to sense energy (CCA); receive-to-transmit
     /// turnaround; delay until the start of an answer is detected. Without `difs`, DIFS = SIFS + 2
@@ -57,16 +57,16 @@ struct Csma {
                             turnaround = std::nullopt, rx_start_delay = std::nullopt;
     /// Contention window, least and largest [slots]. `cw_max` is at least `cw_min`.
     std::optional<int> cw_min = std::nullopt, cw_max = std::nullopt;
-    /// Basic rates [bit/s]: broadcasts and RTS use the lowest. A response (CTS, ACK) uses the
+    /// Basic rates [bit/s], at least one, in any order; by default the mandatory rates of the
+    /// standard. Broadcasts and RTS use the lowest basic rate. A response (CTS, ACK) uses the
     /// highest that is not above the rate of the frame it answers, or the lowest if all are above.
-    /// Not empty; in any order; by default the mandatory rates of the standard.
     std::optional<std::vector<BitRate>> basic_rates = std::nullopt;
     /// Rule for the EIFS, a longer waiting time after a frame that was not decoded. With `ns2`, the
-    /// usual timing is that of ns-2, see ns2_timing().
+    /// default timing is that of ns-2, see ns2_timing().
     EifsRule eifs = EifsRule::standard;
     /// True: a station that finds the medium idle for a DIFS sends without a backoff (802.11-2020,
-    /// 10.3.4.2); false: a backoff before every frame, as in ns-2. By default true, but false with
-    /// eifs = ns2.
+    /// 10.3.4.2). False: a backoff precedes every frame, as in ns-2. By default true, but false if
+    /// `eifs` is `ns2`.
     std::optional<bool> immediate_access = std::nullopt;
     /// Retry limit of an RTS, or of data without RTS; 0: unlimited.
     int short_retries = 7;
@@ -74,13 +74,13 @@ struct Csma {
     int long_retries = 4;
     /// Size [bytes], including the header, above which a unicast is preceded by an RTS.
     Bytes rts_threshold = 2347;
-    /// Bytes that the access model adds to a message.
+    /// Size [bytes] of the header that the access model adds to a message.
     Bytes header = data_header_bytes;
-    /// True: control packets of the routing protocol are sent before messages of applications, as
+    /// True if control packets of the routing protocol are sent before messages of applications, as
     /// in ns-2's CMUPriQueue.
     bool priority = false;
 
-    /// Ranges of single keys; make_access() checks conditions on several keys.
+    /// Parameters with their ranges; make_access() checks conditions on several parameters.
     static constexpr auto fields() {
         constexpr Range counts{.low = 1, .high = 1000000, .text = "from 1 to 1000000"};
         constexpr Range window{.low = 0, .high = 65535, .text = "from 0 to 65535"};
@@ -114,12 +114,12 @@ struct Csma {
             field("header", &Csma::header, "that access adds to a message"));
     }
 
-    /// Complete timing: the given times, and those of the standard.
+    /// Complete timing: times that are not given have the values of the standard.
     WifiTiming timing() const;
-    /// Whether a station that finds the medium idle sends without a backoff.
+    /// Whether a station that finds the medium idle for a DIFS sends without a backoff.
     bool sends_at_once() const { return immediate_access.value_or(eifs != EifsRule::ns2); }
-    /// Radio of robots for which a scenario file gives no keys: that of 802.11b, or with the
-    /// highest rate and the preamble of OFDM.
+    /// Default radio, for keys of [radio] that a scenario file does not give: that of 802.11b, or
+    /// for OFDM one with 54 Mbit/s and a preamble of 20 us.
     Radio usual_radio() const {
         if (standard == WifiStandard::b) return {};
         return {.rate = {54e6}, .preamble = std::chrono::microseconds{20}};

@@ -74,31 +74,31 @@ class Dcf final : public Access {
     /// Tag of a timer: for access, for an expected response, and for a response to send.
     enum Tag : std::uint32_t { access, answer, response };
 
-    /// State changed by every sensed frame: one cache line for each station.
+    /// Carrier sensing of a station, updated by every sensed frame; fills one cache line.
     struct alignas(64) Listening {
         Backoff backoff;
         /// End of the last frame that the station senses.
         Time on_air_until = start_of_run;
     };
-    /// Data of a station, except its carrier sensing, which is in Listening.
+    /// State of a station, except for its carrier sensing (see Listening).
     struct Station {
         /// Current state of the station: idle, contending for access, or waiting for a response.
         State state = State::idle;
         /// True if a backoff was drawn since the station's last frame.
         bool backing_off = false;
-        /// True if it contends without a backoff: the medium was idle (immediate access).
+        /// True if the station contends without a backoff: the medium was idle (immediate access).
         bool fresh = false;
-        /// True if the station's RTS was answered by a CTS.
+        /// True if a CTS has answered the station's RTS.
         bool asked = false;
         /// Contention window [slots].
         int window = 0;
-        /// Failed attempts of an RTS or of data without RTS, and of data after an RTS.
+        /// Numbers of failed attempts: of an RTS or of data without RTS, and of data after an RTS.
         int short_count = 0, long_count = 0;
         /// Sequence number of the current data frame, the same for all attempts.
         std::uint32_t number = 0;
         /// Number of random draws of the station so far: index of the next draw.
         std::uint64_t draws = 0;
-        /// Time of the valid timer; timers at other times are void.
+        /// Time of the station's valid timer; timers at other times are ignored.
         Time timer = never;
         /// End of the reservation of the medium by other stations (NAV).
         Time reserved_until = start_of_run;
@@ -106,7 +106,7 @@ class Dcf final : public Access {
         Time sends_until = start_of_run;
         /// Frames in the station's queue; the first is in transmission.
         TransmitQueue queue = {};
-        /// Response (CTS or ACK) that the station sends after a SIFS.
+        /// Response that the station sends after a SIFS: CTS, ACK, or data after a CTS.
         std::optional<AirFrame> response = {};
     };
 
@@ -114,15 +114,15 @@ class Dcf final : public Access {
     BitRate answer_rate(BitRate rate) const;
     Station& at(NodeId node) { return stations_[node.index()]; }
     Backoff& backoff(NodeId node) { return listening_[node.index()].backoff; }
-    // First frame of the queue, as transmitted.
+    // Data frame that transmits the first frame of the node's queue.
     AirFrame data_frame(NodeId node) const;
-    // Control frame of a kind, without a reservation.
+    // Control frame (RTS, CTS or ACK) of a kind, without a reservation of the medium.
     static AirFrame control_frame(NodeId from, NodeId to, const ControlFrame& kind);
     // Starts contention for the first frame of the queue.
     void contend(Air& air, NodeId node);
-    // Sets the timer of a station; an older timer becomes void.
+    // Sets the timer of a station; an older timer is then ignored.
     void set_timer(Air& air, NodeId node, Time t, Tag tag);
-    // Begins the work on the next frame of the queue.
+    // Begins the next frame: new sequence number; retry counts and window are reset.
     void next_frame(Station& station);
     // Draws a backoff whose slots count from `from` on.
     void draw_backoff(Air& air, NodeId node, Time from);
@@ -132,37 +132,37 @@ class Dcf final : public Access {
     void transmit_data(Air& air, NodeId node);
     // Transmits a frame. @return its end
     Time transmit(Air& air, const AirFrame& frame);
-    // Sets the timer for the response to a frame that ends at `end`.
+    // Sets the timeout for the response to a frame that ends at `end`.
     void await(Air& air, NodeId node, Time end, State state);
-    // Repeats a frame without a response, or drops it at the retry limit.
+    // Retransmits the node's frame after a missing response, or drops it at the retry limit.
     void answer_missing(Air& air, NodeId node);
-    // Handles a frame for this node that has ended, and answers it.
+    // Handles a frame addressed to `node` that has ended there, and schedules its response.
     void answer_to(Air& air, NodeId node, const AirFrame& frame);
-    // Ends the work on the first frame: sent, or lost with a reason. A backoff follows.
+    // Removes the first frame of the queue: sent, or lost if there is a reason. A backoff follows.
     void finish(Air& air, NodeId node, Time end, std::optional<DropReason> reason);
     // Sets the NAV: the station does not send until reservations by other stations end.
     void reserve(NodeId node, Time from, Time until);
-    // EIFS of a station [ns].
+    // Duration of the EIFS of a station [ns].
     Duration eifs(const Air& air, NodeId node) const;
-    // EIFS of ns-2 after a frame that ends at `end`.
+    // Applies the EIFS rule of ns-2 after a frame that ends at `end`.
     void defer_as_ns2(const Air& air, NodeId node, Time end);
-    // Schedules a response after a SIFS, without carrier sensing.
+    // Schedules the transmission of a response after a SIFS, without carrier sensing.
     void respond(Air& air, NodeId node, const AirFrame& frame);
-    // Transmits the response that is due.
+    // Transmits the station's response, whose SIFS is over.
     void send_response(Air& air, NodeId node);
 
-    // Settings with every default, and with the basic rates sorted.
+    // Settings with all defaults filled in; `rates` are the basic rates [bit/s], ascending.
     struct Settings : Csma {
         WifiTiming timing;
         std::vector<BitRate> rates;
         bool at_once;
     } settings_;
-    // Stations by node; in a deque, because it does not move them when it grows.
+    // Stations by node; a deque, because its elements do not move when it grows.
     std::deque<Station> stations_;
-    // Backoffs by node.
+    // Carrier sensing by node.
     std::vector<Listening> listening_;
-    // Number of the last unicast that a station received from a sender, by both: the station in the
-    // upper 32 bits.
+    // Sequence number of the last unicast that a station received from a sender. Key: id of the
+    // station in the upper 32 bits, id of the sender in the lower 32.
     std::unordered_map<std::uint64_t, std::uint32_t> last_numbers_;
 };
 

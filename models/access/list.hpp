@@ -11,9 +11,9 @@
 
 namespace rovernet {
 
-/// Access models that scenario files can name, in the order of their cost; the first one is the
-/// default. An access model determines when nodes may transmit. Reading, range checks and printing
-/// follow from its fields().
+/// Access models that scenario files can name, in ascending order of computing time; the first one
+/// is the default. An access model determines when nodes may transmit. Reading, range checks and
+/// printing of its settings follow from its fields().
 using AccessModels = std::tuple<NoAccess, Aloha, Csma>;
 
 }  // namespace rovernet

@@ -9,9 +9,9 @@
 
 namespace rovernet {
 
-/// Access model "none": a frame is transmitted at once, even during another frame of the same node.
-/// There are no queues, no carrier sensing and no retransmissions. The default, and the fastest to
-/// simulate: interference is left to the reception model.
+/// Access model "none": a frame is transmitted immediately, even during another frame of the same
+/// node. There are no queues, no carrier sensing and no retransmissions. "none" is the default, and
+/// the fastest to simulate: only the reception model handles interference.
 struct NoAccess {
     /// Name of the model in scenario files.
     static constexpr std::string_view name = "none";
@@ -22,7 +22,7 @@ struct NoAccess {
     std::unique_ptr<Access> make_access() const { return std::make_unique<AtOnce>(); }
 
   private:
-    // Access model without state.
+    // Access model that transmits every frame immediately; it has no state.
     class AtOnce final : public Access {
       public:
         void send(Air& air, const QueuedFrame& frame) override {

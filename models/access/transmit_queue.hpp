@@ -13,20 +13,20 @@
 namespace rovernet {
 
 /// Interface queue of a station: frames that wait for channel access, first in, first out. The
-/// first frame is that for which the station contends.
+/// station contends for its first frame.
 ///
 /// With priority, control packets of the routing protocol go before messages of applications, but
 /// never before the first frame.
 class TransmitQueue {
   public:
-    /// Whether the queue is empty, and number of its frames.
+    /// State of the queue: whether it is empty, and its number of frames.
     bool empty() const { return begin_ == frames_.size(); }
     std::size_t size() const { return frames_.size() - begin_; }
     /// First frame; the queue must not be empty.
     const QueuedFrame& front() const { return frames_[begin_]; }
 
-    /// Appends a frame. A full queue refuses it; with priority, a control packet then displaces the
-    /// last message of an application.
+    /// Appends a frame. A full queue refuses the frame; but with priority, a control packet
+    /// displaces the last message of an application.
     /// @param most      largest number of frames
     /// @param priority  whether control packets have priority
     /// @return frame for which there was no space, if any
@@ -58,7 +58,7 @@ class TransmitQueue {
         return first;
     }
     /// Removes the frames for `next_hop` and returns them; the order of the others is kept.
-    /// @param keeps_first  the first frame is on air, and stays
+    /// @param keeps_first  whether the first frame stays, because it is on air
     std::vector<QueuedFrame> take(NodeId next_hop, bool keeps_first) {
         const auto first = frames_.begin() + offset() + (keeps_first && !empty() ? 1 : 0);
         const auto taken = std::stable_partition(
@@ -78,7 +78,7 @@ class TransmitQueue {
   private:
     std::ptrdiff_t offset() const { return static_cast<std::ptrdiff_t>(begin_); }
 
-    // Frames from index begin_ on; those before were removed.
+    // Frames of the queue, from index begin_ on; entries before begin_ were removed.
     std::vector<QueuedFrame> frames_;
     std::uint32_t begin_ = 0;
 };

@@ -5,7 +5,8 @@
 
 namespace rovernet {
 
-/// Control frames of IEEE 802.11 [bytes], including the frame check sequence; 802.11-2020, 9.3.1.
+/// Control frames of IEEE 802.11: name, and size [bytes] with the frame check sequence;
+/// 802.11-2020, 9.3.1.
 inline constexpr ControlFrame wifi_rts{"RTS", 20};
 inline constexpr ControlFrame wifi_cts{"CTS", 14};
 inline constexpr ControlFrame wifi_ack{"ACK", 14};

@@ -11,7 +11,8 @@
 #include <optional>
 
 // Prediction of link changes: as roots of equations if the loss depends on distance, by a guided
-// search otherwise. LinkWatch of the network calls it for each pair after each new leg.
+// search otherwise. The network's LinkWatch predicts changes for each pair of robots after a new
+// leg.
 //
 //     const auto change = next_link_change(medium, legs, scene, a, b, now, legs.leg(a).end, {});
 //     if (change) ...  // at *change the link is up if it was down, and the reverse
@@ -21,20 +22,21 @@ namespace rovernet {
 class Medium;
 class Scene;
 
-/// First time in (after, until] at which the link from `from` to `to` is in another state than at
-/// `after`, on the current legs; empty if there is none. A leg may end before `until` only by
-/// coming to rest. The radios must not be switched or change their network in this time.
+/// First time in (after, until] at which the link from `from` to `to` goes up or down, while both
+/// nodes stay on their current legs; empty if there is no such time. A leg may end before `until`
+/// only by coming to rest. The radios must not be switched or change their network in this time.
 ///
-/// The state is LinkLosses::is_up at whole nanoseconds; it is the new state at the returned time. A
-/// pair that is out of range even without walls (Propagation::reach) is not sampled.
-/// - By distance: exact to the nanosecond; a state shorter than a nanosecond may be missed. At most
+/// The state of a link is LinkLosses::is_up at whole nanoseconds; at the returned time the link has
+/// its new state. A pair that is out of range even without walls (Propagation::reach) is not
+/// sampled. The search depends on the LossShape:
+/// - by distance: exact to the nanosecond; a state shorter than a nanosecond may be missed. At most
 ///   about 45 samples of the link, often 8; none for a pair that stays out of range.
-/// - By walls: a jump of the loss is found about a nanosecond late (WallPassages return the times
-///   to sample), other changes up to `tolerance` late. With k corners passed, about 4 k samples,
-///   more where the loss bends near the budget: an interval between passages is halved until the
-///   losses at its ends and middle differ from the budget by more than 16 times the amount that a
-///   parabola through them could add in between.
-/// - Unknown: a sample every `min_dwell`, then as for walls; from the 65536th sample on the step
+/// - by walls: a jump of the loss is found about a nanosecond late (WallPassages return the times
+///   to sample), other changes up to `tolerance` late. With k passed corners there are about 4 k
+///   samples, and more where the loss bends near the budget: an interval between passages is halved
+///   until the losses at its ends and middle differ from the budget by more than 16 times the
+///   amount that a parabola through them could add in between.
+/// - unknown: a sample every `min_dwell`, then as for walls; from the 65536th sample on the step
 ///   doubles every 65536 samples, so that every search ends.
 ///
 /// @param walls  walls of the medium's scene; may be empty unless the sender's model depends on
@@ -53,15 +55,15 @@ struct LinkOutlook {
 };
 
 /// Search as next_link_change(), limited to `most_looks` samples for a propagation model of unknown
-/// shape. A search continued from LinkOutlook::until uses the same sample times as one in a single
-/// call.
+/// shape. A search that is continued from LinkOutlook::until samples the same times as a single
+/// search.
 /// @param most_looks  >= 1
 LinkOutlook look_ahead(const Medium& medium, const Legs& legs, const WallPassages& walls,
                        NodeId from, NodeId to, Time after, Time until, const LinkSearch& search,
                        std::int64_t most_looks);
 
-/// Search as next_link_change() with WallPassages, which this function makes itself, if needed. For
-/// many searches, reuse a WallPassages instead.
+/// Search as next_link_change() with WallPassages; this overload makes the WallPassages of `scene`
+/// itself if the model needs them. For many searches, pass one WallPassages instead.
 std::optional<Time> next_link_change(const Medium& medium, const Legs& legs, const Scene& scene,
                                      NodeId from, NodeId to, Time after, Time until,
                                      const LinkSearch& search);

@@ -5,12 +5,12 @@
 
 #include <optional>
 
-// Times at which two robots on straight paths enter and leave a range. They make link changes exact
-// for models that depend on distance.
+// Times at which two robots on straight paths enter and leave a range. These times make link
+// changes exact for propagation models that depend on distance.
 
 namespace rovernet {
 
-/// Time interval in which a straight motion is within a range.
+/// Time interval in which a point on a straight motion is within a range.
 struct Passage {
     /// Time of entering the range [s].
     double enter;
@@ -19,7 +19,7 @@ struct Passage {
 };
 
 /// Interval in which |r + v t| < R, for relative position r [m] and velocity v [m/s]; empty if this
-/// is never or always true, or if the path only touches the circle.
+/// is never or always true, or if the path only touches the sphere of radius R [m].
 ///
 /// The ends are roots of a quadratic, computed without cancellation: the discriminant and the
 /// constant term are summed in double-double precision, and the smaller root is computed from the

@@ -13,38 +13,38 @@
 
 namespace rovernet {
 
-/// Point on a straight motion: at(t) = from + t velocity.
+/// Straight motion of a point at constant velocity: at(t) = from + t velocity.
 struct StraightMotion {
     /// Position at t = 0 [m].
     Vec3 from = {};
     /// Velocity [m/s].
     Vec3 velocity = {};
-    /// Position at t [s].
+    /// Position [m] at the time t [s].
     Vec3 at(double t) const { return from + t * velocity; }
 };
 
 /// Times at which a moving line of sight may start or stop crossing a wall, or cross other faces of
-/// it. Between these times, the length inside each wall is a smooth function of time.
+/// a wall. Between these times, the length inside each wall is a smooth function of time.
 ///
 /// At such a time the line of sight passes a corner of a wall, or a point where the edges of two
-/// overlapping walls meet; or one of its ends passes a wall's edge; or, for walls of finite height,
-/// it passes an edge of the top, or an end passes the height of the top. Bottoms of walls on upper
-/// floors and ceilings are handled like tops. The corner and top-edge times are roots of
-/// quadratics.
+/// overlapping walls meet. Or an end of the line of sight passes a wall's edge. For walls of finite
+/// height, the line of sight passes an edge of the top, or one of its ends passes the height of the
+/// top. Bottoms of walls on upper floors and ceilings are handled like tops. The times for corners
+/// and edges of tops are roots of quadratics.
 ///
 /// Built once for a scene; n rectangles take O(n log n) time and about 150 bytes each.
 class WallPassages {
   public:
     /// Empty set, for a scene without walls.
     WallPassages() = default;
-    /// @param scene  must outlive this
+    /// @param scene  scene with the walls; must outlive the WallPassages
     explicit WallPassages(const Scene& scene);
 
     /// Whether there are no walls and no ceilings.
     bool empty() const { return corners_.empty() && levels_.empty(); }
 
     /// Appends the times [s] in (0, duration) at which the line of sight from `a` to `b` may start
-    /// or stop crossing a wall: unsorted, some repeated, and some without a change. It checks the
+    /// or stop crossing a wall: unsorted, some repeated, and some without a change. Checked are the
     /// corners in the tiles that the line of sight sweeps (about four each), and all walls of
     /// finite height if the line of sight may pass above walls.
     void times(const StraightMotion& a, const StraightMotion& b, double duration,
@@ -59,7 +59,7 @@ class WallPassages {
     // Moving line of sight, for one call of times().
     struct Sight;
 
-    // Collects the corners of a layer of walls, and the points where their edges meet.
+    // Collects the corners of the walls, and the points where edges of overlapping walls meet.
     void collect(const std::vector<WallRectangle>& rectangles);
     // Sorts the corners by tile.
     void sort_into_tiles();
@@ -74,14 +74,14 @@ class WallPassages {
     void pass_levels(const Sight& sight, std::vector<double>& out) const;
 
     const Scene* scene_ = nullptr;
-    // Corners, z = 0, by tile, row by row.
+    // Corners [m] of all walls, with z = 0, sorted by tile, row by row.
     std::vector<Vec3> corners_;
     // Index of the first corner of each tile; one entry more than tiles.
     std::vector<std::size_t> first_;
     std::vector<End> ends_;
     // Heights of tops, bottoms and ceilings [m], ascending, each once.
     std::vector<double> levels_;
-    // One height [m] for each storey, below all tops of its walls.
+    // For each storey, a height [m] below all tops of its walls.
     std::vector<double> feet_;
     // Lower left corner of the tiles [m].
     Vec3 low_ = {};

@@ -17,16 +17,16 @@
 
 namespace rovernet {
 
-/// Computation of arrivals: a transmitted frame as it reaches one receiver (times and level).
-/// Judges of reception models use arrivals, see Interference::arrival(). The link is evaluated by
-/// the cheapest method for the sender, see Decision. A level that depends only on the distance and
-/// the pair of nodes is computed when level() or is_stronger() needs it.
+/// Computation of arrivals: times and level of a transmitted frame at one receiver. Judges of
+/// reception models use arrivals, see Interference::arrival(). The link is evaluated by the fastest
+/// method that the sender's model allows, see Decision. A level that depends only on the distance
+/// and the pair of nodes is computed when level() or is_stronger() needs it.
 class Arrivals {
   public:
-    /// @param settings, stations, links  parts of the medium; must outlive this
+    /// @param settings, stations, links  parts of the medium; must outlive the Arrivals
     Arrivals(const MediumSettings& settings, Stations& stations, const LinkLosses& links);
 
-    /// Propagation delay [ns] over a distance [m], >= 0.
+    /// Propagation delay [ns] over a distance [m] >= 0; 0 if delays are switched off.
     Duration delay(double distance) const {
         if (!settings_.propagation_delay) return Duration{0};
         const double nearest_ns = distance * (1e9 / speed_of_light) + 0.5;
@@ -43,33 +43,32 @@ class Arrivals {
         const double d2 = squared_distance(frame.origin, at);
         return d2 > frame.squared_reach ? std::nullopt : within_reach(frame, d2, to, at);
     }
-    /// Arrival of a frame at `to`, as by of() without headings; needed if any antenna is
-    /// directional.
-    /// @param headings  headings of both ends when the frame begins
+    /// Arrival of a frame at `to`, as by of() without headings, but with directional antennas.
+    /// @param headings  headings of sender and receiver when the frame begins
     std::optional<Arrival> of(const Emission& frame, NodeId to, Vec3 at, const Headings& headings);
     /// Received power [dBm] at `to` of a frame whose level was not computed.
     Dbm level(const Arrival& arrival, NodeId to) const;
-    /// Whether the level of `frame` at `to` exceeds that of `other` by `by` or more. Levels are
-    /// computed only if bounds on them do not decide.
+    /// Whether the level of `frame` at `to` exceeds the level of `other` by `by` [dB] or more.
+    /// Levels are computed only if bounds on them do not decide.
     bool is_stronger(Arrival& frame, Arrival& other, Db by, NodeId to);
 
   private:
-    // Arrival of a frame within its reach, for of().
+    // Arrival at `to` of a frame whose antennas are within its reach, at squared distance d2 [m^2].
     std::optional<Arrival> within_reach(const Emission& frame, double d2, NodeId to, Vec3 there);
-    // Arrival of a frame between nodes that may have a link, by Decision::by_loss.
+    // Arrival of a frame between nodes that may have a link, by computing the path loss.
     std::optional<Arrival> by_loss(const Emission& frame, double d2, NodeId to, Vec3 there,
                                    const Headings& headings);
-    // Kind of the frame's sender while it transmits the frame's coding.
+    // Kind of station of the frame's sender, for the frame's coding (see RadioKinds).
     Stations::Kind sender_kind(const Emission& frame) const {
         return stations_.kind(frame.from, frame.coding);
     }
-    // Arrival of a frame over a squared distance, with this level.
+    // Arrival of a frame over the squared distance d2 [m^2], with this level [dBm].
     Arrival at_level(const Emission& frame, double d2, double level_dbm) const;
 
     const MediumSettings& settings_;
     Stations& stations_;
     const LinkLosses& links_;
-    // Random draws of pairs, for Decision::by_table.
+    // Shadowing draws of pairs of nodes, for Decision::by_table.
     PairDraws draws_;
 };
 

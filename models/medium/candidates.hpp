@@ -14,18 +14,18 @@
 #include <span>
 #include <vector>
 
-// Search for receivers by computing losses with the model: the slowest method, for models of any
-// shape.
+// Search for receivers by computing losses with the model: the slowest method, for propagation
+// models of any LossShape.
 
 namespace rovernet {
 
-/// Candidate in the search for receivers: a node within reach of a transmitter; its path loss
-/// decides whether it is a receiver.
+/// Candidate in the search for receivers: a node within reach of a transmitter. Its path loss
+/// determines whether it is a receiver.
 struct Candidate {
     NodeId node;
     /// True if the node is at rest, until PairCache::moved is called for it.
     bool rests;
-    /// Key of the candidate, for random draws.
+    /// Key of the candidate's robot, for random draws.
     std::uint64_t key;
     /// Position of the candidate's antenna [m].
     Vec3 antenna;
@@ -33,14 +33,14 @@ struct Candidate {
     double squared_distance;
     /// Path loss [dB] beyond which the node is not a receiver.
     double budget_db;
-    /// Path loss [dB], once computed; a value above the largest budget of all candidates is only a
-    /// lower bound.
+    /// Path loss [dB] after Candidates::compute_losses(); a value above the result of that function
+    /// is only a lower bound.
     double loss_db = 0;
 };
 
-/// Candidates within reach of one transmitter, and their path losses. The model is called once for
-/// all of them, except for pairs at rest whose loss is cached. Medium fills it in a search by
-/// losses (Decision::by_loss):
+/// Candidates within reach of one transmitter, and their path losses. The propagation model is
+/// called once for all candidates, except for pairs at rest whose loss is cached. Medium fills the
+/// list in a search by losses (Decision::by_loss):
 ///
 ///   candidates.clear();
 ///   for (...) candidates.add({...});
@@ -65,7 +65,7 @@ class Candidates {
 
     /// Computes the losses of all candidates.
     /// @param link    links of the transmitter, without receivers
-    /// @param cache   opened for the transmitter if any candidate rests
+    /// @param cache   cache of losses, opened here for the transmitter if any candidate rests
     /// @param beyond  ratio [dB] above a candidate's budget up to which losses must be exact
     /// @return loss [dB] above which a candidate's loss is only a lower bound
     Db compute_losses(const Propagation& model, LinkBatch link, NodeId from, PairCache& cache,
@@ -79,7 +79,7 @@ class Candidates {
     std::vector<Candidate> all_;
     // Number of candidates at rest.
     std::size_t at_rest_ = 0;
-    // Largest budget of all [dB].
+    // Largest budget of all candidates [dB].
     Db cutoff_{};
     // Candidates whose loss the model computes, in its input format; kept to reuse their memory.
     std::vector<std::uint32_t> asked_;

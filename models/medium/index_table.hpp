@@ -12,7 +12,7 @@
 
 namespace rovernet {
 
-/// Node and position, as stored in a NeighbourIndex for queries.
+/// Entry of a NeighbourIndex: a node and its position, for queries.
 struct IndexEntry {
     /// Position [m] of the node at the start of its leg; current position if the node does not
     /// move.
@@ -32,16 +32,16 @@ struct IndexTable {
         Time start, end;
     };
     std::vector<IndexEntry> entries;
-    /// Velocity and times of the entries' legs, by index of the entry; empty while no node moves.
+    /// Velocity [m/s] and times of the entries' legs, by index of entry; empty if no node moves.
     std::vector<Motion> motions;
 
     /// Writes entry `i` of the table, from a leg or from another table.
     void put(std::size_t i, NodeId node, std::uint32_t label, const Leg& leg);
     void put(std::size_t i, const IndexEntry& entry, const Motion& motion);
-    /// Velocity and times of the leg of entry `i`; zero if the node does not move.
+    /// Velocity [m/s] and times of the leg of entry `i`; all zero if the node does not move.
     Motion motion(std::size_t i) const { return entries[i].moves ? motions[i] : Motion{}; }
-    /// Position [m] at `t` of the node of entry `i`. Uses the copy of the leg kept here; reads
-    /// `legs` only after that leg has ended.
+    /// Position [m] at `t` of the node of entry `i`. Uses the copy of the leg in this table; reads
+    /// `legs` only after the end of that leg.
     Vec3 position(std::size_t i, Time t, const Legs& legs) const {
         const IndexEntry& e = entries[i];
         if (!e.moves) return e.from;

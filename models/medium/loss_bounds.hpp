@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
-// Bounds of levels, for comparisons without computing them: if two frames overlap, usually one is
-// much stronger.
+// Bounds of path losses, for comparing two levels without computing them: if two frames overlap,
+// usually one is much stronger.
 
 namespace rovernet {
 
@@ -16,18 +16,18 @@ namespace rovernet {
 /// each computed when first needed.
 ///
 /// A comparison of two levels that differ by more than the bounds needs no logarithm. RadioKinds
-/// has one for each kind of station; Arrivals::is_stronger uses it.
+/// has a LossBounds for each kind of station; Arrivals::is_stronger uses it.
 ///
 ///   const auto [low, high] = bounds.at(d2, [&](double d) { return loss_at(model, f, d); });
 class LossBounds {
   public:
-    /// Bounds of a path loss.
+    /// Lower and upper bound of a path loss.
     struct Bounds {
         /// Lower and upper bound [dB].
         double low, high;
     };
 
-    /// Bounds of the loss at a distance; infinite below 1 m and beyond 131 km.
+    /// Bounds of the loss [dB] at a distance; infinite below 1 m and beyond 131 km.
     /// @param squared_distance  [m^2] >= 0
     /// @param loss_at           loss [dB] at a distance [m]
     template <class LossAt>
@@ -44,14 +44,14 @@ class LossBounds {
     static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     // Margin [dB], larger than the rounding error of any loss.
     static constexpr double rounding = 1e-9;
-    // Number of low bits that a cell number omits: there are 64 cells of equal width between 1 m^2
-    // and 2 m^2, and between any power of two and the next, up to 131 km.
+    // Number of low bits of a squared distance that a cell number omits. There are 64 cells of
+    // equal width between each power of two [m^2] and the next, from 1 m to 131 km.
     static constexpr int shift = 46;
     // Number of the first cell, which begins at 1 m^2, and number of cells.
     static constexpr std::uint64_t first = std::bit_cast<std::uint64_t>(1.0) >> shift;
     static constexpr std::uint64_t cells = 34 * 64;
 
-    // Loss at the beginning of a cell [dB].
+    // Loss at the lower end of cell `number` [dB].
     template <class LossAt>
     double edge(std::uint64_t number, LossAt loss_at) {
         double& edge = edges_[number - first];
@@ -60,7 +60,7 @@ class LossBounds {
         return edge;
     }
 
-    // Losses at the beginnings of cells [dB]; NaN if not computed yet.
+    // Losses at the lower ends of the cells [dB]; NaN if not computed yet.
     std::vector<double> edges_;
 };
 

@@ -26,11 +26,11 @@
 namespace rovernet {
 
 /// Radio medium: determines the receivers of a transmission, and the times of reception. The
-/// transmitter's propagation model applies. Everything about a frame is fixed at its start: which
-/// nodes are on, their positions, levels, and the scene.
+/// transmitter's propagation model applies. A frame's receivers are fixed at its start: by the
+/// nodes that are on then, their positions and levels, and the scene.
 ///
-/// Its parts are public: stations() has the radios, links() the losses of single links, arrivals()
-/// the frames at single nodes. Times must not decrease from one search to the next.
+/// Parts of a Medium are public: stations() has the radios, links() the losses of single links,
+/// arrivals() the frames at single nodes. Times must not decrease from search to search.
 class Medium {
   public:
     using Settings = MediumSettings;
@@ -42,13 +42,13 @@ class Medium {
     Medium(const Medium&) = delete;
     Medium& operator=(const Medium&) = delete;
 
-    /// Settings of the medium, as given.
+    /// Settings of the medium, as passed to the constructor.
     const Settings& settings() const { return settings_; }
     /// Stations: radios, propagation models, and which nodes are on.
     const Stations& stations() const { return stations_; }
     /// Losses, levels and margins of single links.
     const LinkLosses& links() const { return links_; }
-    /// Frames as they arrive at single nodes.
+    /// Arrivals: times and levels of frames at single nodes.
     const Arrivals& arrivals() const { return arrivals_; }
     Arrivals& arrivals() { return arrivals_; }
 
@@ -60,13 +60,13 @@ class Medium {
         stations_.reserve(nodes);
         index_.reserve(nodes);
     }
-    /// Prefetches the state of `node`, the sender of the next event; node 0 if the next event has
-    /// no sender.
+    /// Prefetches the state of `node` into the processor's cache: the sender of the next event, or
+    /// node 0 if the event has no sender.
     void prefetch(NodeId node) const {
         stations_.prefetch(node);
         index_.prefetch(node);
     }
-    /// Prefetches the data for position().
+    /// Prefetches the data that position() reads into the processor's cache.
     void prefetch_position(NodeId node) const { index_.prefetch(node); }
     /// Updates the medium after the node's leg was replaced.
     void moved(NodeId node, const Legs& legs) {
@@ -85,22 +85,22 @@ class Medium {
         ++changes_;
         stations_.switch_radio(node, on);
     }
-    /// Number of changes so far: of legs, of switches, and of nodes added.
+    /// Number of changes so far: replaced legs, set bit rates, switched radios and added nodes.
     std::uint64_t changes() const { return changes_; }
-    /// Position of a node [m], equal to that in `legs`, from memory that is cached if the node's
-    /// neighbours transmitted recently.
+    /// Position of a node [m], equal to that in `legs`. It is read from memory that is in the
+    /// processor's cache if the node's neighbours transmitted recently.
     Vec3 position(NodeId node, Time t, const Legs& legs) const {
         return index_.position_of(node, t, legs);
     }
 
-    /// Node found in a search for receivers or hearers.
+    /// Node found in a search for the nodes that hear a transmitter.
     struct Found {
         NodeId node;
         /// Squared distance to the transmitter's antenna [m^2].
         double squared_distance;
     };
 
-    /// Receivers of a frame.
+    /// Receivers of a frame: result of find_receivers().
     struct Receivers {
         /// Times at which the frame ends at the first and at the last receiver, if there are any.
         Time first, last;
@@ -108,7 +108,7 @@ class Medium {
         Vec3 origin;
         /// Distance of the farthest receiver [m]; 0 if there are none.
         double heard_within = 0;
-        /// Receptions of the frame, unsorted.
+        /// Receptions of the frame, one for each receiver, unsorted.
         Sieve<Reception> sieved;
         std::span<Reception> all() const { return sieved.kept(); }
     };
@@ -117,8 +117,8 @@ class Medium {
     /// @param end     end of the frame at the transmitter
     void find_receivers(NodeId from, Coding coding, Time start, Time end, const Legs& legs,
                         Receivers& out);
-    /// Finds the receivers as find_receivers(), and returns the nodes that only sense the frame,
-    /// unsorted, valid until the next call.
+    /// Finds the receivers as find_receivers(). @return nodes that sense the frame but cannot
+    /// decode it, unsorted; valid until the next call
     std::span<const Found> find_sensors(NodeId from, Coding coding, Time start, Time end,
                                         const Legs& legs, Receivers& out);
 
@@ -138,59 +138,59 @@ class Medium {
     // Sets the cell size of the index to the reach of the median station, so that most queries
     // visit nine cells.
     void choose_cells();
-    // Finds the nodes at which a signal of `from` is strong enough, by the Decision of its kind:
-    // nodes that can decode it go into found_, the others into sensors_.
+    // Finds the nodes at which a signal of `from` has at least `strength`, by the Decision of its
+    // kind. Nodes that can decode the signal go into found_, the others into sensors_.
     // `mine` is the kind of `from` for the coding of its frame.
     void find(NodeId from, Kind mine, Strength strength, Time t, const Legs& legs,
               std::uint64_t frame);
-    // Search by distance alone.
+    // Search for find() by distance alone, if the loss only depends on the distance.
     void find_in_range(NodeId from, Kind mine, Strength strength, Time t, const Legs& legs);
-    // Search as find_in_range() among stations of one kind, for nodes that can decode.
+    // Search as find_in_range(), if all stations are of one kind, for nodes that can decode.
     void find_alike(NodeId from, Kind mine, Time t, const Legs& legs);
-    // Search by distance and the draw of each pair.
+    // Search for find() by distance and the shadowing draw of each pair.
     void find_in_table(NodeId from, Kind mine, Strength strength, Time t, const Legs& legs);
-    // Search by the model's losses of all nodes within reach.
+    // Search for find() by the model's losses of all nodes within reach.
     void find_in_reach(NodeId from, Kind mine, Strength strength, Time t, const Legs& legs,
                        std::uint64_t frame);
-    // Puts the nodes found into `out`, for a frame that ends at `end` at its sender.
+    // Puts the nodes of found_ into `out`, for a frame that ends at `end` at its sender.
     void put_arrivals(Time end, Receivers& out) const;
     // Prepares the index for queries about `from` at `t`.
     void look_from(NodeId from, Time t, const Legs& legs);
-    // Fills shares_ with the contributions of all nodes.
+    // Fills shares_ with the contributions of all nodes to the draws of their pairs.
     void share_draws();
     // Visitor for the index: calls use(entry, antenna, squared distance and, if the index returns
     // it, place) for nodes within reach that are on and may have a link.
     template <class Use>
     auto within(NodeId from, Kind mine, double reach2, Use use) const;
-    // Visits the nodes within reach.
+    // Visits the nodes within reach: calls use() as described at within().
     template <class Use>
     void visit(NodeId from, Kind mine, double reach2, Time t, const Legs& legs, Use use);
 
     Settings settings_;
-    // Random draws of pairs, for Decision::by_table.
+    // Shadowing draws of pairs of nodes, for Decision::by_table.
     PairDraws draws_;
     Stations stations_;
     LinkLosses links_;
     Arrivals arrivals_;
-    // Number of changes so far.
+    // Number of changes so far, see changes().
     std::uint64_t changes_ = 0;
     // Index of nodes by position, and path losses of pairs at rest.
     NeighbourIndex index_;
     PairCache pairs_;
     // Scene of the losses in pairs_.
     const Scene* pairs_of_ = nullptr;
-    // Contributions of nodes to draws_, by place in the index, for Decision::by_table; and the
-    // number of index bins at which they were computed.
+    // Contributions of nodes to draws_, by place in the index, for Decision::by_table; and value of
+    // NeighbourIndex::bins() when they were computed.
     std::vector<std::uint64_t> shares_;
     std::uint64_t shares_of_bin_ = 0;
     // Whether the cell size of the index was set.
     bool cells_chosen_ = false;
 
-    // Parameters of the last search (from, kind, strength, time, changes_); then its temporary
-    // data.
+    // Parameters of the last search (from, kind, strength, time, changes_), and position of its
+    // antenna.
     std::optional<std::tuple<NodeId, Kind, Strength, Time, std::uint64_t>> last_;
     Vec3 origin_;
-    // Results of the last search.
+    // Results of the last search: nodes that can decode, and nodes that only sense.
     Sieve<Found> found_, sensors_;
     Candidates candidates_;
 };

@@ -25,22 +25,22 @@ struct MediumSettings {
     const Scene* scene = nullptr;
     /// Scenes that later replace `scene`, in ascending order of time; they must outlive the medium.
     std::span<const SceneChange> scene_changes = {};
-    /// Height of one storey [m], see LinkBatch.
+    /// Height of one storey [m], for counting floors, see LinkBatch::floor_height.
     Meters floor_height = no_storeys;
-    /// True: a frame arrives distance / c after it is sent; false: at once.
+    /// True: a frame arrives at distance / c after its transmission. False: it arrives immediately.
     bool propagation_delay = true;
     /// True: losses of pairs at rest are cached (PairCache); false: they are computed for every
     /// frame.
     bool keep_losses = true;
-    /// Test mode: every pair is checked, without the grid and without cached losses.
+    /// Test mode: every pair of nodes is checked, without spatial index and cached losses.
     bool all_pairs = false;
     /// Cut-off of interference [dB]: a frame interferes if it is weaker than the sensitivity by at
-    /// most this ratio, and weaker than the noise floor by at most 10 dB; empty: only sensed frames
-    /// do.
+    /// most this ratio, and weaker than the noise floor by at most 10 dB. Empty: only frames that
+    /// are sensed interfere.
     std::optional<Db> interference_cut = std::nullopt;
     /// Physical layer of all frames, for sensitivities.
     Phy phy = Wifi{};
-    /// Shadowing, added to all propagation models; the models must have no random part then.
+    /// Shadowing that is added to all propagation models. With it, no model may have a random part.
     Shadowing shadowing = {};
     /// Fading of all frames.
     Fading fading = {};

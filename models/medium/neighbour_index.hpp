@@ -17,23 +17,23 @@
 
 namespace rovernet {
 
-/// Spatial index of nodes: finds nodes near a place by a grid of cells.
+/// Spatial index of nodes: finds the nodes near a given place, by a grid of cells.
 ///
 /// Entries are stored in the order of their cells, row by row, each with a copy of its node's leg.
 /// A query reads one range of entries in each row, so cells are narrow. Entries stay in the cells
-/// of their last binning; queries search a wider radius, by the distance that the fastest entry can
-/// have moved since. A query bins all nodes again once that distance is a tenth of a cell and as
-/// many entries have been read as there are nodes. Nodes much faster than the others, and nodes
-/// that jump, are stored separately and checked by every query. The grid wraps around: its memory
-/// is bounded for any positions.
+/// of their last binning; queries add to their radius the distance that the fastest entry can have
+/// moved since. A query bins all nodes again once that distance is a tenth of a cell and as many
+/// entries have been read as there are nodes. Nodes much faster than the others, and nodes that
+/// jump, are stored separately and checked by every query. The grid wraps around: its memory is
+/// bounded for any positions.
 class NeighbourIndex {
   public:
     using Entry = IndexEntry;
 
-    /// Index that stands for no entry of entries().
+    /// Value of an index into entries() that stands for no entry.
     static constexpr std::uint32_t nowhere = 0xffffffff;
 
-    /// Adds the next node, with a number that queries return.
+    /// Adds the next node, with a number (label) that queries return.
     void add(std::uint32_t label);
     /// Reserves memory for `nodes` nodes.
     void reserve(std::size_t nodes) { place_.reserve(nodes); }
@@ -49,8 +49,8 @@ class NeighbourIndex {
     void refresh(Time t, const Legs& legs) {
         if (is_stale(t)) bin(t, legs);
     }
-    /// Position of the node [m], equal to that in `legs`, from memory that is cached if its
-    /// neighbours were visited recently.
+    /// Position of the node [m], equal to that in `legs`. It is read from memory that is in the
+    /// processor's cache if the node's neighbours were visited recently.
     Vec3 position_of(NodeId node, Time t, const Legs& legs) const {
         if (stale_) [[unlikely]]
             return legs.position(node, t);
@@ -64,7 +64,7 @@ class NeighbourIndex {
     std::span<const std::uint32_t> near(Vec3 centre, double radius, Time t) {
         return look_around<false>(centre, radius + slack(t));
     }
-    /// Number of nodes stored separately (too fast, or just jumped): every query checks them.
+    /// Number of nodes outside the grid (too fast, or just jumped), which every query checks.
     std::size_t apart() const { return apart_.entries.size(); }
     /// Calls visit(entry, position) for the nodes stored separately, and for the entries at the
     /// indices `places`.
@@ -85,9 +85,9 @@ class NeighbourIndex {
         this->visit(near(centre, radius, t), t, legs, visit);
     }
 
-    /// Calls visit(entry, position, place) like visit(), but only for entries with passes(place,
-    /// at_least); place: index into entries(), `nowhere` for nodes stored separately; at_least:
-    /// lower bound of the squared horizontal distance [m^2] between entry and centre.
+    /// Calls visit(entry, position, place) like visit(), but for entries in cells only if
+    /// passes(place, at_least). place: index into entries(), `nowhere` for nodes stored separately.
+    /// at_least: lower bound of the squared horizontal distance [m^2] of entry and centre.
     template <class Passes, class Visit>
     void visit_if(Vec3 centre, double radius, Time t, const Legs& legs, Passes passes,
                   Visit visit) {
@@ -104,14 +104,14 @@ class NeighbourIndex {
             visit(binned_.entries[i], binned_.position(i, t, legs), i);
         }
     }
-    /// Nodes in the order of their cells, without those stored separately; valid until refresh()
-    /// sorts them again.
+    /// Entries in the order of their cells, without the nodes stored separately; valid until
+    /// refresh() sorts the nodes again.
     std::span<const Entry> entries() const { return binned_.entries; }
     /// Number of times that the nodes were sorted into cells.
     std::uint64_t bins() const { return bins_; }
 
   private:
-    // Bit that marks a place in apart_.
+    // Bit of place_ that marks an index into apart_.
     static constexpr std::uint32_t is_apart = 0x80000000;
 
     template <class Visit>
@@ -135,7 +135,7 @@ class NeighbourIndex {
         }
     };
     double slack(Time t) const { return drift_.at(t); }
-    // Whether the nodes have to be binned again.
+    // Whether the nodes have to be sorted into cells again.
     bool is_stale(Time t) const {
         return stale_ || apart_.entries.size() > allowed_apart_ ||
                (looked_at_ > place_.size() && slack(t) > 0.1 * rows_.width());
@@ -148,13 +148,13 @@ class NeighbourIndex {
     /// writes their squared distances into distance2_, if requested.
     template <bool distances_too>
     std::span<std::uint32_t> look_around(Vec3 centre, double reach);
-    // Lower bounds of the current squared distances [m^2] of the entries found, for any motion
-    // since they were binned.
+    // Lower bounds of the squared distances [m^2] between `centre` and the entries that
+    // look_around() found, for any motion since the last binning.
     float* distances_at_least(std::size_t count, Vec3 centre, double radius, Time t);
     // Allocates memory for the results of look_around(). @return size of the memory
     std::size_t make_room(std::size_t places);
 
-    // Cell of a place.
+    // Index of the cell that contains the position p [m].
     std::size_t cell_at(Vec3 p) const {
         return rows_.cell_at(p.y) * columns_.cells() + columns_.cell_at(p.x);
     }
@@ -165,7 +165,7 @@ class NeighbourIndex {
     std::size_t add_apart(NodeId node);
     // Sorts all nodes into cells by counting.
     void bin(Time t, const Legs& legs);
-    // Returns all nodes in the order of their former cells, so that sorting them again moves few.
+    // Removes all nodes; returns them in the order of their cells, so that sorting moves few.
     IndexTable take_all(const Legs& legs);
     // Makes a grid of at most two cells per node.
     void lay_grid(const IndexTable& all, Time t, const Legs& legs);
@@ -174,24 +174,24 @@ class NeighbourIndex {
     std::vector<std::uint32_t> labels_;
     // Entries in the order of their cells.
     IndexTable binned_;
-    // Positions at the last binning [m].
+    // Positions [m] of the entries of binned_ at the last binning.
     std::vector<float> x_, y_;
     // Memory for the results of look_around().
     std::vector<std::uint32_t> near_;
     // Memory for the squared distances between query and binned positions [m^2].
     std::vector<float> distance2_;
-    // Index of the first entry of each cell; one more than cells.
+    // Index of the first entry of each cell; one value more than there are cells.
     std::vector<std::uint32_t> first_;
-    // Index of each node in binned_, or in apart_.
+    // Index of each node in binned_, or in apart_ (marked by is_apart).
     std::vector<std::uint32_t> place_;
     IndexTable apart_;
     WrappedAxis columns_, rows_;
     // Requested height of the cells [m].
     double wanted_cell_ = 1;
     Drift drift_;
-    // Number of entries and cells visited since then.
+    // Number of entries and cells visited since the last binning.
     std::size_t looked_at_ = 0;
-    // Number of nodes that may be stored separately before all are binned again.
+    // Number of nodes that may be stored separately before all nodes are binned again.
     std::size_t allowed_apart_ = 0;
     std::uint64_t bins_ = 0;
     bool stale_ = true;

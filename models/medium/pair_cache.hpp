@@ -14,26 +14,26 @@ namespace rovernet {
 
 /// Path losses of pairs of nodes, kept while both nodes rest.
 ///
-/// Pairs are ordered, because the transmitter's model applies. Each transmitter has a row: the
-/// receivers at rest that were within its reach when a receiver was last missing in the row. The
-/// row is removed when the transmitter's leg is replaced; a loss in it becomes void when the
-/// receiver's leg is replaced. The caller determines which nodes rest: a network in motion stores
-/// nothing.
+/// Pairs are ordered (transmitter, receiver), because the transmitter's model applies. Each
+/// transmitter has a row: the receivers at rest that were within its reach when the row was last
+/// renewed. The row is removed when the transmitter's leg is replaced. A loss in the row becomes
+/// invalid when the receiver's leg is replaced. The caller determines which nodes rest: while all
+/// nodes move, nothing is stored.
 ///
 /// A row takes 16 bytes per pair. Once the cache is full, stored pairs remain and further pairs are
-/// not stored. Candidates use it, for one transmitter at a time:
+/// not stored. Candidates use the cache, for one transmitter at a time:
 ///
 ///   open(from)                 find(to) for each receiver at rest
-///   renew(n), keep(to, loss)   if one was not found
+///   renew(n), keep(to, loss)   if a receiver was not found
 class PairCache {
   public:
-    /// Default limit of the number of stored pairs: they take 64 MiB.
+    /// Default limit of the number of stored pairs, which take 64 MiB.
     static constexpr std::size_t default_most_pairs = std::size_t{1} << 22;
 
     /// @param most_pairs  largest number of stored pairs
     explicit PairCache(std::size_t most_pairs = default_most_pairs) : most_pairs_(most_pairs) {}
 
-    /// Discards the node's losses after its leg was replaced.
+    /// Discards the losses from and to the node after its leg was replaced.
     void moved(NodeId node) {
         if (node.index() < nodes_.size()) forget(node);
     }
@@ -44,8 +44,8 @@ class PairCache {
     /// computed with a smaller cut-off than `cutoff` [dB].
     /// @return cut-off [dB] for losses stored from now on; >= cutoff
     Db open(NodeId from, Db cutoff);
-    /// Path loss [dB] from the selected transmitter to `to`, which rests; null if it is not stored.
-    /// A loss above the result of open() is only a lower bound.
+    /// Path loss [dB] from the selected transmitter to `to`, which must rest; null if not stored. A
+    /// loss above the result of open() is only a lower bound.
     const double* find(NodeId to) const {
         if (to.index() >= nodes_.size()) return nullptr;
         const Node& node = nodes_[to.index()];
@@ -57,26 +57,26 @@ class PairCache {
     /// Removes the losses of the selected transmitter, and reserves space for `pairs` receivers.
     /// @return false if there is not enough space
     bool renew(std::size_t pairs);
-    /// Stores the loss [dB] from the selected transmitter to `to`, which must rest, after renew();
-    /// once.
+    /// Stores the loss [dB] from the selected transmitter to `to`, which must rest. Must follow
+    /// renew(), once for each receiver.
     void keep(NodeId to, double loss_db);
 
     /// Number of pairs for which memory is allocated.
     std::size_t pairs() const { return pairs_; }
 
   private:
-    // Receiver in a row, and the loss to it.
+    // Receiver in a transmitter's row, and the path loss [dB] to the receiver.
     struct Pair {
         NodeId to;
         /// Number of the receiver's leg for which the loss was computed.
         std::uint32_t version;
         double loss_db;
     };
-    // Row of a node as a transmitter, and its state as a receiver.
+    // Row of a node as a transmitter, and state of the node as a receiver.
     struct Node {
         /// Number of legs of the node so far.
         std::uint32_t version = 0;
-        /// Index of the node among the receivers of the selected transmitter, if that receiver is
+        /// Index in the row of the selected transmitter; valid only if the receiver stored there is
         /// this node.
         std::uint32_t place = 0;
         std::vector<Pair> pairs = {};
@@ -84,7 +84,7 @@ class PairCache {
         Db cutoff{};
     };
 
-    // Discards the row of a node, and invalidates its losses in other rows.
+    // Discards the row of a node, and invalidates the losses to the node in other rows.
     void forget(NodeId node);
     // Frees the memory of a row.
     void release(Node& node);
@@ -96,7 +96,7 @@ class PairCache {
     std::size_t pairs_ = 0;
     // Transmitter selected by open().
     NodeId from_{};
-    // Rows by node, as long as needed for the last node that has one or moved.
+    // Rows by node, up to the last node that has a row or has moved.
     std::vector<Node> nodes_;
 };
 

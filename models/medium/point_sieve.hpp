@@ -7,22 +7,22 @@
 #include <cstdint>
 #include <tmmintrin.h>
 
-// Innermost loop of the search for receivers, in single precision: the caller adds a margin for
-// rounding, so that it may keep a few points too many but never misses one.
+// Innermost loop of the search for receivers, in single precision. The caller adds a margin for
+// rounding to the reach: the loop may keep a few points too many, but never misses one.
 
 namespace rovernet {
 
 /// Sieve of points in a plane: selects the points within reach of a given point, four at a time and
 /// without a branch, which would often be mispredicted. NeighbourIndex searches its cells with it.
-/// It needs SSSE3, which every build has (x86-64-v2): links with shadowing are found with 15 %
-/// fewer instructions.
+/// The code needs SSSE3, which every build has (x86-64-v2): the search for links with shadowing
+/// takes 15 % fewer instructions.
 ///
 /// @tparam squares_too  whether squared distances are also returned
 template <bool squares_too>
 class PointSieve {
   public:
-    /// Number of points read at once: as many must be readable behind the last point, and as many
-    /// results writable behind the last selected one.
+    /// Number of points processed in one step. As many points must be readable behind the last
+    /// point, and as many results writable behind the last selected one.
     static constexpr std::uint32_t at_once = 4;
 
     /// @param xs, ys         coordinates of all points [m]
@@ -31,9 +31,9 @@ class PointSieve {
     PointSieve(const float* xs, const float* ys, float x, float y, float squared_reach)
         : xs_(xs), ys_(ys), x_(all(x)), y_(all(y)), squared_reach_(all(squared_reach)) {}
 
-    /// Selects among the points from `begin` to `end`.
+    /// Selects the points within reach among the points `begin` to `end` - 1.
     /// @param kept     receives the numbers of the selected points, in order
-    /// @param squares  receives their squared distances [m^2], if squares_too
+    /// @param squares  receives the squared distances [m^2] of the selected points, if squares_too
     /// @return number of selected points
     std::size_t sift(std::uint32_t begin, std::uint32_t end, std::uint32_t* kept,
                      float* squares) const {
@@ -50,7 +50,7 @@ class PointSieve {
     // Vector of four equal numbers.
     static Floats all(float x) { return _mm_set1_ps(x); }
 
-    // Byte shuffles that move the values selected by four bits to the front.
+    // Byte shuffles, by a mask of four bits: each moves the selected values to the front.
     using Packing = std::array<std::array<std::uint8_t, 16>, 16>;
     alignas(16) static constexpr Packing packing = [] {
         Packing each{};
@@ -63,7 +63,7 @@ class PointSieve {
         return each;
     }();
 
-    // Processes points `i` to `i` + 3; `wanted` has a bit for each.
+    // Processes the points `i` to `i` + 3; `wanted` has a bit for each point to be tested.
     std::size_t sift_four(std::uint32_t i, std::uint32_t wanted, std::uint32_t* kept,
                           float* squares) const {
         const __m128 dx = _mm_sub_ps(_mm_loadu_ps(xs_ + i), x_);
@@ -82,7 +82,7 @@ class PointSieve {
         return static_cast<std::size_t>(std::popcount(keep));
     }
 
-    // Points; centre and squared reach of the query, as vectors.
+    // Coordinates of all points [m]; below them centre and squared reach of the query, as vectors.
     const float *xs_, *ys_;
     Floats x_, y_, squared_reach_;
 };

@@ -25,9 +25,9 @@
 
 namespace rovernet {
 
-/// Kinds of stations: stations of one kind have equal radio and model parameters, as far as these
-/// affect links. Data for a pair of kinds (ranges, tables) is computed when first needed, once for
-/// all robots of these kinds.
+/// Kinds of stations: stations of one kind have the same propagation model and equal radio
+/// parameters, as far as these affect links. Data for a pair of kinds (ranges, tables) is computed
+/// when first needed, once for all robots.
 class RadioKinds {
   public:
     using Kind = std::uint32_t;
@@ -44,9 +44,9 @@ class RadioKinds {
 
     /// Adds a station. @return its kind
     Kind add(const Radio& radio, const Propagation& model);
-    /// Whether the sensitivity of receivers depends on the coding.
+    /// Whether the sensitivity of receivers depends on the coding of a frame.
     bool depend_on_coding() const { return phy_.has_sensitivities(); }
-    /// Kind that stands for stations of a kind while they transmit this coding.
+    /// Kind that stands for stations of `kind` while they transmit frames of this coding.
     Kind of_coding(Kind kind, Coding coding);
 
     /// Number of kinds.
@@ -67,20 +67,20 @@ class RadioKinds {
         return !gated_ || Membership::match(kinds_[a].membership, kinds_[b].membership);
     }
 
-    /// Largest path loss [dB] at which a signal has this strength.
+    /// Largest path loss [dB] at which a signal of `from` has this strength at `to`.
     Db budget(Strength strength, Kind from, Kind to, LinkGain gain) const;
-    /// Largest path loss [dB] at which a signal has this strength, for any poses of the antennas.
+    /// Largest path loss [dB] at which a signal has this strength, over all poses of antennas.
     Db budget(Strength strength, Kind from, Kind to) const {
         return budget(strength, from, to, LinkGain::most(kinds_[from].radio, kinds_[to].radio));
     }
-    /// Weakest signal [dBm] that interferes at `to`; only if interference has a cut-off.
+    /// Weakest signal [dBm] that interferes at `to`; to be called only if there is a cut-off.
     Dbm weakest_interfering(const Radio& to) const;
-    /// Upper bound on the ratio by which `frames` neglected frames raise a receiver's noise; only
-    /// if interference has a cut-off.
+    /// Upper bound on the ratio [dB] by which `frames` neglected frames raise a receiver's noise.
+    /// To be called only if interference has a cut-off.
     Db left_out(std::size_t frames) const;
-    /// Sets the upper bound [m] of all antenna heights, present and past; it must not decrease.
+    /// Sets the upper bound [m] on z of all antennas, present and past; it must not decrease.
     void set_highest(Meters z);
-    /// Height [m] passed to set_highest().
+    /// Upper bound [m] on z of all antennas, as passed to set_highest().
     Meters highest() const { return highest_; }
     /// Whether any model's range bound depends on antenna heights.
     bool heights_matter() const { return heights_matter_; }
@@ -103,7 +103,7 @@ class RadioKinds {
         const double range2 = kinds_[from].range2[to][strength];
         return std::isnan(range2) ? compute_range(from, to, strength) : range2;
     }
-    /// Bounds of the path loss for Decision::by_range, at a squared distance [m^2].
+    /// Bounds of the path loss at a squared distance [m^2], for Decision::by_range.
     LossBounds::Bounds loss_bounds(Kind from, double squared_distance) {
         Alike& mine = kinds_[from];
         return mine.loss_bounds.at(squared_distance, [&](double d) {
@@ -140,7 +140,7 @@ class RadioKinds {
     // Kind of stations, and the data computed for it.
     struct Alike {
         Radio radio;
-        /// Coding of the frames that its stations transmit.
+        /// Coding of the frames that the kind's stations transmit.
         Coding coding;
         Membership membership;
         /// Index of the kind's propagation model in models_.
@@ -159,14 +159,14 @@ class RadioKinds {
         std::vector<std::optional<FirstLook>> looks = {};
     };
 
-    // Largest path loss [dB] at which a signal has this strength, by the receiver's sensitivity.
+    // Largest path loss [dB] at which a signal has this strength, for this sensitivity of `to`.
     Db budget(Strength strength, const Radio& from, const Radio& to, LinkGain gain,
               Dbm sensitivity) const;
     // Sensitivity [dBm] of a radio to the coding that it receives best.
     Dbm best_sensitivity(const Radio& radio) const;
-    // Network numbers of a radio; adds new numbers for a new network.
+    // Network of a radio, as numbers; a new network gets new numbers.
     Membership membership(const Radio& radio);
-    // Extends the lists of a kind for all kinds.
+    // Extends the lists of `from` to all kinds of receivers.
     void make_room(Kind from);
     // Compute the results of squared_range(), table() and first_look() on first use.
     double compute_range(Kind from, Kind to, Strength strength);
@@ -174,9 +174,9 @@ class RadioKinds {
     FirstLook make_look(Kind from, Strength strength);
 
     Phy phy_;
-    // Cut of interference [dB], if the reception model has one.
+    // Cut-off of interference [dB], if the reception model has one.
     std::optional<Db> interference_cut_;
-    // Kinds of stations; models_ below has the distinct models.
+    // Kinds of stations, by number.
     std::vector<Alike> kinds_;
     // Heights of the kinds' antennas [m].
     std::vector<double> heights_;
@@ -186,10 +186,10 @@ class RadioKinds {
     std::vector<std::pair<int, Hertz>> channels_;
     // Largest gain by fading [dB].
     Db most_fade_;
-    // True if a link varies with the frame or with headings: ranges are not enough then.
+    // True if a link varies with the frame (fading) or with headings: ranges do not decide links.
     bool varies_;
     bool directional_ = false;
-    // True if any two kinds may not have a link.
+    // True if there are two kinds whose gates forbid links.
     bool gated_ = false;
     bool heights_matter_ = false;
     Meters highest_{-std::numeric_limits<double>::infinity()};

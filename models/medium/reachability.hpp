@@ -10,54 +10,55 @@
 #include <utility>
 #include <vector>
 
-// Computation for the metric `reach`, which needs, for every message, the number of robots that any
-// protocol could reach. A search of the whole network for each message would cost more than the
-// messages.
+// Computation for the metric `reach`. The metric needs, for every message, the number of robots
+// that an ideal protocol could reach. A search of the whole network for each message would take
+// more time than the simulation of the messages.
 
 namespace rovernet {
 
 class Medium;
 class Scene;
 
-/// Number of robots that a chain of links connects to a sender, for a query with every message.
-/// Used by Applications.
+/// Counter of the robots that a chain of links connects to a sender, for a query with every
+/// message. Used by Applications.
 ///
 /// While no robot moves, results are cached until a robot moves, is switched or added. Otherwise
-/// every robot stores the robot by which a chain reached it last: that link is checked first, and
-/// only robots not reached by such links are searched for. A robot counts as reached by links that
-/// are up now, and as not reached once all robots that could reach it are checked, so the number is
-/// exact. It takes 12 bytes per robot after the first query.
+/// every robot stores its parent, the robot by which a chain reached it last. The link from the
+/// parent is checked first, and only robots that are not reached by such links are searched for. A
+/// robot counts as reached only by links that are up now, and as not reached only if all robots
+/// that could reach it are checked, so the number is exact. Memory: 12 bytes per robot after the
+/// first query.
 class Reachability {
   public:
-    /// Number of searches for receivers that counts as cheap, in addition to one for each
-    /// transmitted frame: with fewer searches, a run spends about 0.1 s on reachability, and no
+    /// Number of searches for receivers that counts as cheap, in addition to one search for each
+    /// transmitted frame. With fewer searches, a run spends about 0.1 s on reachability, and not
     /// more than on its frames.
     static constexpr std::uint64_t cheap_searches = 10'000;
 
-    /// Number of nodes other than `from` that a chain of links connects to it at `t`, which must
-    /// not decrease.
+    /// Number of nodes other than `from` to which a chain of links leads from `from` at `t`, which
+    /// must not decrease from call to call.
     /// @param medium, legs  the same objects in every call
     std::uint32_t count(Medium& medium, NodeId from, Time t, const Legs& legs);
     /// Result of count() by a search without a cache: slow, for tests.
     static std::uint32_t count_anew(Medium& medium, NodeId from, Time t, const Legs& legs);
-    /// Whether a chain of links connects `from` to `to` at `t`, which must not decrease. The direct
-    /// link is checked first.
+    /// Whether a chain of links connects `from` to `to` at `t`, which must not decrease from call
+    /// to call. The direct link is checked first.
     bool reaches(Medium& medium, NodeId from, NodeId to, Time t, const Legs& legs);
     /// Number of searches for the receivers of a robot so far.
     std::uint64_t searches() const { return searches_; }
 
   private:
-    // Network at the time of the query.
+    // Query: the network, its time, and the sender.
     struct Now {
         Medium& medium;
         const Legs& legs;
         Time t;
         NodeId from;
     };
-    // State of a node in this round: not checked; stored link checked; reached; not reachable.
+    // State of a node in a search: not checked; link from parent checked; reached; not reachable.
     enum class State : std::uint32_t { open, tried, reached, cut };
 
-    // Whether no robot moves.
+    // Whether no robot moves at the time of the query.
     bool is_at_rest(const Now& now);
     // Finds all nodes that a chain connects to the sender.
     void search(const Now& now);
@@ -66,7 +67,7 @@ class Reachability {
         set(node, State::reached);
         reached_.push_back(node);
     }
-    // State of a node; `open` if it was not set in this round.
+    // State of a node; `open` if it was not set in this search.
     State state(NodeId node) const {
         const std::uint32_t mark = marks_[node.index()];
         return mark / 4 == round_ ? static_cast<State>(mark % 4) : State::open;
@@ -74,31 +75,31 @@ class Reachability {
     void set(NodeId node, State state) {
         marks_[node.index()] = 4 * round_ + static_cast<std::uint32_t>(state);
     }
-    // Marks nodes reached by their stored links.
+    // Marks the nodes that are reached by the links from their parents, if these are still up.
     void follow_parents(const Now& now);
-    // Lists the nodes that are on and not reached in open_.
+    // Fills open_ with the nodes that are on and not reached.
     void list_open(const Now& now);
-    // Marks the nodes that hear a reached node.
+    // Marks the nodes that hear the reached node `node`.
     void expand(const Now& now, NodeId node);
-    // Searches from nodes that are not reached, if all links are bidirectional: a component that
-    // hears no reached node is not reachable.
+    // Searches from nodes that are not reached; only if all links are bidirectional. A component
+    // that hears no reached node is not reachable.
     void look_back(const Now& now);
-    // Connects the chain from `first` to `node` to the reached nodes, by the link from `reached`.
+    // Connects the chain from `first` to `node` with the reached nodes, by a link from `reached`.
     void join(NodeId reached, NodeId node, NodeId first);
 
     static constexpr std::uint32_t unknown = 0xffffffff;
 
-    // Results by node, while no robot moves.
+    // Results of count() by node, while no robot moves; `unknown` if not computed.
     std::vector<std::uint32_t> answers_;
-    // Medium::changes() and the scene when these results were computed.
+    // Medium::changes() and the scene when the results in answers_ were computed.
     std::pair<std::uint64_t, const Scene*> answers_of_{~std::uint64_t{0}, nullptr};
-    // Whether no robot moved when the results were computed.
+    // Whether no robot moved when the results in answers_ were computed.
     bool at_rest_ = false;
     // Robot that moved last; checked first by is_at_rest().
     NodeId mover_{};
-    // Node that last reached each node; the node itself if there is none.
+    // Parent of each node: the node by which it was last reached; the node itself if there is none.
     std::vector<NodeId> parents_;
-    // Marks by node: 4 x round + State.
+    // Marks by node: 4 x number of the search + State.
     std::vector<std::uint32_t> marks_;
     std::uint32_t round_ = 0;
     std::uint64_t searches_ = 0;
@@ -106,7 +107,7 @@ class Reachability {
     std::vector<NodeId> reached_;
     // Number of reached nodes from which the search has continued.
     std::size_t expanded_ = 0;
-    // Nodes that are not reached.
+    // Nodes that are on and not reached.
     std::vector<NodeId> open_;
     // Nodes of a chain; kept to reuse the memory.
     std::vector<NodeId> path_;

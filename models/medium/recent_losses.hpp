@@ -14,14 +14,14 @@ namespace rovernet {
 
 class Scene;
 
-/// Cache of the last path losses, one for each pair of sender and receiver: a frame is judged at
-/// its end with the losses computed in the search for its receivers at its start.
+/// Cache of the last path losses, one for each pair of sender and receiver. At the end of a frame,
+/// its judge uses the losses that the search for receivers computed at its start.
 ///
-/// It stores up to 1024 pairs; if two pairs share a slot, the later one is kept. A loss is found
-/// only for exactly the same positions in the same scene, so it equals the model's result.
+/// The cache stores up to 1024 pairs; if two pairs share a slot, the later one is kept. A loss is
+/// found only for exactly the same positions in the same scene: it equals the model's result.
 class RecentLosses {
   public:
-    /// Link from one antenna to another.
+    /// Link from one antenna to another, in a scene.
     struct Link {
         NodeId from, to;
         Vec3 here, there;              ///< positions of both antennas [m]

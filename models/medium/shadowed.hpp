@@ -14,8 +14,7 @@
 namespace rovernet {
 
 /// Propagation model with added shadowing: L = max(0, L_model + X), see Shadowing. Medium makes one
-/// from each of its models if its settings have shadowing with sigma > 0; all losses then include
-/// X.
+/// for each of its models if its settings have shadowing with sigma > 0. All losses then include X.
 ///
 ///   const Propagation model = Shadowed(Friis{}, {.model = ShadowingModel::link}, seed, 0);
 class Shadowed {
@@ -23,7 +22,7 @@ class Shadowed {
     static constexpr std::string_view name = "shadowed";
 
     /// @param base  model without a random part
-    /// @throws std::invalid_argument if it has a random part, or a setting is out of its range
+    /// @throws std::invalid_argument if `base` has a random part, or a setting is out of its range
     Shadowed(Propagation base, const Shadowing& shadowing, std::uint64_t seed,
              std::uint32_t replication);
 
@@ -31,7 +30,7 @@ class Shadowed {
     const Propagation& base() const { return base_; }
     const Shadowing& shadowing() const { return shadowing_; }
 
-    /// Fills out_db[i] [dB] for the i-th receiver.
+    /// Fills out_db[i] with the loss [dB] to receiver i.
     void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const;
     /// Distance [m] beyond which the loss is more than `loss`, even for the most favourable
     /// shadowing.
@@ -40,16 +39,16 @@ class Shadowed {
     }
     void check_frequency(Hertz frequency) const { base_.check_frequency(frequency); }
     void check_scene(const Scene& scene) const { base_.check_scene(scene); }
-    /// Shape of the loss: by_pair if the base's is by_distance, otherwise the base's; `unknown`
-    /// with a shadowing field.
+    /// Shape of the loss: `unknown` with a shadowing field, by_pair if the shape of base() is
+    /// by_distance, otherwise the shape of base().
     LossShape shape() const;
-    /// Model without the shadowing of pairs of robots. A shadowing field remains, because it is the
-    /// same for all robots.
+    /// Model without the random draws of pairs of robots. A shadowing field remains, because it is
+    /// the same for all robots.
     Shadowed median() const;
     bool is_random() const { return !field_ && shadowing_.sigma > Db{0}; }
 
   private:
-    // Largest reduction of a loss by X, plus a margin for rounding.
+    // Largest reduction [dB] of a loss by the shadowing X, plus a margin for rounding.
     Db most() const { return {Shadowing::cut_sigmas * shadowing_.sigma.value + 1e-9}; }
 
     Propagation base_;

@@ -20,7 +20,7 @@
 
 namespace rovernet {
 
-/// Stations of a medium, by node: radio, propagation model of its transmissions, and on/off state.
+/// Stations of a medium, by node: radio, propagation model for its transmissions, and on/off state.
 /// Positions are in Legs.
 class Stations {
     // Node with its radio, its kind, and its on/off state.
@@ -34,13 +34,14 @@ class Stations {
   public:
     using Kind = RadioKinds::Kind;
 
-    /// Creates an empty list. `most_fade` is the largest gain by fading; empty: frames do not fade.
+    /// Creates an empty list. `most_fade`: largest gain by fading [dB]; empty: frames do not fade.
     /// @throws std::invalid_argument if a shadowing parameter of the settings is out of its range
     Stations(const MediumSettings& settings, std::optional<Db> most_fade);
 
     /// Adds the next node. @return its kind
     /// @param key          key of the robot, for random draws
-    /// @param propagation  model of its transmissions; shadowing of the settings is added
+    /// @param propagation  propagation model for the node's transmissions; shadowing of the
+    ///                     settings is added
     /// @throws std::invalid_argument if a radio parameter is out of its range, or the model cannot
     /// work at the radio's frequency
     Kind add(const Radio& radio, std::uint64_t key, const Propagation& propagation);
@@ -48,7 +49,7 @@ class Stations {
     void reserve(std::size_t nodes) { keys_.reserve(nodes); }
     /// Number of nodes.
     std::size_t size() const { return keys_.size(); }
-    /// Prefetches the state of `node`.
+    /// Prefetches the state of `node` into the processor's cache.
     void prefetch(NodeId node) const { __builtin_prefetch(keys_.data() + node.index()); }
 
     /// Sets the bit rate of a node's radio, and with it the coding.
@@ -67,15 +68,15 @@ class Stations {
     bool all_are_alike() const { return kinds_.size() == 1 && !is_directional(); }
     /// Whether any antenna is directional, so that headings affect links.
     bool is_directional() const { return kinds_.is_directional(); }
-    /// Kind of a node; read without memory access if all nodes are of one kind.
+    /// Kind of a node (see RadioKinds); without memory access if all nodes are of one kind.
     Kind kind(NodeId node) const {
         return kinds_.size() == 1 ? Kind{0} : Kind{stations_[node.index()].kind};
     }
-    /// Kind of a node while it transmits this coding; its own unless sensitivities depend on it.
+    /// Kind of a node while it sends this coding; kind(node) unless sensitivities depend on it.
     Kind kind(NodeId node, Coding coding) {
         return kinds_.depend_on_coding() ? kind_of_coding(node, coding) : kind(node);
     }
-    /// Data that all stations of a kind share; some of it is computed on first use.
+    /// Kinds of stations, with their shared data; some of it is computed on first use.
     const RadioKinds& kinds() const { return kinds_; }
     RadioKinds& kinds() { return kinds_; }
 
@@ -85,11 +86,11 @@ class Stations {
     const Radio& radio(NodeId node) const {
         return radios_.size() == 1 ? radios_.front() : radios_[stations_[node.index()].radio];
     }
-    /// Propagation model of transmissions of `node`.
+    /// Propagation model for transmissions of `node`.
     const Propagation& model(NodeId node) const { return kinds_.model(kind(node)); }
     /// Noise floor of a node's receiver [dBm].
     Dbm noise(NodeId node) const { return kinds_.noise(kind(node)); }
-    /// Whether the gates of both nodes allow a link: one of them is open, or they share a network.
+    /// Whether the gates of both nodes allow a link: they share a network, or one node has no gate.
     bool may_link(NodeId a, NodeId b) const { return kinds_.may_link(kind(a), kind(b)); }
 
     /// Height of a node's antenna above the robot's z [m].
@@ -98,22 +99,23 @@ class Stations {
     Vec3 antenna(NodeId node, Time t, const Legs& legs) const;
     /// Pose of a node's antenna at `t`.
     Pose pose(NodeId node, Time t, const Legs& legs) const;
-    /// Gain of the antennas and cables between two nodes at `t`.
+    /// Gains [dB] of the antennas and cables of the link from `from` to `to` at `t`.
     LinkGain gain(NodeId from, NodeId to, Time t, const Legs& legs) const {
         return LinkGain::of(radio(from), radio(to), [&] {
             return std::pair{pose(from, t, legs), pose(to, t, legs)};
         });
     }
-    /// Updates the largest antenna height for a new leg of `node`, if heights matter and measure()
-    /// has included the node before.
+    /// Updates the bound on antenna heights for a new leg of `node`, if heights matter and
+    /// measure() has included the node before.
     void moved(NodeId node, const Legs& legs) {
         if (node.index() < measured_) measure(node.index(), node.index() + 1, legs);
     }
-    /// Updates the largest antenna height for all nodes added since the last call; must be called
+    /// Updates the bound on antenna heights for all nodes added since the last call. Must be called
     /// before the reach of a kind is queried.
     void measure(const Legs& legs) { measure(measured_, keys_.size(), legs); }
 
-    /// On/off states of all nodes through one stored pointer, for loops that write to memory.
+    /// On/off states of all nodes by one copied pointer, which a loop that writes to memory need
+    /// not reload.
     class Switches {
       public:
         explicit Switches(const Stations& stations)
@@ -126,28 +128,28 @@ class Stations {
 
   private:
     Kind kind_of_coding(NodeId node, Coding coding);
-    // Creates the list of stations, which all equal the first one so far and are on.
+    // Fills stations_, up to the last node; new entries have the first radio and kind, and are on.
     void list_stations();
-    // Model with the shadowing of the settings; copies of one handle share the result.
+    // Model with the shadowing of the settings; for copies of one Propagation the same object.
     Propagation shadowed(const Propagation& model);
     void measure(std::size_t begin, std::size_t end, const Legs& legs);
 
-    // Shadowing of all models; below it seed and replication of its draws.
+    // Shadowing that is added to all models; below, seed and replication of its draws.
     Shadowing shadowing_;
     std::uint64_t seed_;
     std::uint32_t replication_;
     // Keys of robots, by node.
     std::vector<std::uint64_t> keys_;
-    // Stations by node; empty while all are equal and on.
+    // Stations by node; empty while all nodes have equal radios and models, and are on.
     std::vector<Station> stations_;
     // Distinct radios.
     std::vector<Radio> radios_;
     // Number of nodes that are off.
     std::size_t off_ = 0;
     RadioKinds kinds_;
-    // Models as given, and with added shadowing, if there is any.
+    // Propagation models as passed to add(), each with its copy that has added shadowing.
     std::vector<std::pair<Propagation, Propagation>> shadowed_;
-    // Number of nodes included in the largest antenna height.
+    // Number of nodes included in the bound on antenna heights.
     std::size_t measured_ = 0;
 };
 

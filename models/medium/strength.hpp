@@ -10,8 +10,8 @@ namespace rovernet {
 /// - interfering: the frame interferes with other frames
 enum class Strength { decodable, detectable, interfering };
 
-/// Method by which the receivers of a signal are determined: the fastest that its model allows. All
-/// three give exactly the same result as the loss; they differ in the time for a pair.
+/// Method by which the receivers of a signal are determined: the fastest that the propagation model
+/// allows. All three methods give exactly the result of by_loss; they differ in computing time.
 enum class Decision {
     /// Receivers are determined by distance alone.
     by_range,

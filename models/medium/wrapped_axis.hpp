@@ -15,11 +15,11 @@
 namespace rovernet {
 
 /// Axis of a grid whose cells wrap around: a fixed number of cells of equal width covers the whole
-/// line; cell c represents the intervals c, c + cells, c + 2 cells ...
+/// line. Cell c represents the intervals number c, c + cells, c + 2 cells ...
 ///
-/// So a grid needs no bounds and never grows, wherever robots move. Distant intervals may share a
-/// cell: a query has to check its results. Two axes form a grid, as in the index of the medium
-/// (NeighbourIndex) and in the index of frames on air (OnAir).
+/// Therefore a grid needs no bounds and never grows, wherever robots move. Distant intervals may
+/// share a cell: the caller of a query has to check the distances. Two axes form a grid, as in the
+/// index of the medium (NeighbourIndex) and in the index of frames on air (OnAir).
 class WrappedAxis {
   public:
     /// @param width  width of a cell [m], > 0
@@ -35,8 +35,8 @@ class WrappedAxis {
     /// Cell of the coordinate `x` [m], in 0 ... cells() - 1.
     std::size_t cell_at(double x) const { return wrapped(unwrapped(x)); }
 
-    /// Cells of a query: one range [begin, end), and a second one [0, wrapped_end) if the cells
-    /// wrap around.
+    /// Cells found by a query: a range [begin, end), and a second range [0, wrapped_end) if the
+    /// cells wrap around.
     struct Cells {
         std::size_t begin, end, wrapped_end;
 
@@ -69,7 +69,7 @@ class WrappedAxis {
     std::int64_t unwrapped(double x) const {
         return static_cast<std::int64_t>(std::floor(std::min(far, std::max(-far, x * per_meter_))));
     }
-    // Cell of an interval.
+    // Cell that represents interval number `cell`.
     std::size_t wrapped(std::int64_t cell) const {
         const auto n = static_cast<std::int64_t>(cells_);
         // Most intervals need no division, which would take longer than all other work here.
@@ -78,7 +78,7 @@ class WrappedAxis {
     }
 
     double width_;
-    // Cells in a metre [1/m].
+    // Number of cells per metre [1/m].
     double per_meter_;
     std::size_t cells_;
 };

@@ -8,7 +8,7 @@
 #include <span>
 
 // Error rates of IEEE 802.11b, a and g, used by the physical layer Wifi. A frame of n bits at a
-// constant ratio is received with probability success(n log_success(modulation, sinr)).
+// constant SINR is received with probability success(n log_success(modulation, sinr)).
 
 namespace rovernet {
 
@@ -41,7 +41,7 @@ enum class Modulation : std::uint8_t {
     ofdm_54,
 };
 
-/// Bit rates [bit/s] of the modulations, in their order.
+/// Bit rates [bit/s] of all modulations, in the order of Modulation.
 std::span<const BitRate> modulated_rates();
 /// Modulation of a bit rate: 1, 2, 5.5, 11 Mb/s are DSSS and CCK; 6, 9, 12, 18, 24, 36, 48, 54 Mb/s
 /// are OFDM; empty for other rates.
@@ -50,8 +50,9 @@ std::optional<Modulation> modulation_of(BitRate rate);
 /// Bit error probability in white Gaussian noise, 0 ... 0.5; relative error of the computation
 /// below 1e-10.
 ///
-/// Limited to 0.5, the error of a guess: the equations of DSSS 2 and OFDM exceed it at low S, where
-/// they are not valid. Bits are independent and have the same S: no fading within a frame.
+/// The result is limited to 0.5, the error of a guess: the equations of DSSS 2 and OFDM exceed 0.5
+/// at low S, where they are not valid. Bits are independent and have the same S: no fading within a
+/// frame.
 /// DSSS 1: e^(-22 S) / 2. J. G. Proakis, Digital Communications, 4th ed., eq. 5.2-69.
 /// DSSS 2: (sqrt 2 + 1) / sqrt(8 pi sqrt 2 x) e^(-(2 - sqrt 2) x) with x = 11 S. G. Ferrari and
 ///   G. E. Corazza, Electronics Letters 40(20), 2004, eq. 8.
@@ -69,16 +70,16 @@ std::optional<Modulation> modulation_of(BitRate rate);
 ///   37(11), 1989, for 2/3 and 3/4.
 ///
 /// @param  sinr  S, signal over interference and noise [-] in the receiver's bandwidth: 22 MHz for
-///               DSSS and CCK, 20 MHz for OFDM; the result is 0.5 unless it is > 0
+///               DSSS and CCK, 20 MHz for OFDM; the result is 0.5 unless S > 0
 double bit_error_rate(Modulation modulation, double sinr);
 
-/// Natural logarithm of the probability that a bit is right, log(0.5) ... 0. It can be summed over
-/// bits and over chunks of different sinr, and is accurate for bit error rates below 1e-16.
+/// Natural logarithm of the probability that a bit is right, log(0.5) ... 0. Values can be summed
+/// over bits and over chunks of different sinr; they are accurate for error rates below 1e-16.
 double log_success(Modulation modulation, double sinr);
 
 /// Smallest signal to noise ratio [dB] at which success() is 1 for any number of bits up to 2^35.
 Db certain_sinr(Modulation modulation);
 
-/// Probability that all bits are right, from the sum of their log_success: e^sum.
+/// Probability that all bits are right, from the sum of log_success() over these bits: e^sum.
 double success(double log_success_sum);
 }  // namespace rovernet

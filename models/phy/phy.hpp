@@ -16,7 +16,7 @@
 #include <utility>
 
 // Interface of physical layers: airtimes, sensitivities and bit error rates. The access model
-// chooses one for its frames. A layer without bit errors:
+// chooses a physical layer for its frames. Example without bit errors:
 //
 //     struct Ideal {
 //         static constexpr std::string_view name = "ideal";
@@ -32,15 +32,15 @@
 
 namespace rovernet {
 
-/// Physical layer: how frames are transmitted, and probabilities that their bits are right. A plain
-/// struct with pure functions.
+/// Physical layer: transmission parameters of frames, and probabilities that their bits are
+/// received correctly. A plain struct with pure functions:
 ///
-/// - `transmission(radio, rate, bytes)`: a frame of `bytes` by a radio at a bit rate [bit/s]
+/// - `transmission(radio, rate, bytes)`: parameters of a frame of `bytes` at a bit rate [bit/s]
 /// - `rates()`: bit rates [bit/s] with known error rates
-/// - `coding(rate)`: coding of such a rate; empty for another rate
-/// - `log_success(coding, sinr)`: natural logarithm of the probability that a bit is right, for a
-///   ratio of signal to interference and noise [-] that is constant during the bit
-/// - `certain_sinr(coding)`: smallest ratio [dB] at which a frame of any length is right
+/// - `coding(rate)`: coding at one of these rates; empty for any other rate
+/// - `log_success(coding, sinr)`: natural logarithm of the probability that a bit is received
+///   correctly, for an SINR [-] that is constant during the bit
+/// - `certain_sinr(coding)`: smallest SINR [dB] at which frames of any length have no bit errors
 template <class T>
 concept PhysicalLayer = std::copyable<T> &&
     requires(const T& phy, const Radio& radio, BitRate rate, std::uint32_t bytes, Coding coding,
@@ -53,21 +53,21 @@ concept PhysicalLayer = std::copyable<T> &&
     { phy.certain_sinr(coding) } -> std::same_as<Db>;
 };
 
-// Optional functions of a layer.
+// Optional functions of a physical layer.
 
-/// Layer whose receivers are more sensitive to some codings than to others: sensitivity(radio,
-/// coding) [dBm] replaces Radio::sensitivity.
+/// Physical layer whose receivers have a sensitivity for each coding: sensitivity(radio, coding)
+/// [dBm] replaces Radio::sensitivity.
 template <class T>
 concept HasSensitivities = requires(const T& phy, const Radio& radio, Coding coding) {
     { phy.sensitivity(radio, coding) } -> std::same_as<Dbm>;
 };
-/// Layer in which frames of other codings interfere less: rejection(wanted, other) is the fraction
-/// of the other frame's power that counts [-], 0 ... 1.
+/// Physical layer in which frames of other codings interfere less: rejection(wanted, other) is the
+/// fraction [-] of the other frame's power that interferes, 0 ... 1.
 template <class T>
 concept HasRejection = requires(const T& phy, Coding wanted, Coding other) {
     { phy.rejection(wanted, other) } -> std::same_as<double>;
 };
-/// Layer with its own rule for the detection of preambles: preamble_detection(coding).
+/// Physical layer with its own rule for the detection of preambles: preamble_detection(coding).
 template <class T>
 concept HasPreambleDetection = requires(const T& phy, Coding coding) {
     { phy.preamble_detection(coding) } -> std::same_as<PreambleDetection>;
@@ -77,7 +77,7 @@ concept HasPreambleDetection = requires(const T& phy, Coding coding) {
 /// the medium, the channel and the judges of receptions use it.
 class Phy {
   public:
-    /// Stores a layer of any type.
+    /// Stores a physical layer of any type.
     /// @throws std::invalid_argument if a parameter is out of its range
     template <class T>
     requires(!std::same_as<T, Phy> && PhysicalLayer<T>) Phy(T phy)
@@ -86,24 +86,24 @@ class Phy {
           has_detection_(HasPreambleDetection<T>),
           self_(std::make_shared<Holder<T>>(std::move(phy))) {}
 
-    /// Name of the layer.
+    /// Name of the physical layer.
     std::string_view name() const { return self_->name(); }
-    /// Transmission of a frame of `bytes` by a radio.
+    /// Transmission parameters of a frame of `bytes` by a radio, at a bit rate [bit/s].
     Transmission transmission(const Radio& radio, BitRate rate, std::uint32_t bytes) const {
         return self_->transmission(radio, rate, bytes);
     }
     /// Bit rates [bit/s] with known error rates.
     std::span<const BitRate> rates() const { return self_->rates(); }
-    /// Coding of a rate; empty if its error rates are not known.
+    /// Coding of frames at a bit rate; empty if the error rates of that bit rate are not known.
     std::optional<Coding> coding(BitRate rate) const { return self_->coding(rate); }
-    /// Natural logarithm of the probability that a bit is right. For a frame, sum it over bits and
-    /// over chunks of different sinr [-].
+    /// Natural logarithm of the probability that a bit is received correctly. For a frame, values
+    /// are summed over bits and over chunks of different sinr [-].
     double log_success(Coding coding, double sinr) const {
         return self_->log_success(coding, sinr);
     }
-    /// Smallest ratio [dB] at which a frame of any length is right.
+    /// Smallest SINR [dB] at which frames of any length have no bit errors.
     Db certain_sinr(Coding coding) const { return self_->certain_sinr(coding); }
-    /// Whether the sensitivity depends on the coding.
+    /// Whether the sensitivity of receivers depends on the coding of a frame.
     bool has_sensitivities() const { return has_sensitivities_; }
     /// Weakest signal of a coding that `radio` receives [dBm]; by default Radio::sensitivity.
     Dbm sensitivity(const Radio& radio, Coding coding) const {
@@ -114,14 +114,14 @@ class Phy {
     double rejection(Coding wanted, Coding other) const {
         return has_rejection_ ? self_->rejection(wanted, other) : 1;
     }
-    /// When and how strong a preamble must be to be detected; by default after 4 us, as the
-    /// reception model says.
+    /// Rule for the detection of preambles; by default 4 us after the start of the preamble, with
+    /// the threshold of the reception model.
     PreambleDetection preamble_detection(Coding coding) const {
         return has_detection_ ? self_->preamble_detection(coding) : PreambleDetection{};
     }
 
   private:
-    // Functions of a layer of any type.
+    // Interface to the functions of a physical layer of any type.
     struct Concept {
         virtual ~Concept() = default;
         virtual std::string_view name() const = 0;
@@ -134,7 +134,7 @@ class Phy {
         virtual double rejection(Coding, Coding) const = 0;
         virtual PreambleDetection preamble_detection(Coding) const = 0;
     };
-    // Layer of type T, with checked parameters.
+    // Physical layer of type T, with checked parameters.
     template <class T>
     struct Holder final : Concept {
         explicit Holder(T p) : phy(std::move(p)) {
@@ -166,9 +166,9 @@ class Phy {
         }
         T phy;
     };
-    // Facts about the layer, which save a call.
+    // Optional functions that the layer has; stored, because a virtual call is slower.
     bool has_sensitivities_, has_rejection_, has_detection_;
-    // Never null.
+    // Physical layer; never null.
     std::shared_ptr<const Concept> self_;
 };
 

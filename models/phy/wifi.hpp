@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-// Timing and airtimes of IEEE 802.11: constants of the standard for access model "csma" and the
+// Timing and airtimes of IEEE 802.11: constants of the standard, for access model "csma" and the
 // physical layer Wifi.
 
 namespace rovernet {
@@ -34,25 +34,25 @@ struct EnumNames<WifiStandard> {
     static constexpr std::array<std::string_view, 3> values = {"802.11b", "802.11a", "802.11g"};
 };
 
-/// Timing of 802.11 channel access [ns], contention windows, and lowest rate.
+/// Constants of 802.11 channel access: times [ns], contention windows and lowest bit rate.
 struct WifiTiming {
-    /// Backoff slot: aSlotTime.
+    /// Backoff slot [ns]: aSlotTime.
     Duration slot;
-    /// Space before a response: aSIFSTime.
+    /// Interframe space [ns] before a response: aSIFSTime.
     Duration sifs;
-    /// Space before channel access: aSIFSTime + 2 aSlotTime; 802.11-2020, 10.3.7.
+    /// Interframe space [ns] before channel access: aSIFSTime + 2 aSlotTime; 802.11-2020, 10.3.7.
     Duration difs;
-    /// Time from the arrival of energy until it is sensed.
+    /// Time [ns] from the arrival of energy until the station senses it.
     Duration cca_time;
-    /// Time from the decision to send to the start of transmission: aRxTxTurnaroundTime.
+    /// Time [ns] from the decision to send to the start of transmission: aRxTxTurnaroundTime.
     Duration turnaround;
-    /// Time until the start of a frame is detected: aRxPHYStartDelay.
+    /// Time [ns] until a receiver detects the start of a frame: aRxPHYStartDelay.
     Duration rx_start_delay;
     /// Smallest contention window [slots]: aCWmin.
     int cw_min;
     /// Largest contention window [slots]: aCWmax.
     int cw_max;
-    /// Lowest mandatory rate [bit/s]; EIFS contains an ACK at this rate.
+    /// Lowest mandatory bit rate [bit/s]; the EIFS includes the airtime of an ACK at this rate.
     BitRate lowest_rate;
 };
 
@@ -71,7 +71,7 @@ constexpr WifiTiming timing_of(WifiStandard standard) {
     return {};
 }
 
-/// Mandatory bit rates of a standard, lowest first; the default basic rates of csma.
+/// Mandatory bit rates [bit/s] of a standard, lowest first: the default basic rates of "csma".
 ///
 /// Sources: 802.11-2020, 16.1.1, 17.1.1 and, for 802.11g without 802.11b stations, 18.1.2.
 inline std::vector<BitRate> mandatory_rates(WifiStandard standard) {
@@ -79,13 +79,14 @@ inline std::vector<BitRate> mandatory_rates(WifiStandard standard) {
     return {{6e6}, {12e6}, {24e6}};
 }
 
-/// Rates of a standard [bit/s], mandatory and optional: 1 to 11 Mb/s for 802.11b, 6 to 54 Mb/s for
-/// 802.11a, all of them for 802.11g.
+/// Bit rates of a standard [bit/s], mandatory and optional: 1 to 11 Mb/s for 802.11b, 6 to 54 Mb/s
+/// for 802.11a, all of these for 802.11g.
 std::span<const BitRate> rates_of(WifiStandard standard);
 
-/// Time on air [ns] of a preamble and `bytes` [bytes]: for 802.11b in whole microseconds, the unit
-/// of its length field (802.11-2020, 15.2.3.5, 16.2.3.5); for OFDM in whole symbols of 4 us, with
-/// service and tail bits (17.4.3), plus 6 us of signal extension for 802.11g (18.5.3).
+/// Time on air [ns] of a frame: its preamble, then `bytes` bytes at `rate`. For 802.11b in whole
+/// microseconds, the unit of the length field (802.11-2020, 15.2.3.5, 16.2.3.5); for OFDM in whole
+/// symbols of 4 us, with service and tail bits (17.4.3), plus 6 us of signal extension for 802.11g
+/// (18.5.3).
 ///
 ///   1500 bytes   802.11b, 11 Mb/s, 192 us of preamble   1283 us
 ///                802.11a, 54 Mb/s, 20 us of preamble     244 us
@@ -94,8 +95,8 @@ Duration wifi_airtime(WifiStandard standard, Duration preamble, BitRate rate, st
 /// Physical layer "wifi": IEEE 802.11b, a and g. Error rates are in models/phy/error_rate.hpp; a
 /// Coding is a Modulation.
 ///
-/// Without `framing` it is the plain radio of access models "none" and "aloha": 64 bytes at 11 Mb/s
-/// with the long preamble take 192 us + 46.545 us on air.
+/// Without `framing`, Wifi is the simple physical layer of access models "none" and "aloha": 64
+/// bytes at 11 Mb/s with the long preamble take 192 us + 46.545 us on air.
 struct Wifi {
     static constexpr std::string_view name = "wifi";
 
@@ -117,7 +118,7 @@ struct Wifi {
     Db certain_sinr(Coding coding) const;
 };
 
-/// Size of a data frame without its message: 24 bytes of header, 4 of frame check sequence.
+/// Size [bytes] of a data frame without its message: 24 of header, 4 of frame check sequence.
 inline constexpr std::uint32_t data_header_bytes = 28;
 
 }  // namespace rovernet

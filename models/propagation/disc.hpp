@@ -9,8 +9,8 @@ namespace rovernet {
 
 /// Unit disc: loss of 0 dB within the range, the range itself included, and 1000 dB beyond it.
 ///
-/// A link is decided by distance, not by decibels. There are no signal levels: use it for geometry,
-/// not for link margins, and not with reception model "sinr".
+/// A link is decided by distance, not by decibels. There are no signal levels: use the unit disc
+/// for geometry, not for link margins, and not with reception model "sinr".
 ///
 /// `rovernet loss disc range=50 --distance 50,51` prints "in range" and "out of range".
 ///
@@ -35,7 +35,7 @@ struct Disc {
         return loss.value < outside_db ? range : Meters{std::numeric_limits<double>::infinity()};
     }
 
-    /// Fills out_db[i] [dB], 0 or outside_db, for the i-th receiver.
+    /// Fills out_db[i] with the loss [dB] to receiver i: 0 or outside_db.
     void loss(const LinkBatch& links, Db /*cutoff*/, std::span<double> out_db) const {
         const double R2 = range.value * range.value;
         for (std::size_t i = 0; i < out_db.size(); ++i) {

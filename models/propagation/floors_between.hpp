@@ -13,20 +13,20 @@
 namespace rovernet {
 
 /// Floors between the antennas of a link. The loss of a floor is either that of its ceiling's
-/// material or the model's, never both.
+/// material or that of the propagation model, never both.
 struct FloorsBetween {
     /// Number of floors whose loss the propagation model determines [-], a whole number.
     double of_model = 0;
-    /// Loss of the other floors, by the materials of their ceilings [dB].
+    /// Loss [dB] of the floors whose ceilings have a material with a loss.
     double loss_db = 0;
 };
 
 /// Counter of the floors crossed by a batch's links. In a scene of several storeys the floors are
 /// its ceilings, whose losses are computed once. In other scenes there is a floor every
-/// `floor_height`, if that is given, with the model's loss; at most 1000.
+/// `floor_height`, if given, with the loss of the propagation model; at most 1000 are counted.
 class FloorCounter {
   public:
-    /// @param links  batch of links; must outlive this
+    /// @param links  batch of links; must outlive the FloorCounter
     explicit FloorCounter(const LinkBatch& links) : links_(links) {
         if (!links.scene) return;
         for (const Material& ceiling : links.scene->storeys().ceilings()) {
@@ -62,7 +62,7 @@ class FloorCounter {
     }
 
     const LinkBatch& links_;
-    // Floors counted for each ceiling, from the lowest; empty if there is one storey.
+    // Contribution of each ceiling, from the lowest; empty if the scene has one storey.
     std::vector<FloorsBetween> ceilings_;
 };
 

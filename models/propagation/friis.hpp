@@ -15,8 +15,8 @@ namespace rovernet {
 ///
 ///   20 log10(4 pi d f / c)
 ///
-/// It is negative below d = c / (4 pi f), where it is not valid. Other models use it as their loss
-/// at a reference distance.
+/// The loss is negative below d = c / (4 pi f), where the formula is not valid. Other models use it
+/// for their loss at a reference distance.
 ///
 /// Source: H. T. Friis, A note on a simple transmission formula, Proc. IRE 34(5), 1946.
 inline double free_space_db(double d, Hertz f) {
@@ -26,8 +26,8 @@ inline double free_space_db(double d, Hertz f) {
 /// Free space (Friis):  L(d) = max(0, 20 log10(4 pi d f / c)), and 0 dB at d = 0.
 ///
 /// Valid in the far field, d > max(lambda, 2 D^2 / lambda), without objects between or near the
-/// antennas. It neglects ground, walls and all obstacles. The default model. At 2450 MHz `rovernet
-/// loss friis` prints
+/// antennas. Ground, walls and all obstacles are neglected. Friis is the default propagation model.
+/// At 2450 MHz `rovernet loss friis` prints
 ///
 ///   1 m   40.23 dB
 ///   10 m  60.23 dB
@@ -45,7 +45,7 @@ struct Friis {
         return {speed_of_light / (4 * std::numbers::pi * f.value) * math::exp10(loss.value / 20)};
     }
 
-    /// Fills out_db[i] [dB] for the i-th receiver.
+    /// Fills out_db[i] with the loss [dB] to receiver i.
     void loss(const LinkBatch& links, Db /*cutoff*/, std::span<double> out_db) const {
         for (std::size_t i = 0; i < out_db.size(); ++i) {
             out_db[i] = std::max(0.0, free_space_db(links.distance(i), links.frequency));

@@ -23,10 +23,10 @@ struct EnumNames<Environment> {
 ///
 /// N is `coefficient`, or the table value for `environment` at the nearest frequency (by ratio, at
 /// most 1.5). The floor loss Lf is a table value in the same way, with Lf(0) = 0; without an
-/// environment there is no floor loss, as in the 2007 thesis (docs/worlds.md). Beyond the last
-/// tabulated floor its value is used. N includes the walls: do not add them. In a scene of several
-/// storeys, n counts the ceilings without a loss of their material; the losses of other ceilings
-/// are added, unless `floors` is given or there is no environment.
+/// environment there is no floor loss, as in the 2007 thesis (docs/worlds.md). For more floors than
+/// the table has, the value of its last floor is used. N includes the walls: do not add them. In a
+/// scene of several storeys, n counts the ceilings without a loss of their material; the losses of
+/// other ceilings are added, unless `floors` is given or there is no environment.
 ///
 /// Site-general, from 900 MHz to 100 GHz: a median over buildings with a standard deviation of 8-12
 /// dB, not a prediction for a single building. With N = 30 at 2450 MHz `rovernet loss itu_indoor`
@@ -41,11 +41,11 @@ struct ItuIndoor {
     static constexpr std::string_view name = "itu_indoor";
     static constexpr bool is_indoor = true;
 
-    /// Distance power loss coefficient N [-], > 0; 30 if neither this nor an environment is given.
+    /// Distance power loss coefficient N [-], > 0; 30 if `environment` is not given, either.
     std::optional<double> coefficient = std::nullopt;
     /// Kind of building: determines N (unless `coefficient` is given) and the floor loss.
     std::optional<Environment> environment = std::nullopt;
-    /// Number of floors n between the antennas [-]; computed from their heights if not given.
+    /// Number of floors n between the antennas [-]; counted from antenna heights if not given.
     std::optional<int> floors = std::nullopt;
 
     static constexpr auto fields() {
@@ -65,21 +65,21 @@ struct ItuIndoor {
     }
 
     /// Checks a radio's frequency.
-    /// @throws std::invalid_argument if the table has no row near enough, or not enough floors
+    /// @throws std::invalid_argument if the tables have no row near the frequency, or no loss of
+    ///         `floors` floors
     void check_frequency(Hertz f) const;
 
-    /// Distance [m] beyond which the loss is more than `loss`, without floors; with floors it is
-    /// smaller.
+    /// Distance [m] beyond which the loss is more than `loss`, whatever the number of floors.
     Meters reach(Db loss, Hertz f) const;
-    /// Fills out_db[i] [dB] for receiver i; never negative.
+    /// Fills out_db[i] with the loss [dB] to receiver i; never negative.
     void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const;
 };
 
-/// Path loss [dB] by the classic formula, with a given N and floor loss Lf [dB]; distances below 1
-/// m count as 1 m. Raytrace2007 uses it as its loss without walls.
+/// Path loss [dB] by the formula of ITU-R P.1238, with given N and floor loss Lf [dB]; distances
+/// below 1 m count as 1 m. Raytrace2007 uses it for its loss without walls.
 double itu_indoor_db(double d, Hertz f, double N, double Lf);
 
-/// Distance [m] at which itu_indoor_db without floors reaches `loss`; 0 if it always does.
+/// Distance [m] at which itu_indoor_db() without floors is `loss`; 0 if it is always larger.
 Meters itu_indoor_reach(Db loss, Hertz f, double N);
 
 }  // namespace rovernet

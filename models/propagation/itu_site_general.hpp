@@ -18,7 +18,7 @@ struct EnumNames<Site> {
 
 /// Line of sight between two antennas: whether no wall obstructs it.
 enum class LineOfSight {
-    /// From the scene's walls; always clear on an open field.
+    /// Determined by the scene's walls; always clear on an open field.
     map,
     yes,
     no,
@@ -54,7 +54,7 @@ struct ItuSiteGeneral {
 
     /// Kind of indoor site, which selects the coefficients.
     Site site = Site::office;
-    /// Line of sight: from the map, or fixed for all links.
+    /// Line of sight: determined by the scene's walls for each link, or fixed for all links.
     LineOfSight los = LineOfSight::map;
 
     static constexpr auto fields() {
@@ -69,12 +69,12 @@ struct ItuSiteGeneral {
     }
 
     /// Checks a radio's frequency.
-    /// @throws std::invalid_argument outside the site's range, from 0.3 or 0.625 to 70 or 83 GHz
+    /// @throws std::invalid_argument outside the site's range, 0.3 or 0.625 GHz to 70 or 83 GHz
     void check_frequency(Hertz f) const;
 
-    /// Distance [m] beyond which the loss is more than `loss`, for any obstruction.
+    /// Distance [m] beyond which the loss is more than `loss`, with or without line of sight.
     Meters reach(Db loss, Hertz f) const;
-    /// Fills out_db[i] [dB] for the i-th receiver.
+    /// Fills out_db[i] with the loss [dB] to receiver i.
     void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const;
 };
 

@@ -19,11 +19,12 @@ namespace rovernet {
 
 /// Propagation models that scenario files can name, in the order of detail. For a model in this
 /// list the reader, range checks, printing, documentation, conformance tests and sweeps follow from
-/// its fields(). `rovernet compare` uses the last of its models as the most detailed one.
+/// its fields(). Among the compared models, `rovernet compare` takes the last one in this list as
+/// the most detailed.
 using PropagationModels = std::tuple<Disc, Friis, TwoRay, ItuIndoor, LogDistance, ItuSiteGeneral,
                                      MultiWall, Raytrace2007, Rays>;
 
-/// Calls `visit.template operator()<Model>()` for each listed model, in this order:
+/// Calls `visit.template operator()<Model>()` for each model of PropagationModels, in order:
 ///
 ///   for_each_model([&]<class Model>() { names.emplace_back(Model::name); });
 template <class Visitor>

@@ -11,10 +11,10 @@ namespace rovernet {
 ///   excess; X normal with mean 0 and standard deviation sigma, cut at 5 sigma; the sum is never
 ///   negative.
 ///
-/// X is a function of seed, replication and the unordered pair of robots: equal in both directions,
-/// at all times and for any number of samples. The cut (5.7e-7 of draws) bounds the range;
-/// ShadowedRange uses it to decide links fast. Valid in the far field of the transmitter; n and
-/// sigma include walls, single walls have no effect. Median with the defaults at 2450 MHz, by
+/// X is a function of seed, replication and the unordered pair of robots: X is equal in both
+/// directions, at all times and for any number of samples. The cut (5.7e-7 of draws) bounds the
+/// range; ShadowedRange uses it to decide links fast. Valid in the far field of the transmitter; n
+/// and sigma include walls, single walls have no effect. Median with the defaults at 2450 MHz, by
 /// `rovernet loss log_distance`:
 ///
 ///   1 m   40.23 dB
@@ -26,11 +26,11 @@ struct LogDistance {
 
     /// Path loss exponent n [-], > 0; 2 free space, about 4 an obstructed office.
     double exponent = 2.5;
-    /// Standard deviation of X [dB], >= 0; 0 for the median only.
+    /// Standard deviation of the shadowing X [dB], >= 0; with 0 the loss is the median.
     Db sigma{5};
     /// Reference distance d0 [m], > 0.
     Meters reference_distance{1.0};
-    /// Loss at d0 in addition to free space [dB]; may be negative.
+    /// Loss at the reference distance in addition to free space [dB]; may be negative.
     Db excess{0};
 
     static constexpr auto fields() {
@@ -52,15 +52,15 @@ struct LogDistance {
         return sigma.value == 0 ? LossShape::by_distance : LossShape::by_pair;
     }
 
-    /// Whether the loss has a random part for each pair.
+    /// Whether the loss has a random part for each pair of robots.
     bool is_random() const { return sigma.value > 0; }
-    /// Same model without shadowing (sigma 0).
+    /// Model with the same parameters, but without shadowing (sigma 0).
     LogDistance median() const { return {exponent, Db{0}, reference_distance, excess}; }
-    /// Path loss as a function of distance and draw, at a frequency.
+    /// Path loss at a frequency, as a function of distance and shadowing draw.
     ShadowedLoss shadowed_loss(Hertz f) const;
-    /// Distance [m] beyond which the loss is more than `loss` even for a draw of -5 sigma.
+    /// Distance [m] beyond which the loss is more than `loss`, even with a shadowing of -5 sigma.
     Meters reach(Db loss, Hertz f) const;
-    /// Fills out_db[i] [dB] for the i-th receiver, with the draw of the pair.
+    /// Fills out_db[i] with the loss [dB] to receiver i, with the shadowing draw of the pair.
     void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const;
 };
 

@@ -13,15 +13,15 @@ namespace rovernet {
 ///   L = L0 + 10 n log10 d + sum over the walls crossed + Lf k^((k + 2) / (k + 1) - b),
 /// with L0 = free space at 1 m + excess, and k floors between the antennas.
 ///
-/// The loss of a wall is that of its material. A wall whose material has no loss of its own has
-/// `light_wall` or `heavy_wall`: it is light if its drawn thickness at the middle of the ray inside
-/// it is below 10 cm. A wall counts once, however it is drawn and at any angle of crossing, see
-/// Scene::walls(). A ceiling in a scene of several storeys has the loss of its material, or else
-/// counts in k; in other scenes k counts the storeys of [scene] floor_height, if that is given. The
-/// wall loss does not grow with the angle of crossing, unless the material has a loss per metre.
-/// The loss jumps where a wall obstructs the ray, and where the thickness at the ray's middle
-/// passes 10 cm. Reflection and diffraction are neglected: behind many walls the loss is an upper
-/// estimate.
+/// The loss of a wall is that of its material. A wall whose material has no loss of its own has the
+/// loss `light_wall` or `heavy_wall`: the wall is light if its drawn thickness at the middle of the
+/// ray inside the wall is below 10 cm. A wall counts once, however it is drawn and at any angle of
+/// crossing, see Scene::walls(). A ceiling in a scene of several storeys has the loss of its
+/// material, or else counts in k; in other scenes k counts the storeys of [scene] floor_height, if
+/// that is given. The wall loss does not grow with the angle of crossing, unless the material has a
+/// loss per metre. The loss jumps where a wall obstructs the ray, and where the thickness at the
+/// ray's middle passes 10 cm. Reflection and diffraction are neglected: behind many walls the loss
+/// is an upper estimate.
 ///
 /// With the defaults at 2450 MHz `rovernet loss multi_wall` prints
 ///
@@ -46,7 +46,7 @@ struct MultiWall {
     Db heavy_wall{6.9};
     /// Loss of one floor, Lf [dB], >= 0.
     Db floor_loss{18.3};
-    /// Exponent b [-], from 0 to 1, by which further floors have less loss than the first.
+    /// Parameter b of the exponent [-], 0 to 1: further floors have less loss than the first.
     double floor_saving = 0.46;
 
     static constexpr auto fields() {
@@ -73,7 +73,7 @@ struct MultiWall {
 
     /// Distance [m] beyond which the loss is more than `loss`, for any walls and floors.
     Meters reach(Db loss, Hertz f) const;
-    /// Fills out_db[i] [dB] for the i-th receiver; walls and floors come from the batch.
+    /// Fills out_db[i] with the loss [dB] to receiver i; walls and floors are the scene's.
     void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const;
     /// Loss of one crossed wall [dB]. @param material  material of the wall
     Db wall_loss(const Wall& wall, const Material& material, Hertz f) const;

@@ -13,7 +13,8 @@
 #include <string_view>
 #include <utility>
 
-// Handle of propagation models. A Network has one for all robots, and each robot may have its own:
+// Handle of propagation models. A Network has one model for all robots, and a robot may have its
+// own:
 //
 //     Network network({.propagation = LogDistance{.exponent = 3}});
 //     network.add({.name = "A", .propagation = Friis{}});
@@ -21,15 +22,15 @@
 namespace rovernet {
 
 /// Propagation model of any type, stored by value and shared between copies (models are immutable).
-/// Used by robots, tables and the medium; for optional functions that a model lacks it returns safe
-/// defaults.
+/// Used by robots, tables and the medium. For optional functions that a model lacks, Propagation
+/// returns safe defaults.
 ///
 ///   const Propagation model = LogDistance{.exponent = 3, .sigma = Db{0}};
 ///   model.reach(Db{90}, 2450_MHz);  // [m] beyond which more than 90 dB are lost
 ///   model.shape();                  // LossShape::by_distance
 class Propagation {
   public:
-    /// Bound on antenna heights for reach() that means: no bound.
+    /// Infinite bound on antenna heights, for reach(): antennas may have any height.
     static constexpr Meters anything{std::numeric_limits<double>::infinity()};
 
     /// @throws std::invalid_argument if a parameter is out of its range
@@ -39,14 +40,15 @@ class Propagation {
 
     /// Name of the model in scenario files.
     std::string_view name() const { return self_->name(); }
-    /// Losses of a batch [dB], see PropagationModel.
-    /// @param cutoff  loss [dB] above which a value need not be exact, but must stay above it
-    /// @param out_db   one for each receiver
+    /// Computes the losses [dB] of a batch of links, see PropagationModel.
+    /// @param cutoff  loss [dB] above which results need not be exact: they may be any value above
+    ///                `cutoff`
+    /// @param out_db   loss [dB] for each receiver
     void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const {
         self_->loss(links, cutoff, out_db);
     }
     /// Loss [dB] of one link.
-    /// @param link    all of the link but its receiver
+    /// @param link    link without its receiver: transmitter, frequency and scene
     /// @param to      position of the receiver's antenna [m]
     /// @param to_key  key of the receiver
     double loss_to(Vec3 to, LinkBatch link, std::uint64_t to_key = 0) const {
@@ -84,12 +86,12 @@ class Propagation {
         const auto* holder = dynamic_cast<const Holder<T>*>(self_.get());
         return holder ? &holder->model : nullptr;
     }
-    /// Whether both objects are copies of one Propagation and share its model; the medium stores
-    /// the model once.
+    /// Whether both objects are copies of one Propagation and share its model. The medium stores a
+    /// shared model once.
     friend bool operator==(const Propagation&, const Propagation&) = default;
 
   private:
-    // Functions of a model of any type; Holder adds safe defaults for missing ones.
+    // Interface to a model of any type; Holder adds safe defaults for missing functions.
     struct Concept {
         virtual ~Concept() = default;
         virtual std::string_view name() const = 0;
@@ -116,7 +118,7 @@ class Propagation {
         void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const override {
             model.loss(links, cutoff, out_db);
         }
-        /// Bound of the range by the model's own reach(); infinite if it has none.
+        /// Bound of the range [m] by the model's own reach(); infinite if the model has no reach().
         Meters reach(Db loss, Hertz frequency, [[maybe_unused]] Meters highest) const override {
             if constexpr (BoundedByHeight<T>) return model.reach(loss, frequency, highest);
             if constexpr (BoundedModel<T>) return model.reach(loss, frequency);
@@ -148,7 +150,7 @@ class Propagation {
         }
         T model;
     };
-    // Never null, and shared: equal handles are copies of one.
+    // Propagation model, shared by all copies of a Propagation; never null.
     std::shared_ptr<const Concept> self_;
 };
 

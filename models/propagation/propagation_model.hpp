@@ -16,7 +16,7 @@
 
 // Interface of propagation models: the path loss of a link in dB. A model is a plain struct with a
 // name and one pure function; optional functions (range, shape) speed up the search for links.
-// Antennas, gains and powers are not part of it: Medium adds them.
+// Antennas, gains and powers are not part of a model: Medium adds them.
 //
 //     struct FreeSpace {
 //         static constexpr std::string_view name = "free_space";
@@ -45,13 +45,13 @@ struct ShadowedLoss {
     /// Standard deviation of shadowing [dB], >= 0.
     double sigma;
 
-    /// Median loss at distance d relative to that at the reference distance [dB].
+    /// Median loss [dB] at distance d [m], relative to the median loss at the reference distance.
     double rise(double d) const {
         return per_decade * math::log10(std::max(d / reference_distance, 1.0));
     }
     /// Median loss [dB] at distance d [m].
     double median(double d) const { return at_reference + rise(d); }
-    /// Loss [dB] at distance d for the standard normal deviate x, clipped to +-5.
+    /// Loss [dB] at distance d [m] for the standard normal draw x, which is clamped to +-5.
     double operator()(double d, double x) const {
         return std::max(0.0, median(d) + sigma * std::clamp(x, -cut_sigmas, cut_sigmas));
     }
@@ -79,7 +79,7 @@ struct LinkBatch {
     /// Scene with its walls; never null in a Network.
     const Scene* scene = nullptr;
     /// Storey height [m], by which models count the floors between antennas if the scene has no
-    /// ceilings of its own. no_storeys: no floors are counted then.
+    /// ceilings. The value no_storeys means that no floors are counted.
     Meters floor_height = no_storeys;
     /// Seed and replication of random draws.
     std::uint64_t seed = 0;
@@ -95,7 +95,7 @@ struct LinkBatch {
     double distance(std::size_t i) const { return rovernet::distance(from, to[i]); }
 };
 
-/// Path loss model: a plain struct with one pure function over a batch of links.
+/// Propagation model: a plain struct with one pure function over a batch of links.
 ///
 /// `loss` fills out_db[i] [dB] for receiver i, same size as the batch; finite, never negative, and
 /// equal in both directions. Once a loss exceeds `cutoff`, the model may stop the computation and
@@ -110,7 +110,7 @@ concept PropagationModel = std::copy_constructible<T> &&
 };
 
 /// Model with a bounded range: beyond `reach(loss, frequency)` [m] its loss is more than `loss`.
-/// Without this bound every robot is checked.
+/// For a model without this bound, a search for receivers checks every robot.
 template <class T>
 concept BoundedModel = requires(const T& model, Db loss, Hertz frequency) {
     { model.reach(loss, frequency) } -> std::same_as<Meters>;
@@ -123,8 +123,8 @@ concept BoundedByHeight = requires(const T& model, Db loss, Hertz frequency, Met
     { model.reach(loss, frequency, highest) } -> std::same_as<Meters>;
 };
 
-/// Shape of the loss when the ends of a link move. It determines how receivers and link changes are
-/// searched for.
+/// Shape of the loss when the ends of a link move. The shape determines how receivers and link
+/// changes are searched for.
 enum class LossShape {
     /// Non-decreasing function of the distance between the antennas.
     by_distance,
@@ -138,13 +138,13 @@ enum class LossShape {
     /// Any function of the positions.
     unknown,
 };
-/// Shape of the loss while the antennas move with velocities a and b [m/s]; never by_heights.
+/// Shape of the loss while two antennas move with velocities a and b [m/s]; never by_heights.
 constexpr LossShape shape_in_motion(LossShape shape, Vec3 a, Vec3 b) {
     if (shape != LossShape::by_heights) return shape;
     return a.z == 0 && b.z == 0 ? LossShape::by_distance : LossShape::unknown;
 }
 
-/// Model with a known shape; others are `unknown`.
+/// Model that states the shape of its loss. Models without shape() have LossShape::unknown.
 template <class T>
 concept ShapedModel = requires(const T& model) {
     { model.shape() } -> std::same_as<LossShape>;
@@ -157,8 +157,9 @@ concept ShadowedModel = requires(const T& model, Hertz frequency) {
     { model.shadowed_loss(frequency) } -> std::same_as<ShadowedLoss>;
 };
 
-/// Model with a random part for each pair of nodes; median() returns the model without it (an equal
-/// model if nothing is random). Pictures of coverage show the median, because they have no pairs.
+/// Model with a random part for each pair of nodes; median() returns the model without the random
+/// part (an equal model if nothing is random). Pictures of coverage show the median, because they
+/// have no pairs.
 template <class T>
 concept RandomModel = requires(const T& model) {
     { model.median() } -> std::same_as<T>;

@@ -20,28 +20,28 @@ inline double cross_in_plan(Vec3 a, Vec3 b) { return a.x * b.y - a.y * b.x; }
 
 /// Convex vertical edge of a wall, seen in plan: a free end or a corner.
 ///
-/// The end of a thin wall has two corners near each other. They form one edge, the edge of a
-/// screen: otherwise a sheet, a wedge and a brick would have different shadows. A path around it is
-/// a taut string that touches one of its corners, or both.
+/// The end of a thin wall has two corners near each other. Both corners form one edge, the edge of
+/// a screen: otherwise a sheet, a wedge and a brick would have different shadows. A path around an
+/// edge is a taut string that touches one or both of its corners.
 struct WallEdge {
     /// Indices of the faces before and behind the edge, in the order of the outline.
     std::size_t before, behind;
-    /// Corners of the edge [m]: end of the face before it, and start of the face behind it.
+    /// Corners of the edge [m]: end of the face before the edge, and start of the face behind it.
     std::array<Vec3, 2> corners;
-    /// Unit vector from the edge along the face before it.
+    /// Unit vector from the edge back along the face before the edge.
     Vec3 back;
-    /// Exterior angle over pi [-], above 1 to 2.
+    /// Exterior angle of the edge over pi [-], > 1 and <= 2.
     double n;
-    /// Height of the wall [m].
+    /// Height of the wall at the edge [m].
     double height;
-    /// Largest distance of the drawn outline from the corners [m]; 0 if the outline follows the
-    /// grid.
+    /// Largest distance of the drawn outline from the lines of both faces [m]; 0 if the outline
+    /// follows the map's grid.
     double steps;
-    /// Indices of the edges that share the face before and the face behind; no_edge if there is
-    /// none.
+    /// Indices of the neighbouring edges: at the other ends of the face before and of the face
+    /// behind; no_edge if there is none.
     std::size_t previous, next;
-    /// True if the wall ends here and is thinner than a wavelength: its two corners count as one
-    /// edge.
+    /// True if the corners are at most a wavelength apart, as at the end of a thin wall: both
+    /// corners then count as one.
     bool thin;
 };
 inline constexpr std::size_t no_edge = static_cast<std::size_t>(-1);
@@ -52,7 +52,7 @@ struct EdgeCorner {
     std::size_t edge;  ///< index of the corner's edge
 };
 
-/// Corners that a taut string between two points touches, with the bodies on its left.
+/// Corners touched by a taut string between two points, with the bodies on the string's left.
 std::vector<EdgeCorner> touched(std::span<const EdgeCorner> corners, Vec3 from, Vec3 to);
 
 /// Taut string around bodies, in plan, with the bodies on its left.
@@ -66,36 +66,36 @@ struct TautString {
         return i == 0 ? from : i > touched.size() ? to : touched[i - 1].at;
     }
     double length() const { return at.back(); }
-    /// Index of a corner among the touched corners.
+    /// Index of a corner among the touched corners; empty if the string does not touch it.
     std::optional<std::size_t> touches(const EdgeCorner& corner) const;
 };
 
-/// Faces at an edge that a straight path crosses.
+/// Faces at an edge that a straight path crosses: the face before, the face behind.
 struct CrossedAt {
     bool before = false, behind = false;
-    bool between = false;  ///< short face between the faces before and behind
+    bool between = false;  ///< whether a short face between `before` and `behind` is crossed
     bool any() const { return before || behind || between; }
 };
 
-/// Path around an edge.
+/// Path around an edge, or around several edges of one body.
 struct WayAround {
-    std::array<std::size_t, 2> edges;  ///< indices of the edges that it reaches and leaves
-    std::array<Vec3, 2> corners;       ///< corners where it reaches and leaves them [m]
-    RayEdge edge;                      ///< edge data, with lengths in three dimensions
+    std::array<std::size_t, 2> edges;  ///< indices of the first and the last edge of the path
+    std::array<Vec3, 2> corners;       ///< first and last corner of the path [m]
+    RayEdge edge;                      ///< data of the edges, with lengths in three dimensions
     double length;                     ///< length of the path around the edge [m]
-    double detour;                     ///< length beyond the straight line between its ends [m]
+    double detour;                     ///< `length` minus the straight distance of the ends [m]
 };
 
 /// Edges of a scene's walls at one wavelength.
 ///
 /// Faces shorter than five wavelengths, and than 0.4 of the outline's longest face, do not separate
 /// corners: everything between the longer faces before and behind is one edge, if the outline turns
-/// left there by more than 20 degrees in total. So the end of a wall is one edge, and a pillar has
-/// four.
+/// left there by more than 20 degrees in total. Therefore the end of a wall is one edge, and a
+/// pillar has four edges.
 class RayEdges {
   public:
     RayEdges() = default;
-    /// @param faces  must outlive the edges
+    /// @param faces  faces of the walls; must outlive the RayEdges
     RayEdges(std::span<const Face> faces, double wavelength);
     std::span<const WallEdge> all() const { return edges_; }
 
@@ -104,9 +104,9 @@ class RayEdges {
     std::optional<WayAround> around(std::size_t edge, Vec3 a, Vec3 b) const;
 
     /// Path from a around a body to b: a taut string over the edges from `first`, where the
-    /// straight path enters the body, to the edge where it leaves it. Of more than two corners only
-    /// the first and the last count.
-    /// @param crossed  crossed faces, by edge
+    /// straight path enters the body, to the edge where the straight path leaves it. Of more than
+    /// two corners only the first and the last count.
+    /// @param crossed  faces that the straight path crosses, by edge
     /// @param corners  the path's corners are appended, in the order of the outline
     /// @return empty if the outline does not turn left all the way, or no corner obstructs the path
     std::optional<WayAround> around_body(std::size_t first, std::span<const CrossedAt> crossed,
@@ -114,7 +114,7 @@ class RayEdges {
 
     /// Adds the next corner that the path passes to a path around one corner of an edge, if the
     /// detour by that corner is less than `near_edge`: the two then form one pair.
-    /// @param shadowed  the edge obstructs the straight path
+    /// @param shadowed  whether the edge obstructs the straight path
     /// @return index of the added corner's edge, or no_edge
     std::size_t join_next_corner(WayAround& way, std::size_t edge, bool shadowed, Vec3 a,
                                  Vec3 b) const;
@@ -123,20 +123,20 @@ class RayEdges {
     /// @param faces  faces that the path crosses
     void find_crossed(std::span<const std::size_t> faces, std::vector<CrossedAt>& crossed) const;
 
-    /// Whether a face is before or behind an edge, or between its corners.
+    /// Whether a face is before or behind an edge, or between the corners of the edge.
     bool is_of(std::size_t face, std::size_t edge) const {
         return edges_[edge].before == face || edges_[edge].behind == face ||
                of_face_[face].between == edge;
     }
-    /// Index of the longer of the faces before and behind an edge: its wall.
+    /// Index of the wall's face at an edge: the longer of the faces before and behind the edge.
     std::size_t wall_at(std::size_t edge) const {
         const WallEdge& e = edges_[edge];
         return faces_[e.before].length >= faces_[e.behind].length ? e.before : e.behind;
     }
-    /// Edge to which both faces belong, or no_edge.
+    /// Index of the edge to which both faces f and g belong, or no_edge.
     std::size_t edge_of(std::size_t f, std::size_t g) const;
 
-    /// Edge whose corners are on both sides of the face, or no_edge.
+    /// Index of the edge that has the face between its corners, or no_edge.
     std::size_t edge_with(std::size_t face) const { return of_face_[face].between; }
 
     /// Whether a path from edge `first` to edge `last` begins or ends at a face.
@@ -146,7 +146,7 @@ class RayEdges {
     }
 
   private:
-    /// Edges of a face: the face is before, behind or between them.
+    /// Edges at a face: with the face before them, behind them or between their corners.
     struct EdgesOfFace {
         std::size_t before = no_edge, behind = no_edge, between = no_edge;
     };

@@ -18,18 +18,18 @@ namespace rovernet {
 ///
 /// An image of order n is the mirror image of an image of order n - 1, in a face within that
 /// image's beam: the sector from the image through its own face. F faces have up to F (F - 1)^(n -
-/// 1) images; the beams leave far fewer. Walls between are ignored here, because radio passes
-/// through walls.
+/// 1) images; the beams leave far fewer. Walls between the faces are ignored here, because radio
+/// waves pass through walls.
 class RayImages {
   public:
     /// Empty set: no faces, no images.
     RayImages() = default;
-    /// @param faces     must outlive the images
+    /// @param faces     faces of the scene; must outlive the images
     /// @param order     largest number of reflections, >= 0
     /// @param shortest  shorter faces [m] do not reflect
-    /// @param few       compute the images of the highest order for each receiver separately, only
-    ///                  those that it sees. These are most of the images: it saves time for few
-    ///                  receivers, and costs time for many.
+    /// @param few       true: the images of the highest order, which are most of the images, are
+    ///                  computed for each receiver separately: only those that it sees. This is
+    ///                  faster for few receivers, and slower for many.
     RayImages(std::span<const Face> faces, Vec3 from, int order, double shortest, bool few = false);
 
     /// Calls visit(chain) for each image whose beam contains the point p, with a tolerance of 1e-7
@@ -47,31 +47,31 @@ class RayImages {
     }
 
   private:
-    static constexpr double slack = 1e-7;  // [m] tolerance of a beam's sides
-    static constexpr std::uint32_t root = static_cast<std::uint32_t>(-1);  // the sender
+    static constexpr double slack = 1e-7;  // tolerance of a beam's sides [m]
+    static constexpr std::uint32_t root = static_cast<std::uint32_t>(-1);  // parent: sender
     /// Line in plan: the signed distance of the point (x, y) from it is a x + b y + c [m].
     struct Line {
         double a, b, c;
         double at(double x, double y) const { return a * x + b * y + c; }
     };
     struct Image {
-        std::array<Line, 3> beam;  // in front of the face, and between the two sides
-        double x, y;               // [m]
+        std::array<Line, 3> beam;  // line of the face, and of the beam's two sides
+        double x, y;               // position of the image [m]
         std::uint32_t face, parent;
     };
-    /// Face whose front the receiver sees, with the receiver's mirror image in it.
+    /// Face whose front the receiver sees, with the receiver's mirror image in the face.
     struct Sight {
         Line front, along;  // distance [m] in front of the face; position along it from its start
         double length;      // length of the face [m]
-        double receiver_front, receiver_along;  // the same two distances of the receiver [m]
-        Vec3 mirrored;                          // image of the receiver in the face
+        double receiver_front, receiver_along;  // `front` and `along` of the receiver [m]
+        Vec3 mirrored;                          // mirror image of the receiver [m]
         std::uint32_t face;
     };
     /// Group of faces whose mirror images of the receiver lie in one circle.
     struct Bunch {
         std::size_t begin, end;  // range of indices into sights_
         Vec3 centre;
-        double radius;  // [m]
+        double radius;  // radius of the circle [m]
     };
     void add_images_of(Vec3 at, std::uint32_t parent);
     void add_seen_images(Vec3 receiver);
@@ -86,7 +86,7 @@ class RayImages {
     std::vector<std::uint32_t> mirrors_;  // faces that reflect
     Vec3 from_{};
     bool few_ = false;
-    std::vector<Sight> sights_;   // sights of the last receiver
+    std::vector<Sight> sights_;   // faces seen by the last receiver
     std::vector<Bunch> bunches_;  // groups of sights_
     std::vector<Image> images_;
     std::size_t shared_ = 0;   // number of images common to all receivers

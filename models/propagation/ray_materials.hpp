@@ -14,7 +14,7 @@
 
 namespace rovernet {
 
-/// Factor of a wall on the field of a path: `field` times e^-decay.
+/// Factor by which a wall changes the field of a path: `field` times e^-decay.
 struct RayFactor {
     math::Complex field;
     /// Decay [Np], >= 0; separate from the field, which would be 0 for metal.
@@ -23,7 +23,7 @@ struct RayFactor {
     double loss() const;  ///< loss of the wall for the path [dB], finite
 };
 
-/// Losses of a wave at a slab [dB]: of the transmitted wave, and of the reflected wave.
+/// Losses at a slab [dB]: of the wave that crosses the slab, and of the reflected wave.
 struct HitLosses {
     double crossing, reflection;
 };
@@ -41,25 +41,25 @@ inline constexpr Meters thickest_default_wall{0.5};
 /// phase shift, and reflects with the model's `reflection_loss` and a phase shift of pi.
 class RayMaterials {
   public:
-    /// @param wall_loss  loss of crossing a wall whose material has none; empty: it is a slab of
-    ///                   `wall`
+    /// @param wall_loss  loss of crossing a wall whose material has no loss; empty: such a wall is
+    ///                   a slab of `wall`
     RayMaterials(const std::vector<Material>& materials, Hertz frequency, ItuMaterial wall,
                  std::optional<Db> wall_loss, Db reflection_loss);
     RayFactor factor(const RayHit& hit) const;
     /// Whether the material is a slab: its loss depends on thickness and angle, not on the length
-    /// inside.
+    /// inside the wall.
     bool is_slab(std::size_t material) const { return entries_[material].slab.has_value(); }
-    /// Losses of a slab, equal to those of factor(), except for rounding.
+    /// Losses of a slab [dB], equal to the losses of factor() except for rounding.
     HitLosses losses_at_slab(std::size_t material, double thickness, double cosine) const;
-    /// Lower bound of the loss [dB] of any reflection by the material at that angle.
+    /// Lower bound of the reflection loss [dB] of the material at this angle, for any thickness.
     double least_reflection_loss(std::size_t material, double cosine) const;
     /// Field around an edge, relative to free space at the same path length.
     ///
     /// knife_edge: J(nu) of P.526, nu = 2 sqrt(detour / lambda), applied to the part of the power
     /// that the wall does not transmit. utd: D sqrt((s + s') / (s s')), with the wall's
     /// transmission into its shadow, and its reflection if `mirrors`. A pair of edges:
-    /// pair_field(). At most 1.
-    /// @param mirrors  reflected paths are added with their phases
+    /// pair_field(). The magnitude of the field is at most 1.
+    /// @param mirrors  whether reflected paths are added with their phases
     RayFactor around(const RayEdge& edge, RayDiffraction by, bool mirrors) const;
     /// Loss of a straight path that passes an edge on its lit side [dB], for knife edges: up to 6
     /// dB at one edge, applied to the part of the power that the wall does not transmit.
@@ -75,8 +75,8 @@ class RayMaterials {
         std::optional<Slab> slab;         // empty for a material with a loss in decibels
         std::optional<double> thickness;  // fixed thickness [m], instead of the drawn one
         double thickest;                  // upper limit of the drawn thickness [m]
-        std::array<double, 65> least;     // smallest loss of reflection [dB], by cosine * 64
-        double per_crossing, per_metre;   // [dB], [dB/m]
+        std::array<double, 65> least;     // smallest reflection loss [dB], by 64 * cosine
+        double per_crossing, per_metre;   // losses of a crossing [dB], [dB/m]
 
         double slab_thickness(double drawn) const {
             return thickness.value_or(drawn < thickest ? drawn : thickest);

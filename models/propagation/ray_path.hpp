@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-// Paths of radio waves between two antennas: only geometry, without the effect of materials. So the
-// paths of a link can be stored and evaluated again for other materials.
+// Paths of radio waves between two antennas: only geometry, without the effect of materials.
+// Therefore the paths of a link can be stored and evaluated again for other materials.
 
 namespace rovernet {
 
@@ -28,8 +28,8 @@ struct RayHit {
         reflection  ///< the path is reflected by the wall
     };
     Kind kind;
-    /// Index of the face that reflects, or whose normal defines the angle of a crossing; no_face if
-    /// the whole path lies inside the wall.
+    /// Index of the reflecting face, or of the face whose normal defines the angle of a crossing;
+    /// no_face if the whole path lies inside the wall.
     std::size_t face;
     /// Material of the wall: index into Scene::materials().
     std::size_t material;
@@ -57,10 +57,10 @@ struct RayEdge {
     double thickness, cosine;
     /// True if the straight path crosses a face at the edge.
     bool shadowed = false;
-    /// Set if the path also passes a second edge of the same body: the two form a pair, and the
-    /// numbers above are for the path around both.
+    /// Pair of edges, if the path also passes a second edge of the same body. The other members are
+    /// then for the path around both edges.
     std::optional<EdgePair> pair = std::nullopt;
-    /// Field past the edge, relative to free space, if it also depends on other bodies in the path.
+    /// Field past the edge, relative to free space; set if the field also depends on other bodies.
     std::optional<math::Complex> field = std::nullopt;
 };
 

@@ -34,7 +34,7 @@ struct RayLimit {
 /// Finds the paths from one sender to its receivers, by the method of images.
 ///
 /// Paths are found in plan, and their height changes linearly from one antenna to the other: walls
-/// are vertical, and floors and ceilings do not reflect. A reflection above the end of the face is
+/// are vertical, and floors and ceilings do not reflect. A reflection above the top of the face is
 /// left out. A path passes through every wall that it meets.
 ///
 /// With edges, there are paths around one body each: around the ends of the walls that obstruct the
@@ -54,10 +54,10 @@ struct RayLimit {
 /// end that comes first by its coordinates.
 class RayTracer {
   public:
-    /// @param scene       must outlive the tracer
+    /// @param scene       scene with the walls; must outlive the tracer
     /// @param order       largest number of reflections
     /// @param wavelength  [m]; faces shorter than the wavelength do not reflect
-    /// @param edges       also find paths around edges
+    /// @param edges       whether to find paths around edges, too
     /// @param few         true: faster for few receivers, slower for many; see RayImages
     RayTracer(const Scene& scene, Vec3 from, int order, double wavelength, bool edges = false,
               bool few = false);
@@ -65,16 +65,16 @@ class RayTracer {
     /// Writes the paths to a receiver into `out`.
     /// @param limit  null: all paths; otherwise the strongest path and those within the limit
     void trace(Vec3 to, const RayLimit* limit, RayPaths& out);
-    /// Losses of the last link's paths [dB], in their order; only valid with a limit.
+    /// Losses [dB] of the paths of the last trace(), in their order; only with a limit.
     std::span<const double> losses() const { return losses_; }
 
   private:
-    /// Path found, before its wall crossings are computed.
+    /// Path that exists by geometry; its wall crossings are not computed yet.
     struct Candidate {
-        double length;  // [m]
-        // Index of its first point; the path has two more points than reflections.
+        double length;  // length of the path [m]
+        // Index of the path's first point; it has two more points than reflections.
         std::size_t first_point;
-        std::size_t first, count;  // range of its reflections
+        std::size_t first, count;  // range of the path's reflections
         double free_space = 0;     // loss without walls [dB]
         double least_loss = 0;     // free-space loss plus a lower bound for the reflections [dB]
     };
@@ -82,30 +82,30 @@ class RayTracer {
     struct Draft {
         RayPaths& out;
         const RayLimit* limit;
-        std::size_t first;        // index of its first hit
-        std::size_t first_edge;   // index of its first edge
+        std::size_t first;        // index of the path's first hit
+        std::size_t first_edge;   // index of the path's first edge
         double loss;              // loss so far [dB], including reflections
-        bool whole_ends = false;  // walls at its ends count as a whole, as on paths around them
-        std::size_t clipped = no_edge;  // last edge whose wall it passes through as a whole
+        bool whole_ends = false;  // a wall that is crossed at a corner counts in full thickness
+        std::size_t clipped = no_edge;  // last edge whose wall was counted in full
         // Edges at the start and at the end of the current leg: the leg does not cross their faces.
         std::array<std::size_t, 2> beside = {no_edge, no_edge};
     };
-    /// Losses of a slab for a material, thickness and angle. The walls of a path are mostly
-    /// parallel or perpendicular, so a few such entries are enough.
+    /// Cached losses of a slab, for a material, thickness and angle. The walls of a path are mostly
+    /// parallel or perpendicular, so a few entries are enough.
     struct KnownSlab {
         std::size_t material;
         double thickness, cosine;
         HitLosses losses;
     };
     /// Detour around one wall or obstacle that is in or beside the straight line from the
-    /// transmitter to the receiver, and whether it passes on the left.
+    /// transmitter to the receiver, and whether the detour passes on the left.
     struct BodyWay {
-        std::size_t first_corner, corners;  // range of its corners, in the order of the outline
+        std::size_t first_corner, corners;  // range in corners_, in the order of the outline
         WayAround way;
         bool left;
     };
-    /// Face that the straight path grazes, or face between the corners of an edge, and the fraction
-    /// of its reflection in the edges' field.
+    /// Face that the straight path grazes, or face between the corners of an edge, and fraction [-]
+    /// of the face's reflection that the field of the edges includes.
     struct GrazedFace {
         std::size_t face, edge;
         double share;
@@ -161,7 +161,7 @@ class RayTracer {
     double wavelength_;
     RayImages images_;
     RayEdges edges_;
-    // Ends of the link, ordered by coordinates; the members below are the state of the current
+    // Ends of the link [m], ordered by coordinates; all members below are the state of the current
     // link.
     Vec3 a_, b_;
     double best_ = 0;  // loss of the strongest path so far [dB]
@@ -173,12 +173,12 @@ class RayTracer {
     std::vector<Vec3> mirrored_;
     std::vector<Crossing> crossings_;
     std::vector<std::size_t> crossed_;  // faces of the walls crossed by the last leg
-    std::vector<CrossedAt> at_edge_;    // by edge: faces that the straight path crosses
-    std::vector<char> done_;            // by edge: a path around it was found
+    std::vector<CrossedAt> at_edge_;    // crossed faces of the straight path, by edge
+    std::vector<char> done_;            // flag by edge: path around it was found
     std::vector<BodyWay> bodies_;       // paths around single bodies in the straight path
     std::vector<EdgeCorner> corners_;   // corners of the paths in bodies_
     std::vector<GrazedFace> grazed_;
-    std::array<KnownSlab, 6> known_{};  // last results, for the same materials
+    std::array<KnownSlab, 6> known_{};  // cached losses of slabs
     std::size_t next_known_ = 0;
 };
 

@@ -61,12 +61,13 @@ struct EnumNames<RaySum> {
 /// than 40 dB below the sum of powers; the sum of the straight path and edges is also never more
 /// than 3 dB above it.
 ///
-/// The loss is not monotone, and jumps where a path begins or ends: at a wall's shadow boundary by
-/// the loss of the wall (not with edges), at the end of a reflecting face by the reflected power.
+/// The loss is not a monotone function of distance, and jumps where a path begins or ends: at a
+/// wall's shadow boundary by the loss of the wall (not with edges), at the end of a reflecting face
+/// by the reflected power.
 ///
 /// The loss is at most 200 dB above free space.
 ///
-/// Paths are found in plan, without storeys: a scene of several storeys is refused.
+/// Paths are found in plan, without storeys: it is an error if the scene has several storeys.
 ///
 /// Without walls the loss is that of free space. Source: the method of images, for instance H. L.
 /// Bertoni, Radio Propagation for Modern Wireless Systems, 2000, chapter 3; slabs: ITU-R P.2040-3;
@@ -126,19 +127,19 @@ struct Rays {
     void check_scene(const Scene& scene) const;
 
     /// Distance [m] beyond which the loss is more than `loss`: no path is shorter than the straight
-    /// path or stronger than in free space. So P paths are at most 10 log10 P dB stronger than free
-    /// space, 3 dB more with utd, and 20 log10 P dB if coherent. P is max_paths, or 1 if there is
-    /// only the straight path.
+    /// path or stronger than in free space. Therefore P paths are at most 10 log10 P dB stronger
+    /// than free space, 3 dB more with utd, and 20 log10 P dB if coherent. P is max_paths, or 1 if
+    /// there is only the straight path.
     Meters reach(Db loss, Hertz f) const;
-    /// Fills out_db[i] [dB] for the i-th receiver; walls come from the batch's scene.
+    /// Fills out_db[i] with the loss [dB] to receiver i; walls come from the batch's scene.
     void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const;
 
-    /// Number of paths found for a link, and number of those left out by `max_paths`.
+    /// Number of paths found for a link, and number of paths left out of the sum by `max_paths`.
     struct Paths {
         std::size_t found, left_out;
-        Db too_high;  ///< error of the loss by the paths left out, if powers are added
+        Db too_high;  ///< error of the loss [dB] by the omitted paths, if powers are added
     };
-    /// @param link  batch with one receiver
+    /// @param link  batch of links with one receiver
     Paths paths(const LinkBatch& link) const;
 };
 

@@ -11,8 +11,8 @@ namespace rovernet {
 ///   L = 20 log10 f + N log10 d - 28 + 100 w l      (f in MHz, d in m, l metres of wall)
 ///
 /// There is only the straight ray, without reflection and diffraction. The computation stops before
-/// searching walls if the loss without walls exceeds the budget, and during the search once it
-/// does.
+/// the search for walls if the loss without walls exceeds the cut-off, and during the search once
+/// the sum does.
 ///
 /// The wall factor w is in dB per centimetre; real walls have 0.15 (wood) to 0.9 (chipboard), so
 /// the values of old world files (6 to 100) only fit walls drawn a few pixels thin. N already
@@ -46,11 +46,11 @@ struct Raytrace2007 {
 
     /// Distance [m] beyond which the loss is more than `loss`, for any walls.
     Meters reach(Db loss, Hertz f) const;
-    /// Fills out_db[i] [dB] for the i-th receiver; walls come from the scene of the batch.
+    /// Fills out_db[i] with the loss [dB] to receiver i; walls come from the scene of the batch.
     void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const;
 
   private:
-    // Losses of walls whose materials have losses of their own.
+    // Function loss() for a scene with materials that have losses of their own.
     void loss_by_materials(const LinkBatch&, Db cutoff, std::span<double> out_db) const;
 };
 

@@ -14,8 +14,9 @@
 #include <cstdint>
 #include <vector>
 
-// Link decisions under shadowing without computing the loss. Each pair of robots has a draw; most
-// draws decide a link by the distance alone, with a table. A model supports it by shadowed_loss().
+// Link decisions under shadowing without computing the loss. Each pair of robots has a draw. For
+// most draws, a table decides the link by the distance alone. A model supports such tables by
+// shadowed_loss().
 
 namespace rovernet {
 
@@ -28,15 +29,15 @@ inline PairDraws shadowing_draws(std::uint64_t seed, std::uint32_t replication) 
 /// draw: exactly the decision of the loss, without a logarithm, a square root or a normal draw.
 ///
 /// The table is over the squared distance, in cells of equal width between powers of two. A cell
-/// contains how many of the 2^31 draws are in range everywhere in the cell, and how many somewhere
-/// in it. For a draw between the two numbers, which is rare (computed_share()), the loss is
-/// computed. A table takes at most 16 KiB; the medium stores one for each pair of kinds of radios.
+/// has two numbers of the 2^31 draws: those in range everywhere in the cell, and those in range
+/// somewhere in it. For a draw between the two numbers, which is rare (computed_share()), the loss
+/// is computed. A table takes at most 16 KiB; the medium stores one for each pair of radio kinds.
 class ShadowedRange {
   public:
-    /// @param budget  largest loss at which a link is up
+    /// @param budget  largest path loss at which a link is up
     ShadowedRange(const ShadowedLoss& loss, Db budget);
 
-    /// Whether the loss is within the budget.
+    /// Whether the loss of a link is within the budget.
     /// @param squared_distance  squared distance of the antennas [m^2], >= 0
     /// @param bits              bits of the pair's draw, from shadowing_draws() of the run
     bool in_range(double squared_distance, std::uint64_t bits) const {
@@ -47,8 +48,8 @@ class ShadowedRange {
         return draw < here.sure;
     }
 
-    /// Number n of draws that may be in range at squared distances [m^2] from `at_least` on: only
-    /// the draws 0, 1 ... n - 1 of 2^31. FirstLook is built from it.
+    /// Number n of draws that may be in range at squared distances [m^2] >= `at_least`: the draws
+    /// 0, 1 ... n - 1 of 2^31. FirstLook uses this number.
     std::uint32_t most_draws(double at_least) const {
         const Cell& nearest = cell(at_least);
         return nearest.sure + nearest.open;
@@ -99,15 +100,15 @@ class ShadowedRange {
 };
 
 /// First test that excludes most pairs out of range: coarser and faster than ShadowedRange, with
-/// one table for all kinds of receivers of a sender. Under shadowing many more robots are near
-/// enough for the most favourable draw than are receivers; most are excluded here by a comparison
-/// of two integers.
+/// one table for all kinds of receivers of a sender. Under shadowing, many more robots are near
+/// enough for the most favourable draw than are receivers. Most of them are excluded by a
+/// comparison of two integers.
 class FirstLook {
   public:
     /// @param squared_reach  squared distance [m^2] beyond which no receiver is in range
     explicit FirstLook(double squared_reach) : scale_(static_cast<float>(cells / squared_reach)) {}
 
-    /// Extends the test, so that pairs within `range` pass, too.
+    /// Extends the test: pairs that may be in range by `range` now pass the test, too.
     void let_pass(const ShadowedRange& range) {
         for (std::size_t i = 0; i < most_draws_.size(); ++i) {
             // Nearer edge of the cell, with a margin for rounding.
@@ -115,8 +116,8 @@ class FirstLook {
             most_draws_[i] = std::max(most_draws_[i], range.most_draws(nearest));
         }
     }
-    /// Whether a pair with these bits of its draw may be in range at any squared distance [m^2] >=
-    /// `at_least`, which is >= 0.
+    /// Whether a pair of robots may be in range at any squared distance [m^2] >= `at_least` >= 0.
+    /// `bits` are the bits of the pair's draw.
     bool passes(float at_least, std::uint64_t bits) const {
         const float scaled = at_least * scale_;
         const auto cell = static_cast<std::int32_t>(scaled < cells ? scaled : cells);

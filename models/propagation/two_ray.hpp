@@ -33,12 +33,12 @@ struct EnumNames<Polarization> {
 ///
 /// Distances: d1 between the antennas, d2 the length of the path reflected by the ground; ht and hr
 /// are the heights of the antennas: their z above a flat ground at z = 0. An antenna below
-/// `lowest_antenna`, or below the ground, counts as that high, because the loss would be infinite
-/// at height 0.
+/// `lowest_antenna`, or below the ground, counts as `lowest_antenna` high, because the loss would
+/// be infinite at height 0.
 ///
 /// Form "ns2":   L = free space(d1) + max(0, 20 log10(d1 / dc)),   dc = 4 pi ht hr / lambda: beyond
-/// the crossover distance dc this is d1^4 / (ht hr)^2, independent of frequency. It neglects the
-/// peaks and nulls before the crossover (the last null is 39 dB deep for 1.5 m at 2.4 GHz).
+/// the crossover distance dc this is d1^4 / (ht hr)^2, independent of frequency. The form neglects
+/// the peaks and nulls before the crossover (the last null is 39 dB deep for 1.5 m at 2.4 GHz).
 /// Source: T. S. Rappaport, Wireless Communications, 2nd ed., section 4.6, with the crossover of
 /// the ns-2 manual, section 18.2.
 ///
@@ -60,9 +60,9 @@ struct EnumNames<Polarization> {
 struct TwoRay {
     static constexpr std::string_view name = "two_ray";
 
-    /// Smallest antenna height above the ground [m], > 0; lower antennas count as this high.
+    /// Smallest antenna height above the ground [m], > 0; lower antennas count as being this high.
     Meters lowest_antenna{0.1};
-    /// Equation of the loss.
+    /// Form of the model: equation of the loss.
     TwoRayForm form = TwoRayForm::ns2;
     /// Polarization, for form "exact".
     Polarization polarization = Polarization::vertical;
@@ -91,20 +91,20 @@ struct TwoRay {
         return form == TwoRayForm::exact ? LossShape::unknown : LossShape::by_heights;
     }
 
-    /// Upper bound of the range, if no antenna is higher than h = `highest`. Form "ns2": the loss
-    /// is at least that of free space, and at least 40 log10(d / h), the loss of two antennas of
-    /// height h beyond their crossover. Form "exact": two fields in phase have twice the amplitude
-    /// of free space (6.02 dB); for d1 >= 1 m that amplitude is also at most A / d1 times free
-    /// space, with
+    /// Upper bound of the range [m], if no antenna is higher than h = `highest` [m]. Form "ns2":
+    /// the loss is at least that of free space, and at least 40 log10(d / h), the loss of two
+    /// antennas of height h beyond their crossover. Form "exact": two fields in phase have twice
+    /// the amplitude of free space (6.02 dB); for d1 >= 1 m that amplitude is also at most A / d1
+    /// times free space, with
     ///   A = 2 h^2 + 2 k h^2 + 4 h g / sqrt(e - 1),   g = 1 (horizontal) or e (vertical),
     /// the sum of the bounds of 1 - d1 / d2, of the phase and of 1 + G, so that L grows with 40
     /// log10 d1.
     Meters reach(Db loss, Hertz f, Meters highest) const;
-    /// Fills out_db[i] [dB] for the i-th receiver.
+    /// Fills out_db[i] with the loss [dB] to receiver i.
     void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const;
 
   private:
-    // Losses of form "exact", and the height that an antenna counts as [m].
+    // Losses of form "exact"; below it, height [m] for an antenna at z: at least lowest_antenna.
     void exact_loss(const LinkBatch& links, std::span<double> out_db) const;
     double height(double z) const { return z > lowest_antenna.value ? z : lowest_antenna.value; }
 };

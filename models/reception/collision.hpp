@@ -16,11 +16,11 @@
 
 namespace rovernet {
 
-/// Order in which two overlapping frames may begin for one to survive (capture).
+/// Capture rule: which of two overlapping frames can survive, by the order in which they begin.
 enum class CaptureOrder {
-    /// Only the frame that the receiver is receiving can survive, as in ns-2.
+    /// Only the first frame, which the receiver is already receiving, can survive, as in ns-2.
     first,
-    /// Either frame can survive.
+    /// Either frame can survive: the first one, or the one that begins later.
     later,
 };
 /// Names of the values of [reception] capture in scenario files.
@@ -29,19 +29,19 @@ struct EnumNames<CaptureOrder> {
     static constexpr std::array<std::string_view, 2> values = {"first", "later"};
 };
 
-/// Reception model "collision": frames that overlap at a node destroy each other, unless one
-/// captures the receiver; a transmitting node receives nothing (half-duplex).
+/// Reception model "collision": frames that overlap at a node collide: both are lost, unless one
+/// captures the receiver. A transmitting node receives nothing (half-duplex).
 ///
 ///   first    |========|          stronger by the ratio: first survives, second is ignored
 ///   second        |========|     otherwise: both are lost with CaptureOrder::first; with `later`
 ///                                second survives if it is stronger by the ratio
 ///
-/// CaptureOrder::first: a free receiver receives the first frame that it senses, until that ends. A
-/// later frame that is weaker by the capture ratio is ignored: it is lost and has no effect, even
-/// if it lasts longer than the first. Any other later frame destroys the received frame and is lost
-/// itself; the receiver is free again when both have ended. Of two frames that begin together the
-/// stronger one is received. Whether a frame is ignored depends on the frames on air at its
-/// beginning, even if these were ignored themselves.
+/// CaptureOrder::first: a free receiver receives the first frame that it senses, until that frame
+/// ends. A later frame that is weaker by the capture ratio is ignored: it is lost and has no
+/// effect, even if it lasts longer than the first. Any other later frame collides with the received
+/// frame, and both are lost; the receiver is free again when both have ended. Of two frames that
+/// begin together the stronger one is received. Whether a frame is ignored depends on all frames on
+/// air at its beginning, including ignored ones.
 ///
 /// CaptureOrder::later: of two overlapping frames, a frame that is stronger by the capture ratio
 /// survives.
@@ -51,9 +51,10 @@ struct EnumNames<CaptureOrder> {
 struct Collision {
     static constexpr std::string_view name = "collision";
 
-    /// Capture ratio [dB], > 0: level difference by which a frame must exceed another to survive.
+    /// Capture ratio [dB], > 0: least level difference at which a frame survives an overlapping
+    /// one.
     Db capture_ratio{10};
-    /// Order in which two overlapping frames must begin for the stronger one to survive.
+    /// Capture rule: whether only the first of two overlapping frames can survive, or either.
     CaptureOrder capture = CaptureOrder::first;
 
     static constexpr auto fields() {
@@ -63,7 +64,7 @@ struct Collision {
                               "which of two frames may survive: the first, or also the later one"));
     }
 
-    /// Whether `frame` survives `other` at the same node, if `other` was not ignored.
+    /// Whether `frame` survives the overlap with `other` at a node, if `other` was not ignored.
     /// @param is_stronger  is_stronger(frame, other, capture_ratio), called only if needed, because
     ///                     a level requires the computation of a path loss
     template <class IsStronger>
@@ -72,11 +73,11 @@ struct Collision {
         if (other.own || finds_receiver_at(frame, other)) return false;
         return is_stronger(frame, other, capture_ratio);
     }
-    /// Whether the receiver was receiving `other`, if that was not ignored, when `frame` began.
+    /// Whether the receiver was receiving `other` when `frame` began, if `other` was not ignored.
     bool finds_receiver_at(const Arrival& frame, const Arrival& other) const {
         return capture == CaptureOrder::first && frame.begin > other.begin;
     }
-    /// Whether the receiver ignores `frame`, because it is receiving `other`.
+    /// Whether the receiver ignores `frame`, because it receives `other`, which is stronger.
     template <class IsStronger>
     bool lets_pass(Arrival& frame, Arrival& other, IsStronger is_stronger) const {
         const bool is_at = other.begin <= frame.begin && frame.begin < other.end && !other.own;

@@ -15,17 +15,18 @@
 #include <span>
 #include <vector>
 
-// Overlapping frames, the input of a Judge. The channel reports transmissions, motion and switches
-// to it, and calls judge() before receptions are passed up.
+// Interference between overlapping frames, the input of a Judge. The Channel reports transmissions,
+// motion and switches to Interference, and calls judge() before it passes receptions up.
 
 namespace rovernet {
 
 /// Interference at receivers: frames on air, their levels at receivers, and the state of nodes when
-/// the frames began. The channel of a network has one if its reception model has a Judge.
+/// the frames began. The Channel of a network has an Interference if the reception model has a
+/// Judge.
 ///
-/// Levels are fixed when a frame begins, and computed only if a judge needs them. A receiver that
-/// has moved or was switched since is evaluated in its earlier state. The channel calls, in this
-/// order:
+/// Levels are fixed when a frame begins, and computed only if a judge needs them. For a receiver
+/// that has moved or was switched since, its state at the beginning of the frame counts. The
+/// Channel calls, in this order:
 ///
 ///   add(frame)                         when a frame starts
 ///   before_change(node), goes(node)    whenever a leg or a radio changes
@@ -35,11 +36,11 @@ class Interference {
   public:
     /// Inputs of the interference computation, and the seed of random draws.
     struct Settings {
-        /// Medium that computes levels; not null; outlives this.
+        /// Medium that computes levels; not null; must outlive the Interference.
         Medium* medium = nullptr;
-        /// Legs of the same nodes; not null; outlives this.
+        /// Legs of the medium's nodes; not null; must outlive the Interference.
         const Legs* legs = nullptr;
-        /// Physical layer of the frames; not null; outlives this.
+        /// Physical layer of the frames; not null; must outlive the Interference.
         const Phy* phy = nullptr;
         /// Test mode: checks every frame on air instead of the frames nearby; slow.
         bool all_frames = false;
@@ -52,16 +53,16 @@ class Interference {
     Interference(const Settings& settings, std::unique_ptr<Judge> judge)
         : settings_(settings), judge_(std::move(judge)) {}
 
-    /// Sets a new leg of the node, from now on.
+    /// Reports a new leg of the node, which begins now.
     void goes(NodeId node, const Leg& leg);
-    /// Called before the node's leg or radio changes; the radio is `on` until now.
+    /// Stores the state of a node before its leg or radio changes; its radio is `on` until now.
     void before_change(NodeId node, bool on) {
         on_air_.changes(node, settings_.legs->leg(node), on);
     }
 
-    /// Adds a frame that starts now, with its origin and the distance of its farthest receiver.
-    /// @param how         its transmission
-    /// @param receptions  receptions at the nodes that can decode it, in order
+    /// Adds a frame that starts now; `origin` and `heard_within` of the frame must be set.
+    /// @param how         transmission parameters of the frame
+    /// @param receptions  receptions at the nodes that can decode the frame, in order
     /// @return serial number of the frame
     std::uint64_t add(Emission frame, const Transmission& how,
                       std::span<const Reception> receptions);
@@ -76,14 +77,14 @@ class Interference {
             use(frame);
         });
     }
-    /// Sets the fate of receptions of the frame with that serial number, which end by `now`;
-    /// receptions at nodes that are off are left unchanged.
+    /// Sets the fate of receptions that end by `now`, of the frame with that serial number.
+    /// Receptions at nodes that are off are left unchanged.
     void judge(std::uint64_t serial, std::span<Reception> receptions, Time now);
 
     /// Judge of the reception model.
     const Judge& rule() const { return *judge_; }
 
-    // Functions for the judge.
+    // Medium of the network; this function and the functions below are for the judge.
     const Medium& medium() const { return *settings_.medium; }
     /// Arrival of a frame at a node, without its level; empty if the frame has no effect at the
     /// node: the node is too far away, off, or in another network. A node's own frame arrives
@@ -93,8 +94,8 @@ class Interference {
     Dbm level(const Arrival& arrival, NodeId node) const {
         return settings_.medium->arrivals().level(arrival, node);
     }
-    /// Whether the level of `frame` at `node` exceeds that of `other` by `by` or more. Levels are
-    /// computed only if bounds do not decide.
+    /// Whether the level of `frame` at `node` exceeds the level of `other` by `by` [dB] or more.
+    /// Levels are computed only if bounds on them do not decide.
     bool is_stronger(Arrival& frame, Arrival& other, Db by, NodeId node) {
         return settings_.medium->arrivals().is_stronger(frame, other, by, node);
     }
@@ -102,7 +103,7 @@ class Interference {
     const Phy& phy() const { return *settings_.phy; }
     /// Longest propagation delay [ns] of any frame.
     Duration longest_delay() const { return settings_.medium->arrivals().delay(on_air_.reach()); }
-    /// Uniform draw in (0, 1) for a pair and the sender's frame `number`.
+    /// Uniform draw in (0, 1) for a pair of nodes and frame number `number` of the sender.
     double draw(Purpose purpose, NodeId from, NodeId to, std::uint64_t number) const;
     /// Key of a node, for orderings that do not depend on its id.
     std::uint64_t key(NodeId node) const { return settings_.medium->stations().key(node); }

@@ -13,7 +13,7 @@ namespace rovernet {
 
 /// Reception models that scenario files can name, in the order of detail; the first one is the
 /// default, and the last one is the most detailed. A reception model decides the fate of a frame at
-/// a receiver in range. Reading, range checks and printing follow from its fields().
+/// a receiver in range. Reading, checks and printing of its settings follow from its fields().
 using ReceptionModels = std::tuple<Threshold, Collision, Sinr>;
 
 }  // namespace rovernet

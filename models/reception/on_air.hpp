@@ -24,21 +24,21 @@ namespace rovernet {
 
 /// Frames on air, and recent frames that may still affect receptions.
 ///
-/// Each frame is stored once, at its place of transmission: a query for a received frame returns
-/// the frames around it, so a frame without others nearby costs almost nothing. Levels of a frame
-/// are fixed when it begins, so the states of nodes before their legs or radios changed are kept as
-/// long as the frames.
+/// Each frame is stored once, at its place of transmission. A query for a received frame returns
+/// the frames nearby, so a frame without other frames nearby takes almost no time. Levels of a
+/// frame are fixed when it begins, so the states of nodes before their legs or radios changed are
+/// kept as long as the frames.
 ///
 /// Frames are stored in a grid of 64 x 64 cells that wraps around; a cell is as wide as the
 /// interference range.
 class OnAir {
   public:
-    /// Adds a leg of a node, for bounds on speeds and antenna positions.
+    /// Reports a leg of a node, for bounds on speeds and antenna positions.
     /// @param antenna_height  height above the robot's z [m]
     void goes(const Leg& leg, Meters antenna_height);
     /// Stores the state of `node` between its last change and now, if any frame is stored.
-    /// @param leg  leg until now
-    /// @param on   whether its radio was on until now
+    /// @param leg  leg of the node until now
+    /// @param on   whether the node's radio was on until now
     void changes(NodeId node, const Leg& leg, bool on);
 
     /// Adds a frame; it must not begin before the last added frame.
@@ -63,12 +63,12 @@ class OnAir {
     /// Stored frames, in the order of their serial numbers.
     const std::deque<Emission>& frames() const { return frames_; }
     /// Frames that end after `since` and begin before `until`, and may interfere at a receiver of
-    /// `frame` by `now`; possibly some more, without `frame` itself. It may miss frames for
+    /// `frame` by `now`; possibly some more, without `frame` itself. Frames may be missing for
     /// receivers with recent changes, see has_changed().
     /// @return frames in any order; valid until the next call
     std::span<const Emission* const> near(const Emission& frame, Time since, Time until, Time now);
 
-    /// State of a node before a change. The changes of a node form a chain, last one first.
+    /// State of a node before its leg or radio changed. A node's changes form a chain, last first.
     struct Before {
         /// Leg and radio state until the change.
         Leg leg;
@@ -79,17 +79,17 @@ class OnAir {
         std::uint64_t previous;
     };
     /// Whether the node's leg or radio has changed since the start of any stored frame: near() is
-    /// then not complete for it.
+    /// then not complete for the node.
     bool has_changed(NodeId node) const {
         return !changes_.empty() && last_change(node) >= first_change_;
     }
-    /// State of the node when the frame began; null if the node has not changed since.
+    /// State of a node when `frame` began; null if its leg and radio have not changed since.
     const Before* before(NodeId node, const Emission& frame) const;
 
     /// Longest time on air of a frame so far [ns].
     Duration longest() const { return longest_; }
-    /// Distance [m] beyond which no frame interferes, or beyond which there is no node. It bounds
-    /// propagation delays.
+    /// Distance [m] beyond which no frame interferes, or beyond which there is no node. This
+    /// distance bounds propagation delays.
     double reach() const {
         constexpr double anywhere = 4e15;
         return std::min({reach_, distance(low_, high_), anywhere});
@@ -112,11 +112,11 @@ class OnAir {
     }
     // Builds the grid again for the current interference range.
     void lay_grid();
-    // Appends a frame to its cell's chain.
+    // Appends a stored frame to the chain of its cell.
     void file(std::uint64_t serial);
-    // Removes the oldest frame.
+    // Removes the oldest stored frame.
     void take_off();
-    // Bit mask of the cells of one row.
+    // Bit mask of the given cells of one row.
     static std::uint64_t bits(WrappedAxis::Cells cells) {
         const auto first = [](std::size_t n) {
             return n < side ? (std::uint64_t{1} << n) - 1 : none;
@@ -139,7 +139,7 @@ class OnAir {
     // Memory for the result of near().
     std::vector<const Emission*> near_;
 
-    // Changes, numbered in order from 1 on.
+    // States of nodes before changes, numbered in order from 1 on.
     std::deque<Before> changes_;
     // Number of the first stored change.
     std::uint64_t first_change_ = 1;

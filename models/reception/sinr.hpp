@@ -12,23 +12,23 @@
 //     Network network({.propagation = LogDistance{}, .reception = Sinr{.interference_cut =
 //     Db{30}}});
 //
-// This header has the settings and the rule for one receiver; sinr_judge.cpp applies it to a
-// network.
+// This header has the settings. sinr_receiver.hpp has the rule for one receiver, which
+// sinr_judge.cpp applies to a network.
 
 namespace rovernet {
 
-/// Reception model "sinr": a free receiver locks onto a frame whose preamble it detects. It decodes
-/// the frame with the probability that all bits are right, computed for chunks of constant
-/// interference, which is the sum of all other frames on air at the receiver.
+/// Reception model "sinr": a free receiver locks onto a frame whose preamble it detects. The
+/// receiver decodes the frame with the probability that all bits are right, computed for chunks of
+/// constant interference, which is the sum of all other frames on air at the receiver.
 ///
 ///   signal         |-- preamble --|=========== payload ===========|
 ///   other frames          |----------------|    |---------|
 ///   chunks                        |   1    | 2  |    3    |   4   |
 ///
-/// A preamble is detected if it exceeds noise and interference by `preamble_threshold` 4 us after
-/// its start; of simultaneous preambles the strongest is tested first. A frame is lost if it begins
-/// while the receiver is locked onto another frame or transmits, and if the receiver begins to
-/// transmit during it. Bit errors are those of the payload.
+/// A preamble is detected if its SINR is at least `preamble_threshold` 4 us after its start. Of
+/// simultaneous preambles the strongest is tested first. A frame is lost if it begins while the
+/// receiver is locked onto another frame or transmits, or if the receiver begins to transmit during
+/// the frame. Only the payload has bit errors.
 ///
 /// Frames weaker than the sensitivity by more than `interference_cut`, or weaker than the noise
 /// floor by more than 10 dB, are neglected (for the error see Network::interference_left_out).

@@ -17,7 +17,7 @@ namespace rovernet {
 
 /// Data of a frame that determine its fate, in addition to the frames on air.
 struct SinrFrame {
-    /// Physical layer of all frames; then coding and bit rate [bit/s] of this frame's payload.
+    /// Physical layer of all frames; below, coding and bit rate [bit/s] of the frame's payload.
     const Phy* phy;
     Coding coding;
     double rate;
@@ -27,21 +27,23 @@ struct SinrFrame {
     Dbm noise = {};
 };
 
-/// Receiver of the model "sinr": judges one frame at a time. It has no state of nodes, only memory
-/// for reuse; SinrJudge passes the frames on air to it.
+/// Receiver of the model "sinr": judges one frame at a time. A SinrReceiver has no state of nodes,
+/// only memory for reuse; SinrJudge passes the frames on air to it.
 ///
-/// A judgement has three steps: which frames did the receiver lock onto, up to this one; does the
-/// node transmit during the frame; and are all bits right under the varying interference.
+/// A judgement determines three facts, in this order: the frames onto which the receiver locked, up
+/// to this one; whether the node transmits during the frame; whether all bits are right under the
+/// varying interference.
 class SinrReceiver {
   public:
     explicit SinrReceiver(const Sinr& settings = {}) : settings_(settings) {}
 
     /// Determines the fate of `signal`, which the receiver can decode, after its end: `waiting` if
-    /// the frame is decoded. Also determines and stores the locks of frames that began before it.
+    /// the frame is decoded. Also determines and stores the locks of frames that began before
+    /// `signal`.
     ///
     /// @param arrivals  frames on air at the receiver, including `signal`, as far back as they can
     ///                  affect the lock of a frame that overlaps `signal`
-    /// @param level_of  level_of(arrival) [dBm], called once for each arrival that needs it
+    /// @param level_of  level_of(arrival) [dBm], called at most once for each arrival
     /// @param draw      uniform draw in (0, 1), called if the result is not certain
     /// @param before    before(a, b): order of two senders, for frames with equal start and level
     template <class LevelOf, class Draw, class Before = std::less<NodeId>>
@@ -80,7 +82,7 @@ class SinrReceiver {
             return level(*a) != level(*b) ? level(*a) > level(*b) : before(a->from, b->from);
         });
     }
-    // Whether the node transmits during the frame.
+    // Whether the node of the receiver transmits during the frame `judged`.
     bool sends_during(const Arrival& judged) const;
     // Determines for all frames that began by `until`, in order, whether the receiver locked onto
     // them.
@@ -93,7 +95,7 @@ class SinrReceiver {
             *a->lock = locks ? Lock::held : Lock::missed;
         }
     }
-    // Whether the preamble is strong enough against the other frames when it is detected.
+    // Whether the SINR of the preamble reaches the threshold at the time of detection.
     template <class Level>
     bool finds_preamble(Arrival& preamble, const SinrFrame& frame, Level level) {
         const PreambleDetection rule = frame.phy->preamble_detection(preamble.coding);
@@ -111,11 +113,11 @@ class SinrReceiver {
             10 * math::log10(others_mw + math::exp10(frame.noise.value / 10));
         return Dbm{level(preamble)} - Dbm{interference_db} >= threshold;
     }
-    // Whether the receiver was not locked onto another frame when this one began.
+    // Whether the receiver was free when `arrival` began: not locked onto another frame.
     bool is_free_for(const Arrival& arrival) const;
-    // Whether the node begins to transmit after `after` and not later than `until`.
+    // Whether the node of the receiver begins to transmit in (after, until].
     bool sends_within(Time after, Time until) const;
-    // Whether the frame is decoded for any draw: without other frames, and far above the noise.
+    // Whether the frame is decoded for any random draw: no other frames, and far above the noise.
     bool is_certain(const Arrival& judged, const SinrFrame& frame) const {
         return here_.empty() &&
                Dbm{judged.level_dbm} - frame.noise >= frame.phy->certain_sinr(frame.coding);

@@ -16,19 +16,19 @@ namespace rovernet {
 
 /// Fading of a run: the gain g of each frame at each receiver, the same for all calls.
 ///
-/// With coherence `frame`, z is a draw for the frame and the receiver. With `place` it is a random
-/// field over the positions a and b of both ends,
+/// The gain g follows from z, see Fading. With coherence `frame`, z is a draw for the frame and the
+/// receiver. With `place`, z is a random field over the positions a and b of both ends,
 ///
 ///   z(a, b) = (W(a, b) + W(b, a)) / sqrt(2 N (1 + J0(2 pi |a - b| / lambda)^2)),
 ///   W(a, b) = sum over m of e^(j (2 pi (u_m.a + v_m.b) / lambda + phi_m)),  |u_m| = |v_m| = 1,
 ///
-/// with N = 32 waves of uniform directions and phases. z is the same in both directions; its
-/// autocorrelation, when one end moves by D, is J0(2 pi D / lambda), as in R. H. Clarke, Bell
+/// with N = 32 waves of uniform directions and phases. z is the same in both directions; the
+/// autocorrelation of z, when one end moves by D, is J0(2 pi D / lambda), as in R. H. Clarke, Bell
 /// System Technical Journal 47(6), 1968. Distances are horizontal. There is no time step: between
 /// robots at rest the fading is constant.
 ///
-/// With `place`, nakagami consists of ceil(m) such fields, at that many times the cost. If 2 m is
-/// an integer, its level crossing rate is that of theory (M. D. Yacoub, J. E. V. Bautista, L.
+/// With `place`, nakagami consists of ceil(m) such fields, and takes that many times as long. If 2
+/// m is an integer, its level crossing rate is that of theory (M. D. Yacoub, J. E. V. Bautista, L.
 /// Guedes, IEEE Trans. Vehicular Technology 48(3), 1999). For any other m, the power of the nearest
 /// such m is transformed to the distribution of m: -15 dB is crossed 9 % too seldom for m = 1.8,
 /// and 23 % too often for m = 1.2.
@@ -38,7 +38,7 @@ class Fades {
     /// @throws std::invalid_argument if a setting is out of its range
     Fades(const Fading& settings, std::uint64_t seed, std::uint32_t replication);
 
-    /// Frame at a receiver.
+    /// Frame at a receiver: keys and positions on which its fading depends.
     struct Frame {
         /// Key of the frame, and key of the receiver.
         std::uint64_t key, receiver;
@@ -53,7 +53,7 @@ class Fades {
     Db most() const { return most_; }
 
   private:
-    // Turns of a wave per metre, and amplitude of a field at the two positions.
+    // Scale of a field at two positions: turns of its waves per metre, and amplitude.
     struct Scale {
         double per_metre, size;
     };
@@ -68,7 +68,7 @@ class Fades {
     std::vector<PairWaves> fields_;
     // Number of real fields whose squares are added, for nakagami with `place`.
     double parts_ = 2;
-    // Gamma variates, for nakagami that is not only a sum of fields.
+    // Table of gamma variates, for nakagami if the power is not only a sum of fields.
     std::optional<GammaTable> gamma_;
     // Amplitudes of the line of sight and of the other waves [-].
     double direct_ = 0, scattered_ = 1;

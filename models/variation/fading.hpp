@@ -18,7 +18,7 @@ namespace rovernet {
 ///
 /// - none: the power is the local mean
 /// - rayleigh: many waves without line of sight; exponential distribution
-/// - rician: a line of sight with K times the power of all other waves
+/// - rician: a line of sight with K times the power of all other waves together
 /// - nakagami: gamma distribution of shape m; m = 1 is rayleigh
 enum class FadingModel { none, rayleigh, rician, nakagami };
 /// Names of the values of [fading] model in scenario files.

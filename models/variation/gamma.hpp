@@ -19,20 +19,20 @@ double log_gamma(double x);
 /// Sources: the series DLMF 8.11.4 for small y, the continued fraction DLMF 8.9.2 otherwise.
 double minus_log_gamma_q(double m, double y);
 
-/// Solution y > 0 of -log Q(m, y) = p, for p >= 1e-290; relative error below 1e-12. It transforms a
-/// standard exponential variate p into a gamma variate of shape m.
+/// Solution y > 0 of -log Q(m, y) = p, for p >= 1e-290; relative error below 1e-12. The function
+/// transforms a standard exponential variate p into a gamma variate of shape m.
 double gamma_of_exponential(double m, double p);
 
-/// Table of gamma_of_exponential() for one m: cubic in log p, with a relative error of 1e-6; 30
-/// times as fast.
+/// Table of gamma_of_exponential() for one m: cubic interpolation in log p, with a relative error
+/// of 1e-6; 30 times as fast as the function.
 class GammaTable {
   public:
     explicit GammaTable(double m);
-    /// Value y for p from 1e-20 to 20; for larger p the value at 20.
+    /// Gamma variate y for p from 1e-20 to 20; for larger p the value at 20.
     double operator()(double p) const;
 
   private:
-    // Value of log y at the edge of a cell, and its slope with respect to log p, in cells.
+    // Edge of a cell of the table: log y, and slope of log y with respect to log p, in cells.
     struct Edge {
         double log_y, slope;
     };

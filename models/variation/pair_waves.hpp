@@ -39,8 +39,8 @@ class PairWaves {
     /// Number of plane waves in the sum.
     static constexpr std::size_t count = 32;
 
-    /// Wave: its wave vectors at the two ends [turns/m, or turns per unit of `scale`], and its
-    /// phase [turns].
+    /// Plane wave: wave vectors at both ends [turns/m, or turns per unit of `scale`], phase
+    /// [turns].
     struct Wave {
         double kx, ky, qx, qy, phase;
     };
@@ -49,7 +49,7 @@ class PairWaves {
         double re, im;
     };
 
-    /// @param wave_of  returns wave number m
+    /// @param wave_of  wave_of(m): plane wave number m, from 0
     template <class WaveOf>
     explicit PairWaves(WaveOf wave_of) {
         for (std::size_t m = 0; m < count; ++m) {
@@ -93,7 +93,7 @@ class PairWaves {
     double envelope(std::size_t m, Vec3 apart) const {
         return cos_of_turns(difference_x_[m] * apart.x + difference_y_[m] * apart.y);
     }
-    // Sum in a fixed order, as four partial sums.
+    // Sum of the terms in a fixed order, as four partial sums.
     static double total(const Terms& terms) {
         std::array<double, 4> sums{};
         for (std::size_t m = 0; m < count; m += 4) {

@@ -11,20 +11,21 @@
 
 namespace rovernet {
 
-/// Boolean value of a word, upper or lower case: true, yes, on; false, no, off. Nothing for any
-/// other word.
+/// Boolean value of a word in upper or lower case: true for "true", "yes" and "on"; false for
+/// "false", "no" and "off". Empty for any other word.
 std::optional<bool> truth_in(std::string_view word);
 
 /// Hints for the error message about a word that is not in an enumeration.
 struct ChoiceHelp {
     /// Meaning of each word; empty: no explanation is printed.
     std::vector<std::string_view> meanings = {};
-    std::string_view yes = {};     ///< word of the enumeration to suggest for "on"; empty: none
-    std::string_view no = "none";  ///< word of the enumeration to suggest for "off"
+    std::string_view yes = {};     ///< word to suggest if the user wrote "on"; empty: none
+    std::string_view no = "none";  ///< word to suggest if the user wrote "off"
 };
 
-/// Finds a word in the list of an enumeration, as read_choice() in scenario/tables/read_value.hpp.
-/// @return index into `choices`
+/// Reads a word that must be one of `choices`; `help` adds hints to the error message.
+/// @param key  name of the value's key, for the error message
+/// @return index of the word in `choices`
 /// @throws InputError for an unknown word; the message lists all choices and suggests the most
 ///         similar one. Words that differ in a digit (ns2, ns3) mean different things and are not
 ///         suggested

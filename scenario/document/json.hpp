@@ -9,13 +9,14 @@
 #include <string_view>
 #include <utility>
 
-// Values as JSON: the output of --json, the files of a run's folder, the cells of a study's store.
+// Conversion between Values and JSON. JSON is the output of --json, the format of files in a run's
+// folder, and the content of cells in a study's store.
 
 namespace rovernet {
 
-/// JSON document of a value: keys in their order, numbers in the fewest digits that read back the
-/// same, two blanks of indentation, a newline at the end. NaN and infinity become null, and so does
-/// an empty Value; bytes that are not UTF-8 become U+FFFD. Equal results give equal bytes.
+/// JSON document of a value: keys in their order, two blanks of indentation, a newline at the end.
+/// A number has the fewest digits that read back as the same number. NaN, infinity and an empty
+/// Value become null. Bytes that are not UTF-8 become U+FFFD. Equal values give equal bytes.
 std::string to_json(const Value& value);
 
 /// JSON of a value in one line, without a newline.
@@ -26,20 +27,21 @@ std::string to_json_line(const Value& value);
 class JsonObjectWriter {
   public:
     using Write = std::function<void(std::string_view)>;
-    /// Appends the i-th item of a list; its lines after the first are indented by 4 blanks.
+    /// Function that appends the JSON text of the i-th item of a list to `out`, i from 0. Lines of
+    /// the item after its first line are indented by 4 blanks.
     using AppendItem = std::function<void(std::size_t i, std::string& out)>;
 
-    /// @param write  receives the next piece of the text
+    /// @param write  function that receives the JSON text piece by piece
     explicit JsonObjectWriter(Write write) : write_(std::move(write)) {}
 
     void set(std::string_view key, const Value& value);
     /// Writes a list of `size` items, one by one.
     void set_list(std::string_view key, std::size_t size, const AppendItem& append);
-    /// Ends the object. Must be called once.
+    /// Writes the end of the JSON object. Must be called once, after the last entry.
     void end() { write_(is_empty_ ? "{}\n" : "\n}\n"); }
 
   private:
-    // Begins the entry with this key.
+    // Writes the beginning of an entry: the separator, the key and a colon.
     void begin(std::string_view key);
 
     Write write_;

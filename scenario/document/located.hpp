@@ -8,14 +8,14 @@
 #include <stdexcept>
 #include <string_view>
 
-// Errors of models, reported at the place in the file that caused them. Models check their
-// parameters and know nothing of files; the code that builds a model from a scenario knows the
-// place.
+// Errors of models, reported with the file position of the value that caused them. A model checks
+// its parameters but does not know their file positions. The code that builds the model from a
+// scenario adds the position.
 
 namespace rovernet {
 
-/// Runs make() for a value of an input file. A std::invalid_argument in it becomes an InputError at
-/// `where`; an InputError keeps its file position.
+/// Runs make() for a value of an input file. If make() throws std::invalid_argument, throws an
+/// InputError at `where` instead. An InputError from make() keeps its file position.
 ///
 ///   const Movement move = located(table.where, [&] { return Movement(Patrol{table.path}); });
 ///
@@ -31,10 +31,10 @@ auto located(const Location& where, auto&& make) {
     }
 }
 
-/// Runs make() for a file that the input names. An error at a line of that file stays as it is. An
-/// error about the whole file (a missing file, say) is reported at the line that names the file, as
-/// "KEY: FILE: MESSAGE".
-/// @param where  file position of the name in the input; without a line, errors stay as they are
+/// Runs make() for a file that the input names. An InputError at a line of that file is not
+/// changed. An InputError about the whole file (a missing file, say) is reported at the line that
+/// names the file, as "KEY: FILE: MESSAGE".
+/// @param where  file position of the name in the input; if it has no line, no error is changed
 /// @param key    key whose value is the name
 /// @return what make() returns
 auto located_file(const Location& where, std::string_view key, auto&& make) {

@@ -20,7 +20,7 @@ namespace rovernet {
 enum class Dimension {
     /// Level of a power: dBm; mW, W and uW are converted.
     power,
-    /// Ratio: dB, dBi.
+    /// Power ratio, such as a gain or a loss: dB, dBi.
     gain,
     /// Frequency: Hz, kHz, MHz, GHz.
     frequency,
@@ -42,7 +42,7 @@ enum class Dimension {
     attenuation
 };
 
-/// Dimension of the quantities of a C++ type.
+/// Dimension of a C++ quantity type, given as an argument of that type.
 constexpr Dimension dimension_of(Dbm) { return Dimension::power; }
 constexpr Dimension dimension_of(Db) { return Dimension::gain; }
 constexpr Dimension dimension_of(Hertz) { return Dimension::frequency; }
@@ -53,7 +53,7 @@ constexpr Dimension dimension_of(Radians) { return Dimension::angle; }
 constexpr Dimension dimension_of(RadiansPerSecond) { return Dimension::turn_rate; }
 constexpr Dimension dimension_of(DbPerMeter) { return Dimension::attenuation; }
 
-/// C++ type of a quantity, for which dimension_of() is defined.
+/// Concept of a C++ quantity type: dimension_of() is defined for values of the type.
 template <class T>
 concept IsQuantity = requires(T v) {
     dimension_of(v);
@@ -74,13 +74,13 @@ double read_quantity(const Value& value, std::string_view key, Dimension dimensi
 /// Name of a dimension's base unit: "dBm", "m", "s" ...
 std::string_view base_unit(Dimension dimension);
 
-/// First dimension in which all texts are valid quantities, if there is one. Pictures use it to
-/// decide whether the values of a key can be drawn on an axis.
+/// First dimension in which all texts are valid quantities; empty if no dimension fits. Pictures
+/// use the dimension to decide whether the values of a key can be drawn on an axis.
 std::optional<Dimension> shared_dimension(const std::vector<std::string>& texts);
 
-/// Text of a quantity: "5 m", "25 cm". It reads back as the same number. The unit is the first one,
-/// in the dimension's list of units in quantity.cpp, in which the number is whole and reads back
-/// exactly. If there is none, it is the base unit.
+/// Text of a quantity: "5 m", "25 cm". read_quantity() reads the same number from the text. The
+/// unit is the first one, in the dimension's list of units in quantity.cpp, in which the number is
+/// whole and reads back exactly. If no unit fits, the base unit is used.
 /// @param value  number in the base unit
 std::string quantity_text(double value, Dimension dimension);
 /// List of bit rates as numbers in Mbit/s, without the unit: "1, 2, 5.5, 11".

@@ -13,8 +13,8 @@ namespace rovernet {
 /// Path that stands for standard input.
 inline constexpr std::string_view standard_input = "-";
 
-/// Reads a TOML file, or standard input ("-"), whose text is kept for a second reading. Keys are in
-/// the order of the file, and every value has its file position.
+/// Reads a TOML file, or standard input ("-"). The text of standard input is kept, so that it can
+/// be read again. Keys are in the order of the file. Every value has its file position.
 /// @throws InputError with file:line:column; with the file name alone if the file is missing, a
 /// directory, unreadable or larger than 64 MiB
 Value read_toml(const std::string& path);
@@ -31,7 +31,7 @@ std::string to_toml(const Table& document);
 /// TOML of a value as written after a key: "15 dBm" with its quotes, [1, 2], { a = 1 }.
 std::string to_toml(const Value& value);
 
-/// Text of a value for people: as to_toml(), but a text without its quotes.
+/// Text of a value for users: the TOML of the value, but a string is printed without quotes.
 std::string plain_text(const Value& value);
 
 /// Sets the value at `path` in a scenario's document: `radio.power`, `robot.NAME.radio.power`,
@@ -41,10 +41,10 @@ std::string plain_text(const Value& value);
 /// @throws InputError at `where` if the path does not exist and cannot be created
 void set_value(Value& document, const std::string& path, Value value, const Location& where);
 
-/// Applies "path=value", as the command line's --set does. The value is TOML, or a string without
-/// quotes; numbers are in SI units.
+/// Applies an assignment "path=value" of the command line's option --set to a scenario's document.
+/// The value is TOML, or a string without quotes. Numbers without a unit are in SI units.
 /// @param typed  option as the user typed it, for error messages
-/// @throws InputError whose position is that option
+/// @throws InputError at the option `typed`, instead of a file position
 void set_option(Value& document, const std::string& assignment, const std::string& typed);
 
 }  // namespace rovernet

@@ -34,13 +34,14 @@ struct Table {
     /// Entries in the order of the file. Readers of tables search them for unknown keys.
     std::vector<Entry> entries;
 
-    /// Value of `key`, or null if there is none; the pointer is valid until an entry is added.
+    /// Value of `key`, or null if the table lacks the key. The pointer is valid until an entry is
+    /// added.
     const Value* find(std::string_view key) const;
     Value* find(std::string_view key);
     /// Adds an entry, or replaces the value of the entry with this key.
     void set(std::string_view key, Value value);
 
-    // Defined out of line, since Entry is declared below.
+    // Special member functions, defined out of line, since Entry is an incomplete type here.
     Table();
     Table(const Table&);
     Table(Table&&) noexcept;
@@ -55,29 +56,29 @@ struct Table {
 /// Numbers are int64 or double, as written in the file. A quantity ("2450 MHz") is a string until
 /// read_quantity() converts it.
 struct Value {
-    /// Content of the value; std::monostate: none.
+    /// Content of the value; std::monostate: the value is empty.
     std::variant<std::monostate, bool, std::int64_t, double, std::string, Array, Table> data;
     /// File position of the value; no line if the value was made in code.
     Location where;
 
     Value();
-    /// Values made in code have no file position. The constructors are implicit, so that a list may
-    /// be written as Array{1, 2.5, "3 m"}.
+    /// Constructors of a value that is made in code and has no file position. They are implicit, so
+    /// that a list may be written as Array{1, 2.5, "3 m"}.
     Value(bool v);
     Value(int v);
     Value(std::int64_t v);
     Value(std::uint64_t v);
     Value(std::uint32_t v);
     Value(double v);
-    Value(const std::optional<double>& v);  ///< empty if `v` is empty
-    Value(const std::optional<std::uint64_t>& v);  ///< empty if `v` is empty
+    Value(const std::optional<double>& v);         ///< makes an empty Value if `v` is empty
+    Value(const std::optional<std::uint64_t>& v);  ///< makes an empty Value if `v` is empty
     Value(const char* v);
     Value(std::string_view v);
     Value(std::string v);
     Value(Array v);
     Value(Table v);
 
-    /// Content as the named type, or null if the content has a different type.
+    /// Content of the value as the type that names the function, or null if it has another type.
     const Table* table() const { return std::get_if<Table>(&data); }
     Table* table() { return std::get_if<Table>(&data); }
     const Array* array() const { return std::get_if<Array>(&data); }
@@ -89,7 +90,7 @@ struct Value {
     std::string description() const;
 };
 
-/// Copy of a value with the file position `where`, for values made in code.
+/// Copy of a value that is made in code, with the file position `where` for error messages.
 Value placed(Value value, const Location& where);
 
 /// Key with its value. The key has its own file position, since its value may be on another line.

@@ -14,24 +14,24 @@
 
 namespace rovernet {
 
-/// Radio of a Stage robot: its `wifi` as tables of a [[robot]]. Only keys that the world gives are
-/// set; each value has its position in the world file.
+/// Radio of a Stage robot: its model `wifi`, converted to tables of a [[robot]]. Only keys that the
+/// world gives are set. Each value has its position in the world file.
 struct StageRadio {
-    /// Keys of `radio`: power, sensitivity, frequency, essid, ip, netmask, mac, ...
+    /// Keys of the table `radio`: power, sensitivity, frequency, essid, ip, netmask, mac, ...
     Table radio = {};
-    /// Keys of `propagation`: the model, and parameters of the chosen model and of other models.
+    /// Keys of the robot's table `propagation`: the model, and parameters of any model.
     Table propagation = {};
-    /// Value of `random_seed` in the wifi: the seed of the scenario.
+    /// Seed of the scenario: the value of `random_seed` in the wifi; none: the wifi gives no seed.
     std::optional<Value> seed = {};
-    /// True if the wifi names a model; false: the model of [propagation] is used.
+    /// True if the wifi names a propagation model; false: the model of [propagation] is used.
     bool model_given = false;
     /// Notices about unknown keys of the wifi, one for each key.
     std::vector<std::string> notices = {};
 };
 
-/// Reads the wifi of a robot. Units in the world: power [mW], sensitivity [dBm], frequency [MHz],
-/// range in the world's unit of length. Stage's names of models and parameters (left) become those
-/// of a scenario file (right):
+/// Converts the model `wifi` of a Stage robot. Units in the world: power [mW], sensitivity [dBm],
+/// frequency [MHz], range in the world's unit of length. Stage's names of propagation models and
+/// parameters (left) become names of a scenario file (right):
 ///
 ///   friis, ITU indoor, log distance,   friis, itu_indoor, log_distance,
 ///   raytrace, simple                   raytrace_2007, disc

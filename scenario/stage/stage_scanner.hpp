@@ -27,7 +27,7 @@ namespace rovernet {
 Array stage_scanners(const WorldEntity& robot, const WorldUnits& units,
                      std::vector<std::string>& notices);
 
-/// Whether a model of a world is a range finder for stage_scanners().
+/// Whether stage_scanners() reads a model of a Stage world as a range finder.
 bool is_stage_scanner(const WorldEntity& model);
 
 }  // namespace rovernet

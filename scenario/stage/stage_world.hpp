@@ -19,12 +19,12 @@ namespace rovernet {
 ///   name         name in the world, or else robot0, robot1, ... by the number of the robot; "_" is
 ///                appended to a name that an earlier robot has, with a notice
 ///   at, heading  pose, including the poses of the models that carry it; z is dropped
-///   radius       half the smaller side of its size
-///   radio        keys of its first wifi; without a wifi those of [radio], with one notice for all
-///                robots
-///   propagation  model and parameters of its wifi (parameters of other models, too); without a
-///                model that of [propagation], with a notice
-///   scan         list of its range finders, see stage_scanners()
+///   radius       half the smaller side of the robot's size
+///   radio        keys of the robot's first wifi; without a wifi the keys of [radio], with one
+///                notice for all robots
+///   propagation  model of the wifi, and its parameters of any model; without a model the model of
+///                [propagation], with a notice
+///   scan         list of the robot's range finders, see stage_scanners()
 ///
 /// [scenario]: duration from quit_time, if above 0, and seed from the last random_seed, if the
 /// world gives them.

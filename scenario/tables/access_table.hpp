@@ -16,17 +16,17 @@
 
 namespace rovernet {
 
-/// Reads [access] eifs: a name of EifsRule, or a boolean as in files of earlier versions: true
-/// (standard), false (none).
-/// @throws InputError for anything else
+/// Reads the key eifs of [access]: a name of EifsRule. A boolean, as in files of earlier versions,
+/// is also valid: true (standard), false (none).
+/// @throws InputError for any other value
 void read_value(const Value& value, std::string_view key, EifsRule& out);
 
-/// [access]: the chosen model, and the parameters of all models. Parameters of a model that is not
-/// chosen are checked and kept.
+/// [access]: the chosen medium access model, and the parameters of all such models. Parameters of a
+/// model that is not chosen are checked and kept.
 using AccessTable = ModelChoice<AccessModels, AccessModel>;
 
-/// Radio without keys of its own: that of the access model if it has one (usual_radio()), or else
-/// Radio's defaults. [radio] changes it.
+/// Default radio of a scenario: usual_radio() of the access model if the model has this function,
+/// or else the defaults of Radio. Keys of [radio] override it.
 Radio usual_radio(const AccessTable& access);
 
 }  // namespace rovernet

@@ -16,13 +16,13 @@ namespace rovernet {
 /// [metrics]: metrics to measure besides the totals of a run. Unused metrics cost no time.
 /// network_settings() and ScenarioRun configure Metrics and add the sink Topology accordingly.
 struct MetricsTable {
-    /// Measure reach: the share of the robots that are connected to the sender, over any number of
-    /// links, when it sends. The cost of each message grows with the number of robots; none:
-    /// measured only while it is cheap.
+    /// True if the metric reach is measured: number of deliveries over number of robots that are
+    /// connected to the sender, by any number of hops, when it sends. The computing time for each
+    /// message grows with the number of robots. None: measured only while this time is small.
     std::optional<bool> reach = {};
-    /// True if metrics of each [[traffic]] table are measured separately.
+    /// True if the metrics of each flow ([[traffic]] table) are measured separately.
     bool flows = true;
-    /// True if metrics of each robot as a receiver are measured.
+    /// True if the metrics of each robot as a receiver are measured separately.
     bool robots = false;
     /// True if the topology is measured: degree, components, mean speed, lifetime of links.
     bool topology = false;

@@ -31,7 +31,7 @@ namespace rovernet {
 /// @tparam Default  model that is chosen if the file names none
 template <class Models, class Any, class Default = std::tuple_element_t<0, Models>>
 struct ModelChoice {
-    /// Place of the model M in the list, which must have it.
+    /// Index of the model M in the list `Models`, from 0. M must be in the list.
     template <class M>
     static constexpr std::size_t place_of() {
         return []<class... Each>(std::tuple<Each...>*) {
@@ -55,7 +55,7 @@ struct ModelChoice {
         return out;
     }
 
-    /// Place of the chosen model in the list.
+    /// Index of the chosen model in the list `Models`, from 0.
     std::size_t model = place_of<Default>();
     /// Parameters of each listed model, one struct for each.
     Models parameters = {};
@@ -65,7 +65,7 @@ struct ModelChoice {
     const M* as() const {
         return model == place_of<M>() ? &std::get<M>(parameters) : nullptr;
     }
-    /// Calls visit(parameters, whether it is chosen) for each listed model, in order.
+    /// Calls visit(parameters, is_chosen) for each listed model, in order.
     template <class Visitor>
     void for_each(Visitor&& visit) const {
         std::size_t at = 0;
@@ -84,7 +84,7 @@ struct ModelChoice {
         });
         return out;
     }
-    /// Chosen model, ready for use.
+    /// Object of the chosen model, made with its parameters.
     /// @throws std::invalid_argument if a parameter is out of its range
     Any make() const {
         std::optional<Any> made;
@@ -104,8 +104,8 @@ constexpr bool has_key(std::string_view key) {
 }
 
 /// Checks that the chosen model has all parameters without a default.
-/// @param what  name of such a model in the error, "propagation model"
-/// @throws InputError at `where`, with the first one that is missing
+/// @param what  kind of the model, for the error message: "propagation model"
+/// @throws InputError at `where`, naming the first missing parameter
 template <class... Choice>
 void check_given(const ModelChoice<Choice...>& choice, std::string_view what, Location where) {
     choice.for_each([&]<class M>(const M& each, bool chosen) {
@@ -118,10 +118,10 @@ void check_given(const ModelChoice<Choice...>& choice, std::string_view what, Lo
 }
 
 /// Reads the chosen model, and the given parameters of all listed models, from a table. A key that
-/// several models have is given to each of them, and the range of the chosen one decides whether it
-/// is valid; another model whose range it is not in keeps its own value.
-/// @param key   key with the name of the model, "model"
-/// @param what  name of such a model in errors
+/// several models have sets the parameter of each of them. Its value must be in the range of the
+/// chosen model. A model that is not chosen ignores a value outside of its own range.
+/// @param key   key whose value is the name of the model: "model"
+/// @param what  kind of the model, for error messages: "propagation model"
 /// @throws InputError at the first mistake, such as a missing parameter of the chosen model
 template <class... Choice>
 void read_model(const Value& value, std::string table_name, std::string_view key,
@@ -147,8 +147,8 @@ void read_model(const Value& value, std::string table_name, std::string_view key
     check_given(out, what, value.where);
 }
 
-/// Table with the chosen model and its parameters, and with the keys of other models that differ
-/// from their defaults; read_model() reads it back.
+/// Table from which read_model() reads the same choice: the chosen model with its parameters, and
+/// those parameters of other models that differ from their defaults.
 template <class... Choice>
 Table chosen_document(const ModelChoice<Choice...>& choice, std::string_view key = "model") {
     Table table;
@@ -166,8 +166,8 @@ Table chosen_document(const ModelChoice<Choice...>& choice, std::string_view key
     return table;
 }
 
-/// Table with the chosen model and the parameters of all models, those of the chosen one first
-/// where several have a key; read_model() reads it back.
+/// Table from which read_model() reads the same choice: the chosen model, and the parameters of all
+/// models. A key that several models have gets the value of the chosen model.
 template <class... Choice>
 Table whole_document(const ModelChoice<Choice...>& choice) {
     const Table chosen = chosen_document(choice);

@@ -79,7 +79,7 @@ struct GoalTable {
 
     /// Point to which the robot drives [m]; either `to` or `among` is given.
     std::optional<Vec3> to;
-    /// Points of which one is drawn as the goal in each replication [m].
+    /// Possible goals [m], of which one is drawn in each replication. Given instead of `to`.
     std::vector<Vec3> among;
     /// Speed of the robot [m/s], > 0.
     MetersPerSecond speed{1};
@@ -92,19 +92,19 @@ struct GoalTable {
     }
 };
 
-/// Movement models that scenario files can name. Adding a model here is enough to have it read,
-/// checked, printed, documented and swept, by its fields().
+/// Movement models that scenario files can name. A model that is added to this list is read,
+/// checked, printed, documented and swept by its fields(), without further code.
 using MoveModels =
     std::variant<FixedTable, WaypointsTable, GoalTable, Patrol, Follow, Group, RandomWaypoint,
                  RandomDirection, RandomWalk, GaussMarkov, Wander, FollowWall>;
 
-/// Movement model of a robot that follows a leader, which the file gives by name.
+/// Concept of a movement model whose robot follows a leader; the scenario file names the leader.
 template <class Model>
 concept LedModel = requires(Model model) {
     model.leader;
 };
 
-/// Movement model that can draw the start position of its robot.
+/// Concept of a movement model that can draw the start position of its robot.
 template <class Model>
 concept DrawnModel = requires(Model model) {
     model.start;
@@ -128,8 +128,8 @@ struct MoveTable {
     }
 };
 
-/// Reads move = { ... }.
-/// @param placed  whether the robot has a start position, so that its model draws none
+/// Reads the movement of a robot: move = { ... }.
+/// @param placed  true if the robot has a start position, so that its model draws none
 /// @throws InputError for an unknown model or key, a value out of range, or a missing required
 /// parameter
 MoveTable read_move(const Value& value, bool placed);

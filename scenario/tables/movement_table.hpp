@@ -18,7 +18,7 @@
 
 namespace rovernet {
 
-/// Names of the values of [movement] syntax in scenario files.
+/// Names of MovementSyntax in scenario files: values of the key syntax of [movement].
 template <>
 struct EnumNames<MovementSyntax> {
     static constexpr std::array<std::string_view, 2> values = {"strict", "tolerant"};

@@ -15,8 +15,8 @@
 
 namespace rovernet {
 
-/// [propagation]: the chosen model, and the given parameters of all listed models. Parameters of
-/// other models are kept, so that changing the key `model` is enough to swap the model.
+/// [propagation]: the chosen propagation model, and the given parameters of all such models. As
+/// parameters of other models are kept, changing the key `model` is enough to swap the model.
 using PropagationTable = ModelChoice<PropagationModels, Propagation, Friis>;
 
 /// Reads [propagation], or the `propagation` table of a robot, into `out`. Keys of models that are
@@ -24,8 +24,8 @@ using PropagationTable = ModelChoice<PropagationModels, Propagation, Friis>;
 /// @throws InputError at the first mistake, such as a missing parameter of the chosen model
 void read_propagation(const Value& value, PropagationTable& out);
 
-/// Model of a table like [propagation], without shadowing, so that its loss is the median loss.
-/// Used by `rovernet loss`.
+/// Propagation model read from a table like [propagation], but without shadowing, so that its loss
+/// is the median loss. Used by `rovernet loss`.
 /// @throws InputError as read_propagation()
 Propagation median_propagation(const Value& table);
 

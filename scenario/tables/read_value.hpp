@@ -13,22 +13,22 @@
 #include <string_view>
 #include <vector>
 
-// Conversion between values of a document and C++ values. There is a read_value() and a to_value()
-// for each type of a key; a described struct is read and written field by field.
+// Conversion between values of a document and C++ values. Each type that a key can have has an
+// overload of read_value() and of to_value(). Described structs are converted field by field.
 
 namespace rovernet {
 
 /// Reads a value into `out` by the type of `out`, without checking the range of the field. Numbers
 /// with a dimension need their unit, see read_quantity(); a Vec3 is a list of two or three lengths.
 /// @param key  name of the value's key, for the error message
-/// @throws InputError at the value; the message names what was found and what was expected. `out`
-/// may have changed
+/// @throws InputError at the value; the message names the found and the expected value. `out` may
+/// have changed
 void read_value(const Value& value, std::string_view key, bool& out);
-/// Reads a whole number: int: 32 bits; std::uint64_t: from 0 to 2^63 - 1.
+/// Reads a whole number: of 32 bits for int, from 0 to 2^63 - 1 for std::uint64_t.
 void read_value(const Value& value, std::string_view key, int& out);
 void read_value(const Value& value, std::string_view key, std::uint64_t& out);
-/// Reads a number without a unit, at most 1e9, such as a factor or an exponent; the limit keeps
-/// products finite.
+/// Reads a number without a unit, such as a factor or an exponent, from -1e9 to 1e9. The limit
+/// keeps products finite.
 void read_value(const Value& value, std::string_view key, double& out);
 /// Reads a text in quotes, with any characters.
 void read_value(const Value& value, std::string_view key, std::string& out);
@@ -52,8 +52,8 @@ void read_value(const Value& value, std::string_view key, PatternPoint& out);
 /// @throws InputError at the value
 void check_printable(const Value& value, std::string_view key, std::string_view text);
 
-/// Finds a word in the list of an enumeration.
-/// @return index into `choices`
+/// Reads a word that must be one of `choices`, the names of an enumeration.
+/// @return index of the word in `choices`
 /// @throws InputError for an unknown word; the message lists all choices and suggests the most
 /// similar one
 std::size_t read_choice(const Value& value, std::string_view key,
@@ -84,7 +84,7 @@ void read_value(const Value& value, std::string_view key, std::vector<T>& out) {
     }
 }
 
-/// Reads the value of an optional key that the file gives.
+/// Reads the value of an optional key; called only if the file gives the key.
 template <class T>
 void read_value(const Value& value, std::string_view key, std::optional<T>& out) {
     T present{};
@@ -92,22 +92,23 @@ void read_value(const Value& value, std::string_view key, std::optional<T>& out)
     out = std::move(present);
 }
 
-/// Value as written in a scenario file, with its unit; read_value() reads it back unchanged.
+/// Value of a scenario file for a C++ value, with its unit if it has one. read_value() reads the
+/// same C++ value from it.
 Value to_value(bool v);
 Value to_value(int v);
 Value to_value(std::uint64_t v);
-/// Value of a plain number or text, as written in a scenario file.
+/// Value of a scenario file for a number without a unit, or for a text.
 Value to_value(double v);
 Value to_value(const std::string& v);
-/// Quantity as a text, in a unit in which its number is whole if there is one.
+/// Text of a quantity with its unit, if possible in a unit in which the number is whole.
 template <IsQuantity Q>
 Value to_value(Q v) {
     return quantity_text(v.value, dimension_of(v));
 }
-/// Duration in the largest of s, ms, us and ns in which its number is whole.
+/// Text of a duration, in the largest of the units s, ms, us and ns in which the number is whole.
 Value to_value(Duration v);
 Value to_value(Bytes v);
-/// Position as a list of lengths; z is omitted if it is 0.
+/// List of lengths for a position, [x, y, z]; z is omitted if it is 0.
 Value to_value(Vec3 v);
 Value to_value(const PatternPoint& v);
 /// Name of an enumerator, as a text.

@@ -27,15 +27,16 @@ namespace rovernet {
                                   std::string_view model, std::string_view key,
                                   std::string_view meaning);
 
-/// Reader of one table, key by key. It notes the keys that were asked for, so that reject_unknown()
-/// finds misspelt keys. The value must outlive the reader.
+/// Reader of one table of a document, key by key. The reader notes the keys that its callers ask
+/// for, so that reject_unknown() finds misspelt keys. The value must outlive the reader.
 class TableReader {
   public:
     /// @param name  name of the table, for error messages: "[radio]"
     /// @throws InputError if the value is no table
     TableReader(const Value& value, std::string name);
 
-    /// Value under `key`, or null; the key counts as known from now on.
+    /// Value of `key`, or null if the table lacks the key. reject_unknown() accepts the key from
+    /// now on.
     const Value* take(std::string_view key);
     /// Reads `key` if it is present. @return whether it is present
     /// @param out    unchanged if the key is missing
@@ -67,15 +68,15 @@ class TableReader {
         for_each_field<T>([&](const auto& f) { read(f.name, out.*f.member, f.range); });
     }
     /// Checks, after the last key was read, that the table has no unknown keys.
-    /// @throws InputError for the first key that was never asked for, with a suggestion
+    /// @throws InputError for the first key that no caller asked for; the message suggests a key
     void reject_unknown() const;
     /// Reports that a required key is missing.
     /// @param example  example line for the message
     /// @throws InputError at the table, or at an unknown key that looks like a misspelling of `key`
     [[noreturn]] void missing(std::string_view key, std::string_view example) const;
 
-    /// Reports that two keys exclude each other.
-    /// @throws InputError at `other`
+    /// Reports that the keys `key` and `other` exclude each other.
+    /// @throws InputError at the file position of `other`
     [[noreturn]] void only_one_of(std::string_view key, std::string_view other) const;
 
     /// Table that is read, and its file position.
@@ -83,9 +84,9 @@ class TableReader {
     const Location& where() const { return where_; }
 
   private:
-    // Whether the key was asked for.
+    // Whether a caller has asked for the key.
     bool is_known(std::string_view key) const;
-    // Checks the number in `out`, if any, against the range.
+    // Checks that the number in `out` is in the range, if `out` is a number or a quantity.
     template <class T>
     void check(const Value& value, std::string_view key, const T& out, const Range& range) {
         const auto number = number_in(out);
@@ -94,11 +95,11 @@ class TableReader {
     const Table* table_;
     Location where_;
     std::string name_;
-    // Keys that were asked for, in that order; an error lists them.
+    // Keys that callers have asked for, in this order; the error about an unknown key lists them.
     std::vector<std::string> known_;
 };
 
-/// Appends one field of a struct as an entry of a table; an empty optional is omitted.
+/// Appends one field of a struct to a table, as an entry `name`. An empty optional is omitted.
 template <class M>
 void append_field(Table& table, std::string_view name, const M& member) {
     if constexpr (requires { member.has_value(); }) {
@@ -108,8 +109,8 @@ void append_field(Table& table, std::string_view name, const M& member) {
     }
 }
 
-/// Appends the entries of `given` that differ from those of `defaults`, have a value, and are not
-/// in the table.
+/// Appends to a table the entries of `given` that have a value, differ from the entry of `defaults`
+/// with the same key, and are not yet in the table.
 void append_differing(Table& table, const Table& given, const Table& defaults);
 
 /// Appends every field of a struct with fields() to a table, for read_fields() to read back.

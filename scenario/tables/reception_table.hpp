@@ -12,8 +12,8 @@
 
 namespace rovernet {
 
-/// [reception]: the chosen model, and the parameters of all models. Parameters of a model that is
-/// not chosen are checked and kept, so that changing the key `model` is enough to swap the model.
+/// [reception]: the chosen model of frame reception, and the parameters of all such models. As
+/// parameters of other models are checked and kept, changing the key `model` swaps the model.
 using ReceptionTable = ModelChoice<ReceptionModels, ReceptionModel>;
 
 }  // namespace rovernet

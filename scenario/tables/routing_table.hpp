@@ -13,8 +13,8 @@
 
 namespace rovernet {
 
-/// [routing]: the chosen protocol, and the given parameters of all listed protocols; by default
-/// flood. Its make() is ready for Network::route().
+/// [routing]: the chosen routing protocol, by default flood, and the given parameters of all listed
+/// protocols. make() returns the protocol for Network::route().
 using RoutingTable = ModelChoice<RoutingProtocols, Router>;
 
 }  // namespace rovernet

@@ -8,13 +8,14 @@
 
 namespace rovernet {
 
-/// Reads the `scan` of a robot: a table, or a list of tables for several range finders. A range
-/// finder without a name is named after its kind; further ones get a number: laser, laser1, laser2.
+/// Reads the key `scan` of a robot: a table, or a list of tables for several range finders. A range
+/// finder without a name is named after its kind, and numbered from the second on: laser, laser1,
+/// laser2.
 /// @throws InputError for an unknown key, a wrong type, a value out of range, keys that exclude
 /// each other, or two range finders of the same name
 std::vector<Scanner> read_scanners(const Value& value);
 
-/// Value that reads back as the same range finders: one table, or a list of tables.
+/// Value from which read_scanners() reads the same range finders: a table, or a list of tables.
 /// @param scanners  at least one
 Value scanners_document(const std::vector<Scanner>& scanners);
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-// [study]: the points of a study, their number of replications and their metrics. `rovernet sweep`
-// runs the study. A single run uses `warmup` and `metrics` only.
+// [study]: the points of a study (combinations of varied values), their replications and their
+// metrics. `rovernet sweep` runs the study. A single run uses `warmup` and `metrics` only.
 //
 //     [study]
 //     replications = 10
@@ -19,7 +19,7 @@
 
 namespace rovernet {
 
-/// Key of the scenario with the values that a study gives to it.
+/// Key of the scenario that a study varies, with the values that the key takes.
 struct Vary {
     /// Path of the key, as for --set: "radio.power", "robot.NAME.radio.power".
     std::string path;
@@ -29,15 +29,16 @@ struct Vary {
     Array values;
 };
 
-/// Combinations of values that a study skips: every listed key has one of its listed values. In the
-/// file:
+/// Combinations of varied values that a study skips: the combinations in which every listed key has
+/// one of its listed values. In the scenario file:
 ///
 ///   exclude = [{ "propagation.model" = "disc", "reception.model" = "sinr" }]
 using Exclusion = std::vector<Vary>;
 
-/// Warm-up of a run: time after which measuring begins.
+/// Warm-up of a run: its first part, which is not measured.
 struct Warmup {
-    /// Time since the start of the run [ns]; messages sent before it do not count.
+    /// Duration of the warm-up [ns], from the start of the run. Messages sent during the warm-up
+    /// are not counted.
     Duration given{0};
     /// True if the rule MSER-5 computes the warm-up of each run; then `given` is not used.
     bool mser5 = false;
@@ -49,10 +50,11 @@ struct StudyTable {
     int replications = 1;
     /// Probability that a confidence interval covers the true mean [-].
     double confidence = 0.95;
-    /// Method of confidence intervals; by default it depends on the metric, see method_for().
+    /// Method of confidence intervals; none: the method depends on the metric, see method_for().
     std::optional<IntervalMethod> interval;
-    /// Target half-width of the confidence interval of the first of `metrics`, in its unit:
-    /// replications are added until it is reached; none: exactly `replications` runs.
+    /// Target half-width of the confidence interval of the first of `metrics`, in the unit of that
+    /// metric. Replications are added until this half-width is reached. None: exactly
+    /// `replications` runs.
     std::optional<double> precision;
     /// Largest number of replications of a combination of values, if `precision` is given.
     int max_replications = 1000;
@@ -62,17 +64,17 @@ struct StudyTable {
     std::vector<Location> metric_places;
     /// Keys that vary, with their values, in the order of the file.
     std::vector<Vary> vary;
-    /// Groups of keys (paths) that vary together, value by value; all other keys vary in every
-    /// combination:
+    /// Groups of keys (paths) that vary together: the i-th value of a key is combined only with the
+    /// i-th values of the group's other keys. All other keys vary in every combination:
     ///
     ///   zip = [["radio.power", "radio.sensitivity"]]
     std::vector<std::vector<std::string>> zip;
     /// Combinations of values that the study skips.
     std::vector<Exclusion> exclude;
 
-    /// Interval method to use: `interval`, or betting if `precision` is given, since only betting
-    /// stays valid when runs are added until a precision is reached; none: the default of each
-    /// metric.
+    /// Method of confidence intervals to use: `interval` if it is given, or else betting if
+    /// `precision` is given, since only betting stays valid when runs are added until a precision
+    /// is reached. None: the default method of each metric.
     std::optional<IntervalMethod> interval_wish() const {
         if (interval || !precision) return interval;
         return IntervalMethod::betting;

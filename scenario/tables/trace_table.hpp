@@ -27,7 +27,8 @@ template <>
 struct EnumNames<Ns2Choice> {
     static constexpr std::array<std::string_view, 3> values = {"none", "old", "new"};
 };
-/// [trace]: trace files that a run writes beside its results. trace_files() makes a sink for each.
+/// [trace]: trace files that a run writes into the folder of its results. trace_files() makes a
+/// sink for each file.
 struct TraceTable {
     /// Format of the ns-2 trace; none: no trace.
     Ns2Choice ns2 = Ns2Choice::none;
@@ -35,7 +36,7 @@ struct TraceTable {
     bool mac = false;
     /// True if all records are written to a recorded trace (MCAP).
     bool record = false;
-    /// True if the recorded trace includes link changes.
+    /// True if the recorded trace includes the times at which links come up and go down.
     bool links = false;
 
     static constexpr auto fields() {

@@ -29,28 +29,29 @@ struct EnumNames<TrafficKind> {
     static constexpr std::array<std::string_view, 2> values = {"broadcast", "unicast"};
 };
 
-/// [[traffic]]: one flow. `from` sends a message at `start`, and repeats it at intervals of `every`
-/// until `stop`, or until `count` messages are sent.
+/// [[traffic]]: one flow of messages. The robot `from` sends a message at time `start`, and repeats
+/// it at intervals of `every` until the time `stop`, or until `count` messages are sent.
 struct TrafficTable {
     TrafficKind kind = TrafficKind::broadcast;
     /// Name of the flow, the suffix of its metrics' names; see name_flows().
     std::string name = {};
-    /// Name of the sending robot; "random" draws a robot for each message, unless a robot has that
-    /// name.
+    /// Name of the sending robot. With "random", if no robot has this name, the sender of each
+    /// message is drawn from all robots except the destination.
     std::string from;
     /// Name of the robot to which unicasts are sent.
     std::optional<std::string> to;
-    /// 1: messages go over one hop, without the routing protocol; none: the protocol forwards them
-    /// if it can, see Network::send.
+    /// Hop limit of the messages. 1: they go over one hop, without the routing protocol. None: the
+    /// routing protocol forwards the messages if it can, see Network::send.
     std::optional<int> hops;
-    /// Saturated source: the next message is queued as soon as the previous one is sent. Needs an
-    /// access model.
+    /// True for a saturated source: the next message is queued as soon as the previous one is sent.
+    /// Requires a medium access model.
     bool saturate = false;
     /// Text that the message carries.
     std::string payload;
     /// Size of the message on air [bytes]; none: the length of the payload.
     std::optional<Bytes> size;
-    /// Time of the first message [ns]; none: when `from` arrives at the end of its movement.
+    /// Time of the first message since the start of the run [ns]; none: the time at which the robot
+    /// `from` arrives at the end of its movement.
     std::optional<Duration> start;
     /// Interval between messages [ns]; none: one message only.
     std::optional<Duration> every;
@@ -61,8 +62,8 @@ struct TrafficTable {
     Location from_where = {}, to_where = {}, payload_where = {};
 };
 
-/// Reads one flow of [[traffic]]. A [[traffic]] that names a file is read by read_flows().
-/// @throws InputError for a key that is unknown, missing, or contradicts another
+/// Reads one flow of [[traffic]]. A table that names a traffic file is read by read_flows().
+/// @throws InputError for a key that is unknown, is missing, or contradicts another key
 TrafficTable read_traffic(const Value& value);
 
 }  // namespace rovernet

@@ -18,7 +18,7 @@ namespace rovernet {
 /// @throws InputError unless the image has between 1 and max_image_pixels pixels
 void check_image_size(const std::string& path, std::int64_t width, std::int64_t height);
 
-/// Image of this size, with all samples 0.
+/// Image of the given size [pixels] and number of channels, with all samples 0.
 /// @throws InputError as check_image_size()
 Image sized_image(const std::string& path, std::int64_t width, std::int64_t height, int channels);
 

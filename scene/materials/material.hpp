@@ -4,6 +4,7 @@
 #include "scene/materials/p2040.hpp"
 #include "sim/units.hpp"
 
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <string>
@@ -13,14 +14,14 @@ namespace rovernet {
 
 /// Material of a wall, which determines its loss for a signal that passes through.
 ///
-/// A material without a loss of its own has the loss of the propagation model (its wall factor).
+/// If a material gives no loss, the propagation model gives the loss (by its wall factor).
 struct Material {
     std::string name = "wall";
-    /// Loss of each crossing [dB], for any length inside.
+    /// Loss of each crossing of a wall [dB], independent of the length inside the wall.
     std::optional<Db> per_crossing = std::nullopt;
-    std::optional<DbPerMeter> per_metre = std::nullopt;  ///< loss by length inside [dB/m], >= 0
-    std::optional<ItuMaterial> slab = std::nullopt;      ///< loss of a slab of this ITU material
-    Meters thickness{0};  ///< thickness of that slab [m], > 0, independent of the drawn one
+    std::optional<DbPerMeter> per_metre = std::nullopt;  ///< loss per length inside [dB/m], >= 0
+    std::optional<ItuMaterial> slab = std::nullopt;      ///< ITU material of the slab with the loss
+    Meters thickness{0};  ///< thickness of the slab [m], > 0, independent of the drawn thickness
     Meters height{std::numeric_limits<double>::infinity()};  ///< height of the wall [m]
 
     bool follows_model() const { return !per_crossing && !per_metre && !slab; }
@@ -33,15 +34,24 @@ struct WallRate {
     double per_metre = 0;     ///< loss per metre inside [dB/m]
 };
 
-/// Losses of wall crossings for thin and thick walls, by drawn thickness.
+/// Losses of wall crossings, separate for light (thin) and heavy (thick) walls by drawn thickness.
 struct WallRates {
-    std::vector<WallRate> light;  ///< rates by material, for walls thinner than thinnest_heavy
-    std::vector<WallRate> heavy;  ///< rates by material, for all other walls
-    Meters thinnest_heavy;        ///< smallest thickness of a heavy wall [m]
+    std::vector<WallRate> light;  ///< losses by material, of walls thinner than thinnest_heavy
+    std::vector<WallRate> heavy;  ///< losses by material, of walls from thinnest_heavy on
+    Meters thinnest_heavy;        ///< smallest drawn thickness of a heavy wall [m]
 };
 
-/// Loss of `material` at `frequency`; a material that follows the propagation model has a loss of
-/// `usual_per_metre` [dB/m].
+/// Loss of a wall of `material` at `frequency`. If the material gives no loss, the loss is
+/// `usual_per_metre` [dB/m], which is that of the propagation model.
 WallRate wall_rate(const Material& material, Hertz frequency, double usual_per_metre);
+
+/// One passage of a segment a-b (the direct path between two points) through a wall.
+struct Crossing {
+    double entry;              ///< distance from the segment's start to the entry into the wall [m]
+    double exit;               ///< distance from the segment's start to the exit of the wall [m]
+    double length;             ///< exit - entry [m]; bitwise equal for the reversed segment
+    std::size_t material = 0;  ///< material of the wall: index into Scene::materials()
+    friend constexpr bool operator==(Crossing, Crossing) = default;
+};
 
 }  // namespace rovernet

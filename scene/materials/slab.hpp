@@ -7,22 +7,24 @@
 
 namespace rovernet {
 
-/// Fields at a slab for a plane wave of unit field, time convention e^(+j omega t).
+/// Fields transmitted and reflected by a slab, for an incident plane wave of unit field. The time
+/// convention is e^(+j omega t).
 struct SlabFields {
     /// Transmitted field, relative to the field without the slab, without the factor e^-decay.
     math::Complex transmitted;
-    /// Decay of the transmitted field [Np], >= 0: the field is e^-decay times `transmitted`. Stored
-    /// separately, because a sheet of metal has thousands of decibels.
+    /// Decay of the transmitted field [Np], >= 0: the field is e^-decay times `transmitted`. The
+    /// decay is stored separately, since it is thousands of decibels in a sheet of metal.
     double decay;
     /// Field reflected by the slab.
     math::Complex reflected;
 };
 
-/// Powers of the fields transmitted and reflected by a slab, without phases; faster to compute.
+/// Powers of the fields transmitted and reflected by a slab: as SlabFields, but without phases and
+/// faster to compute.
 struct SlabPowers {
-    double transmitted;  ///< |transmitted|^2
-    double decay;        ///< decay of the field [Np]
-    double reflected;    ///< |reflected|^2
+    double transmitted;  ///< transmitted power ratio without the decay: |SlabFields::transmitted|^2
+    double decay;        ///< decay of the transmitted field (not of its power) [Np], >= 0
+    double reflected;    ///< reflected power ratio: |SlabFields::reflected|^2
 };
 
 /// Slab of one material at one frequency, evaluated for many thicknesses and angles. TE
@@ -35,13 +37,14 @@ struct SlabPowers {
 class Slab {
   public:
     Slab(ItuMaterial material, Hertz frequency);
-    /// @param thickness  [m], >= 0
-    /// @param cosine     cosine of the angle between the wave's direction and the normal, above 0
-    ///                   to 1
+    /// Fields at the slab for one thickness and angle of incidence.
+    /// @param thickness  thickness of the slab [m], >= 0
+    /// @param cosine     cosine of the angle between wave direction and slab normal, > 0, <= 1
     SlabFields fields(double thickness, double cosine) const;
     SlabPowers powers(double thickness, double cosine) const;
-    /// Largest fraction of power that a slab of any thickness reflects [-], for a real reflection
-    /// coefficient r of its face: 4 |r|^2 / (1 + |r|^2)^2. More accurate for a smaller cosine.
+    /// Largest fraction of power that a slab of any thickness reflects [-], computed for a real
+    /// reflection coefficient r of its surface: 4 |r|^2 / (1 + |r|^2)^2. The smaller the cosine of
+    /// the angle of incidence, the more accurate is the result.
     double most_reflected(double cosine) const;
 
   private:

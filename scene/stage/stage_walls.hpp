@@ -13,14 +13,15 @@ namespace rovernet {
 /// Walls of a Stage world: one grid for each bitmap, box, outline and boundary wall, in the order
 /// of the file. Grids may touch and overlap.
 struct StageWalls {
-    std::vector<OccupancyGrid> grids;  ///< grids, whose `material` is an index into `materials`
-    /// Materials, one for each colour of a wall model, named like the colour; all follow the
-    /// propagation model's loss.
+    std::vector<OccupancyGrid> grids;  ///< walls; OccupancyGrid::material: index into `materials`
+    /// Materials of the walls: one for each colour of a wall model, named like the colour. The
+    /// propagation model gives their loss.
     std::vector<Material> materials;
     std::vector<std::string> notices;  ///< notices for the user, each "file:line: text"
 };
 
-/// Walls by Stage's rules, from every `model` and its parts, without robots and the parts on them:
+/// Walls of a Stage world, made of every `model` and its parts, but not of robots and their parts.
+/// The rules are those of Stage:
 ///
 /// A pixel of a bitmap is a wall if its first channel is at most 127. The bounding box of these
 /// pixels, not the image, is scaled to the model's size and centred on its pose and origin. A model
@@ -30,8 +31,8 @@ struct StageWalls {
 /// size. Walls are infinitely high.
 ///
 /// A model with laser_return <= 0 (Stage 2 and 3) or ranger_return < 0 (Stage 4) is not a wall: the
-/// 2007 radio passed through models that a laser passes through. A model without a colour is red,
-/// as in Stage.
+/// radio of Stage's wifi of 2007 passed through models that a laser passes through. A model without
+/// a colour is red, as in Stage.
 /// @throws InputError for a bitmap that is missing (unless lenient) or damaged, for values of the
 ///         wrong type, and for more than 256 million pixels and cells in total
 StageWalls stage_walls(const WorldFile& world, const WorldOptions& options);

@@ -11,7 +11,7 @@
 
 namespace rovernet {
 
-/// Closed outline on a model's body; z is 0.
+/// Closed polygon: an outline of a Stage model's body, in the coordinates of the body; z is 0.
 struct WallPolygon {
     std::vector<Vec3> points;
     Location where;
@@ -20,13 +20,14 @@ struct WallPolygon {
     bool is_box() const;
 };
 
-/// Outlines of a model as in the file, unscaled: polygon[i].point[j] of Stage 2, block[i].point[j]
-/// of Stage 3 and the `block` children of Stage 3 and 4.
+/// Outlines of a Stage model as in the world file, unscaled: polygon[i].point[j] of Stage 2,
+/// block[i].point[j] of Stage 3, and the `block` children of Stage 3 and 4.
 /// @throws InputError for a point that is missing or not of the form [x y]
 std::vector<WallPolygon> wall_polygons(const WorldEntity& entity);
 
-/// Scales all outlines together, so that their bounding box fills `size` and is centred at (0, 0).
-/// Returns false, and changes nothing, if the box has no width or no height.
+/// Scales all outlines of a model together, so that their common bounding box has the given size
+/// and its centre is at (0, 0). If the box has no width or no height, nothing is changed.
+/// @return whether the outlines were scaled
 bool fit(std::vector<WallPolygon>& polygons, const WorldSize& size);
 
 /// Bounding box of points.
@@ -38,9 +39,9 @@ struct Extent {
 };
 Extent extent_of(const std::vector<Vec3>& points);
 
-/// Interior of an outline (by the even-odd rule) as cells of at most `cell` [m] over its extent; a
-/// cell is a wall if its centre is inside. An axis-parallel box is one cell. The grid's origin is
-/// relative to the body.
+/// Grid of the interior of an outline, by the even-odd rule. The sides of its cells are at most
+/// `cell` [m]. A cell is a wall if its centre is inside. An axis-parallel box becomes one cell. The
+/// origin of the grid is relative to the model's body.
 OccupancyGrid filled(const WallPolygon& polygon, double cell);
 
 /// Cost of filled(): number of cells and edges that it visits.

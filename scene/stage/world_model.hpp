@@ -16,18 +16,19 @@ enum class WorldRole {
     robot,    ///< model type "position"
     wall,     ///< model type "model"
     radio,    ///< model type "wifi"
-    shape,    ///< model type "block": a part of its model's body
-    ignored,  ///< sensors, tools, windows
+    shape,    ///< model type "block": a part of the body of its parent model
+    ignored,  ///< other model types: sensors, tools, windows
 };
 
-/// Role of a model, by its type. A type unknown to Stage is a robot if it has a wifi, otherwise a
-/// wall if it has a bitmap; this applies to macros whose include is missing.
+/// Role of a Stage model, by its type. A model whose type is unknown to Stage (a macro whose
+/// include is missing) is a robot if it has a wifi, or else a wall if it has a bitmap.
 WorldRole world_role(const WorldEntity& entity);
 
 /// Model types of Stage 2 to 4.
 const std::vector<std::string>& stage_types();
 
-/// `wifi` models of a model: in the model and its parts, but not in other positions inside it.
+/// All `wifi` models in a Stage model and in its parts. The `wifi` models of a nested `position`
+/// (robot) are not included.
 std::vector<const WorldEntity*> wifis(const WorldEntity& entity);
 
 /// Units of length and angle of a world file.
@@ -39,10 +40,10 @@ struct WorldUnits {
     double metres(double number) const { return times_power_of_ten(number, length_exponent); }
 };
 
-/// Units that a world file sets. @throws InputError for a unit unknown to Stage
+/// Units of length and angle that a world file sets. @throws InputError for a unit unknown to Stage
 WorldUnits world_units(const WorldFile& world);
 
-/// Position and direction, in the frame of the parent or of the world.
+/// Pose (position and direction) of a Stage model, in the frame of its parent or of the world.
 struct WorldPose {
     Vec3 at{};           ///< position [m]
     double degrees = 0;  ///< direction [deg], counter-clockwise from the x axis
@@ -52,7 +53,7 @@ struct WorldPose {
 /// frame of `outer`. Heights z are not added.
 WorldPose operator*(const WorldPose& outer, const WorldPose& inner);
 
-/// Pose under `key`: [x y], [x y a] (Stage 2) or [x y z a] (Stage 3 and 4); all 0 without the key.
+/// Pose given by `key`: [x y], [x y a] (Stage 2) or [x y z a] (Stage 3 and 4); all 0 without `key`.
 /// @throws InputError for any other value, and for coordinates beyond 1e9 m
 WorldPose world_pose(const WorldEntity& entity, std::string_view key, const WorldUnits& units);
 WorldPose world_pose(const WorldProperty& property, const WorldUnits& units);
@@ -63,8 +64,9 @@ struct WorldSize {
     double y = 0;
 };
 
-/// Value of the key `size`: [x y] (Stage 2) or [x y z] (Stage 3 and 4); without the key 0.4 m x 0.4
-/// m, the default of Stage 4. @throws InputError for any other value, below 0 and beyond 1e9 m
+/// Size of a Stage model, given by the key `size`: [x y] (Stage 2) or [x y z] (Stage 3 and 4).
+/// Without the key the size is 0.4 m x 0.4 m, the default of Stage 4.
+/// @throws InputError for any other value, and for lengths below 0 or above 1e9 m
 WorldSize world_size(const WorldEntity& entity, const WorldUnits& units);
 
 /// Sine and cosine of an angle in degrees, exact for multiples of 90.

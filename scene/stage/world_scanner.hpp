@@ -9,12 +9,12 @@
 
 namespace rovernet {
 
-/// Lexer: splits the text of one world file into tokens.
+/// Lexer for Stage worlds: splits the text of one world file into tokens.
 class WorldScanner {
   public:
     /// @param text    text of the file, which must outlive the scanner
-    /// @param file    number of the file, for its tokens
-    /// @param source  name of the file, for errors
+    /// @param file    number of the file, which is stored in its tokens
+    /// @param source  name of the file, for error messages
     WorldScanner(std::string_view text, int file, std::string source);
 
     /// Next token; always file_end after the end of the text.

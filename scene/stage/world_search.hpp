@@ -9,11 +9,11 @@
 
 namespace rovernet {
 
-/// Search for the includes and bitmaps of a world: first in the folder of the world, then in
-/// WorldOptions::search_path, then in the folders of the environment variable STAGEPATH.
+/// Search for the includes and bitmaps of a Stage world: first in the folder of the world file,
+/// then in WorldOptions::search_path, then in the folders of the environment variable STAGEPATH.
 class WorldSearch {
   public:
-    /// @param world_path  path of the top file, as the user named it
+    /// @param world_path  path of the world file, as the user typed it
     WorldSearch(const std::string& world_path, const WorldOptions& options);
 
     /// Result of a search for a file.
@@ -25,8 +25,8 @@ class WorldSearch {
         std::string places() const;
     };
 
-    /// Searches each folder for `name`, then each folder for the file name alone. An absolute path
-    /// is tried first as given.
+    /// Searches each folder for the path `name`, and then each folder for the last part of `name`,
+    /// the file name without folders. An absolute path is tried first as given.
     Result find(const std::string& name) const;
 
   private:

@@ -11,7 +11,7 @@
 
 namespace rovernet {
 
-/// Token of a world file.
+/// Token of a Stage world file.
 struct WorldToken {
     enum class Kind : std::uint8_t {
         word,    ///< a letter, then letters, digits and . - _ [ ]
@@ -23,13 +23,13 @@ struct WorldToken {
         open_tuple,   ///< [
         close_tuple,  ///< ]
         line_end,
-        file_end,  ///< end of the top file
+        file_end,  ///< end of the world file (not of an included file)
     };
     Kind kind = Kind::file_end;
     std::string text = {};  ///< text of the token, without quotes
     double number = 0;
-    bool is_cut = false;  ///< the number has ignored characters behind it: 3.75 in "3.75.2"
-    int file = 0;         ///< index into WorldTokens::files
+    bool is_cut = false;  ///< true if ignored characters follow the number: 3.75 in "3.75.2"
+    int file = 0;         ///< file of the token: index into WorldTokens::files
     int line = 1;
     int column = 1;  ///< column in the line [bytes], from 1
 
@@ -37,21 +37,21 @@ struct WorldToken {
     std::string description() const;
 };
 
-/// World file as tokens, with its includes in place, without comments and blanks.
+/// Tokens of a Stage world file, with included files in place, without comments and blanks.
 struct WorldTokens {
     std::vector<WorldToken> tokens = {};    ///< the last token is file_end
-    std::vector<std::string> files = {};    ///< paths of the files as found, the top one first
-    std::vector<std::string> notices = {};  ///< notices of missing includes that are left out
+    std::vector<std::string> files = {};    ///< paths as found: the world file, then its includes
+    std::vector<std::string> notices = {};  ///< notices about missing includes that are left out
 
     Location where(const WorldToken& token) const {
         return {files[static_cast<std::size_t>(token.file)], token.line, token.column};
     }
 };
 
-/// Largest number of tokens of a world, including its includes and every use of a macro.
+/// Largest number of tokens of a Stage world, with all includes and after macro expansion.
 inline constexpr std::size_t most_world_tokens = 1'000'000;
 
-/// Reads a world file and its includes.
+/// Reads a Stage world file and its includes, and splits them into tokens.
 ///
 /// Limits: 16 MiB per file and 64 MiB in total, includes 16 deep, most_world_tokens tokens.
 /// @throws InputError for an unreadable file, an invalid token, and an include that includes itself

@@ -11,10 +11,10 @@
 
 namespace rovernet {
 
-/// Number or text in a world file.
+/// Number or text in a Stage world file.
 using WorldAtom = std::variant<double, std::string>;
 
-/// Property of a world file: `name value` or `name [values]`.
+/// Property in a Stage world file: `name value` or `name [values]`.
 struct WorldProperty {
     std::string name;
     std::vector<WorldAtom> values;
@@ -26,12 +26,12 @@ struct WorldProperty {
     const std::string& text() const;
 };
 
-/// Entity `type ( properties and children )`; macros are expanded: `type` is the base type of the
-/// macro.
+/// Entity in a Stage world file: `type ( properties and children )`. Macros are expanded: if the
+/// entity uses a macro, `type` is the base type of the macro.
 struct WorldEntity {
-    std::string type = {};   ///< "position", "model", "wifi"; "" for the whole file
-    std::string macro = {};  ///< name of the macro that the entity uses, if any
-    std::vector<WorldProperty> properties = {};  ///< the last property of a name counts
+    std::string type = {};   ///< type: "position", "model", "wifi" ...; "" for the whole file
+    std::string macro = {};  ///< name of the macro that the entity uses; empty: none
+    std::vector<WorldProperty> properties = {};  ///< properties; of equal names the last is valid
     std::vector<WorldEntity> children = {};
     Location where = {};
 
@@ -43,17 +43,17 @@ struct WorldEntity {
 struct WorldOptions {
     std::vector<std::string> search_path =
         {};  ///< folders for includes and bitmaps, before STAGEPATH
-    /// Replaced bitmaps: use NEW wherever the world names OLD; NEW is relative to the world or to
-    /// OLD.
+    /// Replacements of bitmaps, pairs (OLD, NEW): NEW is read wherever the world names OLD. The
+    /// path NEW is relative to the world file or to OLD.
     std::vector<std::pair<std::string, std::string>> bitmaps = {};
     bool lenient = false;  ///< a missing include or bitmap causes a notice, not an error
 };
 
-/// Parsed world: its entities, and notices for the user.
+/// Parsed Stage world: its entities, and notices to the user.
 struct WorldFile {
     std::string path;
-    WorldEntity root;                  ///< its properties are the globals, its children the models
-    std::vector<std::string> notices;  ///< notices for the user, each "file:line: text"
+    WorldEntity root;                  ///< whole file: global properties, and models as children
+    std::vector<std::string> notices;  ///< notices to the user, each "file:line: text"
 };
 
 /// Reads a Stage world file (Stage 2 to 4) with its includes and macros. Lengths and angles are in
@@ -66,7 +66,7 @@ struct WorldFile {
 /// @throws InputError with file, line and column
 WorldFile read_worldfile(const std::string& path, const WorldOptions& options);
 
-/// Text of a world's notice: "file:line: text"; "file: text" for a place without a line.
+/// Notice about a Stage world: "file:line: text", or "file: text" if `where` has no line.
 std::string world_notice(const Location& where, std::string_view text);
 
 }  // namespace rovernet

@@ -15,17 +15,17 @@
 
 namespace rovernet {
 
-/// Order of service among events at one time.
+/// Order of service among events at the same time.
 ///
 /// A frame that ends at t is received before any timer of t runs; an action that a user scheduled
-/// for t runs after all simulator events of t. Keys pack the value into 4 bits.
+/// for t runs after all simulator events of t. EventKey packs the value into 4 bits.
 enum class Priority : std::uint8_t {
     /// End of a frame at its receivers.
     frame_end,
     /// Timer of a protocol or an access model, end of a leg, link change, or time to send a waiting
     /// frame.
     timer,
-    /// Start of a frame; not used today.
+    /// Start of a frame; no event has this priority.
     frame_start,
     /// Action of a user, or a reaction to a message, an arrival or a lost link.
     user
@@ -44,7 +44,7 @@ class EventKey {
     /// @param t         time at which the event is served
     /// @param priority  order among events at `t`
     /// @param sequence  number of the event, < 2^36; no two events of a run share one
-    /// @param slot      index of its payload, < 2^24
+    /// @param slot      index of the event's payload, < 2^24
     constexpr EventKey(Time t, Priority priority, std::uint64_t sequence, std::uint32_t slot)
         : time_(t.time_since_epoch().count()),
           word_(std::uint64_t{static_cast<std::uint8_t>(priority)} << 60 | sequence << 24 | slot) {}
@@ -75,7 +75,7 @@ class EventKey {
     std::uint64_t word_ = ~std::uint64_t{0};
 };
 
-/// Allocator whose memory is aligned to cache lines (64 bytes); a line contains four keys.
+/// Allocator whose memory is aligned to cache lines (64 bytes); a cache line contains four keys.
 template <class T>
 struct LineAllocator {
     using value_type = T;
@@ -94,11 +94,11 @@ struct LineAllocator {
 /// compares the key with at most log4(n) keys, a pop with about 3 log4(n).
 ///
 /// The four children of a node lie in one cache line, and the least of them is found without a
-/// branch; there are half as many levels as in a binary heap. EventQueue uses it for the few keys
-/// that are too late for its sorted lines, and for all keys but ends of frames while few events are
-/// pending.
+/// branch; there are half as many levels as in a binary heap. EventQueue uses an EventHeap for the
+/// few keys that are too late for its sorted lines, and for all keys but ends of frames while few
+/// events are pending.
 ///
-/// Keys must differ.
+/// All keys in a heap must differ.
 class EventHeap {
   public:
     /// Whether the heap has no key.
@@ -112,7 +112,7 @@ class EventHeap {
     void push(EventKey key);
     /// Removes top(); the heap must not be empty.
     void pop();
-    /// Removes every key for which keep(key) is false. It takes O(n log n) at worst.
+    /// Removes every key for which keep(key) is false, in a time O(n log n) at worst.
     template <class Keep>
     void filter(Keep keep) {
         const std::size_t old_end = std::exchange(end_, root);
@@ -126,7 +126,7 @@ class EventHeap {
     // Index of the root: 3, so that the children of i fill the four-key line from 4 (i - 2) on.
     // Entries from end_ on contain the default key, so that a whole line can always be searched.
     static constexpr std::size_t root = 3;
-    // Keys in a cache line.
+    // Number of keys in a cache line.
     static constexpr std::size_t line = 4;
     using Keys = std::vector<EventKey, LineAllocator<EventKey>>;
 

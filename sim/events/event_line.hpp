@@ -12,11 +12,11 @@
 namespace rovernet {
 
 /// Sorted list of event keys, for keys that arrive nearly in order. A key is inserted at most 8
-/// places from the end; a group of up to 48 keys that are later than all stored keys is appended at
-/// once. Removing the first key costs one addition.
+/// places from the end; a group of up to 48 keys that are later than all stored keys is appended in
+/// one step. Removing the first key takes one addition.
 ///
-/// EventQueue has two lines: one for the ends of frames, whose order is nearly that of the starts
-/// because frames last about equally long; and one for the earliest of the other events.
+/// EventQueue has two lines: one for the ends of frames, whose order is nearly the order of their
+/// starts because frames last about equally long; and one for the earliest of the other events.
 class EventLine {
   public:
     /// Largest number of keys in a group; append() counts with 6 bits.
@@ -48,10 +48,10 @@ class EventLine {
     /// @param first  a time not after any key of the group
     /// @param bits   times of the group differ from `first` by less than 2^bits ns
     void append(std::span<const EventKey> group, Time first, int bits);
-    /// Removes front() if `remove` is true; the line must not be empty then. Without a branch, for
+    /// Removes front() if `remove` is true; the line must then have a key. Without a branch, for
     /// callers that cannot predict which of two lines has the next event.
     void pop_if(bool remove) { front_ += remove; }
-    /// Removes every key for which keep(key) is false. It takes O(n).
+    /// Removes every key for which keep(key) is false, in a time O(n).
     template <class Keep>
     void filter(Keep keep) {
         forget_gone();
@@ -64,7 +64,7 @@ class EventLine {
     // Number of removed keys that are kept before memory is compacted.
     static constexpr std::size_t most_gone = 64;
 
-    // Frees the places of removed keys.
+    // Frees the memory of removed keys.
     void forget_gone() {
         keys_.erase(keys_.begin(), keys_.begin() + static_cast<std::ptrdiff_t>(front_));
         front_ = 0;

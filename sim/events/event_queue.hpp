@@ -28,9 +28,9 @@ namespace rovernet {
 /// lower level are due before all keys of a higher level; on one level the digits are in order.
 ///
 /// When near_ and heap_ are empty, the earliest buckets fill near_. A bucket with more than 48 keys
-/// is first spread over lower levels: the digits that all its keys share become the base. So a key
-/// moves only a few times, each time to the end of a bucket, and is sorted among few keys. Up to 64
-/// keys stay in the heap, without buckets.
+/// is first spread over lower levels: the digits that all its keys share become the base. Thus a
+/// key moves only a few times, each time to the end of a bucket, and is sorted among few keys. Up
+/// to 64 keys stay in the heap, without buckets.
 ///
 /// Keys may be added in any order, also before top(). Memory follows the largest number of pending
 /// keys: buckets share chunks of 64 keys, and chunks that are not full take at most 0.5 MB.
@@ -65,8 +65,8 @@ class EventQueue {
         find_top();
     }
 
-    /// Removes every key for which keep(key) is false. It takes O(n log n) at worst; Scheduler
-    /// calls it when half of the keys belong to cancelled events.
+    /// Removes every key for which keep(key) is false, in a time O(n log n) at worst. Scheduler
+    /// calls filter() when half of the keys belong to cancelled events.
     template <class Keep>
     void filter(Keep keep) {
         near_.filter(keep);
@@ -87,7 +87,7 @@ class EventQueue {
     static constexpr std::size_t levels = 32;
     // Chunk number that marks the end of a chain.
     static constexpr std::uint32_t none = 0xffffffff;
-    // Keys in a chunk; at least EventLine::most_at_once.
+    // Number of keys in a chunk; at least EventLine::most_at_once.
     static constexpr std::size_t chunk_size = 64;
     // Number of keys up to which all keys stay in the heap.
     static constexpr std::size_t small = 64;
@@ -141,7 +141,7 @@ class EventQueue {
     void lower_base(Rank base);
     // Bucket with the earliest keys; there must be one.
     Place nearest() const;
-    // Removes the keys of a bucket from it; the caller owns their chunks.
+    // Empties a bucket and returns its keys; the caller then owns their chunks.
     Bucket take(Place place);
     // Returns a free or new chunk, with `next` behind it in the chain.
     std::uint32_t add_chunk(std::uint32_t next);
@@ -171,16 +171,15 @@ class EventQueue {
     }
 
     EventKey top_;
-    // Ends of frames, except those that precede many stored ends; these are stored with the other
-    // keys.
+    // Ends of frames, except those that precede many stored ends, which are among the other keys.
     EventLine ends_;
     // Other keys: up to near_end_ in near_ or heap_, later ones in the bucket given by place(). If
-    // near_ and heap_ are empty, so are the buckets.
+    // near_ and heap_ are empty, the buckets are, too.
     EventLine near_;
     EventHeap heap_;
     // Largest rank of the keys in near_ and heap_.
     Rank near_end_ = ~Rank{0};
-    // Base with which keys in buckets were compared; no key in a bucket is below it.
+    // Base with which keys in buckets were compared; no key in a bucket is below the base.
     Rank base_ = 0;
     // Size of the heap beyond which spill() is called.
     std::size_t heap_limit_ = small;
@@ -190,7 +189,7 @@ class EventQueue {
     std::uint32_t used_levels_ = 0;
     // First chunk of the chain of free chunks.
     std::uint32_t free_ = none;
-    // Bit mask of the buckets with keys, for each level.
+    // Bit mask of the non-empty buckets, for each level.
     std::array<std::uint16_t, levels> used_digits_{};
     std::array<std::array<Bucket, 16>, levels> buckets_{};
     // Chunks of all buckets, and free chunks.

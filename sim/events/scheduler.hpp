@@ -14,8 +14,8 @@
 
 namespace rovernet {
 
-/// Handle of an event, for Scheduler::cancel; a default handle belongs to no event. It may outlive
-/// its event: sequences are not reused.
+/// Handle of an event, for Scheduler::cancel; a default handle belongs to no event. A handle may
+/// outlive its event: sequences are not reused.
 struct EventHandle {
     std::uint32_t slot = 0;
     std::uint64_t sequence = ~std::uint64_t{0};
@@ -23,7 +23,7 @@ struct EventHandle {
 
 /// Limits beyond which a Scheduler throws; the defaults are the largest that a key can store.
 struct SchedulerLimits {
-    /// Largest number of events queued at once.
+    /// Largest number of events queued at the same time.
     std::uint64_t pending = std::uint64_t{1} << 24;
     /// Largest number of calls of schedule() in one run.
     std::uint64_t scheduled = std::uint64_t{1} << 36;
@@ -35,7 +35,7 @@ struct SchedulerLimits {
 [[noreturn]] void throw_too_many_events(const char* state, std::uint64_t limit);
 
 /// Future events, served in the order of EventKey: by time, priority, then first scheduled, first
-/// served. Engine::advance is its loop: pop(), set the clock, handle the payload.
+/// served. Engine::advance is the event loop: pop(), set the clock, handle the payload.
 ///
 /// The queue stores only keys; payloads are in slots that are reused. Memory follows the largest
 /// number of pending keys. A cancelled key stays in the queue until it is the first, or until half
@@ -79,9 +79,9 @@ class Scheduler {
     }
 
     /// Queues the rest of a popped event under its key, perhaps moved to a later time by Key::at.
-    /// It keeps its position among events of equal time and priority, is not counted as scheduled,
-    /// and cannot be cancelled. Allowed at most once per pop. Channel uses it for a transmission
-    /// whose receptions lie before and after other events.
+    /// The event keeps its position among events of equal time and priority, is not counted as
+    /// scheduled, and cannot be cancelled. Allowed at most once per pop. Channel uses it for a
+    /// transmission whose receptions lie before and after other events.
     /// @throws RunError as schedule()
     void requeue(Key key, Payload payload) {
         assert(key.sequence() < scheduled_);
@@ -142,7 +142,7 @@ class Scheduler {
         Payload payload;
     };
 
-    // Puts a key into the queue, and its tag and payload into a slot. @return the slot
+    // Puts an event's key into the queue, and its tag and payload into a slot. @return the slot
     std::uint32_t queue(Time t, Priority priority, std::uint64_t sequence, std::uint64_t tag,
                         Payload& payload) {
         assert(t >= last_popped_);
@@ -166,7 +166,7 @@ class Scheduler {
         first_free_ = static_cast<std::uint32_t>(slots_.size() - 1);
     }
 
-    // Frees a slot; it is reused first.
+    // Frees a slot, which is then the first to be reused.
     void release(std::uint32_t slot) {
         slots_[slot].tag = released | std::exchange(first_free_, slot);
     }

@@ -26,8 +26,8 @@ double knife_edge_loss_db(double nu);
 ///   J(nu) = 6.9 + 20 log10( sqrt((nu - 0.1)^2 + 1) + nu - 0.1 ) for nu > -0.78, else 0
 ///
 /// The approximation is within 0.13 dB of knife_edge_loss_db() for nu > -0.78, and neglects the
-/// oscillation below. Its step at -0.78 is 0.004 dB; without the limit it would be an unbounded
-/// gain.
+/// oscillation below. Its step at -0.78 is 0.004 dB; without the limit the approximation would be
+/// an unbounded gain.
 double knife_edge_loss_p526_db(double nu);
 
 /// Transition function F(x) [-] of the uniform theory of diffraction, for x >= 0:
@@ -42,17 +42,18 @@ math::Complex transition_function(double x);
 /// Path of a wave over the edge of a wedge, seen along the edge.
 struct WedgePath {
     double n;  ///< exterior angle of the wedge over pi [-]: 2 a screen, 1.5 a right-angled corner
-    Radians phi;           ///< direction to the receiver, from face 0: 0 to n pi
-    Radians phi_incident;  ///< direction to the source, from face 0: 0 to n pi
+    Radians phi;           ///< direction to the receiver [rad], from face 0: 0 to n pi
+    Radians phi_incident;  ///< direction to the source [rad], from face 0: 0 to n pi
 };
 
 /// Rays of geometrical optics that reach a receiver near a wedge.
 struct LitBy {
-    bool direct;  ///< whether the straight ray reaches it: |phi - phi'| <= pi
-    bool face_0;  ///< whether the ray that face 0 reflects reaches it: phi + phi' <= pi
-    bool face_n;  ///< whether the ray that face n reflects reaches it: phi + phi' >= (2 n - 1) pi
+    bool direct;  ///< whether the straight ray reaches the receiver: |phi - phi'| <= pi
+    bool face_0;  ///< whether the ray reflected by face 0 reaches the receiver: phi + phi' <= pi
+    /// Whether the ray reflected by face n reaches the receiver: phi + phi' >= (2 n - 1) pi.
+    bool face_n;
 };
-/// Rays that reach a receiver, by the angles of the path.
+/// Rays of geometrical optics that reach a receiver, by the angles of the path.
 LitBy lit_by(const WedgePath& path);
 
 /// Coefficients of a wedge's faces [-]: ratios of fields to the incident field.
@@ -74,7 +75,7 @@ inline constexpr WedgeFaces hard_faces{1, 1};
 /// the reflected ray of a face appears (phi + phi' = pi at face 0) it equals that ray's
 /// coefficient, because sin(phi) = sin(phi').
 struct FaceIncidence {
-    Radians face_0, face_n;  ///< 0 (perpendicular to the face) to pi / 2 (parallel to it)
+    Radians face_0, face_n;  ///< [rad] 0 (perpendicular to the face) to pi / 2 (parallel)
 };
 FaceIncidence face_incidence(const WedgePath& path);
 
@@ -105,8 +106,8 @@ FaceIncidence face_incidence(const WedgePath& path);
 /// @param path  1 <= n <= 2
 /// @param k     wave number 2 pi / lambda [rad/m], > 0
 /// @param L     distance parameter [m], >= 0: s for a plane wave, s s' / (s + s') for others
-/// @param lit   lit_by(path), or from the caller's own geometry; the two may differ only at a
-///              boundary
+/// @param lit   rays that reach the receiver: lit_by(path), or by the caller's geometry, which may
+///              differ from lit_by(path) only at a boundary
 math::Complex wedge_coefficient(const WedgePath& path, double k, Meters L, const WedgeFaces& faces,
                                 LitBy lit);
 inline math::Complex wedge_coefficient(const WedgePath& path, double k, Meters L,

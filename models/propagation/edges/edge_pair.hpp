@@ -6,13 +6,13 @@
 
 namespace rovernet {
 
-/// Detour around an edge [wavelengths] below which the edge affects the straight path: up to there
-/// the straight path and the path around the edge are one field.
+/// Detour around an edge [wavelengths] below which the edge affects the straight path: with such a
+/// detour, the straight path and the path around the edge form one field.
 inline constexpr double near_edge = 2.25;
 
-/// Two consecutive edges of one body, with a face between them, and a path past both: a block as
-/// wide as the face is long. The path leads from one end to the first edge, along the face to the
-/// last edge, and to the other end.
+/// Pair of consecutive edges of one body, with a face between the edges, and a path past both
+/// edges: a block as wide as the face is long. The path leads from one end to the first edge, along
+/// the face to the last edge, and to the other end.
 struct EdgePair {
     /// Lengths of the path [m], > 0: to the first edge, along the face, and from the last edge.
     double before, along, after;
@@ -25,7 +25,7 @@ struct EdgePair {
 };
 
 /// Field past one screen, relative to free space [-], with its phase relative to that of the
-/// shortest path: 1 far above the edge, 1/2 at it.
+/// shortest path: 1 far above the edge, 1/2 at the edge.
 /// @param bend  detour [m]: length of the path by the edge less the straight line; negative if the
 ///              edge is lit
 math::Complex screen_field(double bend, double wavelength);
@@ -57,7 +57,7 @@ math::Complex screen_field(double bend, double wavelength);
 math::Complex pair_field(const EdgePair& pair, double wavelength);
 
 /// Fraction [-] of the reflection by the face between two edges that pair_field() already includes:
-/// 1 if both edges obstruct the path, 0 if one is far away.
+/// 1 if both edges obstruct the path, 0 if one edge is far away.
 double mirrored_share(const EdgePair& pair, double wavelength);
 
 }  // namespace rovernet

@@ -13,8 +13,8 @@ namespace rovernet {
 /// line.
 struct RowCorner {
     double at;     ///< position along the line [m], from its start
-    double below;  ///< distance [m] below the shortest path around all bodies (a taut string); 0:
-                   ///< it touches
+    double below;  ///< distance [m] below the shortest path around all bodies (a taut string); 0
+                   ///< if the string touches the corner
     double bend;   ///< angle of the string's turn at the corner [rad], >= 0; 0 without contact
     std::size_t body;  ///< number of the corner's body; the corners of a body are consecutive
 };
@@ -28,10 +28,10 @@ struct RowCorner {
 ///
 /// with the field F_i past corner i alone, and the field F_ij past a pair: pair_field(). The tree
 /// contains the pairs within each body, and the pairs between bodies that maximise the field; a
-/// corner far below the line is in no pair. It is exact for two edges, and in deep shadow for any
-/// number. Behind n evenly spaced screens that touch the line, where the field is 1 / (n + 1), its
-/// error is 0.3 dB for three and 1.7 dB for six. It is continuous when corners move into or out of
-/// the path.
+/// corner far below the line is in no pair. The product is exact for two edges, and in deep shadow
+/// for any number of edges. Behind n evenly spaced screens that touch the line, where the field is
+/// 1 / (n + 1), its error is 0.3 dB for three and 1.7 dB for six. The field is continuous when
+/// corners move into or out of the path.
 ///
 /// Sources: C. K. Chow, C. N. Liu, Approximating discrete probability distributions with dependence
 /// trees, IEEE Trans. Inf. Theory 14(3), 1968; S. W. Lee, Path integrals for solving some
@@ -42,7 +42,7 @@ class EdgeRow {
     /// @param length   length of the path [m]
     EdgeRow(std::vector<RowCorner> corners, double length, double wavelength);
     /// Field past the row [-], with its phase relative to that of the path.
-    /// @param left_out  flag for each body: it is ignored
+    /// @param left_out  flag for each body: true if the body is ignored
     math::Complex field_without(std::span<const char> left_out) const;
 
   private:

@@ -9,10 +9,10 @@ namespace rovernet::math {
 ///
 ///   g - j f = e^(j pi t^2 / 2) times the integral of e^(-j pi u^2 / 2) du from t to infinity
 ///
-/// Both fall smoothly, from 1/2 at 0 to f = 1 / (pi t) and g = 1 / (pi^2 t^3) for large t; unlike C
-/// and S they do not oscillate, and no nearly equal numbers are subtracted. Relative error below
-/// 2e-14. They equal the complementary error function on a diagonal of the complex plane: g - j f =
-/// (1 - j) / 2 e^(z^2) erfc(z) with z = sqrt(pi) / 2 (1 + j) t.
+/// f and g fall smoothly, from 1/2 at 0 to f = 1 / (pi t) and g = 1 / (pi^2 t^3) for large t.
+/// Unlike C and S they do not oscillate, and no nearly equal numbers are subtracted. Relative error
+/// below 2e-14. They give the complementary error function on a diagonal of the complex plane:
+/// g - j f = (1 - j) / 2 e^(z^2) erfc(z) with z = sqrt(pi) / 2 (1 + j) t.
 ///
 /// Source: NIST Digital Library of Mathematical Functions, 7.2(iv) and 7.12(ii).
 struct FresnelTail {
