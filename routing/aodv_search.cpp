@@ -84,7 +84,7 @@ Time AodvRouter::due(const Search& search) const {
 /// Sends the request of a search (6.3).
 void AodvRouter::request(LinkLayer& link, NodeId at, Search& search, Time when) {
     Node& here = node(at);
-    const Time allowed = std::max(here.silent_until, here.requests.take(when));
+    const Time allowed = is_silent(at, when) ? here.silent_until : here.requests.take(when);
     if (allowed > when) {
         search.pauses = true;
         search.until = allowed;

@@ -148,7 +148,8 @@ class Ns2Trace::Writer {
     void old_start(const Line&, std::uint64_t uid, std::string_view type, std::uint32_t bytes);
     void new_start(const Line&, Vec3 position, std::optional<NodeId> next_hop = {});
 
-    void text(std::string_view s) { at_ = write_text(at_, s); }
+    // Inlined everywhere, so that a literal is a few stores: a fifth of a run's instructions.
+    [[gnu::always_inline]] void text(std::string_view s) { at_ = write_text(at_, s); }
     void integer(std::uint64_t value) { at_ = write_integer(at_, value); }
     void destination(NodeId node) {
         if (node == everyone) return text("-1");
