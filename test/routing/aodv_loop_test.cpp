@@ -175,10 +175,10 @@ TEST_CASE("aodv: no loop at any event in 2,000 random graphs") {
 }
 
 TEST_CASE("aodv: local repair and the profile of ns-2 are free of loops, too") {
-    const Findings repair = findings(500, {.rules = short_lived({.local_repair = true})});
+    const Findings repair = findings(250, {.rules = short_lived({.local_repair = true})});
     CHECK(repair.disorder == 0);
     CHECK(repair.loops == 0);
-    const Findings ns2 = findings(500, {.rules = short_lived({.profile = AodvProfile::ns2})});
+    const Findings ns2 = findings(250, {.rules = short_lived({.profile = AodvProfile::ns2})});
     CHECK(ns2.disorder == 0);
     CHECK(ns2.loops == 0);
 }
