@@ -43,7 +43,9 @@ NodeId Engine::add(Robot robot) {
                      robot.propagation.value_or(world.settings.propagation));
     mac.add();
     names.add(robot.name);
+    std::string role = std::move(robot.role);
     const NodeId id = motion.add(std::move(robot));
+    routing.set_role(id, std::move(role));
     links.added(id);
     if (world.running) {
         motion.begin_all();

@@ -141,6 +141,10 @@ RobotState Network::robot(NodeId node) const {
             .radio = medium.stations().radio(node),
             .propagation = medium.stations().model(node)};
 }
+std::vector<RouteState> Network::routes(NodeId node) const {
+    const std::optional<Router>& router = engine_->routing.router();
+    return router ? router->routes(engine_->known(node), now()) : std::vector<RouteState>{};
+}
 const NetworkSettings& Network::settings() const { return engine_->world.settings; }
 
 Db Network::path_loss(NodeId from, NodeId to) const {

@@ -168,6 +168,8 @@ class Network {
     /// Neighbours that `node` hears at `t` >= now(), if all robots stay on their current legs; in
     /// order of id.
     std::vector<Neighbour> links(NodeId node, Time t) const;
+    /// Routing table of a robot now, in the order of destinations; empty if the protocol has none.
+    std::vector<RouteState> routes(NodeId node) const;
     /// Path loss [dB] of the link now, with shadowing, without the antennas' gains.
     /// Example: examples/walls.cpp.
     Db path_loss(NodeId from, NodeId to) const;

@@ -42,6 +42,9 @@ struct Robot {
     /// Turn rate [rad/s], within turn_rates: the robot turns in place before it moves; empty: it
     /// turns instantly.
     std::optional<RadiansPerSecond> turn_rate = std::nullopt;
+    /// Role in the routing protocol, one of the protocol's RouterTraits::roles; empty: the
+    /// protocol's default.
+    std::string role = {};
 };
 
 /// Presence of a robot: whether it takes part in the simulation. Robots of movement files appear

@@ -66,8 +66,26 @@ void Routing::on_timer(NodeId node, std::uint64_t tag) {
     call_router([&] { router_->on_timer(*this, node, tag); });
 }
 
+void Routing::set_role(NodeId node, std::string role) {
+    if (role.empty()) return;
+    if (node.index() >= roles_.size()) roles_.resize(node.index() + 1);
+    roles_[node.index()] = std::move(role);
+}
+
+void Routing::check_role(NodeId node) const {
+    const std::string_view mine = role(node);
+    if (mine.empty()) return;
+    const auto known = router_ ? router_->traits().roles : std::span<const std::string_view>{};
+    if (std::find(known.begin(), known.end(), mine) != known.end()) return;
+    throw std::invalid_argument(
+        known.empty() ? fmt::format("role \"{}\": the routing protocol has no roles", mine)
+                      : fmt::format("role \"{}\": the roles of the routing protocol are \"{}\"",
+                                    mine, fmt::join(known, "\", \"")));
+}
+
 /// Starts the nodes in the order of their keys, so that their ids have no effect.
 void Routing::start() {
+    for (std::uint32_t i = 0; i < roles_.size(); ++i) check_role(NodeId{i});
     if (!router_ || !router_->hears_of_starts()) return;
     std::vector<NodeId> nodes;
     for (std::uint32_t i = 0; i < world_.size(); ++i) nodes.push_back(NodeId{i});
@@ -76,6 +94,7 @@ void Routing::start() {
 }
 
 void Routing::on_start(NodeId node) {
+    check_role(node);
     if (router_) call_router([&] { router_->on_start(*this, node); });
 }
 
@@ -89,6 +108,9 @@ const Message& Routing::message(MessageId id) const { return world_.messages[id]
 bool Routing::is_on(NodeId node) const { return world_.medium.stations().is_on(node); }
 std::uint64_t Routing::key(NodeId node) const { return world_.key(node); }
 Vec3 Routing::position(NodeId node) const { return world_.legs.position(node, world_.now); }
+std::string_view Routing::role(NodeId node) const {
+    return node.index() < roles_.size() ? roles_[node.index()] : std::string_view{};
+}
 void Routing::hold(MessageId id) {
     count_holds(id, 1);
     world_.messages.hold(id);

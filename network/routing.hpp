@@ -59,8 +59,10 @@ class Routing final : public LinkLayer, public MacUser {
     void on_timer(NodeId node, std::uint64_t tag);
     /// Serves the event of a frame whose send time has come.
     void on_send(SendHandle handle);
-    /// Calls the protocol's on_start for all nodes at the start of the run, in the order of their
-    /// keys.
+    /// Sets the role of a node that was just added.
+    void set_role(NodeId node, std::string role);
+    /// Checks the roles of all nodes, and calls the protocol's on_start for them at the start of
+    /// the run, in the order of their keys.
     void start();
     /// Calls the protocol's on_start for a node added after the start of the run, or on_switched.
     void on_start(NodeId node);
@@ -76,6 +78,7 @@ class Routing final : public LinkLayer, public MacUser {
     bool is_on(NodeId node) const override;
     std::uint64_t key(NodeId node) const override;
     Vec3 position(NodeId node) const override;
+    std::string_view role(NodeId node) const override;
     MessageId originate(NodeId from, NodeId to, std::string_view kind, std::uint32_t bytes,
                         std::string content) override;
     std::optional<SendHandle> send(const Frame& frame, std::optional<NodeId> heard_from,
@@ -102,6 +105,8 @@ class Routing final : public LinkLayer, public MacUser {
     bool wants_result(const Frame& frame) const override;
 
   private:
+    // Throws std::invalid_argument if the protocol does not know the role of the node.
+    void check_role(NodeId node) const;
     // Calls the protocol, then transmits the frames that it queued meanwhile.
     template <class Call>
     void call_router(Call call);
@@ -152,6 +157,8 @@ class Routing final : public LinkLayer, public MacUser {
     std::vector<Reception> heard_;
     std::vector<Dbm> heard_levels_;
     std::vector<std::size_t> places_;
+    // Roles of nodes, by index; nodes beyond the end have none.
+    std::vector<std::string> roles_;
     // Number of control packets that each node has made so far.
     std::vector<std::uint32_t> packets_;
     // Drops by the protocol in on_receive, until the Received of the frame is emitted; they hold

@@ -47,11 +47,19 @@ void AodvRouter::refresh(NodeId at, NodeId destination, Time now) {
     if (used) used->until = std::max(used->until, now + rules_.active_route_timeout);
 }
 
-std::vector<Route> AodvRouter::routes(NodeId at, Time now) const {
-    std::vector<Route> all;
+std::vector<RouteState> AodvRouter::routes(NodeId at, Time now) const {
+    std::vector<RouteState> all;
     if (at.index() >= nodes_.size()) return all;
     RouteTable table = nodes_[at.index()].routes;
-    table.for_each(now, rules_.delete_period, [&](const Route& each) { all.push_back(each); });
+    table.for_each(now, rules_.delete_period, [&](const Route& each) {
+        all.push_back({.destination = each.destination,
+                       .next_hop = each.next_hop,
+                       .hops = each.hops,
+                       .number = each.has_number ? std::optional{each.number} : std::nullopt,
+                       .is_valid = each.is_valid,
+                       .since = each.since,
+                       .until = each.until});
+    });
     return all;
 }
 

@@ -43,8 +43,8 @@ class AodvRouter {
     }
 
     /// Routing table of a node at `now`, in the order of destinations.
-    std::vector<Route> routes(NodeId node, Time now) const;
-    /// The same as it is stored: a route whose time is over is among them.
+    std::vector<RouteState> routes(NodeId node, Time now) const;
+    /// Routing table of a node as it is stored: a route whose time is over is in it.
     std::span<const Route> stored_routes(NodeId node) const {
         return node.index() < nodes_.size() ? nodes_[node.index()].routes.stored()
                                             : std::span<const Route>{};

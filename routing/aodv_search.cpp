@@ -181,6 +181,7 @@ void AodvRouter::meet(NodeId at, NodeId neighbour, Time now) {
     Node& here = node(at);
     Route& direct = here.routes.add(neighbour, now, rules_.delete_period);
     const Time until = now + rules_.active_route_timeout;
+    if (!direct.is_valid || direct.next_hop != neighbour) direct.since = now;
     direct.until = direct.is_valid ? std::max(direct.until, until) : until;
     direct.next_hop = neighbour;
     direct.hops = 1;
@@ -207,6 +208,7 @@ bool AodvRouter::learn(NodeId at, const Route& offered, Time now) {
         const Time until = known.is_valid ? std::max(known.until, offered.until) : offered.until;
         known = offered;
         known.until = until;
+        known.since = now;
     } else if (known.is_valid && known.next_hop == offered.next_hop) {
         known.until = std::max(known.until, offered.until);
     }

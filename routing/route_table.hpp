@@ -25,6 +25,8 @@ struct Route {
     bool is_valid = false;
     /// End of the lifetime of a valid route; of a broken one the time at which it is deleted.
     Time until = start_of_run;
+    /// Time at which the route was learnt.
+    Time since = start_of_run;
 };
 
 /// Routing table of a node, with the neighbours that use each route (precursors). Lifetimes end

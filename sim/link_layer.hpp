@@ -65,6 +65,8 @@ class LinkLayer {
     virtual std::uint64_t key(NodeId) const = 0;
     /// Current position of the node [m].
     virtual Vec3 position(NodeId) const = 0;
+    /// Role of the node in the protocol, Robot::role; empty if none was given.
+    virtual std::string_view role(NodeId) const = 0;
 
     /// Makes a control packet of the protocol, with one reference, the caller's: release() it when
     /// it is no longer needed. Applications do not receive it, and it has no Sent record.

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace rovernet {
 
@@ -52,6 +53,9 @@ class Router {
     void describe(const Message& m, const Frame& f, PacketStyle style, std::string& text) const {
         self_->describe(m, f, style, text);
     }
+    /// Routing table of a node at `now`, in the order of destinations; empty if the protocol has
+    /// none.
+    std::vector<RouteState> routes(NodeId node, Time now) const { return self_->routes(node, now); }
     /// Initial TTL of a message [hops].
     Hops initial_ttl(const Message& m) const { return self_->initial_ttl(m); }
 
@@ -70,6 +74,7 @@ class Router {
         if constexpr (requires { T::routes_unicasts; }) traits.routes_unicasts = T::routes_unicasts;
         if constexpr (requires { T::overhears; }) traits.overhears = T::overhears;
         if constexpr (requires { T::wants_levels; }) traits.wants_levels = T::wants_levels;
+        if constexpr (requires { T::roles; }) traits.roles = T::roles;
         return traits;
     }
 
@@ -86,6 +91,7 @@ class Router {
         virtual void forget_header(std::uint32_t) = 0;
         virtual bool keeps(MessageId) const = 0;
         virtual void describe(const Message&, const Frame&, PacketStyle, std::string&) const = 0;
+        virtual std::vector<RouteState> routes(NodeId, Time) const = 0;
         virtual Hops initial_ttl(const Message&) const = 0;
     };
     // Protocol of type T; functions that it lacks do nothing.
@@ -125,6 +131,11 @@ class Router {
                       [[maybe_unused]] PacketStyle style,
                       [[maybe_unused]] std::string& text) const override {
             if constexpr (DescribesPackets<T>) protocol.describe(m, f, style, text);
+        }
+        std::vector<RouteState> routes([[maybe_unused]] NodeId node,
+                                       [[maybe_unused]] Time now) const override {
+            if constexpr (HasRoutes<T>) return protocol.routes(node, now);
+            return {};
         }
         Hops initial_ttl([[maybe_unused]] const Message& m) const override {
             if constexpr (HasOwnTtls<T>) return protocol.initial_ttl(m);

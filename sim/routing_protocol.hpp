@@ -5,12 +5,16 @@
 #include "sim/link_layer.hpp"
 #include "sim/message.hpp"
 #include "sim/record.hpp"
+#include "sim/time.hpp"
 
 #include <concepts>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 // Interface of routing protocols. A protocol is a plain struct that satisfies RouterProtocol; the
 // handle Router stores it by value. Complete example: examples/router.cpp.
@@ -119,6 +123,28 @@ template <class T>
 concept HasOwnTtls = requires(const T router, const Message& message) {
     { router.initial_ttl(message) } -> std::convertible_to<Hops>;
 };
+/// Route of a node to a destination, for tables and pictures.
+struct RouteState {
+    NodeId destination;
+    NodeId next_hop;
+    /// Hops to the destination; of a broken route as they were.
+    Hops hops = 0;
+    /// Sequence number of the destination; none if the protocol has none, or it is unknown.
+    std::optional<std::uint32_t> number = std::nullopt;
+    /// Whether messages may be sent along the route; false for a broken route.
+    bool is_valid = true;
+    /// Time at which the route was learnt.
+    Time since = start_of_run;
+    /// Time at which the route, or the memory of a broken one, ends; none if it has no end.
+    std::optional<Time> until = std::nullopt;
+    /// Nodes of the route after its first one, where the protocol knows all of them.
+    std::vector<NodeId> path = {};
+};
+/// Protocol that shows the routing table of a node at `now`, in the order of destinations.
+template <class T>
+concept HasRoutes = requires(const T router, NodeId node, Time now) {
+    { router.routes(node, now) } -> std::convertible_to<std::vector<RouteState>>;
+};
 /// Traits of a protocol: optional static members, false by default. The network reads them once,
 /// when the protocol is set.
 struct RouterTraits {
@@ -130,6 +156,8 @@ struct RouterTraits {
     bool overhears = false;
     /// True if the protocol calls LinkLayer::level, which needs a path loss for each reception.
     bool wants_levels = false;
+    /// Names that Robot::role may have: the protocol treats nodes by their LinkLayer::role.
+    std::span<const std::string_view> roles = {};
 };
 
 }  // namespace rovernet

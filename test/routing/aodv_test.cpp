@@ -78,8 +78,8 @@ struct Node0 {
         link.time = timer.at;
         router.on_timer(link, timer.node, timer.tag);
     }
-    std::optional<Route> route(std::uint32_t to) const {
-        for (const Route& each : router.routes(NodeId{0}, link.time)) {
+    std::optional<RouteState> route(std::uint32_t to) const {
+        for (const RouteState& each : router.routes(NodeId{0}, link.time)) {
             if (each.destination == NodeId{to}) return each;
         }
         return {};

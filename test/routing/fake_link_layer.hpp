@@ -76,6 +76,9 @@ class FakeLinkLayer final : public LinkLayer {
     bool is_on(NodeId node) const override { return on[node.index()]; }
     std::uint64_t key(NodeId node) const override { return node.value; }
     Vec3 position(NodeId node) const override { return positions[node.index()]; }
+    std::string_view role(NodeId node) const override {
+        return node.index() < roles.size() ? roles[node.index()] : std::string_view{};
+    }
     MessageId originate(NodeId from, NodeId to, std::string_view kind, std::uint32_t bytes,
                         std::string content) override {
         return add({.origin = from,
@@ -139,6 +142,7 @@ class FakeLinkLayer final : public LinkLayer {
     Time time = start_of_run;
     std::vector<bool> on;
     std::vector<Vec3> positions;
+    std::vector<std::string_view> roles{};
     Dbm received_power{-60}, noise{-95};
     double drawn = 0.5;  ///< by every draw
     MessageTable messages{};

@@ -45,6 +45,8 @@ class Graph final : public LinkLayer {
         std::uint64_t seed = 0;
     };
     Faults faults{};
+    /// Roles of nodes; nodes beyond the end have none.
+    std::vector<std::string_view> roles{};
     /// Called after each event.
     std::function<void()> after_event{};
     /// Called as a message of an application arrives at a node.
@@ -102,6 +104,9 @@ class Graph final : public LinkLayer {
     bool is_on(NodeId node) const override { return !off_.contains(node.value); }
     std::uint64_t key(NodeId node) const override { return node.value; }
     Vec3 position(NodeId) const override { return {}; }
+    std::string_view role(NodeId node) const override {
+        return node.index() < roles.size() ? roles[node.index()] : std::string_view{};
+    }
     MessageId originate(NodeId from, NodeId to, std::string_view kind, std::uint32_t bytes,
                         std::string content) override {
         return add({.origin = from,
