@@ -24,7 +24,7 @@ InputKind input_kind(const std::string& path);
 /// file".
 std::string_view fault_of(InputKind kind);
 
-/// Whether no object can be reached at the path.
+/// Whether no file-system object can be reached at a path, as its InputKind states.
 constexpr bool is_no_path(InputKind kind) {
     return kind == InputKind::nothing || kind == InputKind::loop || kind == InputKind::closed;
 }
@@ -51,10 +51,10 @@ class InputFile {
     int file_ = -1;
 };
 
-/// File name, without folders, of `name`, if no file exists at `name` but one of that file name
-/// exists in `folder`; otherwise "". So an error can distinguish a wrong folder (of another
-/// machine, or `~`, which only a shell expands) from a missing file. Backslashes also separate
-/// folders.
+/// File name, without folders, of the path `name`, if no file exists at `name` but a file of that
+/// file name exists in `folder`; otherwise "". So an error can distinguish a wrong folder (of a
+/// different machine, or `~`, which only a shell expands) from a missing file. Backslashes also
+/// separate folders.
 std::string named_beside(const std::string& folder, const std::string& name);
 
 /// Checks a path. @throws InputError unless it is a regular file

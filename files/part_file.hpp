@@ -8,14 +8,14 @@ namespace rovernet {
 
 /// Output file that gets its name only when it is complete.
 ///
-/// Until then it is NAME.N.part in the same folder. Every process uses its own number N, so that
-/// processes can write NAME at the same time; the last one to finish wins. A part without a final
-/// name is removed by the destructor. A killed process leaves its part behind; the next writer of
-/// NAME removes it.
+/// Until then the file is NAME.N.part in the same folder. Every process uses its own number N, so
+/// that processes can write NAME at the same time; the last one to finish wins. The destructor
+/// removes an incomplete file. A killed process leaves its incomplete file behind; the next writer
+/// of NAME removes that file.
 class PartFile {
   public:
     /// Action on the incomplete file NAME.N.part when a write fails: remove it, or keep it for
-    /// programs that can read incomplete files; the error then names it.
+    /// programs that can read incomplete files; the error then names the file.
     enum class Failed { is_removed, is_kept };
     /// Action on incomplete files NAME.N.part left by killed processes: remove them, or keep them
     /// for programs that can read incomplete files.
@@ -45,8 +45,8 @@ class PartFile {
 
     std::string path_;
     Failed failed_;
-    std::string part_;  // empty: renamed, removed, or kept
-    int file_ = -1;  // open (and locked) while other processes must not take the part for an orphan
+    std::string part_;  // path until the file is renamed, removed or kept; then empty
+    int file_ = -1;     // descriptor; locked while open, so that no other process removes the file
 };
 
 /// Removes the incomplete files PATH.N.part that killed processes left.
@@ -56,7 +56,7 @@ void remove_orphans(const std::string& path);
 bool is_part_of(std::string_view whole, std::string_view name);
 
 /// Lock of a folder, for naming several files without files of another process between them. Other
-/// processes that ask for the lock wait. It does nothing if the file system has no locks.
+/// processes that ask for the lock wait. The lock has no effect if the file system has no locks.
 class FolderLock {
   public:
     explicit FolderLock(const std::string& folder);

@@ -42,8 +42,8 @@ class TextSource {
 
     /// Bytes that were read and not yet consumed; valid until the next call of more().
     std::string_view window() const { return {buffer_.data() + begin_, end_ - begin_}; }
-    /// Reads more bytes behind those of window(); they may move. @return false at the end of the
-    /// file
+    /// Appends more bytes of the file to window(), whose bytes may move in memory. @return false at
+    /// the end of the file
     bool more();
     /// Reads until window() has at least `bytes` bytes, or the file ends.
     void ensure(std::size_t bytes) {

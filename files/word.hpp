@@ -14,16 +14,17 @@ namespace rovernet {
 /// Word in a line of a movement file; empty at the end of the line.
 struct Word {
     std::string_view text;
-    int column = 1;  ///< column, from 1
+    int column = 1;  ///< column of the word in the line, from 1
 };
 
 // Limits of values in a movement file.
 inline constexpr std::uint32_t most_file_robots = 10'000'000;
-inline constexpr double largest_coordinate = 1e9;  ///< largest |coordinate| [m]
-inline constexpr double fastest = 1e9;             ///< largest speed [m/s]
-inline constexpr double latest = 9e9;              ///< latest time [s]
+inline constexpr double largest_coordinate = 1e9;  ///< largest |coordinate| in a movement file [m]
+inline constexpr double fastest = 1e9;             ///< largest speed in a movement file [m/s]
+inline constexpr double latest = 9e9;              ///< latest time in a movement file [s]
 
-/// Start of a text for a message: "?" for each byte that is no ASCII letter, "..." if it is longer.
+/// First `longest` bytes of a text, for a message: "?" for each byte that is not printable ASCII;
+/// "..." is appended to a longer text.
 std::string printable(std::string_view text, std::size_t longest);
 
 /// Error "found WORD, expected EXPECTED", with the word's column in the line.
@@ -34,9 +35,11 @@ std::string printable(std::string_view text, std::size_t longest);
 double any_number(Word word, const Location& line, std::string_view expected);
 
 // Value `v` of the word `word`, checked against its limits.
-/// Coordinate v, checked. @throws InputError unless |v| <= largest_coordinate [m]
+/// Checks and returns the coordinate `v`, read from `word`.
+/// @throws InputError unless |v| <= largest_coordinate [m]
 double coordinate(double v, Word word, const Location& line);
-/// Time v [s], checked. @throws InputError unless 0 <= v <= latest [s]
+/// Checks the time `v` [s], read from `word`. @return the time
+/// @throws InputError unless 0 <= v <= latest [s]
 Time moment(double v, Word word, const Location& line);
 
 /// Number i in "$node_(i)"; any other name may stand before the bracket.
@@ -45,7 +48,7 @@ std::uint32_t node_number(Word word, const Location& line);
 
 double coordinate(Word word, const Location& line);
 Time moment(Word word, const Location& line);
-/// Speed in a word [m/s]. @throws InputError unless it is from 0 to `fastest` [m/s]
+/// Speed in a word [m/s]. @throws InputError unless the speed is from 0 to `fastest` [m/s]
 double pace(Word word, const Location& line);
 
 }  // namespace rovernet

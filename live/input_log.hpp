@@ -23,7 +23,7 @@
 //     {"t_ns":300000000,"n":3,"client":"A","robot":"A","do":{"stop":true}}
 //     {"end_ns":300000000,"fingerprint":"b13b..."}
 //
-// A log without a format is of the first one, which is still read.
+// A log without the key `format` has format 1, which is still read.
 
 namespace rovernet {
 
@@ -32,7 +32,7 @@ class Network;
 /// File name of the input log in the folder of the run.
 inline constexpr std::string_view input_log_name = "inputs.jsonl";
 
-/// Format of the logs that are written.
+/// Format number in the first line of every input log that is written.
 inline constexpr std::int64_t input_log_format = 2;
 
 /// Digest of a scenario's text, stored in the input log.
@@ -47,15 +47,15 @@ class InputLog {
     /// @param folder  folder of the run
     /// @throws RunError if a file cannot be written
     InputLog(const std::string& folder, const Scenario& scenario);
-    /// Keeps the part file and scenario.toml if there are inputs and discard() was not called;
-    /// removes both otherwise.
+    /// Without a call of finish(): keeps the part file and scenario.toml if inputs were added and
+    /// discard() was not called; otherwise removes both files.
     ~InputLog();
     InputLog(const InputLog&) = delete;
     InputLog& operator=(const InputLog&) = delete;
 
-    /// Adds an input to the log. @throws RunError
+    /// Adds an input (robot command) to the log. @throws RunError
     void add(const Input& input, const Network& network);
-    /// Writes inputs older than 1 s to the file; must be called now and then. @throws RunError
+    /// Writes inputs older than 1 s to the part file; must be called repeatedly. @throws RunError
     void keep_up();
     /// Makes the destructor remove the part file and scenario.toml, since the run starts again.
     void discard();
@@ -67,8 +67,8 @@ class InputLog {
     void flush();
 
     PartFile file_;
-    JsonLine lines_;           // lines not written yet
-    bool has_inputs_ = false;  // whether there are inputs, so that the part is kept
+    JsonLine lines_;           // log lines not written to the file yet
+    bool has_inputs_ = false;  // whether inputs were added, so that the part file is kept
     bool is_finished_ = false;
     std::filesystem::path scenario_;  // scenario.toml, if written by this log
     Clock::time_point written_ = Clock::now();

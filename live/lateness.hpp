@@ -8,14 +8,14 @@
 
 namespace rovernet {
 
-/// Delay of a paced run behind the clock: at each simulated time that a front (protocol server)
+/// Delays of a paced run behind the clock: at each simulated time that a front (protocol server)
 /// requested, and at each late poll of clients. External programs see this delay as an additional
 /// delay of the radio.
 struct Lateness {
-    static constexpr Duration much{1'000'000};  ///< 1 ms: limit above which delays are `late`
+    static constexpr Duration much{1'000'000};  ///< 1 ms: a longer delay counts as `late`
 
     Duration most{0};         ///< largest delay of the run behind the clock, in real time
-    std::uint64_t times = 0;  ///< number of delays: at times requested by fronts, at late polls
+    std::uint64_t times = 0;  ///< number of delays: one per requested time, one per late poll
     std::uint64_t late = 0;   ///< number of delays above `much`
 
     void add(Duration behind) {
@@ -23,8 +23,8 @@ struct Lateness {
         ++times;
         if (behind > much) ++late;
     }
-    /// Adds the delay of a poll of clients. Polls in time are not counted, since no front requested
-    /// them.
+    /// Adds the delay of a poll of clients. A delay of at most `much` is not counted in `times`,
+    /// since no front (protocol server) requested the poll.
     void add_look(Duration behind) {
         if (behind > much) return add(behind);
         most = std::max(most, behind);

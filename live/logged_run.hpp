@@ -18,14 +18,14 @@ struct LiveResult {
     RunResult run;
     Scenario scenario;  ///< scenario that was run: a controller may have changed the seed
     std::string fault;  ///< error of an external program; empty: no error
-    std::optional<Lateness> lateness = {};  ///< delay behind the clock; none: not paced
+    std::optional<Lateness> lateness = {};  ///< delays behind the clock; none: not paced
 };
 
 /// Rules for stopping a run early.
 struct StopRules {
     std::function<bool()> go_on = [] {
         return true;
-    };  ///< called now and then; returning false ends the run
+    };  ///< function called repeatedly during the run; returning false ends the run
     /// Called with true when the run starts to write files, and with false while a network is set
     /// up. The setup may take minutes, does not call `go_on`, and leaves no files if the process is
     /// killed meanwhile.
@@ -33,8 +33,9 @@ struct StopRules {
 };
 
 /// Runs a scenario by the function `drive`, and writes the input log beside the other results.
-/// @param drive  as RunOptions::drive; the session has processed all events of its start time
-/// @throws InputError, RunError; Interrupted if `drive` returns false, or before it is called
+/// @param drive  runs the session, see RunOptions::drive; called after all events of the start time
+/// @throws InputError, RunError; Interrupted if `drive` returns false, or if `stop` ends the run
+///         before the call of `drive`
 RunResult run_logged(const Scenario& scenario, const std::string& folder, const StopRules& stop,
                      const std::function<bool(ScenarioRun&, InputLog&)>& drive);
 

@@ -29,53 +29,54 @@ struct FrontListeners {
 
     using Ports = std::vector<std::unique_ptr<PacketPort>>;
 
-    std::vector<std::string> programs = {};  ///< programs to start as clients, by the shell
+    std::vector<std::string> programs = {};  ///< shell commands that start clients
     std::vector<Entry> entries = {};
     std::optional<std::string> unix_path = {};  ///< path of a Unix socket for clients
     std::function<std::unique_ptr<Front>(Front::Carrier)> make = {};
-    /// Pages of the WebSocket addresses; none: only WebSockets are served there.
+    /// Web pages served at the WebSocket addresses; empty: the addresses serve only WebSockets.
     WebPages pages = {};
-    /// Whether the input rate of clients is limited in a run by the clock, see InputRate.
+    /// Whether the input rate of clients is limited in a run paced by the clock, see InputRate.
     bool has_rate = true;
-    /// Last message to a client that does not read its messages, see Listeners::Streams.
+    /// Function for the last message to a client that is disconnected because it does not read.
+    /// `lost`: number of messages to the client that are dropped.
     std::function<std::string(std::size_t lost)> closing_message = {};
-    /// Line that tells a client why it is disconnected; none: clients of TCP, Unix socket and
-    /// standard input send bytes, not lines.
+    /// Function for the line that reports to a client why it is disconnected. If the function is
+    /// given, connections by TCP, Unix socket and standard input carry lines, otherwise bytes.
     std::function<std::string(const RequestError& why)> line_error = {};
-    /// Instead of `entries`: function that opens a port for each robot at the start of the run.
+    /// Function that opens a PacketPort for each robot at the run's start, instead of `entries`.
     std::function<Ports(const Network&)> open_ports = {};
 };
 
-/// Option of the commands that serve programs, for a front whose clients use WebSocket.
+/// Command-line option of a live run that starts a front (protocol server) for WebSocket clients.
 struct FrontOption {
-    const char* name;        ///< "--rosbridge"
-    const char* serves;      ///< whom it serves: "ROS clients by the rosbridge protocol"
-    std::string_view usual;  ///< address of an option without a value
+    const char* name;        ///< name of the option: "--rosbridge"
+    const char* serves;      ///< clients of the front: "ROS clients by the rosbridge protocol"
+    std::string_view usual;  ///< listening address if the option has no value
     FrontListeners (*listeners)(const Address& at);
 };
 
 /// Options of a live run, with clients that may connect and leave.
 struct PacedOptions {
     std::string folder = {};  ///< folder for the results of the run
-    /// Simulated time over real time; none: as fast as the fronts permit.
+    /// Simulated time over real time [-]; none: as fast as the fronts (protocol servers) permit.
     std::optional<double> speed = 1;
     std::vector<FrontListeners> fronts = {};
-    /// Largest allowed delay behind the clock. If the delay is larger, the run prints a notice
-    /// once, or ends with an error if `late_ends`. None: no limit.
+    /// Largest allowed delay of the run behind the clock. At a larger delay the run prints a notice
+    /// (once), or ends with an error if `late_ends`. None: no limit.
     std::optional<Duration> most_late = {};
     bool late_ends = false;
-    /// Clock that paces the run.
+    /// Function that reads the clock that paces the run.
     std::function<std::chrono::steady_clock::time_point()> clock = std::chrono::steady_clock::now;
     StopRules stop = {};
     /// Called with notices for the user, such as listening addresses.
     std::function<void(std::string_view)> say = [](std::string_view) {};
 };
 
-/// Runs a scenario paced by the clock, or as fast as the fronts permit, with clients of the fronts.
-/// The run ends with the scenario, when a front is done, or when `stop` ends it; at the end of the
-/// scenario it waits for fronts that hold it. Then results and input log are written. The clock
-/// only determines the simulated time at which an input is accepted. It pauses while a front's
-/// limit() blocks the run.
+/// Runs a scenario whose robots are commanded by clients of fronts (protocol servers). Simulated
+/// time follows the clock, or advances as fast as the fronts permit. The run ends at the end of the
+/// scenario, unless a front's holds_end() delays it; earlier if a front is done or `stop` ends it.
+/// Then results and input log are written. The clock only determines the simulated time at which an
+/// input is accepted. The clock pauses while a front's limit() blocks the run.
 /// @throws InputError, RunError, Interrupted; std::invalid_argument for an overlong Unix path
 LiveResult run_paced(Scenario scenario, const PacedOptions& options);
 

@@ -11,10 +11,10 @@
 
 namespace rovernet {
 
-/// Start position of a movement model.
+/// Choice of the position at which a movement model starts a robot.
 enum class StartPlace {
-    uniform,  ///< uniform random position in the area; current position if it begins after the
-              ///< run's start
+    uniform,  ///< uniform random position in the area; the robot's current position if the
+              ///< movement begins after the start of the run
     here,     ///< current position of the robot
 };
 template <>
@@ -48,23 +48,24 @@ struct Area {
     /// crosses the area's border, exactly.
     Vec3 exit(Vec3 p, Vec3 direction) const;
 
-    /// Uniform random position in the area among those where the mover's body fits and, on a map,
-    /// that are on the map; at the mover's height. Empty if 10,000 draws find none.
+    /// Uniform random position in the area where the mover's body fits; if there is a map, only on
+    /// the map. The height is the mover's. Empty if 10,000 draws find no such position.
     std::optional<Vec3> free_place(const Mover& mover, Draws& draws) const;
-    /// Start position of a movement: the mover's own position for StartPlace::here or after the
-    /// start of the run.
-    /// @throws std::invalid_argument if the mover's position is outside the area
+    /// Start position of a movement: random, see free_place(), for StartPlace::uniform at the start
+    /// of the run; otherwise the mover's position.
+    /// @throws std::invalid_argument if the mover's position is used but outside the area
     std::optional<Vec3> first_place(const Mover& mover, StartPlace start, Draws& draws,
                                     std::string_view model) const;
 };
 
-/// Shortest leg [m]: a robot that can only move less stands at an obstacle or a border.
+/// Shortest leg (piece of movement) [m]. A robot that can only move less stands still at an
+/// obstacle or a border.
 inline constexpr double least_leg = 1e-6;
 
 /// Fraction of a path [-] that a robot can move, found by bisection.
 /// @param open  open(f): whether the robot can move along the first fraction f of the path
 /// @param off   fraction of the path that has the length least_leg
-/// @return 1 for the whole path; otherwise the free fraction less `off`; 0 if less than `off` is
+/// @return 1 for the whole path; otherwise the free fraction minus `off`; 0 if less than `off` is
 ///        left
 template <class Open>
 double free_share(Open open, double off) {
@@ -82,7 +83,7 @@ double free_share(Open open, double off) {
 }
 
 /// End of the longest free straight path of the mover towards `to`: `to`, or a micrometre before an
-/// obstacle or the map's border; the mover's position if it cannot move by a least_leg.
+/// obstacle or the map's border; the mover's position if the mover cannot move by least_leg.
 Vec3 straight_stop(const Mover& mover, Vec3 to);
 
 /// Unit vector at `angle` [rad], counter-clockwise from the x axis.

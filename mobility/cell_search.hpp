@@ -15,7 +15,7 @@
 
 namespace rovernet {
 
-/// Length [m] of the shortest path along the axes and diagonals of the cells.
+/// Length [m] of the shortest path between two points along the axes and diagonals of map cells.
 ///
 /// All lengths of the search use this norm, which is an exact lower bound on an empty map.
 struct CellNorm {
@@ -34,7 +34,7 @@ struct CellNorm {
     }
 };
 
-/// End of a path, with straight connections to the centres of cells nearby.
+/// Start or goal of a path, with straight connections to the centres of cells nearby.
 struct PathEnd {
     struct Access {
         int cell;
@@ -93,13 +93,13 @@ class CellSearch {
     int columns_;
     double bucket_width_;                             // [m] range of estimates in a bucket
     double rounding_;                                 // [m] lengths that differ by less are equal
-    std::array<int, cell_steps.size()> offset_{};     // by step: difference of the cells' indices
-    std::array<double, cell_steps.size()> length_{};  // by step: length [m]
+    std::array<int, cell_steps.size()> offset_{};     // difference of cell indices, by step
+    std::array<double, cell_steps.size()> length_{};  // length of a step [m], by step
 
     CellPoint start_{}, goal_{};
-    std::vector<Reached> reached_;               // by cell
+    std::vector<Reached> reached_;               // best path found so far, by cell
     std::vector<int> touched_;                   // cells whose entry in reached_ was changed
-    std::array<std::vector<Open>, 32> buckets_;  // ring of buckets
+    std::array<std::vector<Open>, 32> buckets_;  // buckets of the open list, as a ring
     std::size_t bucket_ = 0;  // number of the current bucket, not reduced modulo the ring's size
     std::size_t open_ = 0;    // number of cells in all buckets
     double least_ = 0;        // estimate at which the first bucket begins [m]

@@ -31,7 +31,7 @@ struct DrivenArc {
 /// chord is farther than `chord` from the arc: at 1 m/s and 1 rad/s a chord takes 89 ms. A chord
 /// ends where the robot's body meets an obstacle. A robot that touches a wall and heads into it
 /// turns in place until it heads along the wall, and then continues on an arc; without a turn rate
-/// it stands still. A command that follows another one shares its `arc`.
+/// it stands still. Consecutive commands share one `arc`.
 struct Driven {
     static constexpr AtDoors at_doors = AtDoors::drives;
 
@@ -39,18 +39,18 @@ struct Driven {
     RadiansPerSecond turn_rate{0};   ///< turn rate, counter-clockwise
     Meters chord{0.001};             ///< largest distance between the arc and its chords, > 0
     std::optional<Time> until = {};  ///< end of the command: the robot then stands still
-    /// Arc of the previous command, which this command continues; null: it starts at the robot's
-    /// position.
+    /// Arc of the previous command, which this command continues; null: the arc starts at the
+    /// robot's position.
     std::shared_ptr<DrivenArc> arc = {};
 
     Step next_leg(Mover& mover);
 
   private:
-    // Leg of a robot that does not turn: as far ahead as is free, for at most `time`. `leg` is a
-    // leg at rest.
+    // Leg (piece of movement) straight ahead, as far as is free, for at most `time`. Without free
+    // space the result is `leg`, a leg at rest.
     Leg straight_ahead(const Mover& mover, const DrivenArc& ahead, Duration time, Leg leg);
-    // Leg of a robot that turns: a chord of at most `time`, or a rest at an obstacle. `leg` turns
-    // in place until the command ends.
+    // Leg (piece of movement) of a robot that turns: a chord of the arc for at most `time`. At an
+    // obstacle the result is `leg`, which turns in place, shortened.
     Leg along_arc(const Mover& mover, const DrivenArc& ahead, Duration time, Leg leg);
 };
 

@@ -8,13 +8,14 @@
 
 namespace rovernet {
 
-/// Movement behind another robot: every `every` it reads the leader's position and moves along the
-/// path there, around the walls, until the remaining path is `distance` long.
+/// Movement of a robot (follower) behind another robot (leader). At intervals of `every`, the
+/// follower reads the leader's position and moves along the path to this position, around the
+/// walls, until the remaining path is `distance` long.
 ///
-/// It spreads the path over the interval, with at most `speed`, and stands while the leader is
-/// nearer. Behind a leader with constant speed v < `speed` on a straight line, its distance at each
-/// update is `distance` + v `every`. If there is no path, it stands until the next update. Its
-/// height is constant.
+/// The follower spreads the path over the interval, with at most `speed`, and stands while the
+/// leader is nearer. Behind a leader with constant speed v < `speed` on a straight line, the
+/// distance at each update is `distance` + v `every`. If there is no path, the follower stands
+/// until the next update. Its height is constant.
 struct Follow {
     static constexpr std::string_view name = "follow";
     static constexpr AtDoors at_doors = AtDoors::looks;

@@ -18,14 +18,14 @@ struct EnumNames<WallSide> {
 
 /// Movement along walls by a range finder: the robot keeps the nearest wall on its `side` at the
 /// distance `keep` from its body, turns at corners and never arrives. In a passage too narrow for
-/// that it stays in the middle. Without a wall on that side within `range` it moves straight ahead
-/// until it finds one.
+/// this distance the robot stays in the middle. Without a wall on that side within `range` it moves
+/// straight ahead until it finds a wall.
 ///
-/// After each `stride` it measures again and moves along the wall that is nearest then, corrected
-/// by the distance error. There is no error at a straight wall; around a convex corner the robot
-/// moves on chords, at most stride^2 / (8 (keep + radius)) off the circle.
+/// After each `stride` the robot measures again and moves along the wall that is nearest then,
+/// corrected by the distance error. There is no error at a straight wall; around a convex corner
+/// the robot moves on chords, at most stride^2 / (8 (keep + radius)) off the circle.
 ///
-/// It needs a map. Robots do not detect each other.
+/// The model needs a map. Robots do not detect each other.
 struct FollowWall {
     static constexpr std::string_view name = "follow_wall";
     static constexpr AtDoors at_doors = AtDoors::looks;

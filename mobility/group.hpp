@@ -11,10 +11,11 @@ namespace rovernet {
 
 /// Reference point group mobility model: a member of a group that moves with its leader.
 ///
-/// Every `every` it moves to the leader's position at the end of the interval (predicted by the
-/// leader's current leg) + `offset` + a uniform random vector in the disc of `radius`. It arrives
-/// at the end of the interval if its top speed allows, around the walls if there are any. If 16
-/// draws find no reachable position, it stands for the interval. Its height is constant.
+/// At intervals of `every`, the member moves to the leader's position at the end of the interval
+/// (predicted by the leader's current leg) + `offset` + a uniform random vector in the disc of
+/// `radius`. It arrives at the end of the interval if its top speed allows, around the walls if
+/// there are any. If 16 draws find no reachable position, the member stands for the interval. Its
+/// height is constant.
 /// Source: X. Hong, M. Gerla, G. Pei, C.-C. Chiang, A group mobility model for ad hoc wireless
 /// networks, MSWiM 1999.
 struct Group {
@@ -39,7 +40,7 @@ struct Group {
     struct Progress {
         Draws draws = {};
         Time arrival = start_of_run;  // end of the interval
-        Way way = {};                 // path until then
+        Way way = {};                 // path followed until `arrival`
     } progress = {};
 };
 

@@ -12,10 +12,10 @@ namespace rovernet {
 
 /// Cache of path planners for the scenes used last, for a worker that makes many runs.
 ///
-/// A scene is immutable, so its address identifies it; it is kept alive as long as its planners.
+/// A scene is immutable, so its address identifies it. A scene lives as long as its planners.
 class KeptPlanners {
   public:
-    /// @param most_cells  largest total number of cells of the cached scenes; each takes about 30
+    /// @param most_cells  largest total number of cells of the cached scenes; a cell takes about 30
     ///                    bytes. The last scene is always kept
     explicit KeptPlanners(std::size_t most_cells = 16'000'000) : most_cells_(most_cells) {}
 
@@ -24,7 +24,7 @@ class KeptPlanners {
 
   private:
     struct Kept {
-        std::shared_ptr<const Scene> scene;  // outlives its planners
+        std::shared_ptr<const Scene> scene;  // cached scene; outlives its planners
         std::shared_ptr<Planners> planners;
     };
     std::size_t most_cells_;

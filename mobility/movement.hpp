@@ -21,8 +21,8 @@ class Legs;
 class Planners;
 class Scene;
 
-/// Valid turn rates [rad/s] of robots that turn in place: half a turn ends long before the clock
-/// does.
+/// Valid turn rates [rad/s] of robots that turn in place: half a turn ends long before the range of
+/// the simulation's clock (292 years).
 inline constexpr Range turn_rates{.low = 1e-8, .text = ">= 1e-8 rad/s"};
 
 /// Valid ranges of step times and rests of movements [s]; the clock of the simulation (292 years)
@@ -31,7 +31,7 @@ inline constexpr Range step_length{
     .low = 1e-6, .high = 9e8, .text = "from 1 us to 9e8 s (28 years)"};
 inline constexpr Range rest_length{.low = 0, .high = 9e8, .text = "from 0 s to 9e8 s (28 years)"};
 
-/// Robot that needs its next leg: the input of a movement model.
+/// Robot that needs its next leg (piece of movement): the input of a movement model.
 struct Mover {
     Time now;
     Vec3 position;       ///< current position [m]
@@ -41,8 +41,8 @@ struct Mover {
     double heading = 0;  ///< current heading [rad], counter-clockwise from the x axis
     static constexpr MetersPerSecond any_speed{std::numeric_limits<double>::infinity()};
     MetersPerSecond top_speed = any_speed;  ///< speed limit of the library's movement models [m/s]
-    /// Seed, replication, the robot's key (a) and the number of its movement (b), for keys of
-    /// draws.
+    /// Key of the movement's random draws: seed, replication, key of the robot (a), and number of
+    /// its movement (b).
     Key draws = {};
 
     /// Current scene, with closed doors; null: the scene of the planners.
@@ -50,7 +50,7 @@ struct Mover {
 
     /// Current storey of the robot; the whole scene if it has only one storey.
     const Scene& scene() const;
-    /// Key of the robot's draw `index` in this movement.
+    /// Key of the robot's random draw number `index` in this movement.
     Key key(std::uint64_t index) const {
         Key key = draws;
         key.purpose = Purpose::movement;
@@ -69,28 +69,28 @@ struct Blocked {
 
 using Step = std::variant<Leg, AtRest, Blocked>;
 
-/// Movement model: a generator of legs, called when a leg has ended; there are no ticks. A leg
-/// starts at mover.now at mover.position and lasts at least a nanosecond. Only the first leg of a
-/// run may start elsewhere: the robot then starts there.
+/// Movement model: a generator of legs (pieces of movement), called when a leg has ended; there are
+/// no ticks. A leg starts at mover.now at mover.position and lasts at least a nanosecond. Only the
+/// first leg of a run may start elsewhere: the robot then starts there.
 /// Example: examples/own_movement.cpp.
 template <class T>
 concept MovementModel = std::copy_constructible<T> && requires(T model, Mover& mover) {
     { model.next_leg(mover) } -> std::same_as<Step>;
 };
 
-/// Straight leg from the mover's position to `to` at `speed` [m/s], > 0, limited to its top speed.
+/// Straight leg from the mover's position to `to` at `speed` > 0 [m/s], at most its top speed.
 Leg straight_leg(const Mover& mover, Vec3 to, MetersPerSecond speed);
-/// Straight leg from the mover's position to `to`, which it reaches at `arrival` > mover.now, or
-/// later if its top speed is too low.
+/// Straight leg from the mover's position to `to`, which the mover reaches at `arrival` >
+/// mover.now, or later if its top speed is too low.
 Leg straight_leg(const Mover& mover, Vec3 to, Time arrival);
 
-/// Endless leg at rest at the mover's position.
+/// Endless leg (piece of movement) at rest at the mover's position.
 inline Leg standing_leg(const Mover& mover) {
     return {
         .start = mover.now, .from = mover.position, .to = mover.position, .heading = mover.heading};
 }
 
-/// Robot that never moves; it has no end of a movement.
+/// Movement model of a robot that never moves. The movement has no end.
 struct Fixed {
     Step next_leg(Mover& mover) { return standing_leg(mover); }
 };
@@ -166,8 +166,8 @@ class Movement {
 
 /// Sequence of random numbers for one movement.
 ///
-/// They depend only on seed, replication, the robot's name and the number of its movement, not on
-/// other robots.
+/// The numbers depend only on seed, replication, the robot's name and the number of its movement,
+/// not on other robots.
 struct Draws {
     std::uint32_t used = 0;  // number of draws so far; 2^32 are enough for a billion legs
 

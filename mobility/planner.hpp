@@ -35,7 +35,7 @@ class Planner {
     /// Empty if an end lies off the map or nearer to an obstacle than the radius, or if there is no
     /// path. Corners between the ends are at the height of `from`.
     std::optional<std::vector<Vec3>> shortest_path(Vec3 from, Vec3 to);
-    /// Whether there is a path, without searching for it.
+    /// Whether there is a path between two positions; the path itself is not searched for.
     bool has_way(Vec3 from, Vec3 to) const;
     /// Number of searches for paths around obstacles.
     std::uint64_t searches() const { return searches_; }
@@ -59,7 +59,7 @@ class Planner {
     std::map<Question, std::optional<std::vector<Vec3>>> known_;  // cached paths around obstacles
 };
 
-/// Plans a single path; use a Planner for many.
+/// Corners of the path [m] of a robot with `radius`, see Planner; use a Planner for many paths.
 std::optional<std::vector<Vec3>> shortest_path(const Scene& scene, Vec3 from, Vec3 to,
                                                Meters radius);
 

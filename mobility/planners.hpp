@@ -31,7 +31,7 @@ class Planners {
         if (!has_stairs(from, to, radius)) return std::nullopt;
         return std::vector{from, to};
     }
-    /// Whether there is a path, without searching for it.
+    /// Whether there is a path between two positions; the path itself is not searched for.
     bool has_way(Vec3 from, Vec3 to, Meters radius) {
         return is_level(from, to) ? planner(from.z, radius).has_way(from, to)
                                   : has_stairs(from, to, radius);

@@ -61,7 +61,7 @@ struct RandomDirection {
     /// State of the robot in this movement, for the model only.
     struct Progress {
         bool begun = false;
-        bool rested = true;  // has rested since the last leg
+        bool rested = true;  // whether the robot has rested since its last leg
         Draws draws = {};
     } progress = {};
 

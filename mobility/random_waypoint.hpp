@@ -14,11 +14,12 @@ namespace rovernet {
 
 struct SpeedRange;
 
-/// Start of a random waypoint movement. After the start of the run it is always `here`.
+/// Initial state of a robot in the random waypoint mobility model, if the movement begins at the
+/// start of the run. A movement that begins later always starts as with `here`.
 enum class StartState {
-    stationary,  ///< stationary distribution, as after an infinite time
-    uniform,     ///< start of a trip at a random position: the mean speed falls with time
-    here,        ///< start of a trip where the robot is: the mean speed falls with time
+    stationary,  ///< drawn from the stationary distribution, as after an infinite time
+    uniform,     ///< new trip from a uniform random position; the mean speed falls with time
+    here,        ///< new trip from the robot's position; the mean speed falls with time
 };
 template <>
 struct EnumNames<StartState> {
@@ -30,14 +31,14 @@ struct EnumNames<StartState> {
 /// rest.
 ///
 /// On a map, goals are uniform among the positions where the robot's body fits and to which there
-/// is a path; paths may leave the area. It returns Blocked if 200 draws find no goal. Speeds above
-/// the robot's top speed are not drawn.
+/// is a path; paths may leave the area. The model returns Blocked if 200 draws find no goal. Speeds
+/// above the robot's top speed are not drawn.
 ///
 /// Stationary start: a trip is drawn like any other, accepted with probability proportional to the
 /// mean duration of trip and rest, and started at a uniform random time within it; while the robot
 /// moves, its speed has density 1/v. Exact on an open field. On a map, a path longer than twice the
-/// area's diagonal counts as that long. It needs min_speed > 0, because the slowest trips would
-/// last for ever.
+/// area's diagonal counts as that long. A stationary start needs min_speed > 0, because the slowest
+/// trips would last for ever.
 /// Sources: D. Johnson, D. Maltz, Dynamic source routing in ad hoc wireless networks, 1996; W.
 /// Navidi, T. Camp, Stationary distributions for the random waypoint mobility model, IEEE TMC 3(1),
 /// 2004; J. Yoon, M. Liu, B. Noble, Random waypoint considered harmful, INFOCOM 2003.
@@ -65,7 +66,7 @@ struct RandomWaypoint {
     /// State of one robot in this movement, for the model only.
     struct Progress {
         bool begun = false;
-        bool rested = true;  // has rested since the last trip
+        bool rested = true;  // whether the robot has rested since its last trip
         Draws draws = {};
         Way way = {};
     } progress = {};

@@ -9,14 +9,15 @@
 
 namespace rovernet {
 
-/// Replay of a recorded motion: the legs of a robot in order, through any obstacles of the present
-/// scene. A leg that was interrupted ends where the next one begins; between legs the robot rests.
+/// Replay of a recorded motion: the legs (pieces of movement) of a robot in order, through any
+/// obstacles of the present scene. A leg that was interrupted ends where the next leg begins;
+/// between legs the robot rests.
 class RecordedLegs {
   public:
     static constexpr AtDoors at_doors = AtDoors::passes;
 
     /// @param legs  in ascending order of start; the first one gives the start position
-    /// @throws std::invalid_argument if they are in another order
+    /// @throws std::invalid_argument if the legs are in any other order
     explicit RecordedLegs(std::vector<Leg> legs);
 
     Step next_leg(Mover& mover);

@@ -13,7 +13,7 @@ struct Straight {
 
     Vec3 to;                                     ///< goal [m]
     MetersPerSecond speed{1};                    ///< speed [m/s], > 0
-    std::optional<Time> arrival = std::nullopt;  ///< time of arrival, after now, instead of a speed
+    std::optional<Time> arrival = std::nullopt;  ///< time of arrival; none: given by `speed`
 
     Step next_leg(Mover& mover) {
         if (mover.position == to && (!arrival || *arrival <= mover.now)) return AtRest{};

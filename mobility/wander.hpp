@@ -12,12 +12,12 @@ namespace rovernet {
 class LookRound;
 
 /// Obstacle avoidance by a range finder: the robot moves straight ahead until an obstacle is within
-/// `keep` of its body, or for the length `run`. Then it measures all around, and turns to a random
-/// direction with more than 2 `keep` of free space; directions with more free space are more
-/// likely. If there is none, it turns to the direction with the most free space, a random one among
-/// equals.
+/// `keep` of its body, or for the length `run`. Then the robot measures all around, and turns to a
+/// random direction with more than 2 `keep` of free space; directions with more free space are more
+/// likely. If there is no such direction, the robot turns to the direction with the most free
+/// space, a random one among equals.
 ///
-/// It needs a map. Robots do not detect each other.
+/// The model needs a map. Robots do not detect each other.
 struct Wander {
     static constexpr std::string_view name = "wander";
     static constexpr AtDoors at_doors = AtDoors::looks;
@@ -43,7 +43,7 @@ struct Wander {
     /// State of the robot in this movement, for the model only.
     struct Progress {
         bool begun = false;
-        bool has_turned = true;  // has turned since the last straight path, and may move
+        bool has_turned = true;  // whether the robot has turned since its last straight path
         Draws draws = {};
     } progress = {};
 

@@ -9,8 +9,8 @@
 
 namespace rovernet {
 
-/// Planned path around walls, followed corner by corner. It has the size of a pointer while the
-/// robot moves to its last corner.
+/// Planned path around walls, followed corner by corner. The object has the size of a pointer while
+/// the robot moves to the last corner.
 class Way {
   public:
     Way() = default;
@@ -24,9 +24,9 @@ class Way {
     /// @throws std::invalid_argument unless `to` is finite
     static std::optional<Way> plan(Mover& mover, Vec3 to);
 
-    /// Leg to the next corner, at `speed` > 0; empty at the end of the path.
+    /// Leg to the next corner of the path, at `speed` > 0; empty at the end of the path.
     std::optional<Leg> next_leg(const Mover& mover, MetersPerSecond speed);
-    /// Next leg of the path, at the speed of the leg before.
+    /// Leg to the next corner of the path, at the speed of the previous leg; empty at the end.
     std::optional<Leg> next_leg(const Mover& mover) {
         return left_ ? next_leg(mover, left_->speed) : std::nullopt;
     }

@@ -32,7 +32,7 @@ struct Waypoints {
     /// @throws std::invalid_argument unless speed > 0 and all positions are finite
     Step next_leg(Mover& mover);
 
-    /// State of the movement: positions of `timed` and `path` started so far; for the model only.
+    /// State of the robot in this movement, for the model only.
     struct Progress {
         std::size_t places = 0;  // number of places of both lists started so far
         Way way = {};            // path to the last started place

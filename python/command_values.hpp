@@ -18,7 +18,7 @@
 
 namespace rovernet::python {
 
-/// Reads the value of a field; ranges are checked later.
+/// Reads the value of a command's field from a Python object; ranges are checked later.
 template <class Value>
 void read_value(SessionObject& session, Value& value, std::string_view key,
                 const py::handle& given) {
@@ -63,7 +63,8 @@ void read_given(SessionObject& session, Value& value, std::string_view key,
     }
 }
 
-/// Command of a type from keywords; none if they are not its keys.
+/// Robot command of type `Command` from Python keyword arguments; none if a keyword is not one of
+/// its keys.
 template <class Command>
 std::optional<RobotCommand> command_if(SessionObject& session, NodeId robot,
                                        const py::kwargs& given) {
@@ -85,7 +86,7 @@ std::optional<RobotCommand> command_if(SessionObject& session, NodeId robot,
     return command;
 }
 
-/// Command from keywords, which are the keys of the lock-step protocol.
+/// Robot command from Python keyword arguments, which are the keys of the lock-step protocol.
 template <class... Commands>
 RobotCommand command_of(std::tuple<std::type_identity<Commands>...> /*commands*/,
                         SessionObject& session, NodeId robot, const py::kwargs& given) {

@@ -12,12 +12,12 @@ namespace rovernet::python {
 namespace py = pybind11;
 
 /// Interruption of a simulation by Python: Ctrl-C, or an error in a callback. The simulation runs
-/// without Python's lock (GIL), and calls go_on() now and then. After an interruption the caller of
+/// without Python's lock (GIL), and calls go_on() repeatedly. After an interruption the caller of
 /// the simulation raises the error in Python.
 class Interruption {
   public:
-    /// Whether the simulation may continue. Checks for Ctrl-C, and calls `look`, every 50 ms of
-    /// real time.
+    /// Whether the simulation may continue. Checks for Ctrl-C, and calls `look`, at most every
+    /// 50 ms of real time.
     template <class Look>
     bool go_on(const Look& look) {
         constexpr std::chrono::milliseconds pause{50};

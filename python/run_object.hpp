@@ -17,7 +17,7 @@
 
 namespace rovernet::python {
 
-/// Sink that stores records of the kinds named in `kinds`; null without names.
+/// Sink (observer of a run) that stores records of the kinds named in `kinds`; null without names.
 inline std::shared_ptr<RowSink> rows_of(const std::vector<std::string>& kinds) {
     KindMask mask = 0;
     for (const std::string& kind : kinds) mask |= record_named(kind);
@@ -80,7 +80,7 @@ class RunObject {
     const Scenario& scenario() const { return *scenario_; }
 
   private:
-    /// Records of a kind that were not stored during the run, by running the scenario again.
+    /// Runs the scenario again to get records of a kind that were not stored during the run.
     std::shared_ptr<RowSink> found_again(const std::string& kind) const {
         Interruption interruption;
         auto rows = rows_of({kind});

@@ -20,7 +20,7 @@ namespace rovernet::python {
 
 using namespace py::literals;
 
-/// Index of a robot's range finder, given by index or name.
+/// Index of a robot's range finder that Python code selects by index or name.
 inline std::size_t scanner_of(SessionObject& session, NodeId robot, const py::object& scanner) {
     const std::string name = session.network().name(robot);
     const auto all = session.run().session().range_finders(robot);
@@ -44,8 +44,8 @@ inline std::size_t scanner_of(SessionObject& session, NodeId robot, const py::ob
                                       number, all.size() - 1));
 }
 
-/// Distances measured by a range finder [m], as an array: of one robot (beams,), of all robots (n,
-/// beams).
+/// Distances measured by a range finder [m], as an array of shape (beams,) for one robot, or
+/// (robots, beams) for all robots of the session.
 inline py::array_t<double> scan(SessionObject& session, const std::optional<std::string>& robot,
                                 const py::object& scanner) {
     const Session& measured = session.run().session();
@@ -95,8 +95,8 @@ inline py::list scanners(SessionObject& session, const std::string& robot) {
     return all;
 }
 
-/// Levels of all links: one row for each receiver, one column for each sender, over all robots of
-/// the scenario.
+/// Received levels of all links [dBm], NaN without a link: one row for each receiver, one column
+/// for each sender, over all robots of the scenario.
 inline py::array_t<double> links(SessionObject& session) {
     const Network& network = session.network();
     const auto robots = static_cast<py::ssize_t>(network.size());

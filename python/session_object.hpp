@@ -20,7 +20,7 @@ namespace rovernet::python {
 /// Message that a robot received: the Python class `rovernet.Heard`.
 struct HeardObject {
     HeardMessage message;
-    double noise;     // [dBm]
+    double noise;     // noise level at the receiver [dBm]
     py::tuple names;  // names of all robots
 
     py::object name(NodeId robot) const { return names[robot.index()]; }
@@ -86,7 +86,7 @@ class SessionObject {
         interruption_.raise();
     }
     py::list step() {
-        // Small, since one event may reach thousands of robots.
+        // Number of events per slice: small, since one event may reach thousands of robots.
         constexpr std::uint64_t events_a_slice = 256;
         const Working working(*this);
         {
@@ -162,7 +162,7 @@ class SessionObject {
         std::shared_ptr<RecordCallback> callback;
         SinkId sink;
     };
-    /// Guard: the session is in use by one call, so that other calls are rejected.
+    /// Guard that marks the session as used by one call, so that other calls are rejected.
     class Working {
       public:
         explicit Working(SessionObject& session) : session_(session) {

@@ -13,7 +13,7 @@
 #include <string>
 #include <utility>
 
-// Conversion between Python values and Values: scenarios as dicts, metrics as dicts.
+// Conversion between Python objects and the class Value: scenarios as dicts, metrics as dicts.
 
 namespace rovernet::python {
 
@@ -54,7 +54,7 @@ inline std::int64_t whole_number(py::handle given, const std::string& place) {
 /// unit are in SI units, as on the command line.
 /// @param place  path of the value in Python notation, for errors: scenario["radio"]["power"]
 /// @throws InputError for objects of other types, keys that are not texts, whole numbers that do
-///         not fit into 64 bits, and more than 32 levels
+///         not fit into 64 bits, and more than 32 nesting levels
 inline Value to_value(py::handle given, const std::string& place, int depth = 0) {
     constexpr int deepest = 32;
     const Location where{.source = place, .is_option = true};

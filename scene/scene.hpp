@@ -120,8 +120,8 @@ class Scene {
     /// Total loss [dB] of the walls on the segment a-b, by rates for material and drawn thickness.
     double wall_loss(Vec3 a, Vec3 b, const WallRates& rates, double enough,
                      std::vector<Crossing>& scratch) const;
-    /// Drawn thickness [m] of the wall at point p on the storey of p, whatever the wall's height; 0
-    /// outside walls. See WallThickness.
+    /// Horizontal thickness [m] of the wall drawn on the map at point p; 0 outside walls. The
+    /// height of p selects only the storey: p may be above the wall. See WallThickness.
     Meters wall_thickness(Vec3 p) const;
     /// Walls as straight faces; null on an open field. If there are several storeys, the faces are
     /// those of the lowest storey.

@@ -23,8 +23,8 @@ class DeliverySeries {
     std::vector<double> delivered() const;
 
   private:
-    /// Message of a slot of the MessageTable, at its last Sent. Control packets of a router have
-    /// none.
+    /// Message of a slot of the MessageTable, as of the last Sent record of the slot. Control
+    /// packets of a routing protocol have no Sent record.
     struct Known {
         std::uint64_t uid = ~std::uint64_t{0};
         std::size_t place = 0;  // index of the message in the series

@@ -14,7 +14,7 @@
 
 namespace rovernet {
 
-/// Number of copies that were lost for one reason.
+/// Number of copies of messages that were lost for one reason.
 struct DropCount {
     std::string_view reason;  ///< code of the reason, as in an ns-2 trace
     std::uint64_t count = 0;
@@ -43,9 +43,9 @@ struct LatencyValues {
 /// protocols, MobiCom 1998.
 struct RoutingValues {
     std::uint64_t packets = 0;         ///< control packets that the protocol sent
-    std::uint64_t bytes = 0;           ///< size of these packets, above the MAC [bytes]
+    std::uint64_t bytes = 0;           ///< size of the control packets, above the MAC [bytes]
     std::optional<double> load;        ///< packets for each delivery [-]; empty without deliveries
-    std::optional<double> load_bytes;  ///< their bytes for each byte delivered [-]
+    std::optional<double> load_bytes;  ///< control bytes for each delivered byte [-]
     std::uint64_t data = 0;            ///< messages that the protocol sent or forwarded
 
     static constexpr auto fields() {
@@ -60,7 +60,7 @@ struct RoutingValues {
 };
 
 /// Codes of all reasons for which a copy is lost or not forwarded, without repetition: the order of
-/// MetricValues::drops. DUP is first, the others follow in the order of sim/fate.hpp.
+/// MetricValues::drops. DUP is first, other reasons follow in the order of sim/fate.hpp.
 inline constexpr auto loss_codes = [] {
     struct Codes {
         std::array<std::string_view, 24> of{};
@@ -86,8 +86,8 @@ using DropCounts = std::array<DropCount, loss_codes.count>;
 struct PartMetrics {
     std::uint64_t messages = 0;            ///< messages sent in the flow, or for the robot
     std::uint64_t deliveries = 0;          ///< first copies of a message at a robot
-    std::optional<double> delivery_ratio;  ///< [-]; empty if no delivery is expected
-    std::optional<double> throughput_bps;  ///< delivered bits [bit/s]; empty without a time
+    std::optional<double> delivery_ratio;  ///< delivery ratio [-]; empty: none expected
+    std::optional<double> throughput_bps;  ///< throughput [bit/s]; empty if the run takes no time
     std::optional<double> latency_mean_s;  ///< mean latency [s]; empty without deliveries
 
     static constexpr auto fields() {
@@ -108,27 +108,27 @@ struct PartValues {
     std::uint64_t deliveries = 0;  ///< first copies of a message at a robot
     std::uint64_t bytes = 0;       ///< size of the delivered messages [bytes]
     std::uint64_t delay_ns = 0;    ///< sum of the deliveries' latencies [ns]
-    std::optional<double> delivery_ratio() const;  ///< [-]; empty if no delivery is expected
+    std::optional<double> delivery_ratio() const;  ///< delivery ratio [-]; empty: none expected
     std::optional<double> latency_mean() const;    ///< mean latency [s]; empty without deliveries
-    /// Metrics of the part, measured for so long.
+    /// Metrics of the part of the traffic. @param measured  duration of the measurement
     PartMetrics metrics(Duration measured) const;
     friend bool operator==(const PartValues&, const PartValues&) = default;
 };
 
 /// Parts of the traffic that Metrics measure in addition to the totals.
 struct MetricParts {
-    /// Whether `reach` is measured, by a search of the network for every message; empty: while that
-    /// is cheap.
+    /// Whether `reach` is measured, by a search of the network for every message; empty: only while
+    /// the search is cheap.
     std::optional<bool> reach = {};
     bool flows = false;   ///< true: measure the messages of each flow, see Message::flow
     bool robots = false;  ///< true: measure the messages for each robot
 };
 
-/// Metrics of a run, or of a trace read back. They are computed from integers, whose sums are
-/// exact. So they do not depend on how the receptions of a frame are split into Received records.
+/// Metrics of a run, or of a trace read back. All are computed from integers, whose sums are exact.
+/// So no metric depends on how the receptions of a frame are split into Received records.
 ///
 /// Names in summary.json and in studies, and their order, are those of fields(). A metric that is
-/// added there needs its computation in Metrics only.
+/// added to fields() needs its computation in Metrics only.
 struct MetricValues {
     std::uint64_t messages = 0;       ///< messages sent by applications
     std::uint64_t transmissions = 0;  ///< number of frames transmitted
@@ -136,7 +136,7 @@ struct MetricValues {
     std::uint64_t deliveries = 0;     ///< first copies of a message at a robot, for its application
 
     /// Number of messages of which no frame had ended when the run ended: no robot could have
-    /// received them. They count in `messages` and in drops.END, but not in delivery_ratio, reach.
+    /// received them. They are counted in `messages` and drops.END, not in delivery_ratio, reach.
     std::uint64_t cut_off = 0;
 
     /// Copies lost or not forwarded, by the codes of the reasons in sim/fate.hpp.
@@ -167,7 +167,7 @@ struct MetricValues {
 
     std::optional<LatencyValues> latency;  ///< latency of the deliveries; empty without deliveries
 
-    std::optional<double> mean_hops;  ///< hops of a delivery [-]; empty without deliveries
+    std::optional<double> mean_hops;  ///< mean hops of a delivery [-]; empty without deliveries
     std::uint32_t max_hops = 0;       ///< largest number of hops of a delivery [-]
     std::vector<std::uint64_t> hops;  ///< number of deliveries after h hops, h = 0 ... max_hops
 

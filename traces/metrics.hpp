@@ -37,8 +37,8 @@ class Metrics {
     MetricValues values() const;
 
   private:
-    /// State of a message in the table. It is reset with every new message in a slot, including a
-    /// router's control packets, which have no Sent.
+    /// State of the message in a slot of the message table. The state is reset with every new
+    /// message, including control packets of a routing protocol, which have no Sent record.
     struct MessageState {
         std::uint64_t uid = ~std::uint64_t{0};
         std::vector<std::uint64_t> forwarders;   ///< bit n: robot n has transmitted the message

@@ -21,8 +21,8 @@
 
 namespace rovernet {
 
-/// Columns of a table, in their order, as words "NAME" or "NAME=CELL"; empty: all cells of the
-/// record. A kind of record needs a line here only if its table is to be another one.
+/// Columns of the table of a kind of record, in their order, as words "NAME" or "NAME=CELL"; empty:
+/// all cells of the record. A kind of record needs a specialization only if columns differ from it.
 template <class R>
 inline constexpr std::string_view row_columns = "";
 template <>

@@ -31,7 +31,7 @@ void for_each_time(const R& record, const Visit& visit) {
     }
 }
 
-/// Whether a type is a std::optional; a std::span.
+/// Whether a type is a std::optional; is_span: whether a type is a std::span.
 template <class T>
 inline constexpr bool is_optional = false;
 template <class T>
@@ -41,7 +41,7 @@ inline constexpr bool is_span = false;
 template <class T>
 inline constexpr bool is_span<std::span<T>> = true;
 
-/// Type that is written as one byte.
+/// Type whose values are written as one byte in a recorded trace.
 template <class T>
 concept OneByte = std::is_enum_v<T> || std::same_as<T, bool> || std::same_as<T, std::uint8_t>;
 /// Quantity with a unit, such as Meters or Dbm.
@@ -61,7 +61,7 @@ constexpr void for_each_recorded(const Visit& visit) {
     });
 }
 
-/// Whether a `Whole` is a `T` or may have one inside. For pruning at compile time.
+/// Whether a `Whole` is a `T` or may contain a `T`; for pruning a search at compile time.
 template <class T, class Whole>
 consteval bool may_have() {
     if constexpr (std::same_as<T, Whole>) {
@@ -82,8 +82,8 @@ consteval bool may_have() {
     }
 }
 
-/// Calls visit(value) for each value of type `T` in a record or a part of one, in the order of the
-/// fields. The message of a control frame, which is none, is left out.
+/// Calls visit(value) for each value of type `T` in a record or a part of a record, in the order of
+/// the fields. The MessageId of a control frame, which has no message, is left out.
 ///
 ///     for_each_in<NodeId>(transmitted, [](NodeId robot) { ... });
 template <class T, class Whole, class Visit>

@@ -15,10 +15,10 @@ namespace rovernet {
 /// Code of up to four letters, such as a loss reason, padded with zeros.
 using CodeCell = std::array<char32_t, 4>;
 
-/// Column of a table.
+/// Column of a table of records.
 struct RowColumn {
     std::string name;
-    std::string_view format;  ///< format of its cells in numpy's notation: "<i8", "<f8", "?", "<U4"
+    std::string_view format;  ///< format of the cells in numpy's notation: "<i8", "<f8", "?", "<U4"
     std::size_t offset;       ///< offset of the column's cell in a row [bytes]
 };
 
@@ -46,19 +46,19 @@ class RowSink {
     }
     void on(const Record& record, const RecordContext& context);
 
-    /// Table of the kind whose bit is set in `kind`, one of the record kinds.
+    /// Table of the records of one kind. @param kind  bit of the kind, one of those stored
     Table table(KindMask kind) const;
     /// Removes all rows of all tables.
     void clear();
 
   private:
     KindMask kinds_;
-    std::array<std::vector<std::byte>, std::variant_size_v<Record>> rows_;  // by bit of the kind
+    std::array<std::vector<std::byte>, std::variant_size_v<Record>> rows_;  // rows by kind's bit
 };
 
 /// Names of the kinds of records, in the order of their bits: "sent", "link_up".
 std::vector<std::string> record_names();
-/// Bit of the kind with that name. @throws std::invalid_argument with the list of valid names
+/// Bit of the record kind with this name. @throws std::invalid_argument with a list of valid names
 KindMask record_named(std::string_view name);
 
 }  // namespace rovernet

@@ -13,8 +13,8 @@
 
 namespace rovernet {
 
-/// Topology of the network, averaged from `begin` on, independent of traffic. Values without data
-/// are empty.
+/// Topology metrics of the network, averaged from the start of the measurement on,
+/// independent of traffic. Values without data are empty.
 struct TopologyValues {
     /// Node degree [-]: number of robots that a robot hears, mean over time and over the robots
     /// that are on.
@@ -55,8 +55,8 @@ class Topology {
     struct Robot {
         bool is_there = false;
         bool on = true;
-        Time since = start_of_run, until = start_of_run;  // start and end of its leg
-        double speed = 0;                                 // [m/s] during the leg
+        Time since = start_of_run, until = start_of_run;  // start and end of the current leg
+        double speed = 0;                                 // speed during the leg [m/s]
     };
 
     void advance(Time t);
@@ -67,8 +67,8 @@ class Topology {
     Time begin_, now_, next_sample_;
     std::vector<Robot> robots_;
     std::size_t there_ = 0, on_ = 0;
-    std::map<std::pair<NodeId, NodeId>, Time> up_;  // time since when the link is up
-    double link_s_ = 0, on_s_ = 0, robot_s_ = 0;    // [s] sums over links, robots on, robots
+    std::map<std::pair<NodeId, NodeId>, Time> up_;  // start times of links that are up
+    double link_s_ = 0, on_s_ = 0, robot_s_ = 0;    // [s] sums over links, robots on, all robots
     double way_ = 0;                                // [m] sum of all robots' path lengths
     std::uint64_t samples_ = 0, components_ = 0;
     double lifetime_ = 0;  // [s] sum of lifetimes

@@ -57,8 +57,8 @@ enum class Announced {
     by_output,  ///< standard output, where programs can read them
     by_notice,  ///< standard error, like all notices, since standard output contains one document
 };
-/// Function that prints announcements of a run, such as server addresses, on the given channel. The
-/// user and programs that wait for an address read them.
+/// Function that prints messages of a run. Announcements (server addresses and tokens, which a
+/// waiting program may read) go to the given channel, all other messages to standard error.
 std::function<void(std::string_view)> announcer(Announced announced);
 
 }  // namespace rovernet::cli

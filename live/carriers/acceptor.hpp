@@ -35,8 +35,8 @@ inline boost::asio::ip::tcp::acceptor listen_on(boost::asio::io_context& io,
 
 /// Opens a listener on a Unix socket, accessible to this user only. A stale socket file is
 /// replaced.
-/// @throws RunError if the path exists and is in use or no socket; std::invalid_argument for an
-/// overlong path
+/// @throws RunError if the path is a socket in use, or a file that is no socket;
+/// std::invalid_argument for an overlong path
 inline boost::asio::local::stream_protocol::acceptor listen_on_path(boost::asio::io_context& io,
                                                                     const std::string& path) {
     using boost::asio::local::stream_protocol;
@@ -67,15 +67,15 @@ inline boost::asio::local::stream_protocol::acceptor listen_on_path(boost::asio:
 /// Enables TCP keep-alive: after 30 s of silence the peer is probed three times within 30 s, and
 /// without a reply the connection is closed.
 inline void keep_alive(int socket) {
-    const int on = 1, silence = 30, interval = 10, times = 3;  // [s]
+    const int on = 1, silence = 30, interval = 10, times = 3;  // times in [s]
     setsockopt(socket, SOL_SOCKET, SO_KEEPALIVE, &on, sizeof on);
     setsockopt(socket, IPPROTO_TCP, TCP_KEEPIDLE, &silence, sizeof silence);
     setsockopt(socket, IPPROTO_TCP, TCP_KEEPINTVL, &interval, sizeof interval);
     setsockopt(socket, IPPROTO_TCP, TCP_KEEPCNT, &times, sizeof times);
 }
 
-/// Acknowledges the last received data at once (TCP_QUICKACK). Otherwise a client that uses Nagle's
-/// algorithm and writes a command and a request would wait 40 ms in each round.
+/// Acknowledges the last received data immediately (TCP_QUICKACK). Otherwise a client with Nagle's
+/// algorithm that writes a command and then a request would wait 40 ms for each answer.
 inline void acknowledge_at_once(int socket) {
     const int on = 1;
     setsockopt(socket, IPPROTO_TCP, TCP_QUICKACK, &on, sizeof on);
@@ -99,7 +99,8 @@ void accept_all(Acceptor& acceptor, Take take) {
     });
 }
 
-/// Calls carrier.read(client) once the client's input rate permits it, unless it has gone by then.
+/// Calls carrier.read(client) once the client's input rate limit permits. Does nothing if the
+/// client has disconnected by then.
 template <class Carrier, class Client>
 void read_later(Carrier& carrier, const std::shared_ptr<Client>& client) {
     using Timer = boost::asio::steady_timer;

@@ -25,8 +25,8 @@ class Child {
 
     /// Parent's end of the socket to the program; the caller becomes its owner.
     int take_socket();
-    /// Waits until the program ends, at most until `most`. Other processes of its group may
-    /// continue.
+    /// Waits until the program ends, at most until `most`. Other processes of the program's group
+    /// may continue.
     /// @return error: "python3 x.py ended with 1"; empty after success, or if the program still
     /// runs
     std::string wait_until(std::chrono::steady_clock::time_point most);

@@ -50,13 +50,13 @@ struct ClientConnection {
     const Listeners::Streams& streams;
     Clock::time_point since = Clock::now();
     InputRate rate = {};
-    Clock::time_point closes_at = Clock::time_point::max();  ///< deadline for unsent data
+    Clock::time_point closes_at = Clock::time_point::max();  ///< deadline for sending queued data
     std::string input, sending, queued;
     std::size_t messages = 0;  ///< number of queued messages to the client
     std::size_t searched = 0;  ///< number of bytes of `input` already searched for an end of line
     bool has_sent = false;     ///< whether the client has sent a complete line or message
     bool is_reading = false, is_writing = false;
-    bool is_answered = true;  ///< whether the client's last line is answered
+    bool is_answered = true;  ///< whether the last line of the client was answered
     bool has_ended = false;   ///< whether the client has closed its sending side
     bool is_closing = false;  ///< whether the connection is to be closed once all data is sent
 };

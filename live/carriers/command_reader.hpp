@@ -21,22 +21,23 @@
 #include <utility>
 #include <variant>
 
-// Reading of commands from JSON by their fields().
+// Reading of robot commands from JSON, by the description of a command in its fields().
 
 namespace rovernet {
 
-/// Reader of commands' fields from JSON. All functions throw RequestError.
+/// Reader of the fields of robot commands from JSON. All functions throw RequestError for an
+/// invalid value.
 class CommandReader {
   public:
     using Member = std::optional<JsonElement>;
 
     virtual ~CommandReader() = default;
 
-    /// Reads the fields of a command. A place without a height, and a heading that is not given,
-    /// keep their values.
-    /// @param in       object that has the members
+    /// Reads the fields of a robot command into `command`. The height of a place and the heading
+    /// keep their previous values if the JSON object does not give them.
+    /// @param in       JSON object of the command, for errors
     /// @param keys     keys of the command's first fields, for errors; other fields are not read
-    /// @param members  value for each key, if the object has it
+    /// @param members  JSON value of each key; none if the object lacks the key
     template <class Command>
     void read(Command& command, const JsonElement& in, std::span<const std::string_view> keys,
               std::span<const Member> members) const {
@@ -57,10 +58,10 @@ class CommandReader {
   protected:
     /// Robot with this name.
     virtual NodeId robot(const JsonElement& name) const = 0;
-    /// Time above 0: a text such as "100 ms".
+    /// Duration > 0, read from a text such as "100 ms".
     virtual Duration time(const JsonElement& element) const;
     virtual bool truth(const JsonElement& element) const { return element.truth(); }
-    /// Bytes: a text in base64.
+    /// Bytes, decoded from a text in base64.
     virtual std::string bytes(const JsonElement& element) const;
 
   private:
@@ -92,19 +93,21 @@ class CommandReader {
     static void check_true(const JsonElement& element, std::string_view key);
 };
 
-/// Part of a list of keys that belongs to one command.
+/// Range of a list of keys: the keys that belong to one robot command.
 struct KeyPart {
     std::size_t first, size;
 };
-/// Finds the one part of which an object has keys; none if it has none.
+/// Index of the part of `keys` (robot command) of which a JSON object has keys; none if the object
+/// has no key of any part.
 /// @throws RequestError if the object has keys of several parts
 std::optional<std::size_t> find_given(const JsonElement& object,
                                       std::span<const std::string_view> keys,
                                       std::span<const CommandReader::Member> members,
                                       std::span<const KeyPart> parts);
 
-/// Reads the command of which an object has the keys; none for {}.
-/// @param commands  list of the commands of which it may be one
+/// Reads a robot command from a JSON object, whose keys determine the type of the command; none for
+/// the empty object {}.
+/// @param commands  list of the possible types
 template <class... Commands>
 std::optional<RobotCommand> read_one_of(std::tuple<std::type_identity<Commands>...> /*commands*/,
                                         const CommandReader& reader, const JsonElement& object,

@@ -29,15 +29,16 @@ struct ListenerId {
 /// session has processed all events of its current time. If programs send packets, each robot's
 /// PacketPort is a connection, which has the robot's number and exists from the start.
 ///
-/// A front may ask for the run to begin anew. Then it keeps its connections, and begin() is called
-/// again; each other front is replaced by a new one, and its connections are closed.
+/// A front may request by new_seed() that the run starts again. The front then keeps its
+/// connections, and begin() is called again. Every other front is replaced by a new front, and its
+/// connections are closed.
 class Front {
   public:
     /// Number of a client's connection, unique in the run.
     using Connection = std::uint32_t;
 
-    /// Functions by which a front reaches its clients. They never call the front back at once: a
-    /// connection that they end is reported by closed() later.
+    /// Functions by which a front (protocol server) reaches its clients. The functions do not call
+    /// the front: a connection that they end is reported to closed() later.
     struct Carrier {
         /// Sends one message to a client. A client that does not read its messages is disconnected.
         std::function<void(Connection to, std::string_view message)> send;
@@ -54,34 +55,34 @@ class Front {
     /// Starts the run. Session and scenario outlive the front.
     virtual void begin(Session& session, const Scenario& scenario) = 0;
     virtual void opened(Connection client, ListenerId at) = 0;
-    /// Handles bytes from a client: any piece of its stream, in order; or one message of a
-    /// WebSocket; or one packet; or one line, without its end.
-    /// @return number of messages that are now complete; 0 for a line outside the protocol
+    /// Handles input from a client: the next piece of its byte stream, one WebSocket message, one
+    /// packet, or one line without its end.
+    /// @return number of messages that the input completes; 0 for a line outside the protocol
     virtual std::size_t received(Connection from, std::string_view bytes) = 0;
     virtual void closed(Connection gone) = 0;
 
-    /// Time of the front's next message to clients; `never` if there is none.
+    /// Simulated time of the front's next message to clients; `never` if no message is due.
     virtual Time next() const = 0;
-    /// Sends the messages that are due at the current time, which is next().
+    /// Sends the due messages to clients; called when simulated time has reached next().
     virtual void tell() = 0;
 
-    /// Time at which the run must wait for further messages of clients.
+    /// Simulated time at which the run must wait for messages of clients; `never`: no limit.
     virtual Time limit() const { return never; }
-    /// Called now and then while the run waits at limit().
+    /// Called repeatedly while the run waits at limit().
     /// @param waited  real time since the run has reached the limit
     virtual void held(std::chrono::nanoseconds /*waited*/) {}
     /// Whether the clients are done, so that the run ends.
     virtual bool is_done() const { return false; }
-    /// Whether clients have the last word: the end of the scenario does not end the run.
+    /// Whether the run continues at the end of the scenario, until its clients end it.
     virtual bool holds_end() const { return false; }
-    /// Seed with which the run must begin anew; none: it goes on.
+    /// Seed with which the run must start again; none: the run continues.
     virtual std::optional<std::uint64_t> new_seed() const { return std::nullopt; }
     /// Called once the results are written; messages to clients are still sent.
-    /// @param metrics  as in summary.json
+    /// @param metrics  metrics of the run, as in summary.json
     virtual void ended(std::string_view /*fingerprint*/, const Table& /*metrics*/) {}
-    /// Error of a client that ended the run; empty: none.
+    /// Error that ended the run, such as a lost client; empty: no error.
     virtual std::string fault() const { return {}; }
-    /// Adds counters to the table `live` of summary.json.
+    /// Adds the front's counters to the table `live` of summary.json.
     virtual void report(Table&) const {}
 };
 

@@ -10,8 +10,8 @@
 
 namespace rovernet {
 
-/// Buffer for writing one JSON line piece by piece, faster than with Tables: a run may write
-/// thousands of lines per second. The buffer reuses its memory.
+/// Buffer for writing one JSON line piece by piece, faster than from a Table (tree of values): a
+/// run may write thousands of lines per second. The buffer reuses its memory.
 class JsonLine {
   public:
     void put(std::string_view text) {

@@ -14,8 +14,8 @@
 #include <string_view>
 #include <vector>
 
-// Parsing of JSON from external programs, by simdjson. Every error is a RequestError with its
-// place. Only request readers include this header.
+// Parsing of JSON from external programs, by simdjson. Every error is a RequestError with the path
+// of the wrong element. Only request readers include this header.
 
 namespace rovernet {
 
@@ -48,7 +48,7 @@ struct JsonElement {
     [[noreturn]] void fail(const char* code, const std::string& message) const {
         throw RequestError(code, path.text(), message);
     }
-    /// Reports that the element has a wrong type. @param what  expected type
+    /// Throws RequestError "bad_type" for this element. @param what  expected type
     [[noreturn]] void expected(std::string_view what) const;
 
     /// Element as a number. @throws RequestError "bad_type" for any other type, "out_of_range"
@@ -56,15 +56,15 @@ struct JsonElement {
     std::uint64_t whole_number(std::uint64_t lowest, std::uint64_t highest) const;
     bool truth() const;
     std::string_view text() const;
-    /// Time such as "100 ms", in seconds.
+    /// Duration [s], read from a text such as "100 ms".
     double seconds() const;
     simdjson::dom::object object() const;
     simdjson::dom::array array() const;
 };
 
-inline constexpr std::size_t most_items = 100'000;  ///< largest number of items of a list
+inline constexpr std::size_t most_items = 100'000;  ///< largest length of a JSON list
 
-/// Calls use(element) for each item of a list.
+/// Calls use(element) for each item of a JSON list.
 /// @throws RequestError "bad_type", "too_many"
 template <class Use>
 void for_each_item(const JsonElement& list, Use use) {
@@ -78,10 +78,10 @@ void for_each_item(const JsonElement& list, Use use) {
     }
 }
 
-/// Throws the error of an unknown key of an object, with a suggestion.
+/// Throws RequestError "unknown_key" for a key of a JSON object, with a suggestion.
 [[noreturn]] void fail_unknown_key(const JsonPath& object, std::string_view key,
                                    std::vector<std::string> known);
-/// Throws the error of a key that an object lacks.
+/// Throws RequestError "missing_key" for a key that a JSON object lacks.
 [[noreturn]] void fail_missing_key(const JsonPath& object, std::string_view key,
                                    std::string_view example);
 [[noreturn]] void fail_repeated_key(const JsonPath& object, std::string_view key);
@@ -102,7 +102,7 @@ std::array<std::optional<JsonElement>, N> members(const JsonElement& element,
     return found;
 }
 
-/// Element of a required key of the object `in`. @throws RequestError "missing_key"
+/// Value of a required key of the JSON object `in`. @throws RequestError "missing_key"
 inline const JsonElement& needed(const std::optional<JsonElement>& member, const JsonElement& in,
                                  std::string_view key, std::string_view example) {
     if (!member) fail_missing_key(in.path, key, example);

@@ -19,8 +19,8 @@ inline constexpr std::chrono::milliseconds before_kill{1000};
 /// @param leaders  process ids of the groups; a leader may have ended, but must not be reaped yet
 void end_groups(std::span<const pid_t> leaders);
 
-/// Registration of a process group that clear_away() ends, during the lifetime of this object. At
-/// most 1,024 groups are registered.
+/// Registration of a process group, for the lifetime of this object: clear_away() ends all
+/// registered groups. At most 1,024 groups are registered.
 class NotedGroup {
   public:
     explicit NotedGroup(pid_t leader);
@@ -32,8 +32,8 @@ class NotedGroup {
     std::size_t place_;
 };
 
-/// Registration of a file that clear_away() removes, and the destructor, too. At most 16 files are
-/// registered.
+/// Registration of a file, for the lifetime of this object: clear_away() removes all registered
+/// files, and the destructor removes its file. At most 16 files are registered.
 class NotedFile {
   public:
     explicit NotedFile(std::string path);

@@ -23,14 +23,14 @@ namespace rovernet {
 /// input and output of started programs. Connections carry lines or bytes. Only this class and
 /// WebSockets use sockets (Boost.Asio); all work is done in the calling thread.
 ///
-/// The next line of a controller is read after the previous one is answered and the answer is sent.
-/// So a controller that sends without reading does not fill the memory, and lines may be sent
-/// ahead. A byte stream is read as it arrives, and messages to its client may be sent at any time.
+/// The next line of a client is read after the previous line is answered and the answer is sent. So
+/// a client that sends without reading does not fill the memory, and lines may be sent ahead. A
+/// byte stream is read as it arrives, and messages to its client may be sent at any time.
 ///
-/// A connection whose first line is no JSON object gets an error and is closed, by its first byte
-/// if possible, and no line of it is executed. Reason: any web page can make a browser send an HTTP
-/// request to this machine, with arbitrary lines in its body; but a request begins with a word,
-/// never with a brace (RFC 9110, 9.1).
+/// A client whose first line is no JSON object gets an error and is disconnected, after its first
+/// byte if possible, and no line of the client is executed. Reason: any web page can make a browser
+/// send an HTTP request to this machine, with arbitrary lines in its body. An HTTP request begins
+/// with a word, never with a brace (RFC 9110, 9.1).
 ///
 /// | limit                               | value           | beyond it                 |
 /// |-------------------------------------|-----------------|---------------------------|
@@ -44,7 +44,7 @@ namespace rovernet {
 /// | silence of the client's machine     | 30 s            | 3 TCP probes within 30 s  |
 ///
 /// Beyond 500 connections, a new connection replaces the oldest one that has not sent a complete
-/// line or message yet. If there is none, the new connection is closed at once.
+/// line or message yet. If there is no such connection, the new one is closed immediately.
 class Listeners {
   public:
     using Connection = std::uint32_t;
@@ -56,14 +56,14 @@ class Listeners {
         std::function<std::size_t(Connection from, std::string_view bytes)> received =
             [](auto, auto) { return std::size_t{0}; };
         std::function<void(Connection gone)> closed = [](auto) {};
-        /// Whether the input rate of clients is limited, see InputRate; for bytes.
+        /// Whether the input rate of clients is limited, see InputRate; only for byte streams.
         bool has_rate = true;
-        /// Last message to a client of bytes that is disconnected since it does not read. `lost`:
-        /// number of messages to it that are dropped.
+        /// Last message to a client of a byte stream that is disconnected because it does not read.
+        /// `lost`: number of messages to the client that are dropped.
         std::function<std::string(std::size_t lost)> closing_message = [](auto) {
             return std::string();
         };
-        /// Line that tells a client why it is disconnected; none: connections carry bytes.
+        /// Line that reports to a client why it is disconnected; none: connections carry bytes.
         std::function<std::string(const RequestError& why)> line_error = {};
     };
 
@@ -86,24 +86,24 @@ class Listeners {
     /// @throws RunError
     void listen_unix(const std::string& path, Streams streams);
 
-    /// Calls `readable` whenever a descriptor has data to read, until it returns false.
+    /// Calls `readable` whenever a descriptor has data to read, until `readable` returns false.
     /// @throws RunError
     void watch(int descriptor, std::function<bool()> readable);
 
-    /// Sends a line (without its end) to a controller, which answers its last line; to a client of
-    /// a byte stream, sends the message unchanged.
+    /// Sends a message to a client. If the connection carries lines, the message is a line without
+    /// its end, which answers the client's last line. To a byte stream it is sent unchanged.
     void send(Connection to, std::string_view message);
     /// Closes a connection once all data is sent. The handler `closed` is called later, not by this
     /// call.
     void close(Connection which);
-    /// Waits for an event, at most `most`, and calls its handler; one event for each call. May
-    /// return without an event.
+    /// Waits at most `most` for one event, such as received bytes, and calls the handler of the
+    /// event. May return without an event.
     void wait(std::chrono::nanoseconds most);
-    /// Event loop that wait() runs, for other carriers of this process.
+    /// Event loop that wait() runs, for other servers of this process, such as WebSockets.
     boost::asio::io_context& io();
-    /// Sends all remaining data, waiting for clients of bytes at most `soon`, for others at most
-    /// `most`, then closes all connections. Waits for started programs, again at most `most`, and
-    /// ends the programs that still run. No handler is called any more.
+    /// Sends all remaining data, at most for `soon` to clients of byte streams and for `most` to
+    /// clients of lines, then closes all connections. Waits for started programs, again at most
+    /// `most`, and ends the programs that still run. No handler is called any more.
     /// @return errors of programs: "python3 x.py ended with 1"
     std::vector<std::string> close(std::chrono::milliseconds soon, std::chrono::milliseconds most);
 

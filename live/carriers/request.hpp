@@ -79,7 +79,7 @@ class RequestReader {
     RequestReader(RequestReader&&) noexcept;
     ~RequestReader();
 
-    /// Reads a line, without its end.
+    /// Reads the request in a line (without the line's end).
     /// @param network  network with the robots' names
     /// @param own      robots of the controller, in ascending order; empty before its "hello"
     /// @throws RequestError

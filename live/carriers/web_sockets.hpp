@@ -17,7 +17,7 @@ struct WebPage {
     std::string type;  ///< media type: "text/html; charset=utf-8"
     std::string text;
 };
-/// Pages by path: "/". No other path exists, and no file is read.
+/// Web pages by path, such as "/". No other path exists, and no file is read.
 using WebPages = std::map<std::string, WebPage, std::less<>>;
 
 /// Server for WebSocket clients (RFC 6455), including browsers. Connections carry whole messages.
@@ -35,7 +35,7 @@ using WebPages = std::map<std::string, WebPage, std::less<>>;
 /// | connections                        | 500            | see below                     |
 ///
 /// Beyond 500 connections, a new connection replaces the oldest one that is not admitted yet. If
-/// there is none, the new connection is closed at once.
+/// there is no such connection, the new one is closed immediately.
 ///
 /// The longest queued message of a client does not count in the limit of 4 MiB.
 class WebSockets {
@@ -69,7 +69,7 @@ class WebSockets {
     /// Token that clients from other machines or sites need, see Admission.
     const std::string& token() const;
 
-    /// Sends a text message to a client; the second function sends a binary message.
+    /// Sends a text message to a client; send_binary() sends a binary message.
     void send(Connection to, std::string_view text);
     void send_binary(Connection to, std::string_view bytes);
     /// Closes a connection once all data is sent. The handler `closed` is called later, not by this

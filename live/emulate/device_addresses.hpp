@@ -16,7 +16,7 @@ namespace rovernet {
 /// address (networks of 31 bits have neither: RFC 3021). Addresses must be unique. Notices list
 /// robots in different networks, which programs reach only by explicit routes, and unusable
 /// generated addresses.
-/// @return notices
+/// @return notices for the user
 /// @throws InputError at the first wrong address in the file
 std::vector<std::string> check_device_addresses(const Scenario& scenario);
 

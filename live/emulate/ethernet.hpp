@@ -29,8 +29,8 @@ class EthernetFormat : public PacketFormat {
     std::optional<std::string> write(HeardMessage heard) const override;
 
   private:
-    std::map<std::string, NodeId, std::less<>> robots_;  // robots by address
-    std::vector<std::string> addresses_;                 // addresses of the robots
+    std::map<std::string, NodeId, std::less<>> robots_;  // robots by hardware address
+    std::vector<std::string> addresses_;                 // hardware address of each robot
 };
 
 }  // namespace rovernet

@@ -18,8 +18,8 @@ struct ProgramEnd {
 /// forwarded; signals from the terminal reach the program directly.
 ///
 /// When the run ends for any reason, this process ends the program and its descendants, since they
-/// have no network any more (end_processes). It learns of the end by a message of the keeper, the
-/// process that holds the networks of the run, or, if the keeper was killed, by the broken
+/// have no network any more (end_processes). The keeper, the process that owns the networks of the
+/// run, reports the end by a message. If the keeper was killed, this process detects the broken
 /// connection.
 /// @param words  command line of the program, at least one word
 /// @throws RunError if the program cannot be started

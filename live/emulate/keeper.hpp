@@ -8,7 +8,8 @@
 
 namespace rovernet {
 
-/// Message of the keeper to all admitted clients: the run has ended.
+/// Message of the keeper (process that owns the robots' networks) to all admitted clients: the run
+/// has ended.
 inline constexpr const char* run_has_ended = "ended";
 
 /// Keeper: the process that holds the robots' network namespaces and passes them to clients of

@@ -11,8 +11,8 @@
 
 namespace rovernet {
 
-/// Network namespaces, one for each robot, each with a TAP device. For unprivileged users a user
-/// namespace is created first, in which this is allowed.
+/// Network namespaces, one for each robot, each with a TAP device. An unprivileged user gets a user
+/// namespace first, in which network namespaces can be created.
 ///
 /// A separate process, the keeper (run_keeper), holds the namespaces, so that this process stays in
 /// its own network. The keeper passes a namespace to processes of this user on request
@@ -39,7 +39,7 @@ class Namespaces {
     void end();
 
     std::vector<RobotDevice> robots_;
-    std::vector<int> devices_;  // -1: taken
+    std::vector<int> devices_;  // TAP devices of the robots; -1: taken by take_device()
     int keeper_socket_ = -1;
     pid_t keeper_ = -1;
 };

@@ -29,7 +29,7 @@ class PacketFormat {
     virtual std::variant<SendCommand, PacketFault> read(NodeId from,
                                                         std::string_view packet) const = 0;
     /// Converts a received message into a packet for the robot's programs; none if the message is
-    /// not for them.
+    /// not for these programs.
     virtual std::optional<std::string> write(HeardMessage heard) const = 0;
 };
 

@@ -24,7 +24,8 @@ class OwnDescriptor {
     int value_;
 };
 
-/// Selection of a run for `rovernet in`; empty members match any run.
+/// Selection of a run for the command `rovernet in`, which starts a program in a robot's network;
+/// empty members match any run.
 struct WantedRun {
     std::optional<pid_t> process = {};
     std::optional<std::string> folder = {};  ///< folder of the run's results
@@ -33,7 +34,7 @@ struct WantedRun {
     std::optional<uid_t> user = {};
 };
 
-/// Network namespace of a robot in a current run, for programs of `rovernet in`.
+/// Network namespace of a robot in a current run, for a program that `rovernet in` starts.
 struct RobotNetwork {
     std::string robot;
     pid_t run;

@@ -17,13 +17,14 @@
 
 namespace rovernet {
 
-/// Message that a robot sent, with its uid.
+/// Message that a robot sent: uid of the message, and the robot.
 struct SentMessage {
     std::uint64_t uid;
     NodeId robot;
 };
 
-/// Writer of answers to a controller of a lock-step run. Each line is valid until the next call.
+/// Writer of answers to a controller (external program) of a lock-step run. Each line is valid
+/// until the next call.
 class AnswerWriter {
   public:
     /// @param session, scenario  must outlive the writer
@@ -42,10 +43,10 @@ class AnswerWriter {
 
   private:
     void put(std::string_view text) { line_.put(text); }
-    void put(double number);  // null if not finite
+    void put(double number);  // writes null for a number that is not finite
     void put(std::int64_t number) { line_.put_number(number); }
     void put(std::uint64_t number) { line_.put_number(number); }
-    /// Puts several pieces, such as a key and its value.
+    /// Appends several pieces to the line, such as a key and its value.
     template <class... Pieces>
     requires(sizeof...(Pieces) > 1) void put(const Pieces&... pieces) { (put(pieces), ...); }
     static std::string_view truth(bool is_true) { return is_true ? "true" : "false"; }
@@ -70,11 +71,11 @@ class AnswerWriter {
     JsonLine line_;
 };
 
-/// Answer "error": a line was rejected.
+/// Answer "error": a line of a controller was rejected. @param number  `n` of that line
 std::string error_line(const RequestError& fault, std::optional<std::uint64_t> number);
 /// Answer "end": the last line to a controller.
 /// @param reason   bye, done, stopped, lost or patience
-/// @param metrics  as in summary.json
+/// @param metrics  metrics of the run, as in summary.json
 std::string end_line(std::string_view reason, std::string_view fingerprint, const Table& metrics);
 
 }  // namespace rovernet

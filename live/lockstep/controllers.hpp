@@ -31,17 +31,17 @@ struct Controller {
 
     /// Starts a run: attaches the controller's robots in the session, and waits for a request.
     void join(Session& session);
-    /// Takes the request of a step from now on, which ends with the scenario at the latest.
-    /// @param request  gets other memory for its commands, so that none is allocated per step
+    /// Stores the request of a step, which starts now and ends with the scenario at the latest.
+    /// @param request  gets the previous step's list of commands in exchange, to reuse its memory
     void ask(const Session& session, StepRequest& request);
 
-    std::optional<Connection> connection;  ///< connection of the controller; none: lost
+    std::optional<Connection> connection;  ///< connection; none: lost, or in this process
     HelloRequest hello;
     std::vector<NodeId> own;  ///< robots of the controller's "hello", in ascending order
     ClientId client = 0;      ///< id of the controller as a client of the session
     State state = State::owes;
     Time step_end = start_of_run;  ///< end of the step that the controller requested
-    StepRequest step = {};         ///< last step; its commands until they are executed
+    StepRequest step = {};         ///< last step request, without executed commands
     bool has_stepped = false;
     std::optional<std::uint64_t> reset_seed = {};
     std::vector<SentMessage> sent = {};  ///< messages sent in the controller's last step
@@ -49,7 +49,7 @@ struct Controller {
 };
 
 /// Controllers of a lock-step run, in the order of their "hello" requests, and the execution of
-/// their steps. References are valid until a controller joins or leaves.
+/// their steps. References to controllers are valid until a controller joins or leaves.
 class Controllers {
   public:
     using Connection = Controller::Connection;
@@ -63,15 +63,15 @@ class Controllers {
 
     /// Controller at the other end of a connection; null before its "hello".
     Controller* of(Connection connection);
-    /// Controller with this name, connected or lost; null if there is none.
+    /// Controller with this name, connected or lost; null if no controller has the name.
     Controller* named(std::string_view name);
 
     void add(Controller controller) { all_.push_back(std::move(controller)); }
     void remove(Connection connection);
     /// Removes all controllers.
     void clear() { all_.clear(); }
-    /// Removes controllers that sent "bye". @return the removed ones, in the order of their first
-    /// robots
+    /// Removes controllers that sent "bye". @return the removed controllers, in the order of their
+    /// first robots
     std::vector<Controller> take_leaving();
 
     /// Names of controllers whose next request is missing.
@@ -81,12 +81,12 @@ class Controllers {
     /// Earliest end of the steps that controllers requested; `never` if no controller waits.
     Time next_end() const;
 
-    /// Executes the commands of the current requests now, in the order of robots; those for one
-    /// robot in the order of the request.
+    /// Executes the commands of the current requests now: in the order of robots, for each robot in
+    /// the order of the request.
     void carry_out(Session& session);
 
   private:
-    /// Command of a controller's request.
+    /// Command for a robot from a controller's request.
     struct Due {
         NodeId robot;
         Controller* controller;

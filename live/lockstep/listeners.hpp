@@ -13,13 +13,14 @@ namespace rovernet {
 
 /// Ways by which controllers connect to a lock-step run.
 struct ControllerAccess {
-    std::vector<std::string> programs = {};     ///< programs to start, by the shell
+    std::vector<std::string> programs = {};     ///< shell commands that start controllers
     std::optional<Address> listen = {};         ///< address for connections by TCP
     std::optional<Address> web = {};            ///< address for WebSockets
     std::optional<std::string> unix_path = {};  ///< path of a Unix socket
 };
 
-/// Server of the lock-step protocol. @param settings  `programs` is overwritten
+/// Server of the lock-step protocol.
+/// @param settings  settings of the protocol; the member `programs` is overwritten
 FrontListeners lockstep_listeners(const ControllerAccess& access, Lockstep::Settings settings);
 
 }  // namespace rovernet

@@ -24,7 +24,7 @@ namespace rovernet {
 enum class OnLoss {
     end,   ///< the run ends
     stop,  ///< the controller's robots stop, the run continues
-    wait,  ///< simulated time stands still until it reconnects
+    wait,  ///< simulated time stands still until the controller reconnects
 };
 
 /// Lock-step protocol: simulated time advances only when every controller has requested a step.
@@ -33,14 +33,15 @@ enum class OnLoss {
 /// simulation has reached the end of its step. Once every controller has sent its request, all
 /// commands are executed in the order of robots, and simulated time advances to the earliest end of
 /// a step. So results depend neither on the order of arrival nor on the computing time of
-/// controllers. What arrives during a step counts from its end.
+/// controllers. A message that arrives during a step takes effect at the end of the step.
 class Lockstep : public Front {
   public:
     struct Settings {
         std::size_t wait_for = 1;  ///< number of controllers needed to start the run
         OnLoss on_loss = OnLoss::end;
-        std::optional<std::chrono::nanoseconds> patience = {};  ///< timeout for a request
-        /// Number of programs that were started, if nobody else can connect.
+        /// Timeout for a request of a controller, in real time; none: no timeout.
+        std::optional<std::chrono::nanoseconds> patience = {};
+        /// Number of started programs, if no other program can connect; none: others can connect.
         std::optional<std::size_t> programs = {};
         /// Called with notices for the user, such as awaited controllers.
         std::function<void(std::string_view)> say = [](std::string_view) {};
@@ -48,7 +49,7 @@ class Lockstep : public Front {
 
     Lockstep(Settings settings, Carrier carrier);
 
-    /// Starts a run. In a run that begins anew, connected controllers get "welcome".
+    /// Starts a run. If the run starts again, connected controllers get the answer "welcome".
     void begin(Session& session, const Scenario& scenario) override;
     void opened(Connection, ListenerId) override {}
     /// Handles a line of a controller, without its end. Errors are sent to the controller.
@@ -99,13 +100,13 @@ class Lockstep : public Front {
     RequestReader reader_;
     Controllers controllers_;
     std::vector<Connection> leaving_;  // connections that sent "bye" and wait for the last line
-    std::deque<std::function<void()>> after_step_;  // lines and losses that came during a step
-    std::optional<Time> step_end_;                  // end of the step under way; none: time waits
+    std::deque<std::function<void()>> after_step_;  // handlers of lines and losses during a step
+    std::optional<Time> step_end_;                  // end of the current step; none: between steps
     bool has_started_ = false;
     bool is_over_ = false;
     std::optional<std::size_t> told_present_;
     std::uint64_t seed_ = 0;                 // seed that the controllers agree on
-    std::optional<std::uint64_t> new_seed_;  // set if the run must begin anew
+    std::optional<std::uint64_t> new_seed_;  // set if the run must start again
     std::string reason_ = "stopped", fault_;
 };
 

@@ -22,7 +22,7 @@
 namespace rovernet {
 
 /// Run of a scenario whose robots are driven step by step by a program in this process, which is
-/// its only controller. Equal commands give the same run as by Lockstep.
+/// its only controller. Equal commands give the same run as by the lock-step protocol (Lockstep).
 ///
 ///   SteppedRun run(scenario, {.step = 100ms});
 ///   while (!run.is_done()) {
@@ -34,7 +34,7 @@ namespace rovernet {
 class SteppedRun {
   public:
     struct Settings {
-        /// Names of the driven robots, in the order of the rows of arrays; none: all robots.
+        /// Names of the driven robots, in the order of poses(); none: all robots.
         std::optional<std::vector<std::string>> robots = {};
         /// Simulated time of a step [ns], >= shortest_step.
         Duration step = std::chrono::milliseconds{100};
@@ -43,7 +43,8 @@ class SteppedRun {
         std::optional<std::string> folder = {};
         /// Name of the program in the input log.
         std::string client = "program";
-        /// Function that adds sinks to the network, called for the first run and after each reset.
+        /// Function that adds sinks (observers of records) to the network, called for the first run
+        /// and after each reset.
         std::function<void(Network&)> prepare = {};
     };
 
@@ -55,8 +56,8 @@ class SteppedRun {
     /// Starts the run again. @param seed  none: the same seed. @throws InputError, RunError
     void reset(std::optional<std::uint64_t> seed = {});
 
-    // Commands, executed at the start of the next step: by robot, first its last movement, then its
-    // messages. @throws std::invalid_argument for a number out of range
+    // Commands are executed at the start of the next step, robot by robot: first the robot's last
+    // movement command, then its messages. @throws std::invalid_argument for a number out of range
 
     /// Adds a command for the next step. @param row  index of the robot in robots()
     void command(std::size_t row, RobotCommand command);
@@ -76,7 +77,7 @@ class SteppedRun {
     /// then of robot.
     std::vector<HeardMessage> heard() { return session().heard(controller().client); }
 
-    /// Driven robots, in the order of the rows of arrays.
+    /// Driven robots, in the order of poses().
     const std::vector<NodeId>& robots() const { return robots_; }
     /// x [m], y [m] and heading [rad] of each robot at the end of the last step, one robot after
     /// the other. The array keeps its address.
@@ -107,11 +108,11 @@ class SteppedRun {
     KeptPlanners kept_;
     std::unique_ptr<ScenarioRun> run_;
     std::optional<InputLog> log_;
-    Controllers controllers_;  // the program alone
+    Controllers controllers_;  // the program as only controller
     std::vector<NodeId> robots_;
-    std::vector<std::optional<RobotCommand>> movements_;  // last one of each row
+    std::vector<std::optional<RobotCommand>> movements_;  // last movement of each robot
     std::vector<std::pair<NodeId, RobotCommand>> messages_;
-    StepRequest request_;  // of the current step
+    StepRequest request_;  // request of the current step
     std::vector<double> poses_;
 };
 

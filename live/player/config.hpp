@@ -11,7 +11,7 @@
 
 namespace rovernet {
 
-/// Configuration file of a Player server (.cfg), as far as it assigns robots of a world to ports:
+/// Content of a Player server's configuration file (.cfg) that assigns robots of a world to ports:
 ///
 ///   driver ( name "stage" provides [ "simulation:0" ] worldfile "simple.world" )
 ///   driver ( name "stage" provides [ "6665:position2d:0" "6665:wifi:0" ] model "robot1" )
@@ -21,8 +21,8 @@ namespace rovernet {
 ///
 /// The comdriver is the driver of the 2007 thesis that added radio to Stage (docs/worlds.md): it
 /// sends messages by radio, and the first byte of a message is the time-to-live. Its mapping gives
-/// the port of the robot with an IP address. Other drivers of a Player server are not supported
-/// here; a notice names them.
+/// the port of the robot with an IP address. Other drivers of a Player server are not supported; a
+/// notice names them.
 struct PlayerConfig {
     /// Entry of a comdriver's mapping: a robot's IP address and port.
     struct Mapped {
@@ -35,7 +35,7 @@ struct PlayerConfig {
         std::vector<Mapped> mapping = {};
         Location where = {};
     };
-    /// Robot with the address of its position2d device.
+    /// Robot of a configuration file, with the address of its position2d device.
     struct Robot {
         std::string model;
         std::uint16_t port = 6665;
@@ -49,7 +49,7 @@ struct PlayerConfig {
     std::vector<Robot> robots;
     std::vector<std::string> notices = {};  ///< notices to the user, "file:line: text"
 
-    /// Whether messages have a time-to-live as their first byte, since a comdriver is configured.
+    /// Whether a robot has a comdriver, so that messages begin with a time-to-live byte.
     bool has_comdriver() const;
 };
 

@@ -19,11 +19,13 @@ struct ConfiguredDevice {
     friend bool operator==(const ConfiguredDevice&, const ConfiguredDevice&) = default;
 };
 
-/// Device addresses in the list `key` of a driver, "provides" or "requires"; empty without the key.
+/// Device addresses in the list `key` ("provides" or "requires") of a driver in a Player
+/// configuration; empty if the driver lacks the key.
 /// @throws InputError for an invalid address
 std::vector<ConfiguredDevice> configured_devices(const WorldEntity& driver, std::string_view key);
 
-/// Mapping of a comdriver to ports: ["192.168.0.2" 6666 ...]. @throws InputError for any other form
+/// Pairs of a robot's IP address and Player port, read from the key `mapping` of a comdriver (radio
+/// driver): ["192.168.0.2" 6666 ...]. @throws InputError for any other form
 std::vector<PlayerConfig::Mapped> read_mapping(const WorldEntity& driver);
 
 }  // namespace rovernet

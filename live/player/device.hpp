@@ -12,15 +12,15 @@
 
 namespace rovernet {
 
-/// Interval between data messages of most devices, and between answers to clients in PULL mode; the
-/// same as in Stage.
+/// Interval between data messages of most Player devices, and between answers to clients in PULL
+/// mode; the same as in the simulator Stage.
 inline constexpr Duration player_tick = std::chrono::milliseconds(100);
 
 /// Player device of a robot, with one Player interface, to which clients subscribe. The device does
 /// not store its clients.
 ///
-/// A payload that is too short or invalid throws MalformedMessage; then a request is refused, and a
-/// command is ignored.
+/// The functions throw MalformedMessage if the payload is too short or invalid. The server then
+/// refuses the request, or ignores the command.
 class PlayerDevice {
   public:
     virtual ~PlayerDevice() = default;

@@ -24,9 +24,9 @@ struct PlayerPlace {
     /// Index of the robot's devices at its listening address; for range finders see PlayerDevices.
     std::uint32_t index = 0;
     std::optional<std::uint32_t> relay = {};  ///< index of the relay (`opaque`); none: 2 `index`
-    /// Index of the robot's radio (`opaque`); none: index of the relay + 1.
+    /// Index of the robot's radio (`opaque`); none: 2 `index` + 1.
     std::optional<std::uint32_t> radio = {};
-    bool has_ttl = false;  ///< true: the first byte of messages to and from its radio is the TTL
+    bool has_ttl = false;  ///< true: the first byte of the robot's radio messages is the TTL
 };
 
 /// Player device with the address at which clients find it.
@@ -64,7 +64,7 @@ class PlayerDevices {
     using ListenerInterface = std::pair<std::size_t, PlayerInterface>;
 
     std::list<PlayerRobot> robots_;  // robots, to which devices refer
-    // Largest number of range finders of one robot.
+    // Largest number of range finders of one robot, by listening address and Player interface.
     std::map<ListenerInterface, std::uint32_t> most_;
     std::list<PlacedDevice> devices_;
 };

@@ -20,15 +20,15 @@ struct PlayerSettings {
     /// True for lock-step: simulated time advances by 100 ms once all clients in PULL mode have
     /// requested data. The run ends when the last client has left.
     bool is_lockstep = false;
-    std::size_t wait_for = 1;  ///< number of clients in PULL mode that start time in lock-step
+    std::size_t wait_for = 1;  ///< lock-step: number of PULL clients before time starts
 };
 
-/// Player server, for programs written for Player and Stage. docs/live.md has its table of
+/// Player server, for programs written for Player and Stage. docs/live.md lists the supported
 /// messages.
 ///
 /// A client in PULL mode requests data and is answered at the next multiple of 100 ms: data of each
-/// subscribed device, then SYNCH. Without data its request stays open. Clients in PUSH mode get
-/// every message as soon as it is there.
+/// subscribed device, then SYNCH. If there is no data, the request stays open. Clients in PUSH mode
+/// get every message immediately.
 class PlayerFront : public Front {
   public:
     PlayerFront(PlayerSettings settings, Carrier carrier);
@@ -46,7 +46,7 @@ class PlayerFront : public Front {
 
   private:
     struct Client;
-    /// Command of a client that waits, in lock-step, until all clients have requested data.
+    /// Command of a client; in lock-step it is executed when all clients have requested data.
     struct Deferred {
         PlacedDevice* device;
         Connection from;
@@ -80,7 +80,7 @@ class PlayerFront : public Front {
     std::map<Connection, Client> clients_;
     std::vector<Deferred> deferred_;
     std::size_t deferred_bytes_ = 0;
-    bool has_begun_ = false;  // whether time has started, in lock-step
+    bool has_begun_ = false;  // whether simulated time has started, in lock-step
     Time next_ = never;
 };
 

@@ -14,7 +14,7 @@
 
 namespace rovernet {
 
-/// Interface (kind) of a Player device. Messages may contain further kinds.
+/// Interface (kind) of a Player device. Messages may contain further values.
 enum class PlayerInterface : std::uint32_t {
     player = 1,
     position2d = 4,
@@ -45,22 +45,22 @@ struct PlayerMessage {
     std::string payload = {};
 };
 
-/// Reads and writes the address of a device in a payload, where the server's address precedes it.
-/// @throws MalformedMessage
+/// Reads the address of a device, which follows the server's host and port in a payload;
+/// put_address() writes them. @throws MalformedMessage
 PlayerAddress read_address(XdrReader& payload);
 XdrWriter& put_address(XdrWriter& out, PlayerAddress device, std::uint16_t port);
 
 /// Banner: first bytes to a client. Clients read them in one call and ignore their content.
 std::string player_banner();
 
-/// Bytes of a message.
+/// Bytes of a message: header and payload.
 /// @param port  port of this server to which the client is connected; 0: the message belongs to no
 /// device
 std::string encode(const PlayerMessage& message, std::uint16_t port);
 
-/// Message SYNCH, which ends the data that answer a request of a client in PULL mode.
+/// Encoded message SYNCH, which ends the data that answer a request of a client in PULL mode.
 std::string player_round_end();
-/// Message to a client that does not read fast enough. @param lost  number of lost messages
+/// Encoded message to a client that does not read fast enough. @param lost  number of lost messages
 std::string player_overflow(std::size_t lost);
 
 /// Parser of the byte stream of a client into messages.

@@ -18,17 +18,17 @@ class PlayerRelay : public PlayerDevice {
     void unsubscribed() override { data(); }
 
   private:
-    // Largest number of messages between two data messages.
+    // Largest number of messages stored until the next data message.
     static constexpr std::size_t most = 1'024;
     static constexpr std::size_t most_bytes = std::size_t{3}
-                                              << 20U;  // largest size of these messages
+                                              << 20U;  // largest size of stored messages [bytes]
 
     std::vector<std::string> said_;
     std::size_t bytes_ = 0;  // bytes of all stored messages
 };
 
-/// Second `opaque` device of a robot: messages by radio. Commands are sent to everyone by the
-/// scenario's routing protocol; received messages are data.
+/// Second `opaque` device of a robot: messages by radio. The payload of a command is sent to all
+/// robots by the scenario's routing protocol; clients get received messages as data.
 ///
 /// With `has_ttl` the device acts like the comdriver of the 2007 thesis that added radio to Stage:
 /// the first byte of a message is its TTL, which each hop decreases by one. A client gets the TTL

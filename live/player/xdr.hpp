@@ -27,9 +27,9 @@ class XdrWriter {
     XdrWriter& i32(std::int32_t value) { return u32(static_cast<std::uint32_t>(value)); }
     XdrWriter& f32(float value);
     XdrWriter& f64(double value);
-    /// Writes several numbers, without a count.
+    /// Writes several 8-byte numbers, without a count.
     XdrWriter& f64s(std::span<const double> values);
-    /// Writes the number of elements that precedes an array.
+    /// Writes the number of elements that precedes an array, twice.
     XdrWriter& count(std::size_t elements);
     /// Writes an array of bytes, padded with zeros to a multiple of 4.
     XdrWriter& bytes(std::string_view bytes);
@@ -51,10 +51,10 @@ class XdrReader {
     /// @param bytes  must outlive the reader
     explicit XdrReader(std::string_view bytes) : rest_(bytes) {}
 
-    /// Next element. @throws MalformedMessage if it is incomplete
+    /// Next 4-byte number. @throws MalformedMessage if fewer bytes are left
     std::uint32_t u32();
     double f64();
-    /// Next number, which must lie between -`most` and `most`. @throws MalformedMessage
+    /// Next 8-byte number, which must lie between -`most` and `most`. @throws MalformedMessage
     double f64_within(double most);
     /// Next array of bytes. @throws MalformedMessage, also if the two counts before it differ
     std::string_view bytes();

@@ -6,8 +6,8 @@
 
 namespace rovernet {
 
-/// Services of rosapi, by which ROS clients list topics, services and nodes. There is one node,
-/// rovernet, with all topics and services.
+/// Services of the ROS package rosapi, by which ROS clients list topics, services and nodes. There
+/// is one node, rovernet, with all topics and services.
 class RosApi {
   public:
     /// @param session  must outlive this object
@@ -19,7 +19,8 @@ class RosApi {
   private:
     enum class Direction { in, out, both };
 
-    /// Writes a list of names of topics: of one message type, or of all topics if `type` is empty.
+    /// Writes a list of topic names under `key`: topics of one direction (in: clients publish), and
+    /// of message type `type`; an empty type matches all topics.
     void write_topics(RosWriter& out, std::string_view key, Direction direction,
                       std::string_view type = {}) const;
     void write_types(RosWriter& out) const;

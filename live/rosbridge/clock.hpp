@@ -31,7 +31,7 @@ class RosClock {
 
     /// Number of unfinished steps of a client.
     std::size_t steps(Connection client) const;
-    /// Starts a step: time advances until the end of the longest step, then stops.
+    /// Starts a step: simulated time advances until the latest end of all steps, then stops.
     void begin(Step step);
     /// Pauses simulated time now, on behalf of a client.
     /// @return calls of steps that end early because of this, the oldest first
@@ -41,7 +41,7 @@ class RosClock {
     std::vector<Step> unpause();
     /// Handles a client that has left. Its steps continue, since other clients may wait for the
     /// steps' end; its calls are dropped.
-    /// @return as unpause(), if time continues; none otherwise
+    /// @return calls of steps that end early, the oldest first, if time continues; none otherwise
     std::vector<Step> left(Connection client);
     /// Ends the steps whose end is reached at time `now`.
     /// @return calls of the ended steps, the oldest first
@@ -49,7 +49,7 @@ class RosClock {
 
     /// Whether a step ends at time `now`, and end_steps() has not ended it yet.
     bool is_step_end(Time now) const;
-    /// Simulated time at which the next step ends; `never` if there is none.
+    /// Simulated time at which the next step ends; `never` if no step is unfinished.
     Time next() const;
     /// Simulated time at which the run must stop; `never` if no client blocks time.
     Time limit() const { return limit_; }

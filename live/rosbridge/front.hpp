@@ -19,10 +19,10 @@
 namespace rovernet {
 
 /// Server of the rosbridge protocol, version 2, for ROS clients such as roslib. docs/live.md lists
-/// its topics and services. It receives and sends whole messages.
+/// its topics and services. The server receives and sends whole messages.
 ///
-/// Errors are answered with the client's id: errors of a call by its result, other errors by a
-/// status message. The connection stays open.
+/// An error is answered with the id of the client's request: an error of a service call in the
+/// response, any other error in a status message. The connection stays open.
 class RosbridgeFront : public Front {
   public:
     explicit RosbridgeFront(Carrier carrier);

@@ -25,8 +25,8 @@ SendCommand read_send(const JsonElement& message, NodeId robot, const Network& n
 /// Robot with this name. @throws RequestError "unknown_robot"
 NodeId read_robot(const JsonElement& name, const Network& network);
 
-/// Command that teleports a robot to a geometry_msgs/Pose. Without an orientation, or without z,
-/// the robot keeps its current one.
+/// Command that teleports a robot to a geometry_msgs/Pose. A robot keeps its current heading if the
+/// pose has no orientation, and its current height if the pose has no z.
 PlaceCommand read_place(const JsonElement& pose, NodeId robot, const Network& network);
 
 }  // namespace rovernet

@@ -11,11 +11,11 @@
 
 namespace rovernet {
 
-/// Writer of the messages of published topics, for the current time.
+/// Writer of the ROS messages of topics to which clients subscribe, for the current simulated time.
 ///
-/// Coordinate frames: `map` is the world. NAME/odom equals `map`, since odometry has no errors
-/// here. NAME/base_link is at the robot, with x ahead. A range finder with an offset or a rotation
-/// on the robot has a separate frame, NAME/SCANNER_frame.
+/// Coordinate frames: `map` is the world. NAME/odom equals `map`, since simulated odometry has no
+/// errors. NAME/base_link is at the robot, with x ahead. A range finder with an offset or a
+/// rotation on the robot has a separate frame, NAME/SCANNER_frame.
 class RosMessages {
   public:
     /// Session and robots must outlive this object.
@@ -23,9 +23,10 @@ class RosMessages {
 
     /// Interval between messages of a topic; 0 if the topic is not periodic.
     Duration period(const RosTopic& topic) const;
-    /// Writes the current message of a topic. @param topic  neither an input nor `received`
+    /// Writes the message of a topic for the current time. @param topic  topic to which clients
+    /// subscribe; not radio/received, whose messages the other overload writes
     void write(RosWriter& out, const RosTopic& topic) const;
-    /// Writes a message that a robot received, as rovernet_msgs/Received.
+    /// Writes a radio message that a robot received, as ROS type rovernet_msgs/Received.
     void write(RosWriter& out, const HeardMessage& heard) const;
 
   private:
@@ -42,7 +43,7 @@ class RosMessages {
     const RosRobots& robots_;
 };
 
-/// Writes a builtin_interfaces/Time.
+/// Writes a time as ROS type builtin_interfaces/Time.
 void write_time(RosWriter& out, Time time);
 
 }  // namespace rovernet

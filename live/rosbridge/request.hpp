@@ -16,7 +16,7 @@
 
 namespace rovernet {
 
-/// Encoding of the messages of a topic.
+/// Encoding of the messages of a topic to one client.
 enum class RosEncoding { json, cbor };
 
 /// Delivery options of one client's subscription to a topic.
@@ -36,7 +36,7 @@ struct RosSubscribe {
 struct RosUnsubscribe {
     std::string topic;
 };
-/// Request without effect: advertise and unadvertise are not needed here.
+/// Request without effect: advertise or unadvertise, which this server does not need.
 struct RosNothing {};
 struct RosPublish {
     NodeId robot;
@@ -53,7 +53,7 @@ enum class RosLevel { info, warning, error, none };
 using RosRequest =
     std::variant<RosSubscribe, RosUnsubscribe, RosNothing, RosPublish, RosCall, RosLevel>;
 
-/// Name and id of the last request (operation), for its answer, even if the rest is invalid.
+/// Name and id of a client's request (operation), for the answer, even if the rest is invalid.
 struct RosOperation {
     std::string name;               ///< name of the operation, "publish"; empty if missing
     std::optional<std::string> id;  ///< id of the operation, given by the client; none if missing

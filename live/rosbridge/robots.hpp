@@ -18,21 +18,22 @@ class RosRobots {
   public:
     explicit RosRobots(Session& session) : session_(session) {}
 
-    /// Takes control of a robot for all ROS clients until the run ends; no effect if it has
-    /// control.
+    /// Takes control of a robot for all ROS clients until the run ends; no effect if ROS clients
+    /// have control already.
     /// @throws RequestError "taken" if a program that uses another protocol drives the robot
     void take(NodeId robot);
-    /// Whether some robot is attached, so that received messages must be fetched now and then.
+    /// Whether ROS clients control a robot, whose received messages must be fetched regularly.
     bool any() const { return !clients_.empty(); }
 
-    /// Executes a ROS client's command. @return as Session::carry_out(). @throws RequestError
-    /// "taken"
+    /// Executes a ROS client's command. @return uid of the sent message; none: no message was sent
+    /// @throws RequestError "taken", "no_room"
     std::optional<std::uint64_t> carry_out(NodeId robot, const RobotCommand& command,
                                            Front::Connection by);
-    /// Handles a client that has left: robots that it commanded last stop.
+    /// Handles a client that has left: stops the robots that the client was the last to drive.
     void left(Front::Connection client);
 
-    /// Messages that attached robots received since the last call, in order of time, then of robot.
+    /// Messages that robots of ROS clients received since the last call, in order of time, then of
+    /// robot.
     std::vector<HeardMessage> heard();
     /// Time of the last message that robot `at` received in a frame of robot `last_hop`; none: no
     /// message yet.

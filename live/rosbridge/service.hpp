@@ -77,12 +77,12 @@ inline constexpr std::array<RosServiceType, 20> ros_services = {{
 /// ROS service that a client has named.
 struct RosService {
     const RosServiceType* type;
-    NodeId robot = {};  ///< robot to which the service belongs, if it belongs to one
+    NodeId robot = {};  ///< robot that has the service; unused for a service of the world
 
     RosServiceKind kind() const { return type->kind; }
 };
 
-/// Arguments of a call of a ROS service; the service determines which are used.
+/// Arguments of a call of a ROS service; the service determines which members are used.
 struct RosArguments {
     std::string text = {};  ///< text argument of services with RosServiceType::argument
     std::optional<NodeId> robot = {};
@@ -91,7 +91,7 @@ struct RosArguments {
 };
 
 class Network;
-/// ROS service with this name; none if there is none.
+/// ROS service with this name; none if no service has the name.
 std::optional<RosService> find_service(std::string_view name, const Network& network);
 
 }  // namespace rovernet

@@ -14,10 +14,10 @@
 
 namespace rovernet {
 
-/// Messages of one topic to one client, for all its subscriptions to the topic: with the smallest
-/// of their intervals and queue lengths, and one encoding. Messages that come too early are queued,
-/// at most 256 KiB with the newest kept, and sent when the interval has passed in simulated time,
-/// so that every replay sends the same messages.
+/// Messages of one topic to one ROS client, for all subscriptions of the client to the topic. The
+/// smallest interval and queue length of the subscriptions apply, and one encoding. Messages that
+/// come too early are queued, at most the newest 256 KiB, and sent when the interval has passed in
+/// simulated time, so that every replay sends the same messages.
 class RosStream {
   public:
     using Emit = std::function<void(std::string_view message)>;
@@ -26,7 +26,7 @@ class RosStream {
     void add(const std::string& id, const RosDelivery& delivery);
     void remove(const std::string& id) { deliveries_.erase(id); }
     std::size_t subscriptions() const { return deliveries_.size(); }
-    /// Combined delivery options of all subscriptions of the client to the topic.
+    /// Delivery options combined from all subscriptions of the client to the topic.
     RosDelivery delivery() const;
 
     /// Takes a new message of the topic, and sends, queues or drops it.

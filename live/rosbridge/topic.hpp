@@ -14,8 +14,8 @@
 
 namespace rovernet {
 
-/// Interval at which messages received by robots are fetched. Periods of topics are multiples of
-/// it, except for scans.
+/// Interval at which messages received by robots are fetched. Periods of topics, except for scans,
+/// are multiples of this interval.
 inline constexpr Duration ros_tick = std::chrono::milliseconds(10);
 
 enum class RosTopicKind {
@@ -65,7 +65,7 @@ inline constexpr std::string_view stamped_velocity = "geometry_msgs/TwistStamped
 /// ROS topic that a client has named.
 struct RosTopic {
     const RosTopicType* type;
-    NodeId robot = {};        ///< robot to which the topic belongs, if it belongs to one
+    NodeId robot = {};        ///< robot that has the topic; unused for a topic of the world
     std::size_t scanner = 0;  ///< index of the robot's range finder, for a topic `scan`
 
     RosTopicKind kind() const { return type->kind; }
@@ -73,17 +73,17 @@ struct RosTopic {
 
 /// Whether a topic has this message type; "pkg/msg/Type" equals "pkg/Type".
 bool is_type_of(const RosTopicType& topic, std::string_view type);
-/// Message type in the form "pkg/Type".
+/// Message type converted to the form "pkg/Type".
 std::string plain_type(std::string_view type);
-/// Name without a leading "/", which is optional in ROS names.
+/// Name of a topic or service without a leading "/", which is optional in ROS names.
 std::string_view plain_name(std::string_view name);
 /// Robot in a topic name of the form ROBOT/`rest`; none if there is no such robot.
 std::optional<NodeId> robot_before(std::string_view name, std::string_view rest,
                                    const Network& network);
 
-/// ROS topic with this name; none if there is none.
+/// ROS topic with this name; none if no topic has the name.
 ///
-/// A robot has a scan for each range finder with evenly spaced beams: "/A/scan" for its first
+/// A robot has a scan topic for each range finder with evenly spaced beams: "/A/scan" for its first
 /// laser, or for its first range finder if it has no laser; "/A/rear/scan" for a range finder named
 /// "rear".
 std::optional<RosTopic> find_topic(std::string_view name, const Session& session);

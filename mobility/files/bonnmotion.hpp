@@ -11,9 +11,9 @@ namespace rovernet {
 /// seconds and metres; comment lines begin with #. The node of line i, from 0, is named "n<i>".
 ///
 /// The file NAME.params beside NAME.movements determines whether a position is `x y` or `x y z`
-/// (`z=` and `J=`). Without it, the form is used that gives every line complete positions and
-/// ascending times; `x y` if both do. The status that the model DisasterArea adds to each position
-/// is skipped, if NAME.params names this model.
+/// (`z=` and `J=`). Without that file, the form is used that gives every line complete positions
+/// and ascending times; `x y` if both forms do. The status that the model DisasterArea adds to each
+/// position is skipped, if NAME.params names this model.
 /// @throws InputError
 std::unique_ptr<MovementFile::Reader> read_bonnmotion(TextSource source);
 

@@ -75,7 +75,8 @@ struct Waypoint {
 std::pair<PlaceColumns, std::uint64_t> columns_of(BonnMotionNumbers& numbers,
                                                   const std::vector<PlaceColumns>& candidates);
 
-/// Calls take(waypoint) for each waypoint of the file; repeated ones (same time and position) once.
+/// Calls take(waypoint) for each waypoint of the file. A waypoint that repeats time and position of
+/// the previous one is skipped.
 /// @throws InputError if a line is not a list of waypoints with ascending times
 void read_waypoints(BonnMotionNumbers& numbers, PlaceColumns columns,
                     const std::function<void(const Waypoint&)>& take);

@@ -12,8 +12,8 @@ namespace rovernet {
 ///
 /// A robot moves straight from its position in one timestep to that in the next, where it arrives
 /// at the next timestep's time. A robot that is missing in the next timestep disappears at its last
-/// one; it may reappear. Robots of the last timestep remain. Angles and speeds are ignored: they
-/// follow from the positions.
+/// timestep; the robot may reappear. Robots of the last timestep remain. Angles and speeds are
+/// ignored, since they follow from the positions.
 /// @throws InputError
 std::unique_ptr<MovementFile::Reader> read_fcd(TextSource source, MovementSyntax syntax);
 

@@ -10,7 +10,8 @@
 
 namespace rovernet {
 
-/// Reader of one file format, for MovementFile. Its construction reads the whole file once.
+/// Reader of a movement file in one format, for MovementFile. The constructor reads the whole file
+/// once.
 struct MovementFile::Reader {
     virtual ~Reader() = default;
     virtual std::optional<MovementCommand> next() = 0;
@@ -21,10 +22,10 @@ struct MovementFile::Reader {
     Location end_where = {};  ///< place of the last command; only set if `end` is after last_of_run
 };
 
-/// Text of the notice that `legs` legs of a file are stored in memory.
+/// Text of the notice that `legs` legs (pieces of movement) of a file are stored in memory.
 std::string kept_notice(const std::string& file, std::uint64_t legs);
 
-/// @throws InputError, always: the file has changed since it was first read
+/// Reports that a file has changed since it was first read. @throws InputError, always
 [[noreturn]] void fail_changed(const std::string& file);
 
 }  // namespace rovernet

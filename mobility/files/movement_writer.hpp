@@ -10,26 +10,26 @@
 
 namespace rovernet {
 
-/// Track of a robot: its legs in order; each starts where the previous one ended. The robot rests
-/// between legs and after the last. A leg that starts elsewhere is a jump. A leg that starts before
-/// the end of the previous one ends that leg.
+/// Track of a robot: its legs (pieces of movement) in order; each leg starts where the previous leg
+/// ended. The robot rests between legs and after the last leg. A leg that starts elsewhere is a
+/// jump. A leg that starts before the end of the previous leg ends that leg.
 struct Track {
     std::string name;
     std::vector<Leg> legs;
 };
 
-/// Tracks until `end` as an ns-2 movement file; node_(i) is track i, in the order of time. ns-2
-/// replays it to within 1 cm, in the plane; z is constant. Each leg ends at its real end, even if
-/// the next leg interrupted it, so a rest needs no line. A jump is a stop and scheduled positions.
-/// ns-2 refuses targets with x or y <= 0 or beyond its field; comments at the start give the field
-/// that the tracks need.
+/// Text of an ns-2 movement file with the tracks until `end`, in the order of time; node_(i) is
+/// track i. ns-2 replays the file to within 1 cm, in the plane; z is constant. Each leg ends at its
+/// real end, even if the next leg interrupted it, so a rest needs no line. A jump is a stop and
+/// scheduled positions. ns-2 refuses targets with x or y <= 0 or beyond its field; comments at the
+/// start give the field that the tracks need.
 /// @throws std::invalid_argument if a track has no leg, or if `end` is never and a track never
 ///         stops
 std::string setdest_text(std::span<const Track> tracks, Time end);
 
-/// Tracks until `end` as a .movements file of BonnMotion: one line per track with "time x y" for
-/// each position, or "time x y z" if any track leaves z = 0. Times are exact; positions to 5e-10 m.
-/// A jump takes 1 ns.
+/// Text of a BonnMotion .movements file with the tracks until `end`: one line per track, with "time
+/// x y" for each position, or "time x y z" if any track leaves z = 0. Times are exact; positions to
+/// 5e-10 m. A jump takes 1 ns.
 /// @throws std::invalid_argument as setdest_text()
 std::string bonnmotion_text(std::span<const Track> tracks, Time end);
 /// Content of the file NAME.params for bonnmotion_text().

@@ -14,8 +14,8 @@ struct SetdestLine {
     enum class Kind : std::uint8_t {
         nothing,  ///< blank line, comment, or command to ns-2's object god
         place,    ///< `$node_(i) set X_ v`: position before the run
-        jump,     ///< `$ns_ at T "$node_(i) set X_ v"`
-        setdest,  ///< `$ns_ at T "$node_(i) setdest x y speed"`
+        jump,     ///< `$ns_ at T "$node_(i) set X_ v"`: jump at time T
+        setdest,  ///< `$ns_ at T "$node_(i) setdest x y speed"`: motion from time T on
     };
     Kind kind = Kind::nothing;
     std::uint32_t node = 0;

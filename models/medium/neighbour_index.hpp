@@ -17,15 +17,15 @@
 
 namespace rovernet {
 
-/// Spatial index of nodes: finds the nodes near a given place, by a grid of cells.
+/// Spatial index of moving nodes: finds the nodes near a given position, by a grid of cells.
 ///
-/// Entries are stored in the order of their cells, row by row, each with a copy of its node's leg.
-/// A query reads one range of entries in each row, so cells are narrow. Entries stay in the cells
-/// of their last binning; queries add to their radius the distance that the fastest entry can have
-/// moved since. A query bins all nodes again once that distance is a tenth of a cell and as many
-/// entries have been read as there are nodes. Nodes much faster than the others, and nodes that
-/// jump, are stored separately and checked by every query. The grid wraps around: its memory is
-/// bounded for any positions.
+/// A node's entry has a copy of its leg (piece of movement). Entries are sorted by cell, row by
+/// row. A query reads one range of entries in each row, so cells are narrow. The order is not
+/// updated while nodes move: a query adds to its radius the distance that the fastest node can have
+/// moved since the last sorting. All nodes are sorted again once this distance is a tenth of a cell
+/// and as many entries have been read as there are nodes. Nodes much faster than the others, and
+/// nodes that jump, are stored separately and checked by every query. The grid wraps around (cell
+/// index modulo grid size), so its memory is bounded for any positions.
 class NeighbourIndex {
   public:
     using Entry = IndexEntry;

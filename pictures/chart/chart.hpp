@@ -66,7 +66,7 @@ struct Chart {
     std::string value_label = {};   ///< quantity that a heat map shows by colours, with unit
     std::string legend_title = {};  ///< quantity that distinguishes the series, such as "ttl"
     std::string note = {};  ///< text below the chart: meaning of intervals, source of numbers
-    bool log_x = false, log_y = false;     ///< logarithmic axes, of numbers only
+    bool log_x = false, log_y = false;     ///< true: logarithmic (numeric axes only)
     ChartLimits x_limits = {};             ///< bounds of a numeric x
     ChartLimits y_limits = {};             ///< bounds of y, or of the colours of a heat map
     std::vector<ChartSeries> series = {};  ///< series of points; names are unique
@@ -85,7 +85,7 @@ struct ChartLayout {
     int columns = 2;      ///< largest number of charts side by side, >= 1
     double scale = 1;     ///< pixels of the document for each pixel of this layout, > 0
 
-    /// Margin around the picture [px]; twice as much between charts.
+    /// Margin around the picture [px]; the gap between charts is twice as wide.
     static constexpr double margin = 16;
     /// Width of a picture with `charts` charts side by side [px].
     double picture_width(int charts = 1) const { return charts * (width + 2 * margin); }

@@ -8,7 +8,7 @@
 
 namespace rovernet {
 
-/// Range of the numbers added so far: the least and the greatest.
+/// Range of numbers along a chart's axis: the least and the greatest number added so far.
 class ChartRange {
   public:
     void include(double v);

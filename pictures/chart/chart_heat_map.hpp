@@ -10,7 +10,7 @@ namespace rovernet {
 void draw_cells(Svg& svg, const ChartView& view, const ChartFrame& frame, const ChartAxis& colors);
 
 /// Draws the colour bar of a heat map, right of the chart's frame.
-/// @param number  number of the chart in its document
+/// @param number  number of the chart in the SVG document, from 0
 void draw_color_bar(Svg& svg, const ChartFrame& frame, const ChartAxis& colors, std::size_t number);
 
 /// Least value whose cell in a heat map has dark text, since the cell is light; below: white text.

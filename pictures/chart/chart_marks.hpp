@@ -16,18 +16,19 @@ namespace rovernet {
 struct ChartFrame {
     Box box;  ///< position and size of the area [px]
     ChartAxis x, y;
-    double inset = 0;  ///< [px] margin left and right of the marks, off the y axis
-    double rise = 0;   ///< [px] margin below and above, so that no mark leaves the box
+    double inset = 0;  ///< [px] margin left and right of the marks, so that none touches the y axis
+    double rise = 0;   ///< [px] margin below and above the marks, so that none leaves the box
 
     PicturePoint at(double x_value, double y_value) const;
 };
 
 // Drawing functions for the points of a chart, one for each kind of chart.
 
-/// Draws the lines of a line chart, with marks. Intervals are a band, or whiskers if points are few
-/// or x is categorical. Series with overlapping whiskers are drawn a few pixels apart.
+/// Draws the lines of a line chart, with marks. Intervals are drawn as a band, or as whiskers if
+/// points are few or x is categorical. Series with overlapping whiskers are drawn a few pixels
+/// apart.
 void draw_lines(Svg& svg, const Chart& chart, const ChartView& view, const ChartFrame& frame);
-/// Draws the bars of a bar chart, or dots, with whiskers.
+/// Draws the bars of a bar chart, or dots if ChartView::dots is set, with whiskers.
 void draw_bars(Svg& svg, const Chart& chart, const ChartView& view, const ChartFrame& frame);
 /// Draws the marks of a scatter chart with whiskers and labels; marks at one point are set apart.
 /// @return number of labels that found no free place

@@ -54,10 +54,10 @@ class ChartPanel {
     std::vector<std::string> title_ = {}, notes_ = {};
     Legend legend_ = {};
     bool slanted_ = false;    // whether labels of the x axis are slanted
-    double texts_below_ = 0;  // height of these labels [px]
+    double texts_below_ = 0;  // height of the x axis's labels [px]
 };
 
-/// Text, shortened to fit into `width` [px].
+/// Text, shortened to fit into `width` [px] at text size `size` [px].
 std::string fitted(std::string_view text, double width, double size);
 
 }  // namespace rovernet

@@ -44,7 +44,7 @@ struct ChartStyle {
     std::string dash_text() const;
 };
 
-/// Style of series number n; styles repeat after a few dozen series.
+/// Style of series number `series`, from 0; styles repeat after a few dozen series.
 ChartStyle chart_style(std::size_t series);
 
 }  // namespace rovernet

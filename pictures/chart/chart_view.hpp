@@ -12,14 +12,14 @@ namespace rovernet {
 
 /// Point of a chart, ready to be drawn.
 struct DrawnPoint {
-    double x = 0;  // number, or index of a category
+    double x = 0;  // x coordinate: a number, or the index of a category
     double y = 0;
     std::optional<double> low = {}, high = {};
     bool joined = false;                 // whether a line joins it to the previous point
     const ChartPoint* source = nullptr;  // corresponding point of the chart
 };
 
-/// Drawable content of a chart. It refers to the chart, which must outlive this view.
+/// Drawable content of a chart. The view refers to the chart, which must outlive it.
 struct ChartView {
     bool has_words = false;          ///< whether the x axis has categories, not numbers
     std::vector<std::string> words;  ///< categories along the x axis, at x = 0, 1, 2 ...

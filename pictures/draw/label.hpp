@@ -44,7 +44,7 @@ class LabelPlaces {
   private:
     struct Tile {
         std::vector<Box> taken;
-        std::vector<PicturePoint> lines;  // points along the lines
+        std::vector<PicturePoint> lines;  // points along lines that labels avoid
     };
 
     bool free(const Box& box) const;

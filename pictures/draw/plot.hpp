@@ -64,7 +64,8 @@ class Plot {
 /// Largest round number (... 0.2, 0.5, 1, 2, 5, 10, 20, 50 ...) that is <= `most` > 0.
 double round_number(double most);
 
-/// Multiples of a round step from `low` to `high`, at most `most` >= 2 and nearly as many.
+/// Axis ticks from `low` to `high`, at multiples of a round step: at most `most` (>= 2), and nearly
+/// as many.
 std::vector<double> round_ticks(double low, double high, int most);
 
 /// Length with its unit, for a scale bar: "20 cm", "5 m", "2 km".

@@ -71,7 +71,7 @@ struct TextStyle {
 /// Writer of an SVG document, element by element. Equal calls give equal bytes on every machine.
 class Svg {
   public:
-    /// @param width, height  size of the document in its own units, > 0
+    /// @param width, height  size of the document in units of its coordinates, > 0
     /// @param scale          pixels for each unit [px], > 0
     Svg(double width, double height, double scale = 1);
 

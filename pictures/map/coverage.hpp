@@ -13,7 +13,7 @@
 
 namespace rovernet {
 
-/// Transmitter of a coverage map: all quantities on which its level at a position depends.
+/// Transmitter of a coverage map: all quantities on which the received level at a position depends.
 struct Transmitter {
     Propagation model;
     Radio radio = {};
@@ -41,7 +41,7 @@ Transmitter transmitter(const Network& network, NodeId robot, Time at);
 void received_levels(const Transmitter& transmitter, std::span<const Vec3> antennas,
                      std::span<double> out_dbm);
 
-/// Levels over an axis-parallel rectangle, on a grid of equal cells.
+/// Received levels over an axis-parallel rectangle, on a grid of equal cells.
 struct CoverageMap {
     Vec3 lower_left = {};    ///< lower left corner of the rectangle [m]
     double cell_width = 1;   ///< width of a cell [m]
@@ -61,8 +61,8 @@ struct CoverageMap {
 /// Largest number of cells of a coverage map.
 inline constexpr int most_coverage_cells = 4'000'000;
 
-/// Levels over the rectangle from `low` to `high` [m], for receivers' antennas `receivers_above`
-/// [m] above the transmitter's antenna.
+/// Received levels over the rectangle from `low` to `high` [m], for receivers' antennas
+/// Transmitter::receivers_above [m] above the transmitter's antenna.
 /// @param cells  approximate number of cells, which are nearly square
 /// @throws std::invalid_argument for an empty rectangle, or cells outside 1 to most_coverage_cells
 CoverageMap coverage(const Transmitter& transmitter, Vec3 low, Vec3 high, int cells);

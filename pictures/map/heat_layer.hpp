@@ -25,7 +25,7 @@ class HeatLayer {
     /// Draws the colour bar, bar_width wide. @param corner  upper left corner of the colour bar
     void draw_bar(Svg& svg, PicturePoint corner, double height) const;
     void append_to(Legend& legend) const;
-    /// Whether the propagation model has levels; disc has a range only.
+    /// Whether the propagation model gives levels; the model disc gives only a range.
     bool has_levels() const { return !range_; }
 
     static constexpr double bar_width = 62;  ///< width of the colour bar with its numbers [px]

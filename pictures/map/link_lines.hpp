@@ -27,12 +27,12 @@ class LinkLines {
   private:
     struct Line {
         NodeId from, to;
-        double margin = 0;  // margin [dB]; of a two-way link the smaller one
+        double margin = 0;  // level above sensitivity [dB]; two-way link: the smaller one
         bool both_ways = false;
     };
 
     std::vector<Line> lines_;
-    bool has_margins_ = true;           // false for the model disc
+    bool has_margins_ = true;           // false for the model disc, without levels
     std::size_t to_other_storeys_ = 0;  // number of links to other storeys, which are not drawn
 };
 

@@ -11,7 +11,7 @@
 
 namespace rovernet {
 
-/// Map in a picture: walls in a grey or a hatch for each material, unknown cells in light grey.
+/// Map in a picture: walls with one grey or hatch per material, unknown cells in light grey.
 class MapLayer {
   public:
     /// @param scene  scene to draw; outlives the layer

@@ -31,13 +31,14 @@ struct PictureOptions {
     double font_size = 12;
 };
 
-/// Runs the scenario until `at` and draws it as an SVG document.
+/// Runs the scenario until time `at`, and draws the map and the robots at that time as an SVG
+/// document.
 ///
-/// The picture shows the whole map and all robots. In a building with several storeys it shows one
-/// storey: its robots, the links between them, and the coverage at the antenna's height above its
-/// floor. In an open field it shows the robots, and as much of the coverage as keeps the robots
-/// apart. The bytes are the same on every machine, except for the heat map, which is compressed by
-/// zlib.
+/// The picture shows the whole map and all robots. If there are several storeys, the picture shows
+/// one storey, the robots on it, the links between these robots, and the coverage at the height of
+/// the receiver's antenna above the floor. If there is no map (open field), the coverage is shown
+/// up to 4 times the extent of the robots, so that the robots stay distinguishable. The bytes are
+/// the same on every machine, except for the heat map, which is compressed by zlib.
 /// @throws InputError, RunError; std::invalid_argument for an unknown robot, a time before the
 ///         start, or an option out of range
 std::string draw_svg(const Scenario& scenario, const PictureOptions& options);

@@ -11,8 +11,8 @@
 
 namespace rovernet {
 
-/// Caption of a picture, the lines above it: time, absent robots, models, and the robot whose
-/// coverage is drawn.
+/// Caption of a picture, as lines above the picture: time, absent robots, models, and the robot
+/// whose coverage is drawn.
 /// @param end     end of the scenario's run; the caption states if `at` is later than `end`
 /// @param storey  number of the drawn storey
 /// @param source    robot whose coverage is drawn

@@ -26,7 +26,7 @@ struct RobotMark {
     Color rim = {};           ///< colour of the robot's circle
 
     bool on() const { return presence == Presence::on; }
-    /// Whether the robot is drawn: it is on the drawn storey, and present in the world unless its
+    /// Whether the robot is drawn: only on the drawn storey; an absent robot only if its
     /// coverage is drawn.
     bool drawn() const { return here && (on() || presence == Presence::off || stands_out); }
 };
@@ -42,7 +42,7 @@ class RobotMarks {
                bool colored, const Plot& plot);
 
     const RobotMark& operator[](NodeId node) const { return marks_[node.index()]; }
-    /// Places the names of the robots. @param places  contains the other obstacles already
+    /// Places the names of the robots. @param places  contains link lines, which names avoid
     void place_names(LabelPlaces& places);
     void draw(Svg& svg) const;
     /// Appends the robots' symbols to a legend, and the number of robots whose name found no room.

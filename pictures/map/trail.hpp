@@ -15,8 +15,8 @@ class Trails {
     KindMask kinds() const { return kind_of<Moved>(); }
     void on(const Record& record, const RecordContext& context);
 
-    /// Corners of a robot's past path until `at` [m], in order; a new path starts where the robot
-    /// was teleported. Empty if the robot never had a leg.
+    /// Past paths of a robot until `at`, each as its corners [m] in order; a new path starts where
+    /// the robot was teleported. Empty if the robot never had a leg.
     std::vector<std::vector<Vec3>> ways(NodeId node, Time at) const;
     /// Positions of a robot [m] at intervals of `every` > 0, from its first leg until `at`.
     std::vector<Vec3> marks(NodeId node, Time at, Duration every) const;

@@ -21,11 +21,12 @@ struct StageRadio {
     Table radio = {};
     /// Keys of the robot's table `propagation`: the model, and parameters of any model.
     Table propagation = {};
-    /// Seed of the scenario: the value of `random_seed` in the wifi; none: the wifi gives no seed.
+    /// Seed of the scenario: value of the key `random_seed` of the world's `wifi`; none: not given.
     std::optional<Value> seed = {};
-    /// True if the wifi names a propagation model; false: the model of [propagation] is used.
+    /// True if the world's `wifi` names a propagation model; false: the model in the table
+    /// [propagation] of the scenario is used.
     bool model_given = false;
-    /// Notices about unknown keys of the wifi, one for each key.
+    /// Notices for the user about unknown keys of the world's `wifi`, one for each key.
     std::vector<std::string> notices = {};
 };
 

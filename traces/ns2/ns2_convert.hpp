@@ -22,8 +22,8 @@ struct Converted {
     std::map<std::string, std::uint64_t> left_out;  ///< number of events not written, by reason
 };
 
-/// Converts the events of a trace to another format; comments and other lines that are not events
-/// are left out.
+/// Converts the events of an ns-2 trace to another format. Comments and other lines that are not
+/// events are left out.
 ///
 /// From the old format to the new one, positions are taken from the `M` lines; packets that a robot
 /// sends before its first `M` line are left out. `M`, `N` and `v` lines are the same in all
@@ -34,18 +34,18 @@ struct Converted {
 Converted convert_ns2(Ns2Source in, const std::string& out, TraceForm,
                       Ns2Strictness = Ns2Strictness::tolerant);
 
-/// Selection of events: an event is kept unless one of these members excludes it.
+/// Selection of events of an ns-2 trace: an event is kept unless a member of TraceCut excludes it.
 struct TraceCut {
-    std::optional<Time> from = {};     ///< only packets at or after this time
-    std::optional<Time> to = {};       ///< only events before this time
-    std::optional<NodeId> robot = {};  ///< only lines of this robot
-    /// Only packets with this id; packets of routing agents and of the MAC are left out, because
-    /// their ids repeat.
+    std::optional<Time> from = {};     ///< earliest time of packets that are kept
+    std::optional<Time> to = {};       ///< time from which on events are excluded
+    std::optional<NodeId> robot = {};  ///< robot whose lines are kept; none: all robots
+    /// Id of packets that are kept; none: any id. Packets of routing agents and of the MAC are then
+    /// excluded, because their ids repeat.
     std::optional<std::uint64_t> message = {};
 };
 
-/// Writes the selected events of a trace, unchanged. `M` lines before `from` are kept, because they
-/// give the positions of the robots.
+/// Writes the selected events of an ns-2 trace, unchanged. `M` lines (movements) before
+/// TraceCut::from are kept, because they give the positions of the robots.
 /// @throws InputError, RunError as convert_ns2()
 Converted cut_ns2(Ns2Source in, const std::string& out, const TraceCut&,
                   Ns2Strictness = Ns2Strictness::tolerant);

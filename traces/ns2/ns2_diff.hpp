@@ -12,16 +12,16 @@
 
 namespace rovernet {
 
-/// Line of a trace with its number, from 1.
+/// Line of an ns-2 trace with its line number, from 1.
 struct NumberedLine {
     std::uint64_t line = 0;
     std::string text;
 };
 
-/// First difference of two traces, and number of events by kind in each of them.
+/// First difference of two ns-2 traces, and number of events by kind in each trace.
 struct TraceDifference {
     bool is_equal = true;
-    /// Name of the first field that differs, such as "time", or the end of one trace.
+    /// Name of the first field that differs, such as "time"; or a text about the end of one trace.
     std::string field;
     /// Events around the first difference: up to two equal events, the different event (index
     /// `place`; beyond the list if the file ends there), and up to two that follow.
@@ -32,9 +32,9 @@ struct TraceDifference {
     Ns2Counts counts_a, counts_b;
 };
 
-/// Compares two traces event by event, in any formats, by the fields that both lines have. Lines
-/// that are not events, and blanks, are ignored; reason and payload are ignored between different
-/// formats.
+/// Compares two ns-2 traces event by event, in any formats, by the fields that both lines have.
+/// Lines that are not events, and blanks, are ignored. Reason and payload are ignored between
+/// different formats.
 /// @param tolerance  largest time difference of equal events
 /// @throws InputError as Ns2File
 TraceDifference diff_ns2(Ns2Source a, Ns2Source b, Duration tolerance,

@@ -32,7 +32,7 @@ struct Ns2Counts {
     std::array<std::uint64_t, std::size(names_of_other)> skipped{};  ///< skipped lines by Ns2Other
     std::uint64_t refused = 0;
     std::vector<Ns2RefusedLine> refused_lines;  ///< first ten refused lines
-    /// By Ns2Dialect: whether the file has lines of that dialect.
+    /// Whether the file has lines of a trace format, for each Ns2Dialect.
     std::array<bool, 3> dialects{};
 
     /// Whether all lines are blank or comments.
@@ -46,10 +46,11 @@ struct Ns2Counts {
     std::string format() const;
 };
 
-/// Treatment of a line that is not an ns-2 trace line: count it, or throw InputError.
+/// Treatment of a line that is not an ns-2 trace line: count the line (tolerant), or throw
+/// InputError (strict).
 enum class Ns2Strictness { tolerant, strict };
 
-/// Text of a trace: a file, or text that a function generates.
+/// Text of an ns-2 trace: a file, or text that a function generates.
 struct Ns2Source : TextSource {
     /// Opens plain text, gzip or zstd, also from a pipe. @throws InputError if it cannot be read
     Ns2Source(const std::string& path) : TextSource(path, Reads::once) {}
@@ -66,8 +67,8 @@ class Ns2File {
   public:
     explicit Ns2File(Ns2Source source, Ns2Strictness = Ns2Strictness::tolerant);
 
-    /// Next line that is an event: neither Ns2Other nor Ns2Refused; null after the last. Valid
-    /// until the next call.
+    /// Next line that is an event: neither Ns2Other nor Ns2Refused; null after the last event.
+    /// Valid until the next call.
     /// @throws InputError for a refused line, under Ns2Strictness::strict; and if the file is
     ///         damaged
     const Ns2Line* next();
@@ -76,9 +77,9 @@ class Ns2File {
 
     /// Name of the file.
     const std::string& name() const { return source_.name(); }
-    /// Text of the last line, without its end.
+    /// Text of the last line that was read, without the line's end.
     std::string_view text() const { return text_; }
-    /// Number of the last line, from 1.
+    /// Number of the last line that was read, from 1.
     std::uint64_t line() const { return counts_.lines; }
     const Ns2Counts& counts() const { return counts_; }
     /// Checks a file that was read. @throws InputError if it has lines, but no ns-2 trace line

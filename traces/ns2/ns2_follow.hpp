@@ -31,7 +31,7 @@ struct FollowedRobot {
     Time time;                   ///< time of the robot's first copy, or of sending
     bool is_delivered = false;   ///< true if the robot's application received the message
     std::uint64_t copies = 0;    ///< number of copies received, including the first
-    std::vector<Time> on_air;    ///< times at which the robot forwarded the message
+    std::vector<Time> on_air;    ///< times at which the robot transmitted the message
 };
 
 /// Path of one message through the network.
@@ -54,8 +54,8 @@ class Ns2Follower {
   public:
     explicit Ns2Follower(std::uint64_t uid) { way_.uid = uid; }
 
-    /// Processes the next event. Events of other messages only matter by the ids of sent messages,
-    /// and by the robots that they name.
+    /// Processes the next event of the trace. From events of other messages only the ids of sent
+    /// messages and the numbers of robots are used.
     void take(const Ns2Line& line) {
         std::visit([&](const auto& event) { on(event); }, line);
     }

@@ -10,8 +10,8 @@
 
 namespace rovernet {
 
-/// Leg that an `M` line begins: straight to the goal at constant speed, then a rest. A line without
-/// speed, or whose goal is its position, is a rest.
+/// Leg (piece of movement) that an `M` line begins: straight to the goal at constant speed, then a
+/// rest. An `M` line without speed, or whose goal is its position, is a rest.
 Leg leg_of(const Ns2Move& move);
 
 /// Motion of the robots of an ns-2 trace as legs, reconstructed from the positions in the trace.
@@ -40,17 +40,17 @@ class Ns2Motion {
     /// Smallest time between two positions of packet lines that are used [ns].
     static constexpr Duration apart = std::chrono::milliseconds{100};
 
-    /// Adds an `M` line, as its leg. Lines are in the order of the file.
+    /// Adds an `M` line, given as its leg, see leg_of(). Lines are added in the order of the file.
     void begins(NodeId node, const Leg& leg);
-    /// Adds the position [m] in a packet line.
+    /// Adds the position [m] of a robot in a packet line.
     void is_at(NodeId node, Time time, Vec3 place);
 
-    /// Whether the trace has had a position of the robot.
+    /// Whether the trace has contained a position of the robot so far.
     bool knows(NodeId node) const {
         return node.index() < tracks_.size() && tracks_[node.index()].is_known;
     }
-    /// Legs of the robot from the start of the run, in order; the last one lasts to the end. Empty
-    /// if the trace has no position of it.
+    /// Legs (pieces of movement) of the robot from the start of the run, in order; the last leg
+    /// lasts to the end. Empty if the trace has no position of the robot.
     std::vector<Leg> legs(NodeId node) const;
 
   private:

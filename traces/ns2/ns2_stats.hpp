@@ -16,17 +16,17 @@ namespace rovernet {
 /// Grouping of the rows of a TraceStats: none, or one row for each robot, flow or second.
 enum class TraceRows { none, robot, flow, second };
 
-/// Counts for one robot, one flow or one second.
+/// Row of trace statistics: counts for one robot, one flow or one second of the trace.
 struct TraceRow {
-    /// Number of the robot; or type and addresses of the flow, "cbr 5:0 -> 3:1"; or second since
-    /// the start of the run.
+    /// Name of the row: number of the robot; or type and addresses of the flow, "cbr 5:0 -> 3:1";
+    /// or second since the start of the run.
     std::string name;
-    std::uint64_t messages = 0;       ///< messages sent by the robot, in the flow, in the second
-    std::uint64_t expected = 0;       ///< expected deliveries of a flow; only for flows
-    std::uint64_t deliveries = 0;     ///< deliveries at the robot, of the flow, in the second
+    std::uint64_t messages = 0;       ///< messages sent: by the robot, of the flow or in the second
+    std::uint64_t expected = 0;       ///< deliveries expected of the flow; 0 for a robot or second
+    std::uint64_t deliveries = 0;     ///< deliveries: at the robot, of the flow or in the second
     std::uint64_t bytes = 0;          ///< size of the delivered messages [bytes]
     std::uint64_t delay_ns = 0;       ///< sum of the deliveries' latencies [ns]
-    std::uint64_t transmissions = 0;  ///< transmissions by the robot, of the flow, in the second
+    std::uint64_t transmissions = 0;  ///< transmissions: by the robot, of the flow or in the second
     std::uint64_t receptions = 0;     ///< copies received, including duplicates
     std::uint64_t drops = 0;          ///< copies lost or not forwarded
 };
@@ -58,15 +58,15 @@ struct TraceStats {
                                       ///< final value, averaged over flows and receivers
     std::optional<double> jitter_sd;  ///< standard deviation of all latencies (n - 1) [s]
 
-    /// Throughput [bit/s]: bits of the delivered messages / (time from the first `s AGT` to the
-    /// last delivery).
+    /// Throughput [bit/s]: bits of the delivered messages / (time from the first message sent,
+    /// `s AGT`, to the last delivery).
     std::optional<double> throughput;
 
     std::vector<TraceRow> rows;  ///< rows of robots and seconds by number, of flows in the order of
                                  ///< their first messages
 };
 
-/// Computes the statistics of a trace. Memory grows with robots and messages, by 8 bytes per
+/// Computes the statistics of an ns-2 trace. Memory grows with robots and messages, by 8 bytes per
 /// delivery, and by 40 bytes for each flow at each of its receivers; not with lines.
 /// @throws InputError as read_ns2_trace()
 TraceStats ns2_stats(Ns2Source source, Ns2Strictness = Ns2Strictness::tolerant,

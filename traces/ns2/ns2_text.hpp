@@ -17,12 +17,13 @@ namespace rovernet {
 // ack] n n"). ARP and control frames of the MAC cannot: the new format has neither their type nor
 // their size.
 
-/// Appends the packet in the old format of ns-2.
+/// Appends a packet line in the old format of ns-2. @return "", or why the line cannot be written
 std::string_view write_old_line(const Ns2Packet& packet, std::string& out);
-/// Appends the packet in the new format. @param place  position of the robot [m]
+/// Appends a packet line in the new format of ns-2. @param place  position of the robot [m]
+/// @return "", or why the line cannot be written
 std::string_view write_new_line(const Ns2Packet& packet, Vec3 place, std::string& out);
 
-/// Column names of write_csv_line().
+/// Column names of the CSV rows of write_csv_line().
 extern const std::string_view ns2_csv_head;
 /// Appends an event as a row of CSV; fields that the line does not have are empty. Times in
 /// seconds, MAC addresses as decimal numbers.

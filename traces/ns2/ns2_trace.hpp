@@ -17,8 +17,8 @@ enum class Ns2Format { old_format, new_format };
 /// Whether lines of the MAC layer are written: `-macTrace` of ns-2, which is also OFF by default.
 enum class MacTrace { off, on };
 
-/// Type of a message's packets in a trace: that of ns-2's flows if the routing protocol brings it
-/// to one node, "message" otherwise; of a control packet its protocol.
+/// Packet type of a message in an ns-2 trace: "cbr" for a message that a routing protocol delivers
+/// to one robot, "message" for any other message, the protocol's name for a control packet.
 std::string_view ns2_type(const Message& message);
 
 /// Sink that writes the run as a wireless trace of ns-2.35, for tools that read such traces.
@@ -58,11 +58,11 @@ std::string_view ns2_type(const Message& message);
 /// Example: examples/trace.cpp.
 class Ns2Trace {
   public:
-    /// Opens the file; `path` itself appears at the end, complete or not at all, see PartFile.
+    /// Opens the trace under a temporary name. It gets the name `path` at the end, see PartFile.
     /// @throws RunError if it cannot be written
     explicit Ns2Trace(const std::string& path, Ns2Format format = Ns2Format::new_format,
                       MacTrace mac = MacTrace::off);
-    /// Passes the text to `out` piece by piece, whole lines each, instead of writing a file.
+    /// Passes the trace to `out` in pieces of whole lines, instead of writing a file.
     explicit Ns2Trace(std::function<void(std::string_view)> out,
                       Ns2Format format = Ns2Format::new_format, MacTrace mac = MacTrace::off);
     Ns2Trace(Ns2Trace&&) noexcept;
@@ -79,7 +79,7 @@ class Ns2Trace {
     /// @throws RunError if the file cannot be written (disk full, for example); it is then removed
     void on(const Record& record, const RecordContext& context);
 
-    /// Completes the trace, which has no name yet. @throws RunError as close()
+    /// Completes the trace, which keeps its temporary name. @throws RunError as close()
     void finish();
     /// Completes the trace and gives it its final name. A second call does nothing.
     /// @throws RunError if it cannot be written

@@ -43,7 +43,7 @@ class Ns2Words {
         at_ = line_.size();
         return all;
     }
-    /// Column in the line of a part of it, from 1.
+    /// Column of a word in the line, from 1.
     int column(std::string_view word) const {
         return static_cast<int>(word.data() - line_.data()) + 1;
     }
@@ -56,7 +56,7 @@ class Ns2Words {
         const std::string_view word = next();
         return word == text || fail(word, text);
     }
-    /// Removes `before` and `after` from the word's ends.
+    /// Removes the texts `before` and `after` from the ends of a word, which must have both.
     bool strip(std::string_view& word, std::string_view before, std::string_view after,
                std::string_view expected) {
         if (word.size() < before.size() + after.size() || !word.starts_with(before) ||

@@ -30,14 +30,14 @@ class Jitter {
         double running;  ///< running average of the jitter [s]
     };
     std::unordered_map<std::uint64_t, std::size_t> place_;
-    std::vector<Stream> streams_;  ///< by flow and receiver, in the order of first delivery
+    std::vector<Stream> streams_;  ///< streams in the order of their first deliveries
     std::uint64_t changed_ns_ = 0, changes_ = 0, count_ = 0;
-    double mean_ = 0, squares_ = 0;  ///< of latencies: mean [s], sum of squares [s^2]
+    double mean_ = 0, squares_ = 0;  ///< latencies: mean [s], sum of squared deviations [s^2]
 };
 
-/// Counters of trace statistics that Metrics do not have. They get the content of each line from
-/// ns2_stats(), which reads lines, and from recorded_stats(), which derives the lines of each
-/// record.
+/// Counters of trace statistics that Metrics do not have. Their input is the content of the lines
+/// of an ns-2 trace: ns2_stats() reads the lines, recorded_stats() derives them from the records of
+/// a recorded trace.
 class TraceCounter {
   public:
     /// Data of a message that was sent in the trace.
@@ -60,7 +60,7 @@ class TraceCounter {
     void lost(NodeId node, std::uint32_t flow, Time time) {
         if (TraceRow* r = row(node, flow, time)) ++r->drops;
     }
-    /// Adds `count` copies of messages that were lost or not forwarded for that reason.
+    /// Adds `count` copies of messages that were lost or not forwarded for the given reason.
     void add_drops(std::string_view reason, std::uint64_t count);
     /// Adds `count` dropped packets of any kind, by layer and reason.
     void add_drops(std::string_view layer, std::string_view reason, std::uint64_t count);

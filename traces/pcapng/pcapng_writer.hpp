@@ -36,7 +36,7 @@ class PcapngWriter {
     /// @throws RunError if it cannot be written, like all functions below
     PcapngWriter(const std::string& path, std::string_view application);
 
-    /// Adds an interface. @return its number, from 0
+    /// Adds an interface. @return number of the interface, from 0
     std::uint32_t add_interface(std::string_view name, const MacAddress& address);
     /// Adds a packet.
     /// @param time   [ns] since the start of the run, which counts as 1970-01-01 00:00

@@ -15,7 +15,7 @@
 
 namespace rovernet {
 
-/// Radio data in a radiotap header.
+/// Radio data of a captured frame, for its radiotap header.
 struct RadiotapFacts {
     BitRate rate;
     /// Carrier frequency [Hz]; written in whole MHz.
@@ -24,7 +24,7 @@ struct RadiotapFacts {
     struct Signal {
         Dbm level, noise;
     };
-    /// Reception data; empty in the sender's packet.
+    /// Received power and noise; empty in the packet that the sender captures.
     std::optional<Signal> signal = std::nullopt;
 };
 /// Appends a radiotap header of 16 bytes: flags (frame check sequence present), rate if it is a
@@ -33,14 +33,14 @@ struct RadiotapFacts {
 /// Source: https://www.radiotap.org, fields 1, 2, 3, 5 and 6.
 void append_radiotap(const RadiotapFacts& facts, ByteWriter& to);
 
-/// Addresses in a packet.
+/// Addresses in a captured packet.
 struct PacketAddresses {
     /// Sender and receiver of the frame on this hop; all ones for everyone.
     MacAddress sender, receiver;
     /// Origin and destination of the message; all ones for everyone.
     std::uint32_t origin = 0, destination = 0;
 };
-/// Content of a UDP packet in place of the message's.
+/// Content of a captured UDP packet that replaces the message.
 struct UdpContent {
     /// UDP port of source and destination.
     std::uint16_t port = 0;
@@ -54,16 +54,17 @@ inline constexpr std::size_t message_header = 32;
 /// truncated.
 inline constexpr std::size_t longest_captured = 65'000;
 
-/// Appends an 802.11 data frame (ad hoc), LLC/SNAP, IPv4 and UDP with the message: Message::size
-/// bytes, the payload filled up with zeros.
+/// Appends an 802.11 data frame (ad hoc mode) that contains the message in a UDP packet: headers of
+/// 802.11, LLC/SNAP, IPv4 and UDP, the header of message_header bytes, then Message::size bytes:
+/// the payload, padded with zeros.
 ///
-/// @param bytes    size of the frame in the simulation
-/// @param content  content of the UDP packet, without the header of messages; null: the message
+/// @param bytes    size of the frame in the simulation [bytes], stored in the message header
+/// @param content  content of the UDP packet that replaces message header and message; null: these
 ///
 /// Sources: IEEE 802.11-2020, 9.2 and 9.3.2; RFC 791; RFC 768.
 void append_data_frame(const AirFrame& air, const Message& message, std::uint32_t bytes,
                        const PacketAddresses& addresses, const UdpContent* content, ByteWriter& to);
-/// Appends an RTS, CTS or ACK. Source: IEEE 802.11-2020, 9.3.1.
+/// Appends an 802.11 control frame: RTS, CTS or ACK. Source: IEEE 802.11-2020, 9.3.1.
 void append_control_frame(const AirFrame& air, const PacketAddresses& addresses, ByteWriter& to);
 
 }  // namespace rovernet

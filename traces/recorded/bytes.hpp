@@ -13,7 +13,7 @@
 
 namespace rovernet {
 
-/// Longest varint [bytes].
+/// Length of the longest varint (integer of variable length) [bytes].
 inline constexpr std::size_t longest_varint = 10;
 
 /// Writes a varint at `at`. @return the position after it
@@ -25,11 +25,11 @@ inline char* write_varint(char* at, std::uint64_t value) {
     *at++ = static_cast<char>(value);
     return at;
 }
-/// Unsigned number that encodes a signed one.
+/// Unsigned number that encodes a signed number: 0, -1, 1, -2 become 0, 1, 2, 3.
 constexpr std::uint64_t folded(std::int64_t value) {
     return (static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63);
 }
-/// Signed number encoded by an unsigned one.
+/// Signed number encoded by an unsigned number, see folded().
 constexpr std::int64_t unfolded(std::uint64_t value) {
     return static_cast<std::int64_t>((value >> 1) ^ (~(value & 1) + 1));
 }
@@ -105,7 +105,7 @@ class ByteReader {
     double real() { return std::bit_cast<double>(fixed<std::uint64_t>()); }
     /// Next `size` bytes; empty if there are fewer.
     std::string_view take(std::uint64_t size);
-    /// Text that is preceded by its length [bytes] as a 4-byte integer. Reads both.
+    /// Next text, which is preceded by its length [bytes] as a 4-byte integer.
     std::string_view text() { return take(fixed<std::uint32_t>()); }
 
     std::size_t left() const { return rest_.size(); }

@@ -23,12 +23,13 @@ namespace rovernet {
 /// Largest value of each enumeration that is a field of records.
 constexpr unsigned last_of(Fate) { return static_cast<unsigned>(last_fate); }
 constexpr unsigned last_of(DropReason) { return static_cast<unsigned>(last_drop_reason); }
-/// Control frames as a trace names them; their size is in the records.
+/// Control frames of a recorded trace, at index number_of() - 1. Sizes are 0: a record stores the
+/// size itself.
 inline constexpr std::array<ControlFrame, 4> control_frames{
     {{"RTS", 0}, {"CTS", 0}, {"ACK", 0}, {"CTL", 0}}};
 
-/// Reader of what FieldWriter has written: an overload of take() for each type of field. A value
-/// out of its range counts as missing bytes.
+/// Reader of the fields of records from bytes that FieldWriter wrote: an overload of take() for
+/// each type of field. A value out of its range makes is_done() false, like missing bytes.
 class FieldReader {
   public:
     FieldReader(std::string_view bytes, Time time, unsigned format,
@@ -96,7 +97,7 @@ class FieldReader {
         if (value > last) in_range_ = false;
         return value;
     }
-    /// Time plus a duration, both times between 0 and `never`.
+    /// Time `before` plus a duration; the result must lie between 0 and `never`.
     Time after(Time before, std::int64_t ns) {
         const std::int64_t begin = before.time_since_epoch().count();
         if (ns > 0 ? ns > never.time_since_epoch().count() - begin : begin + ns < 0) {
@@ -130,7 +131,7 @@ class FieldReader {
     void take(MessageId& message) { take(message.value); }
     void take(Time& time) { time = after(time_, from_.signed_varint()); }
     void take(Duration& duration) { duration = Duration{from_.signed_varint()}; }
-    /// Number that is valid as a position or a speed, as in a Network.
+    /// Reads a number that is valid as a position or a speed: at most 1e15 in magnitude.
     void take(double& value) {
         constexpr double largest = 1e15;
         value = from_.real();
@@ -166,7 +167,7 @@ class FieldReader {
     Time time_;
     unsigned format_;
     std::vector<Reception>& receptions_;
-    NodeId sender_{0};  // of the record's frame
+    NodeId sender_{0};  // sender of the record's frame
     bool in_range_ = true;
 };
 

@@ -16,7 +16,8 @@
 
 namespace rovernet {
 
-/// Parts of a leg that are written, as bits; those that are left out are 0, and `to` is `from`.
+/// Bits for the parts of a leg (piece of movement) that are written to a recorded trace. Parts that
+/// are left out are 0; Leg::to is then Leg::from.
 struct LegParts {
     static constexpr std::uint8_t moves = 1, heads = 2, turns = 4;
     static constexpr std::uint8_t all = moves | heads | turns;
@@ -106,7 +107,7 @@ class FieldWriter {
         return static_cast<std::uint8_t>(2 * static_cast<unsigned>(rx.fate) +
                                          (rx.delivered ? 1 : 0));
     }
-    /// Whether all bits are equal; 0 and -0 differ.
+    /// Whether two numbers have equal bits; 0 and -0 differ.
     static bool are_same(double a, double b) {
         return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
     }
@@ -122,7 +123,7 @@ class FieldWriter {
 
     ByteWriter& to_;
     Time time_;
-    NodeId sender_{0};  // of the record's frame
+    NodeId sender_{0};  // sender of the record's frame
 };
 
 }  // namespace rovernet

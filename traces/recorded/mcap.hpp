@@ -44,7 +44,7 @@ struct AttachedFile {
     std::string content;
 };
 
-/// CRC-32 of the container: the CRC-32 of zlib (ISO 3309).
+/// CRC-32 of an MCAP file's bytes: the CRC-32 of zlib (ISO 3309).
 std::uint32_t mcap_crc(std::string_view bytes);
 
 }  // namespace rovernet

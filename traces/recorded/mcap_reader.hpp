@@ -15,20 +15,20 @@ namespace rovernet {
 struct McapRecord {
     McapOpcode opcode;
     std::string_view content;
-    /// Position of its opcode in the file [bytes].
+    /// Position of the record's opcode in the file [bytes].
     std::uint64_t offset;
 };
 
 /// Unpacked chunk of an MCAP file.
 struct McapMessages {
-    /// First and last time of its messages [ns].
+    /// First and last time of the chunk's messages [ns].
     std::uint64_t first, last;
     /// Records in the chunk; valid until the next chunk is unpacked.
     std::string_view records;
 };
 
 /// Reader of the records of an MCAP file in order, also of a file that is damaged or incomplete.
-/// After an invalid record it continues at the next chunk. The file is memory-mapped.
+/// After an invalid record the reader continues at the next chunk. The file is memory-mapped.
 class McapReader {
   public:
     /// @throws InputError if the file cannot be opened, or does not begin like an MCAP file
@@ -38,7 +38,7 @@ class McapReader {
 
     /// Next record; empty at the end.
     std::optional<McapRecord> next();
-    /// Returns to that record.
+    /// Returns to a record, so that next() returns it again.
     void go_to(const McapRecord& record) { at_ = record.offset; }
     /// Unpacks a chunk. @return empty if it is broken; the fault is added to damage()
     std::optional<McapMessages> unpack(const McapRecord& chunk);

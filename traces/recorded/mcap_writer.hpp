@@ -12,11 +12,11 @@
 #include <string_view>
 #include <utility>
 
-struct ZSTD_CCtx_s;  // of zstd
+struct ZSTD_CCtx_s;  // compression context of zstd
 
 namespace rovernet {
 
-/// Messages of a chunk before it is packed.
+/// Messages of an MCAP chunk before the chunk is packed.
 class McapChunk {
   public:
     /// Begins a message on a channel; its content is written to bytes() until end_message().
@@ -55,7 +55,7 @@ class McapWriter {
     void write(const McapChunk& chunk);
     /// Writes the summary, and completes the file.
     void finish();
-    /// Gives the file its name.
+    /// Renames the finished file from its temporary name to its final name.
     void give_name() { file_.give_name(); }
 
   private:

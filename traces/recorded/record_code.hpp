@@ -36,7 +36,8 @@ struct RecordedKind {
 /// then the records in the order of their bits. The layouts follow from the fields of the records.
 std::vector<RecordedKind> recorded_kinds();
 
-/// Channel of the definitions of messages; and channel of the records with this index in Record.
+/// Channel (MCAP) of the definitions of messages. Records of the kind with index i in Record have
+/// channel i + 2, see channel_of().
 inline constexpr std::uint16_t message_channel = 1;
 constexpr std::uint16_t channel_of(std::size_t index) {
     return static_cast<std::uint16_t>(index + 2);

@@ -17,7 +17,7 @@
 
 namespace rovernet {
 
-/// Facts about the run of a recorded trace.
+/// Data of a recorded trace about its run, without the records.
 struct RecordedRun {
     /// Version of the program that wrote the trace.
     std::string version;
@@ -34,8 +34,8 @@ struct RecordedRun {
     /// True if robots.txt is attached completely; it may be empty.
     bool has_names = true;
 
-    /// Text for messages: number of named robots, and the reason if there is none and no attached
-    /// file explains it.
+    /// Text for the user: number of named robots, and the reason if no robot has a name and no
+    /// attached file explains that.
     std::string names_in_words() const;
 };
 
@@ -46,7 +46,8 @@ struct RecordedRun {
 bool is_recorded_trace(const std::string& path);
 
 /// Reader of the records of a recorded trace, in the order of the run, with legs and messages as
-/// they were then. It can drive any sink: metrics, fingerprint and ns-2 trace are those of the run.
+/// they were then. The reader can drive any sink: metrics, fingerprint and ns-2 trace equal
+/// those of the run.
 ///
 ///     RecordedReader reader("runs/rescue-s7/trace.mcap");
 ///     while (const Record* record = reader.next()) sink.on(*record, reader.context());
@@ -55,9 +56,9 @@ bool is_recorded_trace(const std::string& path);
 /// defined. In a network built by a C++ program, robots added later have no names.
 ///
 /// Not in the records: keys of random draws (0), and levels of receptions (empty). An incomplete
-/// file is read up to its last complete chunk. A broken chunk is skipped: after it, messages are
-/// correct at once, and the position of a robot is correct from its next leg on. Memory grows with
-/// the number of robots and of messages in use, not with records.
+/// file is read up to its last complete chunk. A broken chunk is skipped: after the chunk, messages
+/// are correct immediately, and the position of a robot is correct from its next leg on. Memory
+/// grows with the number of robots and of messages in use, not with records.
 class RecordedReader {
   public:
     /// Opens the file and reads the parts before the records.
@@ -96,14 +97,14 @@ class RecordedReader {
     McapReader file_;
     RecordedRun run_;
     unsigned format_ = 1;
-    std::map<std::uint16_t, std::string> later_kinds_;  // by channel; empty once it is told
+    std::map<std::uint16_t, std::string> later_kinds_;  // names by channel; empty once reported
     ByteReader chunk_{{}};                              // rest of the current chunk
     std::uint64_t chunk_offset_ = 0;
     std::uint32_t chunks_ = 0;   // number of chunks so far
     std::uint64_t records_ = 0;  // number of records so far
     Time now_ = start_of_run;
     Record record_;
-    bool has_record_ = false;  // the last message was a record, not a definition
+    bool has_record_ = false;  // true: the last message was a record, not a definition
     std::vector<Reception> receptions_;
     Legs legs_;
     MessageTable messages_;

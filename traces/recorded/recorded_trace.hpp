@@ -32,12 +32,12 @@ class RecordedTrace {
         std::vector<AttachedFile> files = {};
         /// True: link changes are recorded, too, which costs a search for them.
         bool links = false;
-        /// Size of a chunk in receptions; any other record counts as 12.
+        /// Size of a chunk [receptions]; each record counts as 12 further receptions.
         std::size_t chunk = 250'000;
     };
 
-    /// Opens the file; `path` itself appears at the end, see PartFile. The incomplete file
-    /// NAME.N.part is kept if a write fails. @throws RunError if it cannot be written
+    /// Opens the file under the temporary name NAME.N.part; close() renames it to `path`, see
+    /// PartFile. The incomplete file is kept if a write fails. @throws RunError if writing fails
     RecordedTrace(const std::string& path, Contents contents);
     RecordedTrace(RecordedTrace&&) noexcept;
     RecordedTrace& operator=(RecordedTrace&&) noexcept;
@@ -52,7 +52,7 @@ class RecordedTrace {
     void on(const Record& record, const RecordContext& context);
     /// Writes the remaining records, and completes the file. @throws RunError as on()
     void finish();
-    /// Gives the file its name, after finish(). @throws RunError if that fails
+    /// Renames the file to its final name, after finish(). @throws RunError if renaming fails
     void close();
 
   private:
