@@ -12,6 +12,8 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <span>
+#include <string_view>
 #include <utility>
 
 namespace rovernet {
@@ -20,8 +22,9 @@ namespace {
 /// Builds the robots of one scenario into one network.
 class Builder {
   public:
-    Builder(Network& network, const Scenario& scenario)
-        : network_(network), scenario_(scenario), motion_(network, scenario) {
+    /// @param roles  roles that the routing protocol knows; others are left out
+    Builder(Network& network, const Scenario& scenario, std::span<const std::string_view> roles)
+        : network_(network), scenario_(scenario), motion_(network, scenario), roles_(roles) {
         for (const FileRobot& robot : scenario.movement.robots) in_file_[robot.name] = &robot;
     }
 
@@ -58,6 +61,7 @@ class Builder {
     Network& network_;
     const Scenario& scenario_;
     MotionBuilder motion_;
+    std::span<const std::string_view> roles_;
     std::vector<Due> due_;
     std::map<std::string_view, const FileRobot*> in_file_;  // where the movement file has it first
     std::vector<Built> built_;
@@ -96,6 +100,8 @@ void Builder::add_robot(const RobotTable& table, const std::string& name,
     const Vec3 at = file ? file->start : motion_.start(table, name);
     const auto plan = MotionBuilder::from_the_start;
     const Movement move = file ? Fixed{} : motion_.movement(table.move, table, name, at, plan);
+    const std::string role = table.role.value_or("");
+    const bool has_role = std::find(roles_.begin(), roles_.end(), role) != roles_.end();
     const NodeId node = located(table.radio_where, [&] {
         return network_.add({.name = name,
                              .at = at,
@@ -105,7 +111,8 @@ void Builder::add_robot(const RobotTable& table, const std::string& name,
                              .move = move,
                              .heading = table.heading,
                              .top_speed = table.top_speed.value_or(Mover::any_speed),
-                             .turn_rate = table.turn_rate});
+                             .turn_rate = table.turn_rate,
+                             .role = has_role ? role : ""});
     });
     built_.push_back({node, &table, at});
     for (const Duration t : table.off) {
@@ -295,6 +302,7 @@ NetworkSettings network_settings(const Scenario& scenario) {
         .links = {.tolerance = scenario.links.tolerance, .min_dwell = scenario.links.min_dwell},
         .reception = scenario.reception.make(),
         .access = scenario.access.make(),
+        .arp = scenario.arp,
         .propagation_delay = scenario.medium.propagation_delay,
         .event_limit = scenario.scenario.event_limit,
         .metric_parts = {.reach = scenario.metrics.reach,
@@ -316,8 +324,9 @@ void populate(Network& network, const Scenario& scenario) {
 
 void populate(Network& network, const Scenario& scenario, Router router) {
     located(Location{scenario.file}, [&] {
+        const auto roles = router.traits().roles;
         network.route(std::move(router));
-        Builder builder(network, scenario);
+        Builder builder(network, scenario, roles);
         builder.add_robots();
         builder.schedule();
         play_file(network, scenario);

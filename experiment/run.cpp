@@ -61,17 +61,19 @@ void name_results(const std::string& folder, const std::vector<TraceFile>& trace
 
 }  // namespace
 
-ScenarioRun::ScenarioRun(const Scenario& scenario, KeptPlanners* kept, Observed observed)
+ScenarioRun::ScenarioRun(const Scenario& scenario, KeptPlanners* kept, Observed observed,
+                         const std::function<Router()>& router)
     : scenario_(scenario) {
     result_.started = utc_now();
     NetworkSettings settings = network_settings(scenario);
     if (kept) settings.planners = planners_ = kept->of(settings.scene);
     if (planners_) searched_ = planners_->searches();
-    if (observed < Observed::metrics) result_.warmup = warmup_of(scenario, settings);
+    if (observed < Observed::metrics) result_.warmup = warmup_of(scenario, settings, router);
     settings.metrics = observed != Observed::nothing;
     settings.warmup = result_.warmup;
     settings.scenario = [&scenario] { return to_toml(to_document(scenario)); };
-    session_ = std::make_unique<Session>(scenario, settings);
+    session_ = std::make_unique<Session>(scenario, settings,
+                                         router ? std::optional(router()) : std::nullopt);
     observe(observed);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenario/document/value.hpp"
+#include "sim/router.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 #include "traces/metric_values.hpp"
@@ -90,8 +91,10 @@ class ScenarioRun {
     /// @throws InputError for errors found with the map, such as a robot in a wall
     /// @param scenario  must outlive the run
     /// @param kept      store of path planners, shared by runs in one scene; may be null
+    /// @param router    makes the routing protocol in place of the scenario's, for each network
     explicit ScenarioRun(const Scenario& scenario, KeptPlanners* kept = nullptr,
-                         Observed observed = Observed::everything);
+                         Observed observed = Observed::everything,
+                         const std::function<Router()>& router = {});
     ~ScenarioRun();
     ScenarioRun(const ScenarioRun&) = delete;  // sinks refer to it
     ScenarioRun& operator=(const ScenarioRun&) = delete;

@@ -23,14 +23,14 @@ Session::Session(const Scenario& scenario) : Session(scenario, network_settings(
 Session::Session(const ScenarioFile& file, const Table& settings)
     : Session(load_scenario(file, settings)) {}
 
-Session::Session(const Scenario& scenario, NetworkSettings settings)
+Session::Session(const Scenario& scenario, NetworkSettings settings, std::optional<Router> router)
     : file_(scenario.file),
       network_(std::make_shared<Network>(std::move(settings))),
       end_(start_of_run + scenario.scenario.duration),
       has_border_(scenario.scene.has_maps()),
       driven_(std::make_unique<DrivenRobots>(*network_)),
       radios_(std::make_unique<ClientRadios>(*network_)) {
-    populate(*network_, scenario);
+    router ? populate(*network_, scenario, std::move(*router)) : populate(*network_, scenario);
     for (const RobotTable& table : scenario.robots) {
         if (table.scan.empty()) continue;
         const auto scanners = std::make_shared<const std::vector<Scanner>>(table.scan);

@@ -35,7 +35,8 @@ class Session {
     /// Makes a session of a scenario file, overridden by `settings` (values by path, as for --set).
     explicit Session(const ScenarioFile& file, const Table& settings = {});
     /// Makes a session whose network has the given settings, as from network_settings(scenario).
-    Session(const Scenario& scenario, NetworkSettings settings);
+    /// @param router  routing protocol in place of the scenario's
+    Session(const Scenario& scenario, NetworkSettings settings, std::optional<Router> router = {});
     ~Session();
     Session(const Session&) = delete;  // callbacks of the network refer to it
     Session& operator=(const Session&) = delete;

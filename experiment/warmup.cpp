@@ -9,11 +9,12 @@
 
 namespace rovernet {
 
-Duration warmup_of(const Scenario& scenario, NetworkSettings settings) {
+Duration warmup_of(const Scenario& scenario, NetworkSettings settings,
+                   const std::function<Router()>& router) {
     if (!scenario.study.warmup.mser5) return scenario.study.warmup.given;
     settings.metrics = false;
     Network network(std::move(settings));
-    populate(network, scenario);
+    router ? populate(network, scenario, router()) : populate(network, scenario);
     const auto series = std::make_shared<DeliverySeries>();
     network.add_sink(series);
     network.run_for(scenario.scenario.duration);

@@ -101,6 +101,8 @@ void Engine::serve(const Event& event) {
             return mac.on_timer(node, static_cast<std::uint32_t>(data));
         case Occurrence::Kind::unheard: return mac.on_unheard(data);
         case Occurrence::Kind::scene_change: return change_scene();
+        case Occurrence::Kind::arp:
+            return routing.on_arp(node, NodeId{static_cast<std::uint32_t>(data)});
     }
 }
 

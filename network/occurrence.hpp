@@ -35,7 +35,9 @@ struct Occurrence {
         /// End of a unicast of `node` that its next hop did not receive; data: its slot in Mac.
         unheard,
         /// Change of the scene: a door closes or opens. `node` is not used.
-        scene_change
+        scene_change,
+        /// Event of address resolution at `node`; data: id of the neighbour, see Arp.
+        arp
     };
     Kind kind;
     /// Node of the event, if it concerns one.

@@ -29,6 +29,12 @@ SendResult result_of(DropReason reason) {
 
 }  // namespace
 
+Routing::Routing(World& world, Mac& mac, RoutingUser& user)
+    : world_(world), mac_(mac), user_(user) {
+    check_fields(world.settings.arp, "access");
+    if (world.settings.arp.arp) arp_.emplace(world, *this, world.settings.arp);
+}
+
 void Routing::set(Router router) {
     if (router_) throw std::invalid_argument("this network has a routing protocol already");
     router_.emplace(std::move(router));
@@ -59,8 +65,15 @@ void Routing::originate(NodeId node, MessageId message) {
 
 void Routing::send_one_hop(const Frame& frame) {
     world_.hold(frame);
-    mac_.send({frame});
+    pass_down({frame});
 }
+
+void Routing::pass_down(const QueuedFrame& frame) {
+    if (arp_ && frame.frame.next_hop != everyone && !arp_->admits(frame)) return;
+    mac_.send(frame);
+}
+
+void Routing::on_arp(NodeId node, NodeId neighbour) { arp_->on_timer(node, neighbour); }
 
 void Routing::on_timer(NodeId node, std::uint64_t tag) {
     call_router([&] { router_->on_timer(*this, node, tag); });
@@ -99,6 +112,9 @@ void Routing::on_start(NodeId node) {
 }
 
 void Routing::on_switched(NodeId node, bool on) {
+    if (arp_ && !on) {
+        for (const QueuedFrame& each : arp_->switch_off(node)) lost(each, DropReason::end);
+    }
     if (router_) call_router([&] { router_->on_switched(*this, node, on); });
 }
 
@@ -153,7 +169,8 @@ std::optional<SendHandle> Routing::send(const Frame& frame, std::optional<NodeId
                                         : "a router sent a frame in the past");
     }
     world_.hold(frame);
-    const bool is_control = mac_.has_priority() && !world_.messages[frame.message].kind.empty();
+    const bool is_control =
+        mac_.has_priority() && world_.messages[frame.message].is_routing_packet();
     if (at == world_.now) {
         outbox_.push_back({frame, heard_from, is_control});
         return std::nullopt;
@@ -196,11 +213,14 @@ void Routing::send_now(const QueuedFrame& frame) {
     if (frame.frame.next_hop != everyone && world_.records.wants<Routed>()) {
         world_.emit(Routed{world_.now, frame.frame, frame.heard_from});
     }
-    mac_.send(frame);
+    pass_down(frame);
 }
 
 std::vector<QueuedFrame> Routing::take_queued(NodeId node, NodeId next_hop) {
     auto taken = mac_.take(node, next_hop);
+    if (arp_) {
+        if (const auto held = arp_->take(node, next_hop)) taken.push_back(*held);
+    }
     for (const QueuedFrame& each : taken) count_holds(each.frame.message, 1);
     return taken;
 }
@@ -239,16 +259,26 @@ double Routing::draw(Purpose purpose, NodeId node, std::uint64_t index) const {
 }
 
 void Routing::sent(const QueuedFrame& frame, bool acked) {
+    const bool is_message = world_.messages[frame.frame.message].kind.empty();
     if (wants_result(frame.frame)) tell(frame, acked ? SendResult::acked : SendResult::sent);
     world_.release(frame.frame);
-    user_.has_room(frame.frame.sender);
+    if (is_message) user_.has_room(frame.frame.sender);
 }
 
 void Routing::lost(const QueuedFrame& frame, DropReason reason) {
+    lose(frame, reason, result_of(reason));
+}
+
+void Routing::unresolved(const QueuedFrame& frame, bool is_displaced) {
+    lose(frame, DropReason::unresolved, is_displaced ? SendResult::displaced : SendResult::retries);
+}
+
+void Routing::lose(const QueuedFrame& frame, DropReason reason, SendResult result) {
+    const bool is_message = world_.messages[frame.frame.message].kind.empty();
     drop_sending(frame.frame.sender, frame.frame, frame.frame, reason);
-    if (wants_result(frame.frame)) tell(frame, result_of(reason));
+    if (wants_result(frame.frame)) tell(frame, result);
     world_.release(frame.frame);
-    if (reason == DropReason::retries) user_.has_room(frame.frame.sender);
+    if (is_message && result == SendResult::retries) user_.has_room(frame.frame.sender);
 }
 
 bool Routing::wants_result(const Frame& frame) const {

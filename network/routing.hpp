@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "network/arp.hpp"
 #include "network/mac.hpp"
 #include "sim/router.hpp"
 #include "sim/slots.hpp"
@@ -41,10 +42,11 @@ class RoutingUser {
 /// Frames that the protocol sends at once leave after the protocol's function has returned, so that
 /// it is not called back inside its own functions. Frames for a later time wait here, each with an
 /// event. Messages over one hop pass the protocol by.
-class Routing final : public LinkLayer, public MacUser {
+class Routing final : public LinkLayer, public MacUser, public ArpUser {
   public:
     /// @param user  layer above, which may still be under construction
-    Routing(World& world, Mac& mac, RoutingUser& user) : world_(world), mac_(mac), user_(user) {}
+    /// @throws std::invalid_argument if a setting of ARP is out of its range
+    Routing(World& world, Mac& mac, RoutingUser& user);
 
     /// Sets the protocol of all nodes, and reads its traits.
     /// @throws std::invalid_argument if a protocol is already set
@@ -64,6 +66,8 @@ class Routing final : public LinkLayer, public MacUser {
     /// Checks the roles of all nodes, and calls the protocol's on_start for them at the start of
     /// the run, in the order of their keys.
     void start();
+    /// Serves an event of address resolution.
+    void on_arp(NodeId node, NodeId neighbour);
     /// Calls the protocol's on_start for a node added after the start of the run, or on_switched.
     void on_start(NodeId node);
     void on_switched(NodeId node, bool on);
@@ -104,7 +108,15 @@ class Routing final : public LinkLayer, public MacUser {
     void lost(const QueuedFrame& frame, DropReason reason) override;
     bool wants_result(const Frame& frame) const override;
 
+    // Implementation of ArpUser, for address resolution.
+    void send_resolved(const QueuedFrame& frame) override { mac_.send(frame); }
+    void unresolved(const QueuedFrame& frame, bool is_displaced) override;
+
   private:
+    // Passes a frame from a node that is on to the MAC, or to ARP if its next hop is unresolved.
+    void pass_down(const QueuedFrame& frame);
+    // Emits Dropped for a frame that was not transmitted, and reports the result to the protocol.
+    void lose(const QueuedFrame& frame, DropReason reason, SendResult result);
     // Throws std::invalid_argument if the protocol does not know the role of the node.
     void check_role(NodeId node) const;
     // Calls the protocol, then transmits the frames that it queued meanwhile.
@@ -142,6 +154,8 @@ class Routing final : public LinkLayer, public MacUser {
     // Layers below and above.
     Mac& mac_;
     RoutingUser& user_;
+    // Address resolution, if the settings ask for it.
+    std::optional<Arp> arp_;
     // Protocol of all nodes; if there is none, messages go over one hop only.
     std::optional<Router> router_;
     // True during on_receive of the protocol: it may not send at once.

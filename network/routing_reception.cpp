@@ -32,6 +32,9 @@ void Routing::receive_broadcast(const AirFrame& air, const Arriving& part) {
 /// Passes a frame to the router; without a router it is for everybody, and is not forwarded.
 void Routing::hand_up(const Frame& frame, std::span<Reception> receptions,
                       std::span<const Dbm> levels) {
+    if (arp_ && world_.messages[frame.message].is_link_packet()) {
+        return arp_->receive(frame, receptions);
+    }
     if (!router_) {
         for (Reception& r : receptions) {
             r.fate = Fate::arrived;
@@ -94,7 +97,8 @@ void Routing::receive_unicast(const AirFrame& air, Reception& r, std::span<const
         if (mac_.is_repeated(r.node, air)) {
             r.fate = Fate::duplicate;
             r.delivered = false;
-        } else if (world_.messages[air.frame.message].is_routed) {
+        } else if (const Message& m = world_.messages[air.frame.message];
+                   m.is_routed || m.is_link_packet()) {
             hand_up(air.frame, {&r, 1}, level);
         } else {
             r.fate = Fate::arrived;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/access/arp.hpp"
 #include "models/access/no_access.hpp"
 #include "models/links/link_search.hpp"
 #include "models/propagation/friis.hpp"
@@ -56,6 +57,8 @@ struct NetworkSettings {
     ReceptionModel reception = Threshold{};
     /// Access model: determines when robots may transmit.
     AccessModel access = NoAccess{};
+    /// Address resolution before the first unicast to a neighbour; off by default.
+    ArpSettings arp = {};
     /// True: frames travel at the speed of light; false: they arrive at once.
     bool propagation_delay = true;
     /// Largest number of events of a run; beyond it RunError is thrown. It catches endless

@@ -224,8 +224,7 @@ void AodvRouter::on_sent(LinkLayer& link, const QueuedFrame& queued, SendResult 
     const Message& message = link.message(queued.frame.message);
     if (result != SendResult::retries) {
         if (!message.kind.empty() || message.to == everyone) return;
-        return link.drop(at, queued.as_received(),
-                         result == SendResult::off ? DropReason::off : DropReason::queue_full);
+        return link.drop(at, queued.as_received(), drop_reason_of(result));
     }
     if (message.kind == aodv::reply_kind) node(at).one_way.push_back({next_hop, link.now()});
     std::vector<QueuedFrame> stranded = link.take_queued(at, next_hop);

@@ -227,6 +227,10 @@ RobotTable read_robot(const Value& value, const Scenario& scenario, bool needs_p
     if (!placed && needs_place && !robot.move.draws_place()) {
         table.missing("at", "at = [\"2 m\", \"3 m\"], or place = { ... }");
     }
+    if (const Value* role = table.take("role")) {
+        const auto roles = all_roles();
+        robot.role = roles[read_choice(*role, "role", roles)];
+    }
     read_air(table, robot, scenario);
     read_reactions(table, robot);
     read_switching(table, robot);
@@ -244,6 +248,7 @@ Table robot_document(const RobotTable& robot, const Scenario& scenario) {
     table.set("radius", to_value(robot.radius));
     if (robot.top_speed) table.set("top_speed", to_value(*robot.top_speed));
     if (robot.turn_rate) table.set("turn_rate", to_value(*robot.turn_rate));
+    if (robot.role) table.set("role", *robot.role);
     Table radio = difference(robot.radio, scenario.radio);
     if (!radio.entries.empty()) table.set("radio", std::move(radio));
     if (robot.propagation) table.set("propagation", chosen_document(*robot.propagation));

@@ -136,6 +136,9 @@ struct RobotTable {
     std::optional<MetersPerSecond> top_speed;
     /// Rate at which the robot turns in place before it drives [rad/s]; none: turns take no time.
     std::optional<RadiansPerSecond> turn_rate;
+    /// Role in the routing protocol; none: the protocol's default. Protocols without roles ignore
+    /// it.
+    std::optional<std::string> role;
     /// Radio of the robot: [radio], overridden by the keys of the robot's `radio` table.
     Radio radio;
     RadioPlaces radio_places;

@@ -176,15 +176,15 @@ void check_shadowing(TableReader& document, const Scenario& scenario) {
 }
 
 /// Reads a table that chooses a model of a list, such as [access]; it may be missing.
-template <class Choice>
+template <class Choice, class... Common>
 void read_choice_of(TableReader& document, std::string_view table, std::string_view key,
-                    Choice& out) {
+                    Choice& out, Common&... common) {
     if (const Value* value = document.take(table))
-        read_model(*value, fmt::format("[{}]", table), key, key, out);
+        read_model(*value, fmt::format("[{}]", table), key, key, out, common...);
 }
 
 void read_access(TableReader& document, Scenario& out) {
-    read_choice_of(document, "access", "model", out.access);
+    read_choice_of(document, "access", "model", out.access, out.arp);
     const Value* access = document.take("access");
     if (!access) return;
     const Value* rates = access->table()->find("basic_rates");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/access/arp.hpp"
 #include "models/links/link_search.hpp"
 #include "models/radio.hpp"
 #include "models/variation/fading.hpp"
@@ -112,6 +113,8 @@ struct Scenario {
     Fading fading;
     ReceptionTable reception;
     AccessTable access;
+    /// Address resolution, keys of [access] beside those of the model.
+    ArpSettings arp;
     /// File position of the key basic_rates of [access], or of the table [access] without this key.
     Location access_where;
     LinksTable links;

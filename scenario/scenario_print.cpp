@@ -45,7 +45,9 @@ Table to_document(const Scenario& scenario) {
         document.set("fading", section(scenario.fading));
     }
     document.set("reception", whole_document(scenario.reception));
-    document.set("access", whole_document(scenario.access));
+    Table access = whole_document(scenario.access);
+    if (scenario.arp.arp) append_fields(access, scenario.arp);
+    document.set("access", std::move(access));
     document.set("links", section(scenario.links));
     document.set("movement", section(scenario.movement));
     Array robots;

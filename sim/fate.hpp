@@ -102,6 +102,8 @@ enum class DropReason : std::uint8_t {
     salvaged,
     /// Reason of a protocol outside this list; Dropped::own_code names it.
     own,
+    /// The address of the next hop was not resolved (ARP).
+    unresolved,
 };
 
 /// Code and layer of a loss, as written in traces and metrics.
@@ -147,6 +149,7 @@ constexpr LossReason reason_of(DropReason reason) {
         case DropReason::timeout: return {"TOUT", "RTR"};
         case DropReason::salvaged: return {"SAL", "RTR"};
         case DropReason::own: return {"OWN", "RTR"};
+        case DropReason::unresolved: return {"ARP", "IFQ"};
     }
     return {};
 }
@@ -154,7 +157,7 @@ constexpr LossReason reason_of(DropReason reason) {
 // Last enumerators of Fate and DropReason. Update these when an enumerator is appended; the
 // static_assert below fails otherwise.
 inline constexpr auto last_fate = Fate::arrived;
-inline constexpr auto last_drop_reason = DropReason::own;
+inline constexpr auto last_drop_reason = DropReason::unresolved;
 static_assert(reason_of(static_cast<Fate>(static_cast<int>(last_fate) + 1)) == LossReason{} &&
               reason_of(static_cast<DropReason>(static_cast<int>(last_drop_reason) + 1)) ==
                   LossReason{});

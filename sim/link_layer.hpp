@@ -42,7 +42,19 @@ enum class SendResult : std::uint8_t {
     queue_full,
     /// The sender was switched off before the frame was transmitted.
     off,
+    /// A later frame took the frame's place before the next hop's address was resolved (ARP).
+    displaced,
 };
+
+/// Reason of a packet's loss after a failed result, for protocols that do not send it again.
+constexpr DropReason drop_reason_of(SendResult result) {
+    switch (result) {
+        case SendResult::off: return DropReason::off;
+        case SendResult::displaced: return DropReason::unresolved;
+        case SendResult::queue_full: return DropReason::queue_full;
+        default: return DropReason::retries;
+    }
+}
 
 /// Link layer: functions that a routing protocol may call, only from within its own functions. One
 /// protocol object serves all nodes, so every call has the acting node as an argument.

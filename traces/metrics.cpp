@@ -88,7 +88,7 @@ void Metrics::count_routed(const Frame& frame, Time time, const RecordContext& c
     const Message& message = context.messages[frame.message];
     if (message.kind.empty()) {
         routing_.data += message.is_routed && message.created >= begin_ ? 1 : 0;
-    } else if (time >= begin_) {
+    } else if (message.is_routing_packet() && time >= begin_) {
         ++routing_.packets;
         routing_.bytes += frame.bytes > 0 ? frame.bytes : message.size;
     }

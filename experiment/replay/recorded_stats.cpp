@@ -137,20 +137,27 @@ bool RecordedCounter::count(const Sent& r) {
 
 /// A unicast of the routing protocol has the line of its Routed.
 bool RecordedCounter::count(const Transmitted& r) {
-    const bool is_routed = context_->messages[r.frame.message].is_routed;
-    return (is_routed && r.frame.next_hop != everyone) || count_routed(r.frame, r.time);
+    const Message& message = context_->messages[r.frame.message];
+    const bool has_no_line =
+        message.is_link_packet() || (message.is_routed && r.frame.next_hop != everyone);
+    return has_no_line || count_routed(r.frame, r.time);
 }
 
 bool RecordedCounter::count_routed(const Frame& frame, Time time) {
     if (const Known* message = known(frame.message)) {
         counter_.transmitted(frame.sender, message->sending.flow, time);
-    } else if (const Message& packet = context_->messages[frame.message]; !packet.kind.empty()) {
+    } else if (const Message& packet = context_->messages[frame.message];
+               packet.is_routing_packet()) {
         counter_.routed(frame.bytes > 0 ? frame.bytes : packet.size);
     }
     return add_packets(1);
 }
 
 bool RecordedCounter::count(const Received& r) {
+    if (context_->messages[r.frame.message].is_link_packet()) {
+        for (const Reception& rx : r.receptions) ++control_[static_cast<std::size_t>(rx.fate)];
+        return add_packets(r.receptions.size());
+    }
     Known* message = known(r.frame.message);
     const bool is_unicast = r.frame.next_hop != everyone;
     const bool is_routed = context_->messages[r.frame.message].is_routed_unicast();

@@ -111,7 +111,8 @@ struct Csma {
             field("short_retries", &Csma::short_retries, non_negative, "attempts; 0: no end"),
             field("long_retries", &Csma::long_retries, non_negative, "behind an RTS; 0: no end"),
             field("rts_threshold", &Csma::rts_threshold, "larger unicasts ask with an RTS first"),
-            field("header", &Csma::header, "that access adds to a message"));
+            field("header", &Csma::header, "that access adds to a message"),
+            field("priority", &Csma::priority, "packets of the routing protocol go first"));
     }
 
     /// Complete timing: times that are not given have the values of the standard.

@@ -121,11 +121,12 @@ void check_given(const ModelChoice<Choice...>& choice, std::string_view what, Lo
 /// several models have sets the parameter of each of them. Its value must be in the range of the
 /// chosen model. A model that is not chosen ignores a value outside of its own range.
 /// @param key   key whose value is the name of the model: "model"
-/// @param what  kind of the model, for error messages: "propagation model"
+/// @param what    kind of the model, for error messages: "propagation model"
+/// @param common  described structs whose keys the table has beside those of the models
 /// @throws InputError at the first mistake, such as a missing parameter of the chosen model
-template <class... Choice>
+template <class... Choice, Described... Common>
 void read_model(const Value& value, std::string table_name, std::string_view key,
-                std::string_view what, ModelChoice<Choice...>& out) {
+                std::string_view what, ModelChoice<Choice...>& out, Common&... common) {
     TableReader table(value, std::move(table_name));
     if (const Value* word = table.take(key)) out.model = read_choice(*word, what, out.names());
     const auto is_of_chosen = [&](std::string_view name) {
@@ -143,6 +144,7 @@ void read_model(const Value& value, std::string table_name, std::string_view key
             }
         });
     });
+    (table.read_fields(common), ...);
     table.reject_unknown();
     check_given(out, what, value.where);
 }

@@ -5,6 +5,9 @@
 #include "scenario/tables/model_choice.hpp"
 #include "sim/router.hpp"
 
+#include <string>
+#include <vector>
+
 // Routing protocols in a scenario file:
 //
 //     [routing]
@@ -16,5 +19,27 @@ namespace rovernet {
 /// [routing]: the chosen routing protocol, by default flood, and the given parameters of all listed
 /// protocols. make() returns the protocol for Network::route().
 using RoutingTable = ModelChoice<RoutingProtocols, Router>;
+
+/// Names of roles that robots may have, see RouterTraits::roles: those of the chosen protocol.
+inline std::vector<std::string> roles_of(const RoutingTable& routing) {
+    std::vector<std::string> roles;
+    routing.for_each([&]<class M>(const M&, bool chosen) {
+        if constexpr (requires { M::roles; }) {
+            if (chosen) roles.assign(M::roles.begin(), M::roles.end());
+        }
+    });
+    return roles;
+}
+/// Names of roles of all listed protocols: the key `role` of a robot may stand in a file that
+/// chooses another protocol.
+inline std::vector<std::string> all_roles() {
+    std::vector<std::string> roles;
+    RoutingTable::for_each_type([&]<class M>() {
+        if constexpr (requires { M::roles; }) {
+            roles.insert(roles.end(), M::roles.begin(), M::roles.end());
+        }
+    });
+    return roles;
+}
 
 }  // namespace rovernet

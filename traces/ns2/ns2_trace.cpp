@@ -141,6 +141,7 @@ class Ns2Trace::Writer {
     void lines(const Other&, const RecordContext&) {}
 
     void packet(const PacketLine&, const RecordContext&);
+    void arp_packet(PacketLine, const Message&, const RecordContext&);
     void describe(const PacketLine&, const Message&, const RecordContext&);
     void old_packet(const PacketLine&, const Message&);
     void new_packet(const PacketLine&, const Message&, Vec3 position);
@@ -198,8 +199,9 @@ void Ns2Trace::Writer::lines(const Sent& r, const RecordContext& context) {
 
 /// A routed unicast has one line for each hop, by its Routed, and not one for each attempt.
 void Ns2Trace::Writer::lines(const Transmitted& r, const RecordContext& context) {
-    const bool is_routed = context.messages[r.frame.message].is_routed;
-    if (is_routed && r.frame.next_hop != everyone) return;
+    const Message& message = context.messages[r.frame.message];
+    if (message.is_routed && r.frame.next_hop != everyone) return;
+    if (message.is_link_packet()) return;
     router_line(r.time, r.frame, r.heard_from, context);
 }
 
@@ -222,6 +224,7 @@ void Ns2Trace::Writer::router_line(Time time, const Frame& frame, std::optional<
 void Ns2Trace::Writer::lines(const Received& r, const RecordContext& context) {
     const Frame& frame = r.frame;
     const MacHeader mac = ip_header(frame.sender, frame.next_hop, r.reserved);
+    const bool is_link_packet = context.messages[frame.message].is_link_packet();
     const bool is_unicast = context.messages[frame.message].is_routed_unicast();
     if (is_unicast) reserved_ = r.reserved;
     for (const Reception& rx : r.receptions) {
@@ -236,6 +239,7 @@ void Ns2Trace::Writer::lines(const Received& r, const RecordContext& context) {
             continue;
         }
         if (mac_ == MacTrace::on) packet(line, context);
+        if (is_link_packet) continue;
         line.layer = "RTR";
         if (!is_unicast || !rx.delivered) packet(line, context);
         if (rx.delivered) {
@@ -290,6 +294,7 @@ void Ns2Trace::Writer::lines(const Moved& r, const RecordContext&) {
 
 void Ns2Trace::Writer::packet(const PacketLine& line, const RecordContext& context) {
     const Message& message = context.messages[line.message];
+    if (message.is_link_packet()) return arp_packet(line, message, context);
     begin_line();
     if (format_ == Ns2Format::old_format) {
         old_packet(line, message);
@@ -297,6 +302,29 @@ void Ns2Trace::Writer::packet(const PacketLine& line, const RecordContext& conte
         new_packet(line, message, context.legs.position(line.node, line.time));
     }
     describe(line, message, context);
+    end_line();
+}
+
+/// Writes a line about an ARP packet, which has no IP header. The hardware address of a node is its
+/// id; that of the asked node is 0 in a request.
+void Ns2Trace::Writer::arp_packet(PacketLine line, const Message& message,
+                                  const RecordContext& context) {
+    const std::string_view kind = message.kind.substr(message.protocol().size() + 1);
+    const bool is_request = kind == "REQUEST", is_old = format_ == Ns2Format::old_format;
+    if (line.mac.ethertype == "800") line.mac.ethertype = "806";
+    const NodeId from = message.origin, to = message.to, hardware = is_request ? NodeId{0} : to;
+    begin_line();
+    if (is_old) {
+        old_start(line, message.uid, message.protocol(), line.size(message));
+        text("------- ["), text(kind), text(" "), integer(from.value), text("/");
+        integer(from.value), text(" "), integer(hardware.value), text("/"), integer(to.value);
+        text("] ");
+    } else {
+        new_start(line, context.legs.position(line.node, line.time));
+        text("-P arp -Po "), text(kind), text(" -Pms "), integer(from.value);
+        text(" -Ps "), integer(from.value), text(" -Pmd "), integer(hardware.value);
+        text(" -Pd "), integer(to.value), text(" ");
+    }
     end_line();
 }
 
