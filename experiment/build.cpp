@@ -307,7 +307,8 @@ NetworkSettings network_settings(const Scenario& scenario) {
         .event_limit = scenario.scenario.event_limit,
         .metric_parts = {.reach = scenario.metrics.reach,
                          .flows = scenario.metrics.flows,
-                         .robots = scenario.metrics.robots},
+                         .robots = scenario.metrics.robots,
+                         .path_stretch = scenario.metrics.path_stretch},
     };
     std::vector<std::string> notices;  // were told when the file was loaded
     settings.scene =

@@ -35,6 +35,16 @@ Table metrics_table(const T& values) {
     return table;
 }
 
+/// Appends the metrics of the routed unicasts of a flow.
+void append_routed(Table& part, const PartValues& values) {
+    for (Entry& entry : metrics_table(metrics_of(values.routed)).entries)
+        part.set(entry.key, std::move(entry.value));
+    Table drops;
+    for (std::size_t i = 0; i < values.drops.size(); ++i)
+        if (values.drops[i] > 0) drops.set(loss_codes.of[i], values.drops[i]);
+    part.set("drops", std::move(drops));
+}
+
 }  // namespace
 
 void append_metrics(Table& table, const MetricValues& metrics) {
@@ -42,27 +52,34 @@ void append_metrics(Table& table, const MetricValues& metrics) {
         table.set(entry.key, std::move(entry.value));
 }
 
-void for_each_part(
-    const Scenario& scenario, const MetricValues& metrics, Duration measured,
-    const std::function<void(std::string_view, const std::string&, const PartMetrics&)>& visit) {
+void for_each_part(const Scenario& scenario, const MetricValues& metrics, Duration measured,
+                   const std::function<void(std::string_view, const std::string&,
+                                            const PartMetrics&, const PartValues*)>& visit) {
     const auto part = [&](const std::vector<PartValues>& all, std::size_t i) {
-        return (i < all.size() ? all[i] : PartValues{}).metrics(measured);
+        return i < all.size() ? all[i] : PartValues{};
     };
     if (scenario.metrics.flows) {
-        for (std::size_t i = 0; i < scenario.traffic.size(); ++i)
-            visit("flows", scenario.traffic[i].name, part(metrics.flows, i));
+        for (std::size_t i = 0; i < scenario.traffic.size(); ++i) {
+            const PartValues values = part(metrics.flows, i);
+            const bool is_routed = scenario.traffic[i].to && !scenario.traffic[i].hops;
+            visit("flows", scenario.traffic[i].name, values.metrics(measured),
+                  is_routed ? &values : nullptr);
+        }
     }
     if (!scenario.metrics.robots) return;
     const std::vector<std::string> robots = robot_names(scenario);
     for (std::size_t i = 0; i < robots.size(); ++i)
-        visit("robots", robots[i], part(metrics.robots, i));
+        visit("robots", robots[i], part(metrics.robots, i).metrics(measured), nullptr);
 }
 
 void append_parts(Table& table, const Scenario& scenario, const RunResult& result) {
     std::map<std::string_view, Table> kinds;
     for_each_part(scenario, result.metrics, result.measured(),
-                  [&](std::string_view kind, const std::string& name, const PartMetrics& metrics) {
-                      kinds[kind].entries.push_back({name, metrics_table(metrics), {}});
+                  [&](std::string_view kind, const std::string& name, const PartMetrics& metrics,
+                      const PartValues* routed) {
+                      Table part = metrics_table(metrics);
+                      if (routed && result.metrics.routed) append_routed(part, *routed);
+                      kinds[kind].entries.push_back({name, std::move(part), {}});
                   });
     for (auto& [kind, parts] : kinds) table.set(kind, std::move(parts));
     if (result.topology) table.set("topology", metrics_table(*result.topology));

@@ -13,6 +13,7 @@ namespace rovernet {
 
 struct MetricValues;
 struct PartMetrics;
+struct PartValues;
 struct RunResult;
 struct Scenario;
 
@@ -20,13 +21,16 @@ struct Scenario;
 /// stats --json`.
 void append_metrics(Table& table, const MetricValues& metrics);
 
-/// Calls visit(kind, name, metrics) for each flow (kind "flows") and each robot (kind "robots"), in
-/// their order, if the table [metrics] of the scenario requests metrics of flows or robots. Names
-/// depend only on the scenario.
+/// Calls visit(kind, name, metrics, routed) for each flow (kind "flows") and each robot (kind
+/// "robots"), in their order, if the table [metrics] of the scenario requests metrics of flows or
+/// robots. Names depend only on the scenario.
 /// @param measured  duration of the measurement [ns]: the run without its warm-up
-void for_each_part(const Scenario& scenario, const MetricValues& metrics, Duration measured,
-                   const std::function<void(std::string_view kind, const std::string& name,
-                                            const PartMetrics& metrics)>& visit);
+/// @param visit     `routed` has the values of a flow of unicasts that may go over several hops; it
+///                  is null for other flows, and for robots
+void for_each_part(
+    const Scenario& scenario, const MetricValues& metrics, Duration measured,
+    const std::function<void(std::string_view kind, const std::string& name,
+                             const PartMetrics& metrics, const PartValues* routed)>& visit);
 /// Appends the metrics that [metrics] requests, as tables "flows", "robots" and "topology", and the
 /// tables that were added by ScenarioRun::add_part().
 void append_parts(Table& table, const Scenario& scenario, const RunResult& result);

@@ -40,6 +40,12 @@ std::optional<std::uint32_t> Applications::reachable(NodeId from, NodeId to) {
     return reachability_.count(w.medium, from, w.now, w.legs);
 }
 
+/// Hops of the shortest chain of links to the destination of a unicast, if a sink requests it.
+std::optional<std::uint32_t> Applications::shortest(NodeId from, NodeId to) {
+    if (to == everyone || !world_.records.wants(kind_shortest)) return std::nullopt;
+    return Reachability::shortest(world_.medium, from, to, world_.now, world_.legs);
+}
+
 bool Applications::is_routed(NodeId from, NodeId to, bool one_hop) const {
     if (to != everyone && (to.index() >= world_.size() || to == from)) {
         throw std::invalid_argument("a unicast needs another robot to go to");
@@ -60,7 +66,7 @@ std::optional<std::uint64_t> Applications::send(NodeId from, NodeId to, std::str
     const std::uint64_t uid = message.uid;
     const Hops ttl = routed ? routing_.router()->initial_ttl(message) : Hops{1};
     const auto robots = static_cast<std::uint32_t>(to == everyone ? world_.size() : 2);
-    world_.emit(Sent{world_.now, from, id, ttl, robots, reachable(from, to)});
+    world_.emit(Sent{world_.now, from, id, ttl, robots, reachable(from, to), shortest(from, to)});
     if (routed) {
         routing_.originate(from, id);
     } else {

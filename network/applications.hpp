@@ -85,6 +85,7 @@ class Applications final : public RoutingUser {
     MessageId new_message(NodeId from, NodeId to, std::string payload, const SendOptions& options,
                           bool is_routed);
     std::optional<std::uint32_t> reachable(NodeId from, NodeId to);
+    std::optional<std::uint32_t> shortest(NodeId from, NodeId to);
 
     World& world_;
     Routing& routing_;

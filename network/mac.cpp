@@ -24,7 +24,7 @@ Time Mac::transmit(const AirFrame& air) {
     if (data) world_.emit(Transmitted{world_.now, air.frame, air.heard_from});
     const Transmission how = transmission(air);  // a copy: others are made meanwhile
     if (world_.records.wants<AirSent>()) {
-        world_.emit(AirSent{world_.now, air, how.bytes, data ? header_ : 0});
+        world_.emit(AirSent{world_.now, air, how.bytes, data ? header_ : 0, how.airtime()});
     }
     const auto receptions = channel_.transmit(air, how, listens_);
     const Time end = world_.now + how.airtime();

@@ -47,13 +47,17 @@ struct Sent {
     /// most that any protocol could reach if no robot moved. Set only if a sink requests it (see
     /// kind_reachable, kind_cheap_reachable).
     std::optional<std::uint32_t> reachable;
+    /// Hops of the shortest chain of links to the destination of a unicast now; none if there is no
+    /// chain. Set only if a sink requests it (see kind_shortest).
+    std::optional<std::uint32_t> shortest = std::nullopt;
 
     static constexpr std::string_view name = "Sent";
     static constexpr auto fields() {
         return describe(field("time", &Sent::time), field("node", &Sent::node),
                         field<with_origin>("message", &Sent::message), field("ttl", &Sent::ttl),
                         field("robots", &Sent::robots),
-                        field<not_hashed>("reachable", &Sent::reachable));
+                        field<not_hashed>("reachable", &Sent::reachable),
+                        field<not_hashed | since(3)>("shortest", &Sent::shortest));
     }
 };
 
@@ -154,12 +158,15 @@ struct AirSent {
     std::uint32_t bytes;
     /// Bytes that the access model adds to a frame of a message.
     std::uint32_t header = 0;
+    /// Airtime of the frame [ns].
+    Duration airtime{0};
 
     static constexpr std::string_view name = "AirSent";
     static constexpr auto fields() {
         return describe(field("time", &AirSent::time), field("air", &AirSent::air),
                         field("bytes", &AirSent::bytes),
-                        field<since(2)>("header", &AirSent::header));
+                        field<since(2)>("header", &AirSent::header),
+                        field<since(3)>("airtime", &AirSent::airtime));
     }
 };
 

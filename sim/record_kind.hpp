@@ -14,7 +14,7 @@
 //   - a place at the end of RecordKinds below,
 //   - code that emits it: World::emit.
 // The variant Record, the bit of the kind, recorded traces, their text, tables of rows and the
-// fingerprint follow from these. Request bits, from 29 on, fill optional fields (reachable, levels)
+// fingerprint follow from these. Request bits, from 28 on, fill optional fields (reachable, levels)
 // of other records; the work is done once for all sinks.
 
 namespace rovernet {
@@ -37,7 +37,7 @@ using KindMask = std::uint32_t;
 template <class T, class... R>
 consteval KindMask bit_in(RecordList<R...>) {
     static_assert((std::is_same_v<T, R> || ...), "T is no kind of record");
-    static_assert(sizeof...(R) < 29, "the bits from 29 on are requests");
+    static_assert(sizeof...(R) < 28, "the bits from 28 on are requests");
     KindMask bit = 1;
     ((std::is_same_v<T, R> || (bit <<= 1) == 0) || ...);
     return bit;
@@ -69,7 +69,9 @@ inline constexpr KindMask kind_cheap_reachable = 1U << 30;
 /// Request of a sink: fill Received::levels, by computing the level at each receiver of each frame.
 /// A routing protocol requests levels by its trait wants_levels.
 inline constexpr KindMask kind_levels = 1U << 29;
+/// Request of a sink: fill Sent::shortest, by a search of the network for each unicast.
+inline constexpr KindMask kind_shortest = 1U << 28;
 /// All kinds of records, without requests.
-inline constexpr KindMask kind_all = 0x1fffffff;
+inline constexpr KindMask kind_all = 0x0fffffff;
 
 }  // namespace rovernet

@@ -54,9 +54,11 @@ std::vector<MetricValue> list_of(const RunResult& result, const Scenario* scenar
     append(list, RunNumbers{result.events, seconds(result.warmup)});
     if (!scenario) return list;
     for_each_part(*scenario, result.metrics, result.measured(),
-                  [&](std::string_view kind, const std::string& name, const PartMetrics& metrics) {
-                      append(list, metrics,
-                             fmt::format(".{}{}", kind == "robots" ? "at." : "", name));
+                  [&](std::string_view kind, const std::string& name, const PartMetrics& metrics,
+                      const PartValues* routed) {
+                      const auto behind = fmt::format(".{}{}", kind == "robots" ? "at." : "", name);
+                      append(list, metrics, behind);
+                      if (routed) append(list, metrics_of(routed->routed), behind);
                   });
     if (scenario->metrics.topology)
         append(list, result.topology ? *result.topology : TopologyValues{});

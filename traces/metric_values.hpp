@@ -4,6 +4,7 @@
 #include "sim/fate.hpp"
 #include "sim/fields.hpp"
 #include "sim/time.hpp"
+#include "traces/routing_values.hpp"
 
 #include <array>
 #include <cstddef>
@@ -36,27 +37,6 @@ struct LatencyValues {
                         field("latency_max_s", &LatencyValues::max, "largest latency"));
     }
     friend bool operator==(const LatencyValues&, const LatencyValues&) = default;
-};
-
-/// Cost of a routing protocol. A packet counts once for each hop, as lines s and f at RTR in ns-2.
-/// Source: J. Broch et al., A performance comparison of multi-hop wireless ad hoc network routing
-/// protocols, MobiCom 1998.
-struct RoutingValues {
-    std::uint64_t packets = 0;         ///< control packets that the protocol sent
-    std::uint64_t bytes = 0;           ///< size of the control packets, above the MAC [bytes]
-    std::optional<double> load;        ///< packets for each delivery [-]; empty without deliveries
-    std::optional<double> load_bytes;  ///< control bytes for each delivered byte [-]
-    std::uint64_t data = 0;            ///< messages that the protocol sent or forwarded
-
-    static constexpr auto fields() {
-        using R = RoutingValues;
-        return describe(field("routing_packets", &R::packets, "control packets, each hop counts"),
-                        field("routing_bytes", &R::bytes, "size of the control packets"),
-                        field("routing_load", &R::load, "control packets for each delivery"),
-                        field("routing_load_bytes", &R::load_bytes, "the same in bytes"),
-                        field("data_transmissions", &R::data, "messages to one robot, each hop"));
-    }
-    friend bool operator==(const RoutingValues&, const RoutingValues&) = default;
 };
 
 /// Codes of all reasons for which a copy is lost or not forwarded, without repetition: the order of
@@ -108,6 +88,9 @@ struct PartValues {
     std::uint64_t deliveries = 0;  ///< first copies of a message at a robot
     std::uint64_t bytes = 0;       ///< size of the delivered messages [bytes]
     std::uint64_t delay_ns = 0;    ///< sum of the deliveries' latencies [ns]
+    RoutedSums routed = {};        ///< ways of the flow's routed unicasts
+    /// Copies of routed unicasts that were lost, by index in loss_codes; empty if none was.
+    std::vector<std::uint64_t> drops = {};
     std::optional<double> delivery_ratio() const;  ///< delivery ratio [-]; empty: none expected
     std::optional<double> latency_mean() const;    ///< mean latency [s]; empty without deliveries
     /// Metrics of the part of the traffic. @param measured  duration of the measurement
@@ -120,8 +103,9 @@ struct MetricParts {
     /// Whether `reach` is measured, by a search of the network for every message; empty: only while
     /// the search is cheap.
     std::optional<bool> reach = {};
-    bool flows = false;   ///< true: measure the messages of each flow, see Message::flow
-    bool robots = false;  ///< true: measure the messages for each robot
+    bool flows = false;         ///< true: measure the messages of each flow, see Message::flow
+    bool robots = false;        ///< true: measure the messages for each robot
+    bool path_stretch = false;  ///< true: measure path_stretch, by a search for every unicast
 };
 
 /// Metrics of a run, or of a trace read back. All are computed from integers, whose sums are exact.
@@ -174,6 +158,7 @@ struct MetricValues {
     /// Cost of the routing protocol; empty if it sent no control packets and no message to one
     /// robot.
     std::optional<RoutingValues> routing;
+    std::optional<RoutedMetrics> routed;  ///< ways of routed unicasts; empty as `routing`
 
     std::vector<PartValues> flows;   ///< values of each flow, at index flow - 1, if measured
     std::vector<PartValues> robots;  ///< values of each robot, by its id, if measured
@@ -192,6 +177,7 @@ struct MetricValues {
                         field("hops_mean", &M::mean_hops, "hops of a delivery"),
                         field("hops_max", &M::max_hops, "most hops of a delivery"),
                         field("routing", &M::routing, "cost of the routing protocol"),
+                        field("routed", &M::routed, "ways of routed unicasts"),
                         field("drops", &M::drops, "copies lost, by reason"));
     }
 

@@ -31,7 +31,24 @@ std::optional<double> ratio(std::uint64_t part, std::uint64_t whole) {
     return static_cast<double>(part) / static_cast<double>(whole);
 }
 
+/// Whether a frame that was lost for this reason shows that a link is broken.
+bool breaks_link(DropReason reason) {
+    return reason == DropReason::retries || reason == DropReason::unheard;
+}
+
 }  // namespace
+
+RoutedMetrics metrics_of(const RoutedSums& sums) {
+    constexpr double ns_per_s = 1e9;
+    RoutedMetrics metrics{.data = sums.transmissions,
+                          .path_stretch = ratio(sums.hops, sums.shortest),
+                          .waiting = ratio(sums.waited_ns, sums.deliveries),
+                          .travelling = ratio(sums.delay_ns - sums.waited_ns, sums.deliveries)};
+    for (auto* mean : {&metrics.waiting, &metrics.travelling}) {
+        if (*mean) **mean /= ns_per_s;
+    }
+    return metrics;
+}
 
 std::optional<double> PartValues::delivery_ratio() const { return ratio(deliveries, expected); }
 std::optional<double> PartValues::latency_mean() const {
@@ -56,6 +73,8 @@ Metrics::MessageState& Metrics::begin_state(MessageId id, std::uint64_t uid) {
     state.uid = uid;
     state.others = 0;
     state.reachable.reset();
+    state.shortest.reset();
+    state.waited = {};
     return state;
 }
 
@@ -79,19 +98,32 @@ void Metrics::on(const Record& record, const RecordContext& context) {
     } else if (const auto* dropped = std::get_if<Dropped>(&record)) {
         count(*dropped, context);
     } else if (const auto* routed = std::get_if<Routed>(&record)) {
-        count_routed(routed->frame, routed->time, context);
+        count(*routed, context);
     }
 }
 
-/// Counts a frame that the routing protocol sends over a hop: a unicast, or a control packet.
-void Metrics::count_routed(const Frame& frame, Time time, const RecordContext& context) {
-    const Message& message = context.messages[frame.message];
-    if (message.kind.empty()) {
-        routing_.data += message.is_routed && message.created >= begin_ ? 1 : 0;
-    } else if (message.is_routing_packet() && time >= begin_) {
-        ++routing_.packets;
-        routing_.bytes += frame.bytes > 0 ? frame.bytes : message.size;
-    }
+/// Counts a control packet that the routing protocol sends over a hop.
+void Metrics::count_packet(const Frame& frame, const Message& message, Time time) {
+    if (time < begin_) return;
+    ++routing_.packets;
+    routing_.bytes += frame.bytes > 0 ? frame.bytes : message.size;
+    const std::string_view kind = message.kind.substr(message.kind.rfind(' ') + 1);
+    if (kind == "REQUEST") ++routing_.requests;
+    if (kind == "REPLY") ++routing_.replies;
+    if (kind == "ERROR") ++routing_.errors;
+    if (kind == "HELLO") ++routing_.hellos;
+}
+
+/// Counts a unicast that the routing protocol passes to the MAC: a control packet, or a message.
+void Metrics::count(const Routed& routed, const RecordContext& context) {
+    const Message& message = context.messages[routed.frame.message];
+    if (message.is_routing_packet()) return count_packet(routed.frame, message, routed.time);
+    if (message.created < begin_) return;
+    MessageState& state = state_of(routed.frame.message, context);
+    state.waited += std::max(routed.time - state.since, Duration{0});
+    state.since = routed.time;
+    ++routed_.transmissions;
+    if (parts_.flows && message.flow > 0) ++flow(message).routed.transmissions;
 }
 
 /// Adds a message to the counts of its destinations, or removes one that was cut off.
@@ -113,14 +145,20 @@ void Metrics::count_parts(const Message& message, std::uint64_t others, bool is_
 }
 
 void Metrics::count(const Dropped& dropped, const RecordContext& context) {
-    if (dropped.protocol_decides || !counts(dropped.frame, context)) return;
+    if (dropped.protocol_decides) {
+        routing_.broken += dropped.time >= begin_ && breaks_link(dropped.reason) ? 1 : 0;
+        return;
+    }
+    if (!counts(dropped.frame, context)) return;
     ++drops_[dropped.reason];
+    const Message& message = context.messages[dropped.frame.message];
+    if (message.is_routed_unicast()) count_drop(reason_of(dropped.reason), message);
     if (dropped.reason != DropReason::cut_off) return;
     const MessageState& state = state_of(dropped.frame.message, context);
     ++totals_.cut_off;
     others_ -= state.others;
     reachable_ -= state.reachable.value_or(0);
-    count_parts(context.messages[dropped.frame.message], state.others, true);
+    count_parts(message, state.others, true);
 }
 
 void Metrics::count(const Sent& sent, const RecordContext& context) {
@@ -129,6 +167,8 @@ void Metrics::count(const Sent& sent, const RecordContext& context) {
     MessageState& state = state_of(sent.message, context);
     state.others = std::max(sent.robots, 1U) - 1;
     state.reachable = sent.reachable;
+    state.shortest = sent.shortest;
+    state.since = sent.time;
     if (!sent.reachable) totals_.reach_known = false;
     others_ += state.others;
     reachable_ += sent.reachable.value_or(0);
@@ -137,8 +177,9 @@ void Metrics::count(const Sent& sent, const RecordContext& context) {
 
 void Metrics::count(const Transmitted& transmitted, const RecordContext& context) {
     const Frame& frame = transmitted.frame;
-    if (frame.next_hop == everyone && !context.messages[frame.message].kind.empty()) {
-        count_routed(frame, transmitted.time, context);
+    const Message& message = context.messages[frame.message];
+    if (frame.next_hop == everyone && message.is_routing_packet()) {
+        count_packet(frame, message, transmitted.time);
     }
     if (!counts(frame, context)) return;
     ++totals_.transmissions;
@@ -153,10 +194,41 @@ void Metrics::count(const Transmitted& transmitted, const RecordContext& context
 
 void Metrics::count(const Received& received, const RecordContext& context) {
     if (!counts(received.frame, context)) return;
+    const Message& message = context.messages[received.frame.message];
+    const bool is_routed = message.is_routed_unicast();
     for (const Reception& rx : received.receptions) {
         ++fates_[rx.fate];
+        if (is_routed) count_way(rx, received.frame, context);
         if (rx.delivered) deliver(rx, received.frame, context);
     }
+}
+
+/// Notes that a routed unicast is at a robot, or lost, and adds the way of one that is delivered.
+void Metrics::count_way(const Reception& rx, const Frame& frame, const RecordContext& context) {
+    const Message& message = context.messages[frame.message];
+    count_drop(reason_of(rx.fate), message);
+    if (rx.fate != Fate::waiting && rx.fate != Fate::arrived) return;
+    MessageState& state = state_of(frame.message, context);
+    state.since = rx.time;
+    if (!rx.delivered) return;
+    const auto add_to = [&](RoutedSums& sums) {
+        ++sums.deliveries;
+        sums.waited_ns += static_cast<std::uint64_t>(state.waited.count());
+        sums.delay_ns += static_cast<std::uint64_t>((rx.time - message.created).count());
+        if (!state.shortest) return;
+        sums.hops += frame.hops;
+        sums.shortest += *state.shortest;
+    };
+    add_to(routed_);
+    if (parts_.flows && message.flow > 0) add_to(flow(message).routed);
+}
+
+/// Adds a lost copy of a routed unicast to its flow.
+void Metrics::count_drop(LossReason reason, const Message& message) {
+    if (!parts_.flows || message.flow == 0 || reason.code.empty()) return;
+    auto& drops = flow(message).drops;
+    drops.resize(loss_codes.count);
+    ++drops[loss_codes.place(reason.code)];
 }
 
 void Metrics::deliver(const Reception& rx, const Frame& frame, const RecordContext& context) {
@@ -202,8 +274,9 @@ MetricValues Metrics::values() const {
         }
     });
     v.flows = flows_;
-    if (routing_.packets + routing_.data > 0) {
+    if (routing_.packets + routed_.transmissions > 0) {
         v.routing = routing_;
+        v.routed = metrics_of(routed_);
         v.routing->load = ratio(routing_.packets, v.deliveries);
         v.routing->load_bytes = ratio(routing_.bytes, bytes_);
     }

@@ -29,7 +29,7 @@ class Metrics {
                                : *parts_.reach ? kind_reachable
                                                : 0;
         return kind_of<Sent>() | kind_of<Transmitted>() | kind_of<Received>() | kind_of<Dropped>() |
-               kind_of<Routed>() | reach;
+               kind_of<Routed>() | reach | (parts_.path_stretch ? kind_shortest : 0);
     }
     void on(const Record& record, const RecordContext& context);
 
@@ -44,6 +44,9 @@ class Metrics {
         std::vector<std::uint64_t> forwarders;   ///< bit n: robot n has transmitted the message
         std::uint32_t others = 0;                ///< number of the message's destinations
         std::optional<std::uint32_t> reachable;  ///< Sent::reachable of the message
+        std::optional<std::uint32_t> shortest;   ///< Sent::shortest of the message
+        Time since = start_of_run;  ///< time since which a routed unicast is at its last robot
+        Duration waited{0};         ///< time in routers so far [ns]
     };
     /// Number of occurrences of each fate or drop reason.
     template <class Reason, Reason last>
@@ -58,7 +61,10 @@ class Metrics {
     void count(const Received&, const RecordContext&);
     void deliver(const Reception&, const Frame&, const RecordContext&);
     void count(const Dropped&, const RecordContext&);
-    void count_routed(const Frame&, Time, const RecordContext&);
+    void count_packet(const Frame&, const Message&, Time);
+    void count(const Routed&, const RecordContext&);
+    void count_way(const Reception&, const Frame&, const RecordContext&);
+    void count_drop(LossReason, const Message&);
     void count_parts(const Message&, std::uint64_t others, bool is_cut_off);
     bool counts(const Frame& frame, const RecordContext& context) const {
         const Message& message = context.messages[frame.message];
@@ -84,6 +90,7 @@ class Metrics {
     std::uint64_t reached_ = 0;     ///< deliveries of messages with `reachable`
     std::uint64_t forwarders_ = 0;  ///< number of pairs of a message and a robot that forwarded it
     RoutingValues routing_;         ///< counts of the routing protocol
+    RoutedSums routed_;             ///< ways of routed unicasts
     std::uint64_t bytes_ = 0;       ///< size of the messages delivered [bytes]
     std::vector<Duration> delays_;  ///< latencies of the deliveries, unsorted
     std::vector<std::uint64_t> hops_;   // deliveries by number of hops

@@ -167,6 +167,23 @@ void Reachability::join(NodeId reached, NodeId node, NodeId first) {
     }
 }
 
+std::optional<std::uint32_t> Reachability::shortest(Medium& medium, NodeId from, NodeId to, Time t,
+                                                    const Legs& legs) {
+    std::vector<std::uint32_t> hops(legs.size(), unknown);
+    std::vector<NodeId> frontier{from};
+    hops[from.index()] = 0;
+    for (std::size_t next = 0; next < frontier.size() && hops[to.index()] == unknown; ++next) {
+        const std::uint32_t behind = hops[frontier[next].index()] + 1;
+        for (const Medium::Found& found : medium.hearers(frontier[next], t, legs)) {
+            if (hops[found.node.index()] != unknown) continue;
+            hops[found.node.index()] = behind;
+            frontier.push_back(found.node);
+        }
+    }
+    const std::uint32_t found = hops[to.index()];
+    return found == unknown ? std::nullopt : std::optional(found);
+}
+
 std::uint32_t Reachability::count_anew(Medium& medium, NodeId from, Time t, const Legs& legs) {
     std::vector<bool> seen(legs.size());
     std::vector<NodeId> frontier{from};

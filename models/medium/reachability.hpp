@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -44,6 +45,10 @@ class Reachability {
     /// Whether a chain of links connects `from` to `to` at `t`, which must not decrease from call
     /// to call. The direct link is checked first.
     bool reaches(Medium& medium, NodeId from, NodeId to, Time t, const Legs& legs);
+    /// Hops of the shortest chain of links from `from` to `to` at `t`; none if there is no chain.
+    /// A search without a cache.
+    static std::optional<std::uint32_t> shortest(Medium& medium, NodeId from, NodeId to, Time t,
+                                                 const Legs& legs);
     /// Number of searches for the receivers of a robot so far.
     std::uint64_t searches() const { return searches_; }
 

@@ -26,6 +26,9 @@ struct MetricsTable {
     bool robots = false;
     /// True if the topology is measured: degree, components, mean speed, lifetime of links.
     bool topology = false;
+    /// True if path_stretch is measured: hops of routed unicasts over those of the shortest path
+    /// when they were sent. Each unicast costs a search of the network.
+    bool path_stretch = false;
 
     static constexpr auto fields() {
         return describe(
@@ -34,7 +37,9 @@ struct MetricsTable {
             field("flows", &MetricsTable::flows, "delivery, throughput, latency of each flow"),
             field("robots", &MetricsTable::robots, "the same of what each robot gets"),
             field("topology", &MetricsTable::topology,
-                  "degree, components, mean speed, lifetime of links"));
+                  "degree, components, mean speed, lifetime of links"),
+            field("path_stretch", &MetricsTable::path_stretch,
+                  "hops of routed unicasts over those of the shortest path"));
     }
 };
 

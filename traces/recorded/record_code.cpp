@@ -46,6 +46,7 @@ void encode(const Message& message, MessageId slot, Time time, ByteWriter& to) {
     to.signed_varint((time - message.created).count());
     to.varint(message.flow);
     to.fixed(static_cast<std::uint8_t>(message.is_routed));
+    to.varint(message.port);
     for (const std::string_view text : {message.kind, std::string_view(message.payload)}) {
         to.varint(text.size());
         to.bytes(text);
@@ -67,7 +68,7 @@ bool decode(std::uint16_t channel, Time time, std::string_view bytes,
 }
 
 bool decode(Time time, std::string_view bytes, MessageId& slot, Message& message,
-            std::string_view& kind) {
+            std::string_view& kind, unsigned format) {
     ByteReader from(bytes);
     bool in_range = true;
     const auto whole = [&] {
@@ -87,6 +88,9 @@ bool decode(Time time, std::string_view bytes, MessageId& slot, Message& message
     message.created = in_range ? time - Duration{age} : time;
     message.flow = whole();
     message.is_routed = from.fixed<std::uint8_t>() != 0;
+    const std::uint32_t port = format >= 3 ? whole() : 0;
+    message.port = static_cast<std::uint16_t>(port);
+    if (port != message.port) in_range = false;
     kind = from.take(from.varint());
     message.payload = std::string(from.take(from.varint()));
     return from.is_done() && in_range;

@@ -20,7 +20,7 @@ namespace rovernet {
 
 /// Version of the layouts of records in a recorded trace; a reader refuses any later version. A
 /// field that is added to the records of an earlier version is described with since(VERSION).
-inline constexpr std::uint32_t recorded_format = 2;
+inline constexpr std::uint32_t recorded_format = 3;
 
 /// Number of a kind of frame on air: 0 for data, 1 RTS, 2 CTS, 3 ACK, 4 for any other control
 /// frame.
@@ -59,9 +59,10 @@ void encode(const Message& message, MessageId slot, Time time, ByteWriter& to);
 bool decode(std::uint16_t channel, Time time, std::string_view bytes,
             std::vector<Reception>& receptions, Record& record, unsigned format = recorded_format);
 /// Decodes the definition of a message from its bytes.
-/// @param kind  receives the text of Message::kind, which the caller has to store
+/// @param kind    receives the text of Message::kind, which the caller has to store
+/// @param format  version of the layouts of the trace; before 3 messages had no port
 /// @return whether the bytes are a valid definition
 bool decode(Time time, std::string_view bytes, MessageId& slot, Message& message,
-            std::string_view& kind);
+            std::string_view& kind, unsigned format = recorded_format);
 
 }  // namespace rovernet

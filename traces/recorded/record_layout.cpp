@@ -57,7 +57,7 @@ std::vector<RecordedKind> recorded_kinds() {
     std::vector<RecordedKind> kinds{
         {"Message",
          "slot:v uid:v origin:v number:v to:node? size:v created:z(before this time) flow:v "
-         "is_routed:b kind:s payload:s"}};
+         "is_routed:b port:v kind:s payload:s"}};
     const auto add = [&]<class... R>(RecordList<R...>) {
         (kinds.push_back({R::name, layout_of<R>({})}), ...);
     };

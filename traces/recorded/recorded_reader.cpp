@@ -241,7 +241,7 @@ bool RecordedReader::define(std::string_view bytes) {
     Message message;
     MessageId slot;
     std::string_view kind;
-    if (!decode(now_, bytes, slot, message, kind)) return false;
+    if (!decode(now_, bytes, slot, message, kind, format_)) return false;
     // A run reuses a slot before it creates a new one, so slots are small numbers.
     constexpr std::uint32_t most = 1 << 22;
     constexpr std::size_t longest_kind = 1024;  // a run has words; a line of ns-2 has to hold it

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/fields.hpp"
+
+#include <cstdint>
+#include <optional>
+
+namespace rovernet {
+
+/// Ways of messages to one robot that a routing protocol has brought: sums over the deliveries, all
+/// whole numbers.
+struct RoutedSums {
+    std::uint64_t transmissions = 0;  ///< frames of the messages, one for each hop
+    std::uint64_t deliveries = 0;     ///< messages delivered
+    std::uint64_t waited_ns = 0;      ///< time in routers [ns]: before the source's and each hop's
+                                      ///< frame was passed to the MAC
+    std::uint64_t delay_ns = 0;       ///< latency [ns], waiting included
+    std::uint64_t hops = 0;           ///< hops of the deliveries whose `shortest` is known
+    std::uint64_t shortest = 0;       ///< hops of the shortest paths when these were sent
+    friend bool operator==(const RoutedSums&, const RoutedSums&) = default;
+};
+
+/// Ways of routed messages, as summary.json has them for the run and for each flow.
+struct RoutedMetrics {
+    std::uint64_t data = 0;  ///< frames of messages to one robot, one for each hop
+    std::optional<double>
+        path_stretch;                  ///< hops over the shortest path [-]; empty if not asked for
+    std::optional<double> waiting;     ///< mean time in routers of a delivery [s]
+    std::optional<double> travelling;  ///< mean remaining latency of a delivery [s]
+
+    static constexpr auto fields() {
+        using R = RoutedMetrics;
+        return describe(field("data_transmissions", &R::data, "messages to one robot, each hop"),
+                        field("path_stretch", &R::path_stretch, "hops over the shortest path"),
+                        field("delay_waiting", &R::waiting, "mean time in routers"),
+                        field("delay_travelling", &R::travelling, "mean time between routers"));
+    }
+    friend bool operator==(const RoutedMetrics&, const RoutedMetrics&) = default;
+};
+
+/// Metrics of routed messages from their sums.
+RoutedMetrics metrics_of(const RoutedSums& sums);
+
+/// Cost of a routing protocol. A packet counts once for each hop, as lines s and f at RTR in ns-2.
+/// Source: J. Broch et al., A performance comparison of multi-hop wireless ad hoc network routing
+/// protocols, MobiCom 1998.
+struct RoutingValues {
+    std::uint64_t packets = 0;         ///< control packets that the protocol sent
+    std::uint64_t bytes = 0;           ///< size of the control packets, above the MAC [bytes]
+    std::optional<double> load;        ///< packets for each delivery [-]; empty without deliveries
+    std::optional<double> load_bytes;  ///< control bytes for each delivered byte [-]
+    /// Control packets by the last word of their kind: "AODV REQUEST" is a request. A packet of
+    /// another kind is in none of the four.
+    std::uint64_t requests = 0, replies = 0, errors = 0, hellos = 0;
+    std::uint64_t broken = 0;  ///< links that broke under a routed message or a control packet
+
+    static constexpr auto fields() {
+        using R = RoutingValues;
+        return describe(field("routing_packets", &R::packets, "control packets, each hop counts"),
+                        field("routing_bytes", &R::bytes, "size of the control packets"),
+                        field("routing_load", &R::load, "control packets for each delivery"),
+                        field("routing_load_bytes", &R::load_bytes, "the same in bytes"),
+                        field("routing_requests", &R::requests, "control packets: requests"),
+                        field("routing_replies", &R::replies, "control packets: replies"),
+                        field("routing_errors", &R::errors, "control packets: errors"),
+                        field("routing_hellos", &R::hellos, "control packets: HELLOs"),
+                        field("routes_broken", &R::broken, "links that broke under a packet"));
+    }
+    friend bool operator==(const RoutingValues&, const RoutingValues&) = default;
+};
+
+}  // namespace rovernet
