@@ -180,8 +180,8 @@ void AodvRouter::send_hello(LinkLayer& link, NodeId at) {
     Node& here = node(at);
     const Time now = link.now();
     if (!link.is_on(at)) return;
-    if (now < here.active_until && now - here.last_broadcast >= rules_.hello &&
-        !is_silent(at, now)) {
+    const bool has_broadcast = here.last_broadcast && now - *here.last_broadcast < rules_.hello;
+    if (now < here.active_until && !has_broadcast && !is_silent(at, now)) {
         const aodv::Reply hello{.destination = at,
                                 .number = here.number,
                                 .originator = at,

@@ -104,7 +104,7 @@ class AodvRouter {
         std::optional<Time> timer;
         /// End of the silence after a restart.
         Time silent_until = start_of_run;
-        Time last_broadcast = start_of_run;
+        std::optional<Time> last_broadcast;
         /// Time until which the node counts as part of a route that carries messages (6.9).
         Time active_until = start_of_run;
         bool is_started = false;

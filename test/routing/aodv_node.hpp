@@ -74,6 +74,36 @@ struct Node0 {
         link.time = timer.at;
         router.on_timer(link, timer.node, timer.tag);
     }
+    /// All timers ring that are due until `end`.
+    void run(Time end) {
+        while (std::any_of(link.timers.begin(), link.timers.end(),
+                           [&](const auto& each) { return each.at <= end; }))
+            wait();
+        link.time = end;
+    }
+    /// The last frame that was sent fails: its next hop does not answer.
+    void fail_last() {
+        link.go();
+        link.end(router, link.sent.size() - 1, SendResult::retries);
+    }
+    /// A route of node `origin` to `to` over node 0, whose neighbours are `from` and `over`.
+    void pass_reply(std::uint32_t origin, std::uint32_t from, std::uint32_t to, std::uint32_t over,
+                    std::uint32_t number = 9) {
+        hear(from,
+             aodv::Request{.id = ++last_id,
+                           .destination = NodeId{to},
+                           .number = std::nullopt,
+                           .originator = NodeId{origin},
+                           .originator_number = 5},
+             3);
+        hear(over,
+             aodv::Reply{.hops = 1,
+                         .destination = NodeId{to},
+                         .number = number,
+                         .originator = NodeId{origin},
+                         .lifetime = std::chrono::seconds{6}},
+             2);
+    }
     std::optional<RouteState> route(std::uint32_t to) const {
         for (const RouteState& each : router.routes(NodeId{0}, link.time)) {
             if (each.destination == NodeId{to}) return each;
@@ -86,6 +116,7 @@ struct Node0 {
         std::vector<std::pair<Frame, Packet>> all;
         for (const auto& each : link.sent) {
             const Frame& frame = each.queued.frame;
+            if (link.message(frame.message).uid != each.uid) continue;
             const auto packet = aodv::packet_of(link.message(frame.message).payload);
             if (const auto* p = std::get_if<Packet>(&packet)) all.emplace_back(frame, *p);
         }
@@ -95,14 +126,15 @@ struct Node0 {
     std::vector<Frame> data() const {
         std::vector<Frame> all;
         for (const auto& each : link.sent) {
-            if (link.message(each.queued.frame.message).kind.empty())
-                all.push_back(each.queued.frame);
+            const Message& message = link.message(each.queued.frame.message);
+            if (message.uid == each.uid && message.kind.empty()) all.push_back(each.queued.frame);
         }
         return all;
     }
 
     FakeLinkLayer link;
     AodvRouter router;
+    std::uint32_t last_id = 1000;
 };
 
 /// Request for a destination whose number is not known.
