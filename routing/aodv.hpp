@@ -45,8 +45,13 @@ struct Aodv {
     /// Whether a search begins with small TTLs (expanding ring search, 6.4); ns2: only if the
     /// destination was known before.
     bool rings = true;
-    /// Time between HELLO packets of a node with routes in use [ns]; 0: none, as the link layer
-    /// reports broken links.
+    /// Whether only the destination may answer a request (flag D).
+    bool destination_only = false;
+    /// Whether a node that answers in place of the destination tells it the way back (flag G,
+    /// 6.6.3), for traffic in both directions.
+    bool gratuitous = false;
+    /// Time between HELLO packets of a node whose routes carry messages [ns]; 0: none, as the link
+    /// layer reports broken links.
     Duration hello{0};
     /// Whether a node near the destination searches a new way for packets whose next hop is gone
     /// (6.12); ns2: it does.
@@ -59,7 +64,7 @@ struct Aodv {
     Duration jitter = std::chrono::milliseconds{10};
 
     static constexpr auto fields() {
-        constexpr Range seconds_range{.low = 0, .high = 1e13, .text = "from 0 to 10000 s"};
+        constexpr Range seconds_range{.low = 0, .high = 1e4, .text = "from 0 to 10000 s"};
         constexpr Range hops_range{.low = 1, .high = 255, .text = "from 1 to 255"};
         return describe(
             field("profile", &Aodv::profile, "RFC 3561, or as ns-2.35 does it"),
@@ -75,6 +80,10 @@ struct Aodv {
                   Range{.low = 0, .high = 100, .text = "from 0 to 100"},
                   "searches of the whole network after the first one; 2 if not given"),
             field("rings", &Aodv::rings, "whether a search begins with small TTLs"),
+            field("destination_only", &Aodv::destination_only,
+                  "whether only the destination may answer a request"),
+            field("gratuitous", &Aodv::gratuitous,
+                  "whether a node that answers tells the destination the way back"),
             field("hello", &Aodv::hello, seconds_range,
                   "time between HELLO packets; 0: the link layer reports broken links"),
             field("local_repair", &Aodv::local_repair,

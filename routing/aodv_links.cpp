@@ -17,62 +17,69 @@ bool AodvRouter::repairs(const Route& route, const QueuedFrame& queued) const {
     return rules_.repairs_near_destination ? hops_so_far > route.hops : route.hops <= farthest;
 }
 
+/// Whether the node searches a new way for a route that broke.
+bool AodvRouter::is_repaired(NodeId at, NodeId destination) {
+    const auto& running = node(at).searches;
+    return std::any_of(running.begin(), running.end(), [&](const Search& each) {
+        return each.destination == destination && each.repaired_hops > 0;
+    });
+}
+
+/// Repairs of the routes over a neighbour that packets were on, in the order of the packets (6.12).
+std::vector<AodvRouter::Search> AodvRouter::repairs_of(LinkLayer& link, NodeId at, NodeId neighbour,
+                                                       std::span<const QueuedFrame> stranded) {
+    std::vector<Search> found;
+    for (const QueuedFrame& each : stranded) {
+        const Message& message = link.message(each.frame.message);
+        if (!message.kind.empty()) continue;
+        const Route* broken = valid_route(at, message.to, link.now());
+        if (!broken || broken->next_hop != neighbour || !repairs(*broken, each)) continue;
+        auto repair = std::find_if(found.begin(), found.end(), [&](const Search& search) {
+            return search.destination == message.to;
+        });
+        if (repair == found.end()) {
+            repair = found.insert(
+                found.end(), {.destination = message.to, .ttl = 0, .repaired_hops = broken->hops});
+        }
+        // max(hops of the old route, half the hops to the source) + LOCAL_ADD_TTL.
+        const int ttl = std::max<int>(broken->hops, (each.frame.hops - 1) / 2) + 2;
+        repair->ttl = std::min(std::max(repair->ttl, ttl), rules_.net_diameter);
+    }
+    return found;
+}
+
 /// Breaks the routes over a neighbour that cannot be reached, and ends the packets that were on
 /// their way to it (6.11 (i)).
 void AodvRouter::on_broken(LinkLayer& link, NodeId at, NodeId neighbour,
                            std::span<const QueuedFrame> stranded) {
+    Node& here = node(at);
     const Time now = link.now();
+    const std::vector<Search> repairs = repairs_of(link, at, neighbour, stranded);
+    here.searches.insert(here.searches.end(), repairs.begin(), repairs.end());
     std::vector<aodv::Error::Lost> lost;
-    std::vector<Search> repairs_to_do;
-    const auto is_repaired = [&](const Route& broken) {
-        return std::any_of(stranded.begin(), stranded.end(), [&](const QueuedFrame& each) {
-            const Message& message = link.message(each.frame.message);
-            return message.kind.empty() && message.to == broken.destination &&
-                   repairs(broken, each);
-        });
-    };
-    node(at).routes.for_each(now, rules_.delete_period, [&](Route& each) {
+    here.routes.for_each(now, rules_.delete_period, [&](Route& each) {
         if (!each.is_valid || each.next_hop != neighbour) return;
-        const bool repaired = is_repaired(each);
         each.is_valid = false;
         each.number += each.has_number ? 1 : 0;
         each.until = now + rules_.delete_period;
-        if (repaired) {
-            repairs_to_do.push_back({.destination = each.destination, .repaired_hops = each.hops});
-        } else {
-            lost.push_back({each.destination, each.has_number ? each.number : 0});
-        }
+        lost.push_back({each.destination, each.has_number ? each.number : 0});
     });
-    const auto& running = node(at).searches;
-    for (Search& each : repairs_to_do) {
-        // 6.12: max(hops of the old route, half the hops to the source) + LOCAL_ADD_TTL.
-        Hops to_source = 0;
-        for (const QueuedFrame& q : stranded) {
-            if (link.message(q.frame.message).to == each.destination)
-                to_source = std::max(to_source, static_cast<Hops>(q.frame.hops - 1));
-        }
-        each.ttl = std::max<int>(each.repaired_hops, to_source / 2) + 2;
-        node(at).searches.push_back(each);
-    }
     for (const QueuedFrame& each : stranded) {
         const Message& message = link.message(each.frame.message);
         if (!message.kind.empty()) continue;
-        const NodeId to = message.to;
-        const bool waits = std::any_of(running.begin(), running.end(), [&](const Search& search) {
-            return search.destination == to && search.repaired_hops > 0;
-        });
-        if (waits) {
-            keep(link, at, to, each);
+        if (is_repaired(at, message.to)) {
+            keep(link, at, message.to, each);
         } else {
             link.drop(at, each.as_received(), DropReason::broken);
         }
     }
     // 6.12: other routes over the neighbour are reported when a packet needs them.
-    if (repairs_to_do.empty()) send_errors(link, at, lost, now, {.is_first = true});
-    for (const Search& each : repairs_to_do) {
-        for (Search& search : node(at).searches) {
-            if (search.destination == each.destination) request(link, at, search, now);
-        }
+    if (repairs.empty()) send_errors(link, at, lost, now, {.is_first = true});
+    for (const Search& repair : repairs) {
+        const auto begun =
+            std::find_if(here.searches.begin(), here.searches.end(),
+                         [&](const auto& s) { return s.destination == repair.destination; });
+        request(link, at, *begun, now);
     }
     set_timer(link, at);
 }
@@ -93,8 +100,12 @@ void AodvRouter::send_errors(LinkLayer& link, NodeId at, std::span<const aodv::E
         for (const NodeId user : own) {
             if (std::find(users.begin(), users.end(), user) == users.end()) users.push_back(user);
         }
-        if (!options.is_repaired) here.routes.clear_precursors(each.destination);
     }
+    // Keys and not ids decide which destinations share a packet.
+    std::sort(reported.begin(), reported.end(), [&](const auto& a, const auto& b) {
+        return link.key(a.destination) < link.key(b.destination);
+    });
+    const NodeId to = users.size() == 1 && !rules_.errors_for_all ? users.front() : everyone;
     constexpr std::size_t most = 255;  // DestCount has one byte
     for (std::size_t from = 0; from < reported.size(); from += most) {
         if (here.errors.take(when) > when) return;
@@ -102,18 +113,20 @@ void AodvRouter::send_errors(LinkLayer& link, NodeId at, std::span<const aodv::E
         aodv::Error error{.is_repaired = options.is_repaired, .lost = {}};
         error.lost.assign(reported.begin() + static_cast<std::ptrdiff_t>(from),
                           reported.begin() + static_cast<std::ptrdiff_t>(from + count));
-        const auto bytes = static_cast<std::uint32_t>(rules_.error_bytes + 8 * count);
-        const MessageId id = link.originate(at, everyone, aodv::error_kind, bytes, to_bytes(error));
-        const bool is_for_one = users.size() == 1 && !rules_.errors_for_all;
-        link.send({.message = id,
-                   .sender = at,
-                   .path = link.key(at),
-                   .ttl = 1,
-                   .hops = 1,
-                   .next_hop = is_for_one ? users.front() : everyone},
-                  {}, when);
-        link.release(id);
+        send_error(link, at, error, to, when);
     }
+}
+
+void AodvRouter::send_error(LinkLayer& link, NodeId at, const aodv::Error& error, NodeId to,
+                            Time when) {
+    const auto bytes = static_cast<std::uint32_t>(rules_.error_bytes + 8 * error.lost.size());
+    const MessageId id = link.originate(at, everyone, aodv::error_kind, bytes, to_bytes(error));
+    link.send(
+        {.message = id, .sender = at, .path = link.key(at), .ttl = 1, .hops = 1, .next_hop = to},
+        {}, when);
+    link.release(id);
+    if (error.is_repaired) return;  // its routes remain
+    for (const auto& each : error.lost) node(at).routes.clear_precursors(each.destination);
 }
 
 void AodvRouter::receive_error(LinkLayer& link, const Frame& frame, const aodv::Error& error,
@@ -146,17 +159,29 @@ void AodvRouter::receive_error(LinkLayer& link, const Frame& frame, const aodv::
                 {.is_repaired = error.is_repaired});
 }
 
-/// Sends a HELLO if routes are in use and nothing was broadcast meanwhile, and looks for neighbours
-/// that have fallen silent (6.9, 6.10).
+/// Notes that a neighbour was heard. Its silence ends routes over it only after a HELLO, as nodes
+/// that carry no messages send none (6.9).
+void AodvRouter::hear(NodeId at, NodeId neighbour, Time now, bool is_hello) {
+    if (rules_.hello == Duration{0} || is_silent(at, now)) return;
+    auto& all = node(at).neighbours;
+    const auto known = std::find_if(all.begin(), all.end(),
+                                    [&](const Neighbour& each) { return each.node == neighbour; });
+    if (known != all.end()) {
+        known->last = now;
+    } else if (is_hello) {
+        all.push_back({neighbour, now});
+    }
+}
+
+/// Sends a HELLO if routes carry messages and nothing was broadcast meanwhile, and looks for
+/// neighbours that have fallen silent (6.9, 6.10).
 void AodvRouter::send_hello(LinkLayer& link, NodeId at) {
     constexpr int allowed_hello_loss = 2;
     Node& here = node(at);
     const Time now = link.now();
     if (!link.is_on(at)) return;
-    bool is_in_use = false;
-    here.routes.for_each(now, rules_.delete_period,
-                         [&](const Route& each) { is_in_use = is_in_use || each.is_valid; });
-    if (is_in_use && now - here.last_broadcast >= rules_.hello && !is_silent(at, now)) {
+    const bool has_broadcast = here.last_broadcast && now - *here.last_broadcast < rules_.hello;
+    if (now < here.active_until && !has_broadcast && !is_silent(at, now)) {
         const aodv::Reply hello{.destination = at,
                                 .number = here.number,
                                 .originator = at,

@@ -40,12 +40,14 @@ std::uint32_t word(std::string_view bytes, std::size_t at) {
 }
 
 // Flags in the second byte.
-constexpr unsigned destination_only = 0x10, unknown_number = 0x08, repaired = 0x80;
+constexpr unsigned gratuitous = 0x20, destination_only = 0x10, unknown_number = 0x08,
+                   repaired = 0x80;
 constexpr std::size_t request_size = 24, reply_size = 20;
 
 Request request_of(std::string_view bytes) {
     const unsigned flags = byte(bytes, 1);
-    Request request{.destination_only = (flags & destination_only) != 0,
+    Request request{.gratuitous = (flags & gratuitous) != 0,
+                    .destination_only = (flags & destination_only) != 0,
                     .id = word(bytes, 4),
                     .destination = {word(bytes, 8)},
                     .number = word(bytes, 12),
@@ -89,8 +91,9 @@ unsigned hops_before(const Frame& frame) { return frame.hops > 0 ? frame.hops - 
 }  // namespace
 
 std::string to_bytes(const Request& r) {
-    const unsigned flags =
-        (r.destination_only ? destination_only : 0) | (r.number ? 0 : unknown_number);
+    const unsigned flags = (r.gratuitous ? gratuitous : 0) |
+                           (r.destination_only ? destination_only : 0) |
+                           (r.number ? 0 : unknown_number);
     return Writer(Type::request, flags, 0)
         .word(r.id)
         .word(r.destination.value)

@@ -28,6 +28,8 @@ inline constexpr std::string_view request_kind = "AODV REQUEST", reply_kind = "A
 
 /// Route request, RREQ (5.1).
 struct Request {
+    /// Flag G: who answers in place of the destination tells it the way back (6.6.3).
+    bool gratuitous = false;
     /// Flag D: only the destination may answer.
     bool destination_only = false;
     /// Number of the request among those of its originator.

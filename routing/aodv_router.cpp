@@ -47,6 +47,14 @@ void AodvRouter::refresh(NodeId at, NodeId destination, Time now) {
     if (used) used->until = std::max(used->until, now + rules_.active_route_timeout);
 }
 
+/// Lengthens the lives of the route to a destination and of that to its next hop, as a message is
+/// sent along them (6.2).
+void AodvRouter::use(NodeId at, NodeId destination, NodeId next_hop, Time now) {
+    refresh(at, destination, now);
+    if (rules_.meets_neighbours) refresh(at, next_hop, now);
+    node(at).active_until = now + rules_.active_route_timeout;
+}
+
 std::vector<RouteState> AodvRouter::routes(NodeId at, Time now) const {
     std::vector<RouteState> all;
     if (at.index() >= nodes_.size()) return all;
@@ -86,7 +94,7 @@ void AodvRouter::on_start(LinkLayer& link, NodeId at) {
 void AodvRouter::on_switched(LinkLayer& link, NodeId at, bool on) {
     Node& here = node(at);
     if (on) {
-        here.silent_until = link.now() + rules_.silence;
+        if (here.was_off) here.silent_until = link.now() + rules_.silence;
         return;
     }
     for (const auto& packet : here.buffer.take_all()) lose(link, at, packet, DropReason::off);
@@ -94,6 +102,7 @@ void AodvRouter::on_switched(LinkLayer& link, NodeId at, bool on) {
     here = {};
     here.number = rules_.first_number;
     here.is_started = is_started;
+    here.was_off = true;
 }
 
 void AodvRouter::send(LinkLayer& link, NodeId at, MessageId id) {
@@ -102,28 +111,26 @@ void AodvRouter::send(LinkLayer& link, NodeId at, MessageId id) {
     QueuedFrame own{.frame = {.message = id,
                               .sender = at,
                               .path = link.key(at),
-                              .ttl = initial_ttl(),
+                              .ttl = initial_ttl(message),
                               .hops = 1,
                               .bytes = message.size + rules_.data_header}};
     const Time now = link.now();
     if (to == everyone) {
-        own.frame.ttl = 1;
         link.send(own.frame, {}, now);
         return;
     }
     if (const Route* known = valid_route(at, to, now)) {
-        refresh(at, to, now);
-        refresh(at, known->next_hop, now);
-        send_on(link, own, *known, now);
-        return;
+        const NodeId next_hop = known->next_hop;  // use() may remove entries
+        use(at, to, next_hop, now);
+        return send_on(link, own, next_hop, now);
     }
     keep(link, at, to, own);
     search(link, at, to, now);
 }
 
-void AodvRouter::send_on(LinkLayer& link, const QueuedFrame& queued, const Route& route, Time at) {
+void AodvRouter::send_on(LinkLayer& link, const QueuedFrame& queued, NodeId next_hop, Time at) {
     Frame frame = queued.frame;
-    frame.next_hop = route.next_hop;
+    frame.next_hop = next_hop;
     link.send(frame, queued.heard_from, at);
 }
 
@@ -155,9 +162,11 @@ void AodvRouter::on_receive(LinkLayer& link, const Frame& frame, std::span<Recep
         for (Reception* each : in_order) receive_message(link, frame, *each);
         return;
     }
+    const bool message_is_hello = message.kind == aodv::hello_kind;
     const aodv::Packet packet = aodv::packet_of(message.payload);
     for (Reception* each : in_order) {
         each->fate = Fate::arrived;
+        hear(each->node, frame.sender, each->time, message_is_hello);
         if (const auto* request = std::get_if<aodv::Request>(&packet)) {
             each->fate = receive_request(link, frame, *request, *each);
         } else if (const auto* reply = std::get_if<aodv::Reply>(&packet)) {
@@ -174,6 +183,7 @@ void AodvRouter::receive_message(LinkLayer& link, const Frame& frame, Reception&
     const NodeId to = message.to, origin = message.origin;
     r.fate = Fate::arrived;
     r.delivered = to == everyone;
+    hear(at, frame.sender, r.time, false);
     if (to == everyone) return;
     // 6.2: a packet lengthens the lives of four routes.
     if (rules_.meets_neighbours) {
@@ -181,6 +191,7 @@ void AodvRouter::receive_message(LinkLayer& link, const Frame& frame, Reception&
         refresh(at, frame.sender, r.time);
     }
     if (to == at) {
+        node(at).active_until = r.time + rules_.active_route_timeout;
         const std::size_t i = frame.message.index();
         if (i >= arrived_.size()) arrived_.resize(i + 1);
         r.delivered = !arrived_[i];
@@ -196,21 +207,21 @@ void AodvRouter::receive_message(LinkLayer& link, const Frame& frame, Reception&
     --onward.frame.ttl;
     ++onward.frame.hops;
     if (const Route* known = valid_route(at, to, r.time)) {
-        refresh(at, to, r.time);
-        refresh(at, known->next_hop, r.time);
-        return send_on(link, onward, *known, r.time + least_reaction);
+        const NodeId next_hop = known->next_hop;  // use() may remove entries
+        use(at, to, next_hop, r.time);
+        return send_on(link, onward, next_hop, r.time + least_reaction);
     }
-    const auto& running = node(at).searches;
-    const bool is_repaired = std::any_of(running.begin(), running.end(), [&](const Search& each) {
-        return each.destination == to && each.repaired_hops > 0;
-    });
-    if (is_repaired) {
+    if (is_repaired(at, to)) {
         keep(link, at, to, onward);
         return set_timer(link, at);
     }
-    // 6.11 (ii): no route, and none is repaired.
+    // 6.11 (ii): no route, and none is repaired. The sender has a route over this node, so that the
+    // number must not be forgotten.
     Route* broken = route(at, to, r.time);
-    if (broken && broken->has_number) ++broken->number;
+    if (broken) {
+        broken->number += broken->has_number ? 1 : 0;
+        broken->until = r.time + rules_.delete_period;
+    }
     if (r.time < node(at).silent_until) node(at).silent_until = r.time + rules_.silence;  // 6.13
     const aodv::Error::Lost lost{to, broken && broken->has_number ? broken->number : 0};
     send_errors(link, at, {&lost, 1}, r.time + least_reaction,
@@ -223,10 +234,12 @@ void AodvRouter::on_sent(LinkLayer& link, const QueuedFrame& queued, SendResult 
     if (result == SendResult::acked || result == SendResult::sent) return;
     const Message& message = link.message(queued.frame.message);
     if (result != SendResult::retries) {
-        if (!message.kind.empty() || message.to == everyone) return;
+        if (!message.kind.empty()) return;
         return link.drop(at, queued.as_received(), drop_reason_of(result));
     }
-    if (message.kind == aodv::reply_kind) node(at).one_way.push_back({next_hop, link.now()});
+    if (message.kind == aodv::reply_kind && rules_.blacklist_timeout > Duration{0}) {
+        node(at).one_way.push_back({next_hop, link.now()});
+    }
     std::vector<QueuedFrame> stranded = link.take_queued(at, next_hop);
     stranded.insert(stranded.begin(), queued);
     on_broken(link, at, next_hop, stranded);

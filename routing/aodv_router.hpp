@@ -29,6 +29,9 @@ class AodvRouter {
     explicit AodvRouter(const AodvRules& rules) : rules_(rules) {}
 
     Hops initial_ttl() const { return static_cast<Hops>(rules_.ttl); }
+    Hops initial_ttl(const Message& message) const {
+        return message.to == everyone ? Hops{1} : initial_ttl();
+    }
     void send(LinkLayer& link, NodeId node, MessageId message);
     void on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions);
     void on_sent(LinkLayer& link, const QueuedFrame& queued, SendResult result);
@@ -56,11 +59,14 @@ class AodvRouter {
         NodeId destination;
         /// TTL of the last request, and number of requests with the largest TTL so far.
         int ttl = 0, full = 0;
-        /// End of the wait for an answer, and time of the last request.
-        Time until = start_of_run, begun = start_of_run;
+        /// End of the wait for an answer.
+        Time until = start_of_run;
+        /// Time of the last request; none before the first one.
+        std::optional<Time> begun = std::nullopt;
         /// Hops of the broken route, if a node on the way repairs it; 0: it is the source's search.
         Hops repaired_hops = 0;
-        /// Whether all searches failed, and none begins before `until`.
+        /// Whether no request is sent before `until`: all searches failed, or the node has sent too
+        /// many requests, or is silent.
         bool pauses = false;
     };
     /// Mean time of the last three searches for a destination, for each hop [s].
@@ -91,31 +97,38 @@ class AodvRouter {
         SendBuffer buffer;
         std::vector<Search> searches;
         std::vector<Latency> latencies;
-        std::vector<Neighbour> neighbours;  ///< if there are HELLOs
+        std::vector<Neighbour> neighbours;  ///< from which there were HELLOs (6.9)
         std::vector<Neighbour> one_way;     ///< neighbours to which a RREP failed (6.8)
         RateLimit requests, errors;
         /// Time of the next timer of searches and of the buffer; none if none is set.
         std::optional<Time> timer;
         /// End of the silence after a restart.
         Time silent_until = start_of_run;
-        Time last_broadcast = start_of_run;
+        std::optional<Time> last_broadcast;
+        /// Time until which the node counts as part of a route that carries messages (6.9).
+        Time active_until = start_of_run;
         bool is_started = false;
+        bool was_off = false;  ///< during the run, so that others may have routes over the node
     };
 
     Node& node(NodeId id);
     Route* route(NodeId at, NodeId destination, Time now);
     Route* valid_route(NodeId at, NodeId destination, Time now);
     void refresh(NodeId at, NodeId destination, Time now);
+    void use(NodeId at, NodeId destination, NodeId next_hop, Time now);
     bool is_silent(NodeId at, Time now) { return now < node(at).silent_until; }
 
     // Messages of applications (aodv_router.cpp).
     void receive_message(LinkLayer& link, const Frame& frame, Reception& reception);
-    void send_on(LinkLayer& link, const QueuedFrame& queued, const Route& route, Time at);
+    void send_on(LinkLayer& link, const QueuedFrame& queued, NodeId next_hop, Time at);
     void keep(LinkLayer& link, NodeId at, NodeId destination, const QueuedFrame& queued);
     void lose(LinkLayer& link, NodeId at, const SendBuffer::Packet& packet, DropReason reason);
     // Broken links.
     void on_broken(LinkLayer& link, NodeId at, NodeId neighbour, std::span<const QueuedFrame>);
     bool repairs(const Route& route, const QueuedFrame& queued) const;
+    std::vector<Search> repairs_of(LinkLayer& link, NodeId at, NodeId neighbour,
+                                   std::span<const QueuedFrame> stranded);
+    bool is_repaired(NodeId at, NodeId destination);
     /// Whom a RERR reaches beside the neighbours that used its routes.
     struct ErrorOptions {
         std::optional<NodeId> asker = {};  ///< neighbour whose packet could not be forwarded
@@ -124,8 +137,10 @@ class AodvRouter {
     };
     void send_errors(LinkLayer& link, NodeId at, std::span<const aodv::Error::Lost> lost, Time when,
                      ErrorOptions options);
+    void send_error(LinkLayer& link, NodeId at, const aodv::Error& error, NodeId to, Time when);
     void receive_error(LinkLayer& link, const Frame& frame, const aodv::Error& error,
                        const Reception& reception);
+    void hear(NodeId at, NodeId neighbour, Time now, bool is_hello);
     void send_hello(LinkLayer& link, NodeId at);
 
     // Searches (aodv_search.cpp).
@@ -138,6 +153,7 @@ class AodvRouter {
     void meet(NodeId at, NodeId neighbour, Time now);
     bool learn(NodeId at, const Route& offered, Time now);
     void reply(LinkLayer& link, NodeId at, const aodv::Reply& reply, Time when);
+    void tell_way_back(LinkLayer& link, const Reception& r, const aodv::Request& request);
     void search(LinkLayer& link, NodeId at, NodeId destination, Time when);
     void proceed(LinkLayer& link, NodeId at, Search& search, Time when);
     void request(LinkLayer& link, NodeId at, Search& search, Time when);

@@ -16,10 +16,13 @@ AodvRules rfc() {
             .jitter = {},
             .delete_period = {},
             .silence = {},
+            .blacklist_timeout = {},
             .net_diameter = 35,
             .ttl = 64,
             .rreq_retries = 2,
             .rings = true,
+            .destination_only = false,
+            .gratuitous = false,
             .local_repair = false,
             .buffer = 64,
             .data_header = 28,
@@ -79,11 +82,19 @@ AodvRules AodvRules::of(const Aodv& aodv) {
     take(r.local_repair, aodv.local_repair);
     take(r.ttl, aodv.ttl);
     r.rings = aodv.rings;
+    r.destination_only = aodv.destination_only;
+    r.gratuitous = aodv.gratuitous;
     r.hello = aodv.hello;
     r.jitter = aodv.jitter;
     r.buffer = static_cast<std::size_t>(aodv.buffer);
-    r.delete_period = 5 * std::max(r.active_route_timeout, r.hello);
+    // A neighbour may use a route for its whole lifetime, and once more after its last message.
+    const Duration longest_life = std::max(r.my_route_timeout, r.path_discovery_time());
+    r.delete_period = std::max(5 * std::max(r.active_route_timeout, r.hello),
+                               longest_life + r.active_route_timeout);
     r.silence = r.delete_period;
+    if (aodv.profile == AodvProfile::rfc) {
+        r.blacklist_timeout = r.rreq_retries * r.net_traversal_time();
+    }
     return r;
 }
 

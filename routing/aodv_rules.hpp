@@ -18,12 +18,16 @@ struct AodvRules {
     static AodvRules of(const Aodv& aodv);
 
     Duration active_route_timeout, my_route_timeout, node_traversal_time, hello, jitter;
-    /// Time for which a broken route keeps its sequence number.
+    /// Time for which a broken route keeps its sequence number: longer than any node may still use
+    /// a route over the node at which it broke.
     Duration delete_period;
-    /// Time for which a node that was switched on takes no part in searches.
+    /// Time for which a node that was switched on again takes no part in searches.
     Duration silence;
+    /// Time for which requests of a neighbour are ignored that a reply did not reach
+    /// (BLACKLIST_TIMEOUT); 0: they are not.
+    Duration blacklist_timeout;
     int net_diameter, ttl, rreq_retries;
-    bool rings, local_repair;
+    bool rings, destination_only, gratuitous, local_repair;
     std::size_t buffer;
 
     // Differences of ns-2.

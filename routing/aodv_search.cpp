@@ -26,8 +26,8 @@ void AodvRouter::search(LinkLayer& link, NodeId at, NodeId destination, Time whe
 
 /// Goes on with a search whose wait is over: asks again, farther, or gives up.
 void AodvRouter::proceed(LinkLayer& link, NodeId at, Search& search, Time when) {
-    const bool asks = search.pauses ? node(at).buffer.has(search.destination) : widen(search);
-    if (asks) {
+    const bool is_wanted = node(at).buffer.has(search.destination);
+    if (is_wanted && (search.pauses || widen(search))) {
         search.pauses = false;
         request(link, at, search, when);
     } else {
@@ -50,6 +50,7 @@ bool AodvRouter::widen(Search& search) const {
     if (search.ttl >= rules_.net_diameter) return search.full <= rules_.rreq_retries;
     search.ttl += 2;
     if (search.ttl > rules_.ring_threshold) search.ttl = rules_.net_diameter;
+    search.ttl = std::min(search.ttl, rules_.net_diameter);
     return true;
 }
 
@@ -62,6 +63,7 @@ Duration AodvRouter::wait(NodeId at, const Search& search) {
             if (each.destination != search.destination) continue;
             const auto known = std::count_if(each.times.begin(), each.times.end(),
                                              [](float time) { return time > 0; });
+            if (known == 0) continue;
             per_hop = std::accumulate(each.times.begin(), each.times.end(), 0.0) /
                       static_cast<double>(known);
         }
@@ -71,7 +73,10 @@ Duration AodvRouter::wait(NodeId at, const Search& search) {
     if (search.ttl < rules_.net_diameter || search.repaired_hops > 0) {
         return 2 * rules_.node_traversal_time * (search.ttl + timeout_buffer);
     }
-    return rules_.net_traversal_time() * (std::int64_t{1} << std::min(search.full - 1, 20));
+    constexpr Duration longest = std::chrono::hours{24};  // of a search that nobody waits for
+    Duration doubled = rules_.net_traversal_time();
+    for (int i = 1; i < search.full && doubled < longest; ++i) doubled *= 2;
+    return doubled;
 }
 
 /// Time at which a search goes on by itself.
@@ -93,7 +98,9 @@ void AodvRouter::request(LinkLayer& link, NodeId at, Search& search, Time when) 
     ++here.number;
     if (search.ttl >= rules_.net_diameter) ++search.full;
     const Route* known = route(at, search.destination, when);
-    aodv::Request request{.id = ++here.request,
+    aodv::Request request{.gratuitous = rules_.gratuitous,
+                          .destination_only = rules_.destination_only,
+                          .id = ++here.request,
                           .destination = search.destination,
                           .number = std::nullopt,
                           .originator = at,
@@ -108,18 +115,24 @@ void AodvRouter::request(LinkLayer& link, NodeId at, Search& search, Time when) 
                .hops = 1},
               {}, when);
     link.release(id);
-    here.last_broadcast = search.begun = when;
+    here.last_broadcast = when;
+    search.begun = when;
     search.until = when + wait(at, search);
 }
 
 /// Ends a search without an answer, and the packets that waited for it.
 void AodvRouter::give_up(LinkLayer& link, NodeId at, Search& search) {
     const NodeId destination = search.destination;
-    const bool was_pause = search.pauses, was_repair = search.repaired_hops > 0;
-    for (const auto& packet : node(at).buffer.take(destination)) {
-        lose(link, at, packet, DropReason::no_route);
+    const bool was_repair = search.repaired_hops > 0;
+    SendBuffer& buffer = node(at).buffer;
+    const std::vector<SendBuffer::Packet> waited = buffer.take(destination);
+    for (const auto& packet : waited) {
+        // Own packets wait for a search of their own.
+        const bool stays = was_repair && !packet.queued.heard_from;
+        stays ? void(buffer.add(packet, rules_.buffer))
+              : lose(link, at, packet, DropReason::no_route);
     }
-    search.pauses = !was_pause && !was_repair && rules_.pause_after_failure > Duration{0};
+    search.pauses = !waited.empty() && !was_repair && rules_.pause_after_failure > Duration{0};
     search.until = link.now() + rules_.pause_after_failure;
     search.full = 0;
     if (!search.pauses) search.ttl = 0;  // the search is over
@@ -127,6 +140,9 @@ void AodvRouter::give_up(LinkLayer& link, NodeId at, Search& search) {
     const Route* broken = route(at, destination, link.now());
     const aodv::Error::Lost lost{destination, broken && broken->has_number ? broken->number : 0};
     send_errors(link, at, {&lost, 1}, link.now(), {.is_first = true});  // 6.12
+    if (!buffer.has(destination)) return;
+    search = {.destination = destination, .ttl = first_ttl(broken)};
+    request(link, at, search, link.now());
 }
 
 /// Ends the search for a destination to which there is a route, and sends what waited for it.
@@ -134,7 +150,7 @@ void AodvRouter::end_search(LinkLayer& link, NodeId at, NodeId destination, Time
     Node& here = node(at);
     const Route* found = valid_route(at, destination, when);
     if (!found) return;
-    const Route known = *found;
+    const Route known = *found;  // the entry may move
     const auto ended = std::find_if(here.searches.begin(), here.searches.end(),
                                     [&](const auto& s) { return s.destination == destination; });
     if (ended == here.searches.end()) return;
@@ -142,11 +158,11 @@ void AodvRouter::end_search(LinkLayer& link, NodeId at, NodeId destination, Time
     here.searches.erase(ended);
     Time then = when;
     for (const auto& packet : here.buffer.take(destination)) {
-        send_on(link, packet.queued, known, then);
+        send_on(link, packet.queued, known.next_hop, then);
         link.release(packet.queued.frame);
         then += rules_.spacing;
     }
-    refresh(at, destination, when);
+    use(at, destination, known.next_hop, when);
     if (before > 0 && known.hops > before) {  // 6.12: the repaired route is longer
         const aodv::Error::Lost longer{destination, known.number};
         send_errors(link, at, {&longer, 1}, when, {.is_first = true, .is_repaired = true});
@@ -154,12 +170,13 @@ void AodvRouter::end_search(LinkLayer& link, NodeId at, NodeId destination, Time
 }
 
 void AodvRouter::note_latency(NodeId at, const Search& search, Hops hops, Time now) {
+    if (!search.begun) return;  // the reply is to an earlier search
     auto& all = node(at).latencies;
     auto found = std::find_if(all.begin(), all.end(), [&](const Latency& each) {
         return each.destination == search.destination;
     });
     if (found == all.end()) found = all.insert(all.end(), {.destination = search.destination});
-    found->times[found->next] = static_cast<float>(seconds(now - search.begun) / hops);
+    found->times[found->next] = static_cast<float>(seconds(now - *search.begun) / hops);
     found->next = static_cast<std::uint8_t>((found->next + 1) % found->times.size());
 }
 
@@ -186,14 +203,6 @@ void AodvRouter::meet(NodeId at, NodeId neighbour, Time now) {
     direct.next_hop = neighbour;
     direct.hops = 1;
     direct.is_valid = true;
-    if (rules_.hello == Duration{0}) return;
-    const auto known = std::find_if(here.neighbours.begin(), here.neighbours.end(),
-                                    [&](const Neighbour& each) { return each.node == neighbour; });
-    if (known == here.neighbours.end()) {
-        here.neighbours.push_back({neighbour, now});
-    } else {
-        known->last = now;
-    }
 }
 
 /// Takes an offered route if it is newer, or equally new and better (6.2). The lifetime of a valid
@@ -222,7 +231,7 @@ Fate AodvRouter::receive_request(LinkLayer& link, const Frame& frame, const aodv
     if (is_silent(at, r.time)) return Fate::arrived;  // 6.13
     Node& here = node(at);
     std::erase_if(here.one_way, [&](const Neighbour& each) {
-        return r.time - each.last > rules_.path_discovery_time();
+        return r.time - each.last >= rules_.blacklist_timeout;
     });
     if (std::any_of(here.one_way.begin(), here.one_way.end(),
                     [&](const Neighbour& each) { return each.node == from; })) {
@@ -274,6 +283,7 @@ Fate AodvRouter::receive_request(LinkLayer& link, const Frame& frame, const aodv
                .originator = request.originator,
                .lifetime = there.until - r.time},
               when);
+        if (request.gratuitous) tell_way_back(link, r, request);
         return Fate::arrived;
     }
     if (frame.ttl <= 1) return Fate::ttl;
@@ -322,6 +332,19 @@ void AodvRouter::reply(LinkLayer& link, NodeId at, const aodv::Reply& reply, Tim
     link.release(id);
 }
 
+/// Tells a destination the way to a node that has asked for it, and got an answer here (6.6.3).
+void AodvRouter::tell_way_back(LinkLayer& link, const Reception& r, const aodv::Request& request) {
+    const Route* back = valid_route(r.node, request.originator, r.time);
+    if (!back || !back->has_number) return;
+    reply(link, r.node,
+          {.hops = static_cast<std::uint8_t>(std::min<int>(back->hops, 255)),
+           .destination = request.originator,
+           .number = back->number,
+           .originator = request.destination,
+           .lifetime = back->until - r.time},
+          r.time + least_reaction);
+}
+
 Fate AodvRouter::receive_reply(LinkLayer& link, const Frame& frame, const aodv::Reply& reply,
                                const Reception& r) {
     const NodeId at = r.node, from = frame.sender;
@@ -354,6 +377,7 @@ Fate AodvRouter::receive_reply(LinkLayer& link, const Frame& frame, const aodv::
     if (!back || frame.ttl <= 1) return Fate::arrived;
     const NodeId next_hop = back->next_hop;
     refresh(at, reply.originator, r.time);
+    node(at).active_until = r.time + rules_.active_route_timeout;
     RouteTable& routes = node(at).routes;
     routes.add_precursor(reply.destination, next_hop);
     routes.add_precursor(from, next_hop);

@@ -38,6 +38,8 @@ void RouteTable::clean(Time now, Duration delete_period) {
 }
 
 void RouteTable::add_precursor(NodeId destination, NodeId neighbour) {
+    const auto used = place(destination);
+    if (used == routes_.end() || used->destination != destination) return;
     const Precursor added{destination, neighbour};
     const auto at = std::lower_bound(precursors_.begin(), precursors_.end(), added);
     if (at == precursors_.end() || *at != added) precursors_.insert(at, added);

@@ -48,7 +48,7 @@ class RouteTable {
     /// Entries as they are stored, in the order of destinations; expired ones are among them.
     std::span<const Route> stored() const { return routes_; }
 
-    /// Adds a neighbour that uses the route to a destination.
+    /// Adds a neighbour that uses the route to a destination, if there is an entry for it.
     void add_precursor(NodeId destination, NodeId neighbour);
     /// Neighbours that use the route to a destination, in order, each once.
     std::vector<NodeId> precursors(NodeId destination) const;

@@ -28,7 +28,10 @@ class SeenIds {
             return true;
         }
         Of& known = *place;
-        if (now - known.last > memory) known = {originator, id - 1, 0, now};
+        if (now - known.last > memory) {
+            known = {originator, id, 0, now};
+            return true;
+        }
         known.last = now;
         if (is_newer(id, known.highest)) {
             const std::uint32_t step = id - known.highest;

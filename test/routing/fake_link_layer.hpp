@@ -27,6 +27,7 @@ class FakeLinkLayer final : public LinkLayer {
         QueuedFrame queued;
         Time at;
         Stage stage = Stage::waiting;
+        std::uint64_t uid = 0;  ///< of its message, whose slot may be reused
     };
     struct Timer {
         NodeId node;
@@ -74,7 +75,9 @@ class FakeLinkLayer final : public LinkLayer {
     std::size_t size() const override { return on.size(); }
     const Message& message(MessageId id) const override { return messages[id]; }
     bool is_on(NodeId node) const override { return on[node.index()]; }
-    std::uint64_t key(NodeId node) const override { return node.value; }
+    std::uint64_t key(NodeId node) const override {
+        return node.index() < keys.size() ? keys[node.index()] : node.value;
+    }
     Vec3 position(NodeId node) const override { return positions[node.index()]; }
     std::string_view role(NodeId node) const override {
         return node.index() < roles.size() ? roles[node.index()] : std::string_view{};
@@ -91,7 +94,8 @@ class FakeLinkLayer final : public LinkLayer {
     std::optional<SendHandle> send(const Frame& frame, std::optional<NodeId> heard_from,
                                    Time at) override {
         const bool is_control = !messages[frame.message].kind.empty();
-        sent.push_back({{frame, heard_from, is_control}, at});
+        sent.push_back(
+            {{frame, heard_from, is_control}, at, Stage::waiting, messages[frame.message].uid});
         messages.hold(frame.message);
         if (frame.header != 0) ++headers[frame.header];
         const auto handle = static_cast<SendHandle>(sent.size() - 1);
@@ -143,6 +147,7 @@ class FakeLinkLayer final : public LinkLayer {
     std::vector<bool> on;
     std::vector<Vec3> positions;
     std::vector<std::string_view> roles{};
+    std::vector<std::uint64_t> keys{};  ///< of nodes; beyond the end the id is the key
     Dbm received_power{-60}, noise{-95};
     double drawn = 0.5;  ///< by every draw
     MessageTable messages{};

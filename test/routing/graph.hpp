@@ -47,6 +47,10 @@ class Graph final : public LinkLayer {
     Faults faults{};
     /// Roles of nodes; nodes beyond the end have none.
     std::vector<std::string_view> roles{};
+    /// Keys of nodes; beyond the end the id is the key.
+    std::vector<std::uint64_t> keys{};
+    /// Called as a frame is sent.
+    std::function<void(const Frame&)> on_transmit{};
     /// Called after each event.
     std::function<void()> after_event{};
     /// Called as a message of an application arrives at a node.
@@ -102,7 +106,9 @@ class Graph final : public LinkLayer {
     std::size_t size() const override { return nodes_; }
     const Message& message(MessageId id) const override { return messages_[id]; }
     bool is_on(NodeId node) const override { return !off_.contains(node.value); }
-    std::uint64_t key(NodeId node) const override { return node.value; }
+    std::uint64_t key(NodeId node) const override {
+        return node.index() < keys.size() ? keys[node.index()] : node.value;
+    }
     Vec3 position(NodeId) const override { return {}; }
     std::string_view role(NodeId node) const override {
         return node.index() < roles.size() ? roles[node.index()] : std::string_view{};
@@ -111,7 +117,7 @@ class Graph final : public LinkLayer {
                         std::string content) override {
         return add({.origin = from,
                     .to = to,
-                    .key = ~next_uid_,
+                    .key = combine(key(from), packets_[from.value]++),
                     .size = bytes,
                     .created = now_,
                     .payload = std::move(content),
@@ -164,10 +170,10 @@ class Graph final : public LinkLayer {
     }
     double draw(Purpose purpose, NodeId node, MessageId id, std::uint64_t index) const override {
         return uniform(
-            {.purpose = purpose, .a = node.value, .b = messages_[id].key, .index = index});
+            {.purpose = purpose, .a = key(node), .b = messages_[id].key, .index = index});
     }
     double draw(Purpose purpose, NodeId node, std::uint64_t index) const override {
-        return uniform({.purpose = purpose, .a = node.value, .index = index});
+        return uniform({.purpose = purpose, .a = key(node), .index = index});
     }
 
     /// Nodes at which each message of an application was delivered, with the hops.
@@ -208,6 +214,7 @@ class Graph final : public LinkLayer {
             return;
         }
         ++frames[messages_[frame.message].kind];
+        if (on_transmit) on_transmit(frame);
         const Duration more = faults.longest - hop_time;
         const Time end = now_ + hop_time + from_seconds(fault() * seconds(more));
         std::vector<Reception> receptions;
@@ -257,6 +264,7 @@ class Graph final : public LinkLayer {
     Time now_ = start_of_run;
     std::priority_queue<Event> events_;
     std::uint64_t next_event_ = 0, next_uid_ = 0;
+    std::map<std::uint32_t, std::uint64_t> packets_;  // made by each node
     MessageTable messages_;
     std::vector<QueuedFrame> outbox_;
     std::vector<std::optional<QueuedFrame>> waiting_;
