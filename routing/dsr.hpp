@@ -4,10 +4,19 @@
 #include "sim/fields.hpp"
 #include "sim/router.hpp"
 
+#include <array>
 #include <chrono>
 #include <string_view>
 
 namespace rovernet {
+
+/// Variant of DSR: the text of RFC 4728, or what ns-2.35 makes of it (docs/routing.md).
+enum class DsrProfile { rfc, ns2 };
+
+template <>
+struct EnumNames<DsrProfile> {
+    static constexpr std::array<std::string_view, 2> values = {"rfc", "ns2"};
+};
 
 /// Dynamic source routing of messages to one robot (RFC 4728). A node without a route floods a
 /// request, which collects the nodes that it passes; the target answers with that list, or a node
@@ -20,6 +29,8 @@ namespace rovernet {
 struct Dsr {
     static constexpr std::string_view name = "dsr";
 
+    /// Variant.
+    DsrProfile profile = DsrProfile::rfc;
     /// Whether nodes learn from packets for others that they overhear, and report shorter routes.
     bool promiscuous = true;
     /// How often a message may be sent along another route on its way; 0: never.
@@ -31,6 +42,7 @@ struct Dsr {
 
     static constexpr auto fields() {
         return describe(
+            field("profile", &Dsr::profile, "RFC 4728, or as ns-2.35 does it"),
             field("promiscuous", &Dsr::promiscuous,
                   "whether nodes learn routes from packets for others"),
             field("salvage", &Dsr::salvage, Range{.low = 0, .high = 15, .text = "from 0 to 15"},

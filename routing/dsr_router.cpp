@@ -4,7 +4,6 @@
 #include "routing/in_order.hpp"
 
 #include <algorithm>
-#include <set>
 
 namespace rovernet {
 namespace {
@@ -123,8 +122,20 @@ void DsrRouter::send_along(LinkLayer& link, const QueuedFrame& queued, const Pat
     frame.next_hop = path[1];
     frame.bytes = link.message(frame.message).size + dsr::ip_header + dsr::fixed_header +
                   dsr::route_option(addresses);
-    frame.header = add_header({path, static_cast<std::uint8_t>(salvage), frame.hops});
+    const bool is_read = !is_ns2() || salvage > 0 || is_new_flow(frame.sender, path);
+    frame.header = add_header({path, static_cast<std::uint8_t>(salvage), frame.hops, is_read});
     link.send(frame, queued.heard_from, at);
+}
+
+/// Counts a message along a route. @return whether it is one of the first three, which establish
+/// the flow; with the flow state of ns-2, the others have no route that a node could read
+bool DsrRouter::is_new_flow(NodeId source, const Path& path) {
+    auto& flows = node(source).flows;
+    auto flow = std::find_if(flows.begin(), flows.end(),
+                             [&](const Flow& each) { return each.path.back() == path.back(); });
+    if (flow == flows.end()) flow = flows.insert(flow, Flow{path});
+    if (!(flow->path == path)) *flow = {path};
+    return ++flow->messages <= 3;
 }
 
 /// Lets a packet wait for a route; set_timer() is to follow.
@@ -171,9 +182,10 @@ void DsrRouter::receive_message(LinkLayer& link, const Frame& frame, Reception& 
     if (frame.header == 0) return;  // a broadcast, or no message of this protocol
     const Path path = header(frame).path;
     const Way way{path, static_cast<std::size_t>(frame.hops - header(frame).first_hops)};
-    learn(r.node, frame.sender, path, dsr::Cache::Origin::others, r.time);
+    const bool is_read = header(frame).is_read;
+    if (!is_ns2()) learn(r.node, frame.sender, path, dsr::Cache::Origin::others, r.time);
     if (frame.next_hop != r.node) {
-        shorten(link, frame.sender, way, r);
+        if (is_read) shorten(link, frame.sender, way, r);
     } else if (message.to == r.node) {
         const std::size_t i = frame.message.index();
         if (i >= arrived_.size()) arrived_.resize(i + 1);
@@ -214,13 +226,12 @@ void DsrRouter::on_sent(LinkLayer& link, const QueuedFrame& queued, SendResult r
     for (std::size_t i = 1; i < stranded.size(); ++i) link.release(stranded[i].frame);
 }
 
-/// Reports a broken link to the sources of the packets that were on their way over it, once to
-/// each, and sends the messages on other routes (3.4.1, 3.4.2, 8.3.4).
+/// Reports a broken link to the source of each packet that was on its way over it, and sends the
+/// messages on other routes (3.4.1, 3.4.2, 8.3.4).
 void DsrRouter::on_broken(LinkLayer& link, NodeId at, NodeId neighbour,
                           std::span<const QueuedFrame> stranded) {
     Node& here = node(at);
     here.cache.remove_link(at, neighbour);
-    std::set<NodeId> told;
     for (const QueuedFrame& each : stranded) {
         const Message& message = link.message(each.frame.message);
         const bool is_control = !message.kind.empty();
@@ -233,7 +244,7 @@ void DsrRouter::on_broken(LinkLayer& link, NodeId at, NodeId neighbour,
         if (error.to == at) {
             here.error = error;
             here.error_time = link.now();
-        } else if (told.insert(error.to).second) {
+        } else {
             const auto made = static_cast<std::size_t>(each.frame.hops - own.first_hops);
             send_error(link, at, error, own.path.first(made + 1).reversed());
         }
@@ -258,27 +269,27 @@ void DsrRouter::send_error(LinkLayer& link, NodeId at, const dsr::Error& error, 
     link.release(id);
 }
 
+/// How often a message has changed its route on its way once a node sends it along a new one.
+unsigned DsrRouter::salvage_of(const QueuedFrame& queued) const {
+    return queued.heard_from ? header(queued.frame).salvage + 1U : 0;
+}
+
 /// Sends a message whose next hop is gone along another route (8.3.6): its source waits for one if
 /// it knows none, others salvage the message.
 void DsrRouter::send_otherwise(LinkLayer& link, NodeId at, const QueuedFrame& queued) {
-    const Message& message = link.message(queued.frame.message);
-    const NodeId to = message.to;
-    const bool has_route = queued.frame.header != 0;
-    const unsigned salvage = has_route ? header(queued.frame).salvage : 0;
-    const bool is_source = has_route && !queued.heard_from;
-    const auto path = has_route ? node(at).cache.find(to) : std::nullopt;
-    if (is_source && path) return send_along(link, queued, *path, 0, link.now());
-    if (is_source) {
+    if (queued.frame.header == 0) return link.drop(at, queued.as_received(), DropReason::broken);
+    const NodeId to = link.message(queued.frame.message).to;
+    const unsigned salvage = salvage_of(queued);
+    const bool may = salvage <= static_cast<unsigned>(dsr_.salvage);
+    const auto path = node(at).cache.find(to);
+    if (may && path) return send_along(link, queued, *path, salvage, link.now());
+    if (salvage == 0 || (may && is_ns2())) {
         QueuedFrame waiting = queued;
-        waiting.frame.header = 0;
+        if (salvage == 0) waiting.frame.header = 0;
         keep(link, at, waiting);
         return search(link, at, to, link.now());
     }
-    if (path && salvage < static_cast<unsigned>(dsr_.salvage)) {
-        return send_along(link, queued, *path, salvage + 1, link.now());
-    }
-    const bool is_too_often = path && dsr_.salvage > 0;
-    link.drop(at, queued.as_received(), is_too_often ? DropReason::salvaged : DropReason::broken);
+    link.drop(at, queued.as_received(), path ? DropReason::salvaged : DropReason::broken);
 }
 
 }  // namespace rovernet

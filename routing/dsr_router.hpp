@@ -52,6 +52,8 @@ class DsrRouter {
         std::uint8_t salvage = 0;
         /// Frame::hops of the frame that the first node of the path sends.
         Hops first_hops = 1;
+        /// Whether nodes read the route; always, but for the flow state of ns-2.
+        bool is_read = true;
     };
     /// Source route of a frame of a message.
     const Header& header(const Frame& frame) const { return headers_[frame.header - 1]; }
@@ -75,6 +77,11 @@ class DsrRouter {
         NodeId source, sender;
         Time until;
     };
+    /// Number of messages that a source sent along its last route to a destination.
+    struct Flow {
+        dsr::Path path;
+        std::uint32_t messages = 0;
+    };
     struct Node {
         dsr::Cache cache;
         SeenIds seen;
@@ -85,6 +92,7 @@ class DsrRouter {
         std::optional<dsr::Error> error;
         Time error_time = start_of_run;
         std::uint16_t request = 0;
+        std::vector<Flow> flows;  ///< with profile ns2
         /// Time of the next timer; none if none is set.
         std::optional<Time> timer;
     };
@@ -95,6 +103,8 @@ class DsrRouter {
     };
 
     Node& node(NodeId id);
+    bool is_ns2() const { return dsr_.profile == DsrProfile::ns2; }
+    bool has_own(NodeId at, NodeId target);
     std::uint32_t add_header(const Header& header);
 
     // Messages of applications (dsr_router.cpp).
@@ -102,11 +112,13 @@ class DsrRouter {
     void receive_on(LinkLayer& link, const Frame& frame, Way way, Reception& reception);
     void send_along(LinkLayer& link, const QueuedFrame& queued, const dsr::Path& path,
                     unsigned salvage, Time at);
+    bool is_new_flow(NodeId source, const dsr::Path& path);
     void keep(LinkLayer& link, NodeId at, const QueuedFrame& queued);
     void lose(LinkLayer& link, NodeId at, const SendBuffer::Packet& packet, DropReason reason);
     // Broken links.
     void on_broken(LinkLayer& link, NodeId at, NodeId neighbour, std::span<const QueuedFrame>);
     void send_error(LinkLayer& link, NodeId at, const dsr::Error& error, const dsr::Path& route);
+    unsigned salvage_of(const QueuedFrame& queued) const;
     void send_otherwise(LinkLayer& link, NodeId at, const QueuedFrame& queued);
 
     // Routes: how they are learnt, sought and told (dsr_search.cpp).

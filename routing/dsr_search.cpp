@@ -174,6 +174,14 @@ void DsrRouter::search(LinkLayer& link, NodeId at, NodeId target, Time when) {
     set_timer(link, at);
 }
 
+/// Whether messages of the node's own wait for a route. For others it asks its neighbours alone.
+bool DsrRouter::has_own(NodeId at, NodeId target) {
+    const auto& packets = node(at).buffer.packets();
+    return std::any_of(packets.begin(), packets.end(), [&](const SendBuffer::Packet& each) {
+        return each.destination == target && !each.queued.heard_from;
+    });
+}
+
 /// Sends the next request of a search, or gives up. @return whether the search goes on
 bool DsrRouter::proceed(LinkLayer& link, NodeId at, Search& search, Time when) {
     if (search.requests <= most_requests) {
@@ -189,7 +197,8 @@ bool DsrRouter::proceed(LinkLayer& link, NodeId at, Search& search, Time when) {
 /// Sends the next request of a search (8.2.1): the first one to the neighbours alone.
 void DsrRouter::request(LinkLayer& link, NodeId at, Search& search, Time when) {
     Node& here = node(at);
-    const bool propagates = search.requests > 0;
+    const bool is_own = has_own(at, search.target);
+    const bool propagates = search.requests > 0 && is_own;
     dsr::Packet packet{.request = dsr::Request{++here.request, search.target, Path{at}}};
     if (propagates && here.error && when - here.error_time <= error_age) packet.error = here.error;
     if (propagates) here.error.reset();
@@ -207,7 +216,7 @@ void DsrRouter::request(LinkLayer& link, NodeId at, Search& search, Time when) {
     const int doublings = std::min(search.requests - 1, 10);
     search.until = when + (propagates ? std::min(first_wait * (1 << doublings), longest_wait)
                                       : nonpropagating_wait);
-    ++search.requests;
+    search.requests += is_own;
 }
 
 /// Ends the searches for targets to which there is a route, and sends what waited.
@@ -222,7 +231,7 @@ void DsrRouter::end_searches(LinkLayer& link, NodeId at, Time when) {
         }
         here.searches.erase(here.searches.begin() + static_cast<std::ptrdiff_t>(i));
         for (const auto& packet : here.buffer.take(target)) {
-            send_along(link, packet.queued, *path, 0, when);
+            send_along(link, packet.queued, *path, salvage_of(packet.queued), when);
             link.release(packet.queued.frame);
         }
     }
@@ -233,7 +242,7 @@ void DsrRouter::set_timer(LinkLayer& link, NodeId at) {
     Node& here = node(at);
     std::optional<Time> next = here.buffer.first_end();
     for (const Search& each : here.searches) {
-        if (here.buffer.has(each.target)) next = std::min(next.value_or(each.until), each.until);
+        if (has_own(at, each.target)) next = std::min(next.value_or(each.until), each.until);
     }
     if (!next || (here.timer && *here.timer <= *next)) return;
     here.timer = std::max(*next, link.now() + least_reaction);
@@ -249,7 +258,7 @@ void DsrRouter::on_timer(LinkLayer& link, NodeId at, std::uint64_t) {
         lose(link, at, packet, DropReason::timeout);
     }
     std::erase_if(here.searches, [&](Search& each) {
-        const bool is_due = each.until <= now && here.buffer.has(each.target);
+        const bool is_due = each.until <= now && has_own(at, each.target);
         return is_due && !proceed(link, at, each, now);
     });
     set_timer(link, at);
