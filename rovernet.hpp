@@ -26,6 +26,7 @@
 #include "models/reception/sinr.hpp"
 #include "network/network.hpp"
 #include "routing/aodv.hpp"
+#include "routing/dsr.hpp"
 #include "routing/flood.hpp"
 #include "scenario/document/toml.hpp"
 #include "scenario/scenario_file.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "routing/aodv_packets.hpp"
 
+#include "routing/big_endian.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,16 +14,14 @@ namespace {
 
 enum class Type : std::uint8_t { request = 1, reply = 2, error = 3 };
 
-/// Writes big-endian numbers.
+/// Writes a packet.
 class Writer {
   public:
     Writer(Type type, unsigned flags, unsigned count) {
-        for (const unsigned byte : {static_cast<unsigned>(type), flags, 0U, count}) {
-            bytes_.push_back(static_cast<char>(byte));
-        }
+        big_endian::put(bytes_, static_cast<unsigned>(type) << 24 | flags << 16 | count);
     }
     Writer& word(std::uint32_t value) {
-        for (const int shift : {24, 16, 8, 0}) bytes_.push_back(static_cast<char>(value >> shift));
+        big_endian::put(bytes_, value);
         return *this;
     }
     std::string take() { return std::move(bytes_); }
@@ -33,11 +33,7 @@ class Writer {
 std::uint8_t byte(std::string_view bytes, std::size_t at) {
     return static_cast<std::uint8_t>(bytes[at]);
 }
-std::uint32_t word(std::string_view bytes, std::size_t at) {
-    std::uint32_t value = 0;
-    for (std::size_t i = 0; i < 4; ++i) value = value << 8 | byte(bytes, at + i);
-    return value;
-}
+std::uint32_t word(std::string_view bytes, std::size_t at) { return big_endian::get(bytes, at); }
 
 // Flags in the second byte.
 constexpr unsigned gratuitous = 0x20, destination_only = 0x10, unknown_number = 0x08,
@@ -143,8 +139,7 @@ std::string on_air(std::string_view bytes, const Frame& frame,
     std::string changed(bytes);
     if (packet_of(bytes).index() == 0) return changed;
     for (const std::size_t at : addresses_in(bytes)) {
-        const std::uint32_t ip = address(NodeId{word(bytes, at)});
-        for (std::size_t i = 0; i < 4; ++i) changed[at + i] = static_cast<char>(ip >> (24 - 8 * i));
+        big_endian::set(changed, at, address(NodeId{word(bytes, at)}));
     }
     if (static_cast<Type>(byte(bytes, 0)) != Type::error) {
         changed[3] = static_cast<char>(byte(bytes, 3) + hops_before(frame));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "routing/aodv_router.hpp"
 
+#include "routing/in_order.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -149,22 +151,14 @@ void AodvRouter::lose(LinkLayer& link, NodeId at, const SendBuffer::Packet& pack
 }
 
 void AodvRouter::on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions) {
-    // Nodes that receive at the same time act in the order of their keys.
-    const auto is_before = [&](const Reception& a, const Reception& b) {
-        return a.time != b.time ? a.time < b.time : link.key(a.node) < link.key(b.node);
-    };
-    std::vector<Reception*> in_order;
-    for (Reception& each : receptions) in_order.push_back(&each);
-    std::sort(in_order.begin(), in_order.end(),
-              [&](const auto* a, const auto* b) { return is_before(*a, *b); });
     const Message& message = link.message(frame.message);
     if (message.kind.empty()) {
-        for (Reception* each : in_order) receive_message(link, frame, *each);
+        for (Reception* each : in_order(link, receptions)) receive_message(link, frame, *each);
         return;
     }
     const bool message_is_hello = message.kind == aodv::hello_kind;
     const aodv::Packet packet = aodv::packet_of(message.payload);
-    for (Reception* each : in_order) {
+    for (Reception* each : in_order(link, receptions)) {
         each->fate = Fate::arrived;
         hear(each->node, frame.sender, each->time, message_is_hello);
         if (const auto* request = std::get_if<aodv::Request>(&packet)) {

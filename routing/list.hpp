@@ -2,6 +2,7 @@
 #pragma once
 
 #include "routing/aodv.hpp"
+#include "routing/dsr.hpp"
 #include "routing/flood.hpp"
 
 #include <tuple>
@@ -9,6 +10,6 @@
 namespace rovernet {
 
 /// Routing protocols that scenario files can name.
-using RoutingProtocols = std::tuple<Flood, Aodv>;
+using RoutingProtocols = std::tuple<Flood, Aodv, Dsr>;
 
 }  // namespace rovernet

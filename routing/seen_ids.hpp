@@ -44,6 +44,14 @@ class SeenIds {
         known.below |= bit(back);
         return true;
     }
+    /// Notes a number of 16 bits, which wraps around: it is within 32768 of the highest one.
+    bool note16(NodeId originator, std::uint16_t id, Time now, Duration memory) {
+        const auto known = std::find_if(
+            of_.begin(), of_.end(), [&](const Of& each) { return each.originator == originator; });
+        const std::uint32_t highest = known == of_.end() ? 0 : known->highest;
+        const auto step = static_cast<std::int16_t>(id - static_cast<std::uint16_t>(highest));
+        return note(originator, highest + static_cast<std::uint32_t>(step), now, memory);
+    }
     void clear() { of_.clear(); }
 
   private:

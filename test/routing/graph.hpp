@@ -217,13 +217,19 @@ class Graph final : public LinkLayer {
         if (on_transmit) on_transmit(frame);
         const Duration more = faults.longest - hop_time;
         const Time end = now_ + hop_time + from_seconds(fault() * seconds(more));
-        std::vector<Reception> receptions;
+        std::vector<Reception> receptions, overheard;
         for (std::uint32_t i = 0; i < nodes_; ++i) {
             const bool is_for = frame.next_hop == everyone || frame.next_hop == NodeId{i};
-            if (is_for && edges_.contains({frame.sender.value, i}) && fault() >= faults.loss)
-                receptions.push_back({end, NodeId{i}});
+            if (!is_for && !router_.traits().overhears) continue;
+            if (edges_.contains({frame.sender.value, i}) && fault() >= faults.loss)
+                (is_for ? receptions : overheard).push_back({end, NodeId{i}});
         }
-        schedule(end, [this, queued, receptions] { arrive(queued, receptions); });
+        schedule(end, [this, queued, receptions, overheard] {
+            for (Reception each : overheard) {
+                if (is_on(each.node)) router_.on_receive(*this, queued.frame, {&each, 1});
+            }
+            arrive(queued, receptions);
+        });
     }
     void arrive(const QueuedFrame& queued, std::vector<Reception> receptions) {
         const Frame& frame = queued.frame;

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/fields.hpp"
+#include "sim/router.hpp"
+
+#include <array>
+#include <chrono>
+#include <string_view>
+
+namespace rovernet {
+
+/// Variant of DSR: the text of RFC 4728, or what ns-2.35 makes of it (docs/routing.md).
+enum class DsrProfile { rfc, ns2 };
+
+template <>
+struct EnumNames<DsrProfile> {
+    static constexpr std::array<std::string_view, 2> values = {"rfc", "ns2"};
+};
+
+/// Dynamic source routing of messages to one robot (RFC 4728). A node without a route floods a
+/// request, which collects the nodes that it passes; the target answers with that list, or a node
+/// that knows the rest of the way. Every message carries its whole route, so that nodes on the way
+/// need no tables. A node whose next hop is gone tells the message's source, and sends the message
+/// along another route if it knows one (salvaging).
+///
+/// Nodes keep the routes that they see in packets. A route has sixteen nodes at most. Messages to
+/// everyone go over one hop. A robot that was switched off starts again without routes.
+struct Dsr {
+    static constexpr std::string_view name = "dsr";
+
+    /// Variant.
+    DsrProfile profile = DsrProfile::rfc;
+    /// Whether nodes learn from packets for others that they overhear, and report shorter routes.
+    bool promiscuous = true;
+    /// How often a message may be sent along another route on its way; 0: never.
+    int salvage = 15;
+    /// Packets that may wait at a node for routes, for 30 s each.
+    int buffer = 64;
+    /// Longest random delay before a request is forwarded, or answered by its target [ns].
+    Duration jitter = std::chrono::milliseconds{10};
+
+    static constexpr auto fields() {
+        return describe(
+            field("profile", &Dsr::profile, "RFC 4728, or as ns-2.35 does it"),
+            field("promiscuous", &Dsr::promiscuous,
+                  "whether nodes learn routes from packets for others"),
+            field("salvage", &Dsr::salvage, Range{.low = 0, .high = 15, .text = "from 0 to 15"},
+                  "times that a message may change its route on its way"),
+            field("buffer", &Dsr::buffer, Range{.low = 1, .high = 1e6, .text = "from 1 to 1e6"},
+                  "packets that may wait at a node for routes"),
+            field("jitter", &Dsr::jitter, Range{.low = 0, .high = 1e9, .text = "from 0 to 1e9 s"},
+                  "upper end of the uniform delay before a request is forwarded or answered"));
+    }
+
+    operator Router() const;
+};
+
+}  // namespace rovernet

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "routing/dsr_path.hpp"
+#include "sim/ids.hpp"
+#include "sim/message.hpp"
+#include "sim/routing_protocol.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+// Control packets of DSR in the formats of RFC 4728, section 6, big-endian: the DSR Options header,
+// which follows the IP header. An address is the id of a node. Ends of routes that the options do
+// not have are the ends of the packet: Message::origin and Message::to.
+
+namespace rovernet::dsr {
+
+/// IP protocol number of the packets (RFC 4728, section 11).
+inline constexpr std::uint8_t ip_protocol = 48;
+/// Kinds of packets: the type in ns-2 traces, and the name.
+inline constexpr std::string_view request_kind = "DSR REQUEST", reply_kind = "DSR REPLY",
+                                  error_kind = "DSR ERROR";
+/// Size of an IP header, and of the fixed part of the DSR Options header (6.1) [bytes].
+inline constexpr std::uint32_t ip_header = 20, fixed_header = 4;
+/// Size of a Source Route option with this number of addresses (6.7) [bytes].
+constexpr std::uint32_t route_option(std::size_t addresses) {
+    return 4 + 4 * static_cast<std::uint32_t>(addresses);
+}
+
+/// Route Request option (6.2).
+struct Request {
+    std::uint16_t id = 0;
+    NodeId target;
+    /// Originator, which the option does not have, and the nodes that passed the request on.
+    Path path;
+};
+/// Route Reply option (6.3).
+struct Reply {
+    /// Node that asked, which the option does not have, and the route to its target.
+    Path path;
+};
+/// Route Error option of type NODE_UNREACHABLE (6.4).
+struct Error {
+    /// Node that could not reach its next hop, and the one that is told.
+    NodeId from, to;
+    NodeId unreachable;
+    /// How often the lost packet had been salvaged.
+    std::uint8_t salvage = 0;
+};
+/// Options of a packet.
+struct Packet {
+    std::optional<Request> request = std::nullopt;
+    std::optional<Reply> reply = std::nullopt;
+    std::optional<Error> error = std::nullopt;
+    /// Source Route option (6.7) from the packet's origin to its destination.
+    std::optional<Path> route = std::nullopt;
+};
+
+/// Bytes of the DSR Options header.
+std::string to_bytes(const Packet& packet);
+/// Packet of a message; empty if its bytes are none.
+Packet packet_of(const Message& message);
+
+/// Bytes of a packet as they are on the air: with IP addresses in place of the ids of nodes, and
+/// the segments left at that hop.
+/// @param address  IPv4 address of a node, in host order
+std::string on_air(std::string_view bytes, const Frame& frame,
+                   const std::function<std::uint32_t(NodeId)>& address);
+
+/// Appends the content of a packet to `text`, as ns-2 writes it. The number of the request that a
+/// reply answers is 0, as RFC 4728 has none.
+void describe(const Message& message, PacketStyle style, std::string& text);
+
+}  // namespace rovernet::dsr

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/ids.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+
+namespace rovernet::dsr {
+
+/// Nodes of a route, with both ends. Sixteen at most, as in ns-2 and ns-3.
+class Path {
+  public:
+    static constexpr std::size_t longest = 16;
+
+    Path() = default;
+    Path(std::initializer_list<NodeId> nodes) {
+        for (const NodeId node : nodes) add(node);
+    }
+    explicit Path(std::span<const NodeId> nodes) {
+        for (const NodeId node : nodes) add(node);
+    }
+
+    void add(NodeId node) {
+        assert(size_ < longest);
+        nodes_[size_++] = node;
+    }
+    void truncate(std::size_t size) { size_ = static_cast<std::uint8_t>(size); }
+
+    std::size_t size() const { return size_; }
+    std::size_t hops() const { return size_ - 1U; }
+    bool is_full() const { return size_ == longest; }
+    NodeId operator[](std::size_t i) const { return nodes_[i]; }
+    NodeId front() const { return nodes_[0]; }
+    NodeId back() const { return nodes_[size_ - 1U]; }
+    const NodeId* begin() const { return nodes_.data(); }
+    const NodeId* end() const { return nodes_.data() + size_; }
+
+    /// Place of a node; size() if it is not in the path.
+    std::size_t place(NodeId node) const {
+        return static_cast<std::size_t>(std::find(begin(), end(), node) - begin());
+    }
+    bool has(NodeId node) const { return place(node) < size(); }
+    bool starts_with(const Path& other) const {
+        return other.size_ <= size_ && std::equal(other.begin(), other.end(), begin());
+    }
+    /// The first `size` nodes, and the nodes from place `from` on.
+    Path first(std::size_t size) const { return Path(std::span(begin(), size)); }
+    Path from(std::size_t from) const { return Path(std::span(begin() + from, end())); }
+    Path reversed() const {
+        Path back = *this;
+        std::reverse(back.nodes_.begin(), back.nodes_.begin() + back.size_);
+        return back;
+    }
+    friend bool operator==(const Path& a, const Path& b) {
+        return std::equal(a.begin(), a.end(), b.begin(), b.end());
+    }
+
+  private:
+    std::array<NodeId, longest> nodes_{};
+    std::uint8_t size_ = 0;
+};
+
+}  // namespace rovernet::dsr

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "routing/dsr.hpp"
+#include "routing/dsr_cache.hpp"
+#include "routing/dsr_packets.hpp"
+#include "routing/seen_ids.hpp"
+#include "routing/send_buffer.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rovernet {
+
+/// Routing protocol of a Dsr that does not overhear. Numbers in comments are sections of RFC 4728.
+///
+/// A message's source route is a header of its frames; a control packet has its route among its
+/// bytes. The place of a frame on its route follows from the hops that it has made.
+class DsrRouter {
+  public:
+    static constexpr bool routes_unicasts = true;
+
+    /// @throws std::invalid_argument if a parameter is out of its range
+    explicit DsrRouter(const Dsr& dsr);
+
+    Hops initial_ttl() const;
+    void send(LinkLayer& link, NodeId node, MessageId message);
+    void on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions);
+    void on_sent(LinkLayer& link, const QueuedFrame& queued, SendResult result);
+    void on_timer(LinkLayer& link, NodeId node, std::uint64_t tag);
+    void on_switched(LinkLayer& link, NodeId node, bool on);
+    void forget(MessageId message);
+    void forget_header(std::uint32_t header) { free_headers_.push_back(header); }
+    bool keeps(MessageId message) const;
+    void describe(const Message& message, const Frame&, PacketStyle style,
+                  std::string& text) const {
+        dsr::describe(message, style, text);
+    }
+    /// Shortest route to each destination that a node knows, in the order of destinations.
+    std::vector<RouteState> routes(NodeId node, Time now) const;
+
+    /// Source route of a message's frames.
+    struct Header {
+        dsr::Path path;
+        /// How often the message changed its route on its way.
+        std::uint8_t salvage = 0;
+        /// Frame::hops of the frame that the first node of the path sends.
+        Hops first_hops = 1;
+        /// Whether nodes read the route; always, but for the flow state of ns-2.
+        bool is_read = true;
+    };
+    /// Source route of a frame of a message.
+    const Header& header(const Frame& frame) const { return headers_[frame.header - 1]; }
+    /// Number of pairs (source, destination) that lost messages because the route between them has
+    /// more than sixteen nodes.
+    std::size_t pairs_too_far() const;
+
+  private:
+    /// Search for a route, for packets that wait. The entry remains until a route is found, so that
+    /// requests become rarer (4.3).
+    struct Search {
+        NodeId target;
+        /// Requests that were sent, of which the first one goes no farther than the neighbours.
+        int requests = 0;
+        /// End of the wait for an answer.
+        Time until = start_of_run;
+    };
+    /// Gratuitous reply that was sent (4.4): because a packet of `source` was overheard from
+    /// `sender`.
+    struct Shortening {
+        NodeId source, sender;
+        Time until;
+    };
+    /// Number of messages that a source sent along its last route to a destination.
+    struct Flow {
+        dsr::Path path;
+        std::uint32_t messages = 0;
+    };
+    struct Node {
+        dsr::Cache cache;
+        SeenIds seen;
+        SendBuffer buffer;
+        std::vector<Search> searches;
+        std::vector<Shortening> shortenings;
+        /// Last broken link that was reported to the node, for its next request.
+        std::optional<dsr::Error> error;
+        Time error_time = start_of_run;
+        std::uint16_t request = 0;
+        std::vector<Flow> flows;  ///< with profile ns2
+        /// Time of the next timer; none if none is set.
+        std::optional<Time> timer;
+    };
+    /// Place on a route at which a packet is.
+    struct Way {
+        const dsr::Path& path;
+        std::size_t sender;  ///< place of the node that sent the frame
+    };
+
+    Node& node(NodeId id);
+    bool is_ns2() const { return dsr_.profile == DsrProfile::ns2; }
+    bool has_own(NodeId at, NodeId target);
+    std::uint32_t add_header(const Header& header);
+
+    // Messages of applications (dsr_router.cpp).
+    void receive_message(LinkLayer& link, const Frame& frame, Reception& reception);
+    void receive_on(LinkLayer& link, const Frame& frame, Way way, Reception& reception);
+    void send_along(LinkLayer& link, const QueuedFrame& queued, const dsr::Path& path,
+                    unsigned salvage, Time at);
+    bool is_new_flow(NodeId source, const dsr::Path& path);
+    void keep(LinkLayer& link, NodeId at, const QueuedFrame& queued);
+    void lose(LinkLayer& link, NodeId at, const SendBuffer::Packet& packet, DropReason reason);
+    // Broken links.
+    void on_broken(LinkLayer& link, NodeId at, NodeId neighbour, std::span<const QueuedFrame>);
+    void send_error(LinkLayer& link, NodeId at, const dsr::Error& error, const dsr::Path& route);
+    unsigned salvage_of(const QueuedFrame& queued) const;
+    void send_otherwise(LinkLayer& link, NodeId at, const QueuedFrame& queued);
+
+    // Routes: how they are learnt, sought and told (dsr_search.cpp).
+    void learn(NodeId at, NodeId sender, const dsr::Path& path, dsr::Cache::Origin origin,
+               Time now);
+    void shorten(LinkLayer& link, NodeId sender, Way way, const Reception& reception);
+    void receive_control(LinkLayer& link, const Frame& frame, const dsr::Packet& packet,
+                         Reception& reception);
+    Fate receive_request(LinkLayer& link, const Frame& frame, const dsr::Packet& packet,
+                         const Reception& reception);
+    void send_reply(LinkLayer& link, NodeId at, const dsr::Path& path, const dsr::Path& back,
+                    Time when);
+    void search(LinkLayer& link, NodeId at, NodeId target, Time when);
+    void request(LinkLayer& link, NodeId at, Search& search, Time when);
+    bool proceed(LinkLayer& link, NodeId at, Search& search, Time when);
+    void end_searches(LinkLayer& link, NodeId at, Time when);
+    void set_timer(LinkLayer& link, NodeId at);
+    Duration jitter(LinkLayer& link, NodeId at, MessageId message) const;
+
+    Dsr dsr_;
+    std::vector<Node> nodes_;
+    // Source routes in use; header n of a frame is entry n - 1.
+    std::vector<Header> headers_;
+    std::vector<std::uint32_t> free_headers_;
+    // Messages that have arrived at their destination, by slot: a salvaged copy may come, too.
+    std::vector<bool> arrived_;
+    // Pairs between which a request found no room in its list, and whether messages were lost.
+    std::map<std::pair<NodeId, NodeId>, bool> too_far_;
+};
+
+/// DsrRouter that overhears.
+struct PromiscuousDsrRouter : DsrRouter {
+    static constexpr bool overhears = true;
+    using DsrRouter::DsrRouter;
+};
+
+}  // namespace rovernet
