@@ -14,6 +14,20 @@
 
 namespace rovernet {
 
+/// Use of the air by all frames of a run: messages, their copies, control packets and the control
+/// frames of the access model.
+struct AirtimeValues {
+    double total = 0;                ///< sum of the frames' airtimes [s]
+    std::optional<double> per_byte;  ///< total for each byte delivered [us]; empty without bytes
+
+    static constexpr auto fields() {
+        using A = AirtimeValues;
+        return describe(field("airtime_s", &A::total, "sum over all frames on air"),
+                        field("airtime_per_byte_us", &A::per_byte, "for each byte delivered"));
+    }
+    friend bool operator==(const AirtimeValues&, const AirtimeValues&) = default;
+};
+
 /// Number of copies that were lost for one reason.
 struct DropCount {
     std::string_view reason;  ///< code of the reason, as in an ns-2 trace
@@ -134,6 +148,7 @@ struct MetricValues {
     std::uint64_t transmissions = 0;  ///< number of frames transmitted
     std::uint64_t receptions = 0;     ///< number of decoded copies, including duplicates
     std::uint64_t deliveries = 0;     ///< first copies of a message at a robot, for its application
+    std::uint64_t delivered_bytes = 0;  ///< size of the messages delivered [bytes]
 
     /// Number of messages of which no frame had ended when the run ended: no robot could have
     /// received them. They count in `messages` and in drops.END, but not in delivery_ratio, reach.
@@ -197,5 +212,13 @@ struct MetricValues {
 
     friend bool operator==(const MetricValues&, const MetricValues&) = default;
 };
+
+/// Use of the air by frames with this sum of airtimes [ns], of a run with these metrics.
+inline AirtimeValues airtime_values(Duration total, const MetricValues& metrics) {
+    AirtimeValues values{.total = seconds(total), .per_byte = std::nullopt};
+    const auto bytes = static_cast<double>(metrics.delivered_bytes);
+    if (bytes > 0) values.per_byte = 1e6 * values.total / bytes;
+    return values;
+}
 
 }  // namespace rovernet

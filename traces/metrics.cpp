@@ -202,6 +202,7 @@ MetricValues Metrics::values() const {
         }
     });
     v.flows = flows_;
+    v.delivered_bytes = bytes_;
     if (routing_.packets + routing_.data > 0) {
         v.routing = routing_;
         v.routing->load = ratio(routing_.packets, v.deliveries);
