@@ -9,7 +9,7 @@ set(ROVERNET_PUBLIC_HEADERS
     mobility/patrol.hpp mobility/random_direction.hpp mobility/random_walk.hpp
     mobility/random_waypoint.hpp mobility/straight.hpp mobility/wander.hpp mobility/way.hpp
     mobility/waypoints.hpp
-    models/access/access.hpp models/access/aloha.hpp models/access/csma.hpp
+    models/access/access.hpp models/access/aloha.hpp models/access/arp.hpp models/access/csma.hpp
     models/access/no_access.hpp
     models/antenna.hpp models/arrival.hpp
     models/links/link_search.hpp
@@ -38,5 +38,5 @@ set(ROVERNET_PUBLIC_HEADERS
     sim/router.hpp sim/routing_protocol.hpp sim/sink.hpp sim/time.hpp sim/units.hpp
     study/statistics/interval.hpp
     study/statistics/metric_bounds.hpp study/statistics/summary.hpp
-    traces/fingerprint.hpp traces/metric_values.hpp
+    traces/cost_values.hpp traces/fingerprint.hpp traces/metric_values.hpp
     traces/ns2/ns2_trace.hpp)

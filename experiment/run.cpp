@@ -105,6 +105,7 @@ RunResult ScenarioRun::finish() {
 
     result_.simulated = network.now() - start_of_run;
     result_.metrics = network.metrics();
+    result_.airtime = airtime_values(network.airtime(), result_.metrics);
     if (topology_)
         result_.topology = std::make_shared<const TopologyValues>(topology_->values(network.now()));
     if (planners_) result_.searches = planners_->searches() - searched_;

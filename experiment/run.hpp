@@ -51,6 +51,7 @@ struct RunResult {
     std::string folder;                ///< folder of the results; empty: nothing was written
     std::optional<std::string> trace;  ///< path of the ns-2 trace, or else of the recorded trace
     MetricValues metrics;
+    AirtimeValues airtime;
     std::string fingerprint;
     std::shared_ptr<const TopologyValues> topology;  ///< topology metrics; null: not measured
     Table added;  ///< tables that were added to the results, see ScenarioRun::add_part()

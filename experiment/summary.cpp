@@ -99,6 +99,8 @@ Table run_summary(const Scenario& scenario, const RunResult& result) {
         table.set("interference_left_out_db", result.interference_left_out->value);
     }
     append_metrics(table, result.metrics);
+    for (Entry& entry : metrics_table(result.airtime).entries)
+        table.set(entry.key, std::move(entry.value));
     append_parts(table, scenario, result);
     table.set("trace", result.trace ? Value(*result.trace) : Value());
     return table;

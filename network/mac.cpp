@@ -28,6 +28,7 @@ Time Mac::transmit(const AirFrame& air) {
     }
     const auto receptions = channel_.transmit(air, how, listens_);
     const Time end = world_.now + how.airtime();
+    if (world_.now >= start_of_run + world_.settings.warmup) airtime_so_far_ += how.airtime();
     const auto is_next_hop = [&](const Reception& r) { return r.node == air.frame.next_hop; };
     if (data && !listens_ && air.frame.next_hop != everyone &&
         std::none_of(receptions.begin(), receptions.end(), is_next_hop)) {

@@ -69,6 +69,8 @@ class Mac final : public Air, public ChannelUser {
     std::span<const BitRate> own_rates() const { return access_->own_rates(); }
     /// Bytes that the access model adds to a message.
     std::uint32_t header() const { return header_; }
+    /// Sum of the airtimes of all frames that began after the warm-up [ns].
+    Duration airtime_so_far() const { return airtime_so_far_; }
     /// Whether `frame` repeats a frame that `node` already has, because its sender missed the
     /// acknowledgement. It must be called exactly once for each received frame.
     bool is_repeated(NodeId node, const AirFrame& frame) {
@@ -121,6 +123,7 @@ class Mac final : public Air, public ChannelUser {
     bool listens_, has_own_rates_, has_priority_;
     // Bytes that the access model adds to a message.
     std::uint32_t header_;
+    Duration airtime_so_far_{0};
     // Last transmission, and the kind of its sender.
     mutable Transmission last_{};
     mutable std::uint32_t last_kind_ = ~std::uint32_t{0};

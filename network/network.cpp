@@ -168,6 +168,7 @@ MetricValues Network::metrics() const {
     if (!engine_->metrics) throw std::invalid_argument("this network was made without metrics");
     return engine_->metrics->values();
 }
+Duration Network::airtime() const { return engine_->mac.airtime_so_far(); }
 
 NodeId robot_named(const Network& network, const std::string& name) {
     if (const auto node = network.find(name)) return *node;

@@ -187,6 +187,8 @@ class Network {
     Planners& planners();
     /// Metrics so far. @throws std::invalid_argument if settings.metrics is off
     MetricValues metrics() const;
+    /// Sum of the airtimes of all frames so far, without those that began in the warm-up [ns].
+    Duration airtime() const;
 
   private:
     std::unique_ptr<Engine> engine_;

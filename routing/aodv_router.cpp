@@ -12,7 +12,6 @@ namespace {
 // Tags of timers.
 constexpr std::uint64_t searches = 0, hello = 1;
 // Time that a packet waits for a route, as ns-2 and ns-3 have it.
-constexpr Duration longest_wait = std::chrono::seconds{30};
 
 }  // namespace
 
@@ -139,7 +138,8 @@ void AodvRouter::send_on(LinkLayer& link, const QueuedFrame& queued, NodeId next
 /// Lets a packet wait for a route; set_timer() is to follow.
 void AodvRouter::keep(LinkLayer& link, NodeId at, NodeId to, const QueuedFrame& queued) {
     link.hold(queued.frame);
-    const auto oldest = node(at).buffer.add({to, queued, link.now() + longest_wait}, rules_.buffer);
+    const auto oldest =
+        node(at).buffer.add({to, queued, link.now() + SendBuffer::longest_wait}, rules_.buffer);
     if (oldest) lose(link, at, *oldest, DropReason::buffer_full);
 }
 

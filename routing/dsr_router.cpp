@@ -11,7 +11,6 @@ namespace {
 using dsr::Path;
 
 // Time that a packet may wait for routes (4.2).
-constexpr Duration longest_wait = std::chrono::seconds{30};
 // TTL of messages and of control packets with a route, as ns-2 has them.
 constexpr Hops message_ttl = 32;
 
@@ -141,7 +140,8 @@ bool DsrRouter::is_new_flow(NodeId source, const Path& path) {
 /// Lets a packet wait for a route; set_timer() is to follow.
 void DsrRouter::keep(LinkLayer& link, NodeId at, const QueuedFrame& queued) {
     const Message& message = link.message(queued.frame.message);
-    const Time until = std::max(message.created + longest_wait, link.now() + least_reaction);
+    const Time until =
+        std::max(message.created + SendBuffer::longest_wait, link.now() + least_reaction);
     link.hold(queued.frame);
     const auto oldest =
         node(at).buffer.add({message.to, queued, until}, static_cast<std::size_t>(dsr_.buffer));

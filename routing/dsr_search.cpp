@@ -14,7 +14,7 @@ using dsr::Path;
 using namespace std::chrono_literals;
 
 // Constants of section 9.
-constexpr Duration nonpropagating_wait = 30ms, first_wait = 500ms, longest_wait = 10s;
+constexpr Duration nonpropagating_wait = 30ms, first_wait = 500ms, longest_backoff = 10s;
 constexpr int most_requests = 16;  // beside the one that goes to the neighbours alone
 constexpr Duration shortening_hold_off = 1s;
 // Time for which a node remembers the requests of an originator.
@@ -214,7 +214,7 @@ void DsrRouter::request(LinkLayer& link, NodeId at, Search& search, Time when) {
               {}, when);
     link.release(id);
     const int doublings = std::min(search.requests - 1, 10);
-    search.until = when + (propagates ? std::min(first_wait * (1 << doublings), longest_wait)
+    search.until = when + (propagates ? std::min(first_wait * (1 << doublings), longest_backoff)
                                       : nonpropagating_wait);
     search.requests += is_own;
 }

@@ -6,6 +6,7 @@
 #include "sim/time.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <iterator>
 #include <optional>
@@ -16,6 +17,9 @@ namespace rovernet {
 /// Packets of a node that wait for a route, oldest first. The protocol holds a reference to each.
 class SendBuffer {
   public:
+    /// Time after which a packet is dropped, in AODV (ns-2) and DSR (RFC 4728, SendBufferTimeout).
+    static constexpr Duration longest_wait = std::chrono::seconds{30};
+
     /// Packet that waits.
     struct Packet {
         NodeId destination;

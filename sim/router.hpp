@@ -26,6 +26,7 @@ class Router {
         : traits_(traits_of<T>()),
           hears_of_results_(hears_of_results_of(protocol)),
           hears_of_starts_(HearsOfStarts<T>),
+          has_routes_(HasRoutes<T>),
           self_(std::make_unique<Holder<T>>(std::move(protocol))) {}
 
     /// Traits of the routing protocol.
@@ -34,6 +35,8 @@ class Router {
     /// the work for missing functions.
     bool hears_of_results() const { return hears_of_results_; }
     bool hears_of_starts() const { return hears_of_starts_; }
+    /// Whether the protocol has routing tables to show.
+    bool has_routes() const { return has_routes_; }
     /// Calls of the protocol's functions of the same names.
     void send(LinkLayer& link, NodeId node, MessageId m) { self_->send(link, node, m); }
     void on_receive(LinkLayer& link, const Frame& f, std::span<Reception> r) {
@@ -146,7 +149,7 @@ class Router {
     // Traits and optional functions of the protocol. The protocol itself is on the heap, so that
     // moving a Router does not move it.
     RouterTraits traits_;
-    bool hears_of_results_, hears_of_starts_;
+    bool hears_of_results_, hears_of_starts_, has_routes_;
     // Routing protocol; never null, except in a moved-from Router.
     std::unique_ptr<Concept> self_;
 };

@@ -51,6 +51,7 @@ struct RunNumbers {
 /// Metrics of a run by their names; of a result without values: the names.
 std::vector<MetricValue> list_of(const RunResult& result, const Scenario* scenario) {
     std::vector<MetricValue> list = metric_list(result.metrics);
+    append(list, result.airtime);
     append(list, RunNumbers{result.events, seconds(result.warmup)});
     if (!scenario) return list;
     for_each_part(*scenario, result.metrics, result.measured(),

@@ -48,7 +48,7 @@ struct Measurement {
 };
 
 /// Names of the metrics of every run: metrics of summary.json, drops as "drops.DUP" and so on,
-/// number of events, and end of the warm-up [s].
+/// airtime, number of events, and end of the warm-up [s].
 const std::vector<std::string>& metric_names();
 /// Names of the metrics of a scenario's runs: metrics of every run, and metrics chosen in
 /// [metrics], named without a run: "delivery_ratio.FLOW" and "delivery_ratio.at.ROBOT", likewise

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/results_csv.hpp"
 
+#include "files/csv_field.hpp"
 #include "scenario/document/toml.hpp"
 
 #include <fmt/format.h>
@@ -10,24 +11,14 @@
 namespace rovernet {
 namespace {
 
-std::string cell(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) {
-        if (c == '"') quoted += c;
-        quoted += c;
-    }
-    return quoted + '"';
-}
-
-std::string cell(const Value* value) { return value ? cell(plain_text(*value)) : ""; }
+std::string cell(const Value* value) { return value ? csv_field(plain_text(*value)) : ""; }
 
 /// The cells of each point: its number and its settings.
 class PointCells {
   public:
     PointCells(const Store& store, const std::vector<Condition>& where) {
         const std::vector<std::string> paths = varied_paths(store);
-        for (const std::string& path : paths) head += "," + cell(path);
+        for (const std::string& path : paths) head += "," + csv_field(path);
         for (const StoredPoint& point : points_where(store, where)) {
             std::string& text = of[point.number] = fmt::format("{}", point.number);
             for (const std::string& path : paths) text += "," + cell(point.settings.find(path));
@@ -39,7 +30,7 @@ class PointCells {
 
 void write_rows(const Store& store, const Question& question, const Write& write) {
     std::string head;
-    for (const std::string& path : *question.group_by) head += cell(path) + ",";
+    for (const std::string& path : *question.group_by) head += csv_field(path) + ",";
     write(head + "replication,metric,value\n");
     for (const Answer& answer : answers(store, question).list) {
         std::string settings;
@@ -80,8 +71,8 @@ void write_provenance_csv(const Store& store, const std::vector<Condition>& wher
         if (point == points.of.end()) continue;
         const Measurement& m = run.measurement;
         write(fmt::format("{},{},{},{},{},{},{},{},{}\n", point->second, run.replication, run.id,
-                          m.fingerprint, cell(run.error), m.cpu_s, m.wall_s, m.started,
-                          cell(m.host)));
+                          m.fingerprint, csv_field(run.error), m.cpu_s, m.wall_s, m.started,
+                          csv_field(m.host)));
     }
 }
 

@@ -4,7 +4,7 @@
 #include "sim/fate.hpp"
 #include "sim/fields.hpp"
 #include "sim/time.hpp"
-#include "traces/routing_values.hpp"
+#include "traces/cost_values.hpp"
 
 #include <array>
 #include <cstddef>
@@ -118,6 +118,7 @@ struct MetricValues {
     std::uint64_t transmissions = 0;  ///< number of frames transmitted
     std::uint64_t receptions = 0;     ///< number of decoded copies, including duplicates
     std::uint64_t deliveries = 0;     ///< first copies of a message at a robot, for its application
+    std::uint64_t delivered_bytes = 0;  ///< size of the messages delivered [bytes]
 
     /// Number of messages of which no frame had ended when the run ended: no robot could have
     /// received them. They are counted in `messages` and drops.END, not in delivery_ratio, reach.
@@ -183,5 +184,13 @@ struct MetricValues {
 
     friend bool operator==(const MetricValues&, const MetricValues&) = default;
 };
+
+/// Use of the air by frames with this sum of airtimes [ns], of a run with these metrics.
+inline AirtimeValues airtime_values(Duration total, const MetricValues& metrics) {
+    AirtimeValues values{.total = seconds(total), .per_byte = std::nullopt};
+    const auto bytes = static_cast<double>(metrics.delivered_bytes);
+    if (bytes > 0) values.per_byte = 1e6 * values.total / bytes;
+    return values;
+}
 
 }  // namespace rovernet

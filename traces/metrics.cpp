@@ -274,6 +274,7 @@ MetricValues Metrics::values() const {
         }
     });
     v.flows = flows_;
+    v.delivered_bytes = bytes_;
     if (routing_.packets + routed_.transmissions > 0) {
         v.routing = routing_;
         v.routed = metrics_of(routed_);

@@ -45,10 +45,12 @@ struct SweepArguments : StudyArguments {
 void sweep(const SweepArguments& arguments);
 
 struct CompareArguments : StudyArguments {
-    std::vector<std::string> models;
+    std::vector<std::string> models, protocols;
     std::optional<std::string> vary;  ///< values to compare instead of models: KEY=VALUE,VALUE,...
-    std::string metric, baseline;
+    std::vector<std::string> metrics;
+    std::string baseline;
     std::optional<double> margin;
+    bool csv = false;
     std::optional<std::string> picture;
 };
 void compare(const CompareArguments& arguments);

@@ -83,22 +83,34 @@ void add_sweep(Command app, const std::string& typed) {
 
 void add_compare(Command app, const std::string& typed) {
     const auto [compare, a] = add_command(
-        app, "compare", "Propagation models, or values of another key, beside each other",
+        app, "compare",
+        "Propagation models, routing protocols or values of another key, beside each other",
         cli::compare);
     compare.add_examples(
         {"rovernet compare examples/patrol/patrol.toml --models "
-         "friis,log_distance --replications 3"});
+         "friis,log_distance --replications 3",
+         "rovernet compare examples/detour/detour.toml --protocols flood,aodv --replications 5"});
     a.command = typed;
     add_study_file(compare, a, any_file);
     compare.add_option("--models", a.models, "which (default: those of [study] vary)")
         .delimiter(',');
+    Option protocols = compare
+                           .add_option("--protocols", a.protocols,
+                                       "routing protocols in place of models: flood,aodv")
+                           .delimiter(',')
+                           .excludes(compare.option("--models"));
     compare
         .add_option("--vary", a.vary, "any key and its values in place of models: routing.ttl=4,8")
-        .excludes(compare.option("--models"));
-    compare.add_option("--metric", a.metric, "compared (default: the study's first)");
+        .excludes(compare.option("--models"))
+        .excludes(protocols);
+    compare
+        .add_option("--metric", a.metrics,
+                    "compared (default: the study's first; of protocols delivery_ratio, "
+                    "latency_mean_s, routing_load, airtime_per_byte_us)")
+        .delimiter(',');
     compare.add_option(
         "--baseline", a.baseline,
-        "to differ from (default: the most detailed model, or --vary's first value)");
+        "to differ from (default: the most detailed model; else the first protocol or value)");
     compare
         .add_option("--margin", a.margin,
                     "say of each model whether its mean is this near to the baseline's")
@@ -108,7 +120,9 @@ void add_compare(Command app, const std::string& typed) {
     compare.add_option("--store", a.store, "keep the runs in this file, and go on from there");
     compare.add_option("-o,--output", a.picture,
                        "picture to write: NAME.svg, NAME.png or NAME.pdf");
+    Option csv = compare.add_flag("--csv", a.csv, "a line for each value and metric, as CSV");
     add_study_run(compare, a);
+    csv.excludes(compare.option("--json"));
 }
 
 void add_advise(Command app, const std::string& typed) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-/// Commands that examine a scene: link, links, scene, where, draw, move.
+/// Commands that examine a scene: link, links, routes, scene, where, draw, move.
 namespace rovernet::cli {
 
 struct LinkArguments : FileArguments {
@@ -24,6 +24,13 @@ struct LinksArguments : FileArguments {
     bool json = false;
 };
 void links(const LinksArguments& arguments);
+
+struct RoutesArguments : FileArguments {
+    std::string at;
+    std::optional<std::string> robot;
+    bool csv = false, json = false;
+};
+void routes(const RoutesArguments& arguments);
 
 struct SceneArguments : FileArguments {
     std::string at = "0 s";

@@ -27,6 +27,18 @@ void add_links(Command app) {
     links.add_flag("--json", a.json, "print one JSON document").excludes(history);
 }
 
+void add_routes(Command app) {
+    const auto [routes, a] =
+        add_command(app, "routes", "The routing table of every robot", cli::routes);
+    routes.add_examples({"rovernet routes examples/detour/detour.toml --at 20s --robot west",
+                         "rovernet routes examples/detour/detour.toml --at 20s --csv"});
+    add_file(routes, a, any_file);
+    routes.add_option("--at", a.at, "time of the run, such as 12.5s").required();
+    routes.add_option("--robot", a.robot, "of this robot only");
+    Option csv = routes.add_flag("--csv", a.csv, "a line for each route, as CSV");
+    routes.add_flag("--json", a.json, "print one JSON document").excludes(csv);
+}
+
 void add_scene(Command app) {
     const auto [scene, a] =
         add_command(app, "scene", "The map, the robots and how links join them", cli::scene);
@@ -91,6 +103,7 @@ void add_move(Command app) {
 void add_scene_commands(Command app) {
     add_link(app);
     add_links(app);
+    add_routes(app);
     add_scene(app);
     add_where(app);
     add_draw(app);

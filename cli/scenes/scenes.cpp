@@ -215,6 +215,14 @@ Time time_in(const Scenario& scenario, const std::string& text) {
     return at;
 }
 
+Time time_within(const Scenario& scenario, const std::string& text) {
+    const Duration end = scenario.scenario.duration, at = option_time("--at", text);
+    if (at <= end) return start_of_run + at;
+    throw InputError(
+        Location{"--at " + text, 0, 0, true},
+        fmt::format("expected a time of the run, which ends at {:.9g} s", seconds(end)));
+}
+
 void links(const LinksArguments& a) {
     const Scenario scenario = scenario_of(a);
     if (a.history) {

@@ -2,17 +2,15 @@
 #include "study/advise/compare.hpp"
 
 #include "cli/runs/run_commands.hpp"
+#include "cli/studies/compare_report.hpp"
 #include "cli/studies/passing_store.hpp"
 #include "cli/studies/study_run.hpp"
 #include "cli/terminal/diagnostics.hpp"
 #include "cli/terminal/picture_output.hpp"
 #include "cli/terminal/stop.hpp"
-#include "cli/terminal/text_table.hpp"
-#include "scenario/document/json.hpp"
 #include "scenario/document/toml.hpp"
 #include "scenario/scenario_file.hpp"
 #include "study/advise/compare_cost.hpp"
-#include "study/advise/study_chart.hpp"
 #include "study/explain.hpp"
 #include "study/part_of_store.hpp"
 #include "study/precision.hpp"
@@ -20,13 +18,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <sstream>
 
 namespace rovernet::cli {
 namespace {
-
-constexpr std::string_view model_path = "propagation.model";
 
 /// Key of --vary and its values: a TOML list, or values between commas.
 /// @throws InputError whose place is the option, for less than two values
@@ -52,30 +47,50 @@ Vary key_to_vary(const std::string& given) {
     throw InputError(option, "expected a key and at least two values, such as routing.ttl=4,8");
 }
 
-/// Values that vary: those of --vary, the models that were asked for, or those of the file's
-/// [study].
-Vary models_to_vary(const CompareArguments& a, const StudyTable& study) {
-    if (a.vary) return key_to_vary(*a.vary);
-    const Location option{"--models " + fmt::format("{}", fmt::join(a.models, ",")), 0, 0, true};
-    Vary vary{std::string(model_path), option, {}};
-    for (const std::string& model : a.models) {
-        vary.values.emplace_back(model);
-        vary.values.back().where = option;
+/// Values of an option such as --models disc,friis, for the key at `path`.
+Vary values_of(const char* option, std::string_view path, const std::vector<std::string>& words) {
+    const Location place{fmt::format("{} {}", option, fmt::join(words, ",")), 0, 0, true};
+    Vary vary{std::string(path), place, {}};
+    for (const std::string& word : words) {
+        vary.values.emplace_back(word);
+        vary.values.back().where = place;
     }
-    if (vary.values.empty()) {
-        for (const Vary& each : study.vary) {
-            if (each.path == model_path) vary = each;
-        }
+    return vary;
+}
+
+/// Values that vary: those of --vary, the protocols or models that were asked for, or those of the
+/// file's [study], of which models go first.
+Vary values_to_vary(const CompareArguments& a, const StudyTable& study) {
+    if (a.vary) return key_to_vary(*a.vary);
+    Vary vary = a.protocols.empty() ? values_of("--models", model_path, a.models)
+                                    : values_of("--protocols", protocol_path, a.protocols);
+    if (!a.protocols.empty() && vary.values.size() < 2) {
+        throw InputError(vary.where, "expected at least two protocols, such as flood,aodv");
+    }
+    for (const std::string_view path : {model_path, protocol_path}) {
+        if (!vary.values.empty()) break;
+        const auto found = std::ranges::find(study.vary, path, &Vary::path);
+        if (found != study.vary.end()) vary = *found;
     }
     if (vary.values.size() >= 2) return vary;
     throw std::invalid_argument(
         "compare needs two models: give --models disc,friis or a file "
-        "whose [study] varies propagation.model; or another key, such as --vary routing.ttl=4,8");
+        "whose [study] varies propagation.model; or --protocols flood,aodv; or another key, such "
+        "as --vary routing.ttl=4,8");
 }
 
-std::vector<std::string> names_of(const Vary& models) {
+/// Metrics that are compared: those that were asked for; of protocols what they deliver, and what
+/// that costs; else the study's first.
+std::vector<std::string> metrics_of(const CompareArguments& a, const Vary& vary,
+                                    const StudyTable& study) {
+    if (!a.metrics.empty()) return a.metrics;
+    if (vary.path != protocol_path) return {first_metric(study)};
+    return {"delivery_ratio", "latency_mean_s", "routing_load", "airtime_per_byte_us"};
+}
+
+std::vector<std::string> names_of(const Vary& vary) {
     std::vector<std::string> names;
-    for (const Value& value : models.values) names.push_back(compared_name(models.path, value));
+    for (const Value& value : vary.values) names.push_back(compared_name(vary.path, value));
     return names;
 }
 
@@ -111,144 +126,15 @@ std::string held_keys(const StudyTable& study, const Scenario& base, const std::
                        fmt::join(keys, ", "));
 }
 
-Table as_table(const ComparedModel& m) {
-    Table row;
-    row.set("model", m.model);
-    row.set("mean", m.answer.value);
-    row.set("low", m.answer.low);
-    row.set("high", m.answer.high);
-    row.set("n", std::uint64_t{m.answer.values.size()});
-    row.set("failed", m.answer.gaps.failed);
-    row.set("missing", m.answer.gaps.missing);
-    row.set("undefined", m.answer.gaps.undefined);
-    const auto& d = m.difference;
-    row.set("difference", d ? Value(d->difference.mean) : Value());
-    row.set("difference_low", d ? Value(d->low) : Value());
-    row.set("difference_high", d ? Value(d->high) : Value());
-    row.set("difference_n", d ? Value(std::uint64_t{d->difference.n}) : Value());
-    row.set("p", d ? Value(d->p) : Value());
-    row.set("detectable", d ? d->detectable : std::nullopt);
-    row.set("method", d ? Value(std::string(name_of(d->method))) : Value());
-    row.set("above", d ? Value(std::uint64_t{d->above}) : Value());
-    row.set("below", d ? Value(std::uint64_t{d->below}) : Value());
-    row.set("sign_p", d ? d->sign_p : std::nullopt);
-    if (const auto& e = m.equivalence) {
-        const auto count = [](const std::optional<std::size_t>& n) {
-            return n ? Value(std::uint64_t{*n}) : Value();
-        };
-        constexpr const char* words[] = {"undecided", "within", "outside"};
-        row.set("verdict", words[static_cast<int>(e->verdict)]);
-        row.set("decided_at", count(e->decided_at));
-        row.set("needed", count(e->needed));
-        row.set("decidable", e->decidable);
-    }
-    row.set("error", m.error);
-    row.set("error_n", std::uint64_t{m.error_n});
-    row.set("cpu_s", m.cpu_s);
-    row.set("cost_s", m.cost ? Value(m.cost->median_s) : Value());
-    row.set("cost_low_s", m.cost ? Value(m.cost->low_s) : Value());
-    row.set("cost_high_s", m.cost ? Value(m.cost->high_s) : Value());
-    row.set("radio_share", m.radio_share);
-    return row;
-}
-
-void print_json(const Comparison& c) {
-    Table table;
-    table.set("metric", c.metric);
-    table.set("baseline", c.baseline);
-    table.set("dearest", c.most_detailed);
-    table.set("confidence", c.confidence);
-    if (c.margin) table.set("margin", *c.margin);
-    table.set("held", c.held);
-    table.set("failed", c.runs.failed);
-    table.set("missing", c.runs.missing);
-    Array rows, pairs;
-    for (const ComparedModel& model : c.models) rows.emplace_back(as_table(model));
-    for (const PairedVariance& pair : c.pairs) {
-        Table row;
-        row.set("a", pair.a);
-        row.set("b", pair.b);
-        row.set("variance_ratio", pair.ratio);
-        pairs.emplace_back(std::move(row));
-    }
-    table.set("cost", c.cost_text);
-    table.set("rows", std::move(rows));
-    table.set("pairs", std::move(pairs));
-    fmt::print("{}", to_json(table));
-}
-
-std::string interval(double mean, const std::optional<double>& low,
-                     const std::optional<double>& high) {
-    if (!low || !high) return fmt::format("{:.4g}", mean);
-    return fmt::format("{:.4g} ({:.4g} to {:.4g})", mean, *low, *high);
-}
-
-std::string cost_text(const std::optional<MediumCost>& cost) {
-    if (!cost) return "-";
-    return fmt::format("{:.3g} us ({:.3g} to {:.3g})", 1e6 * cost->median_s, 1e6 * cost->low_s,
-                       1e6 * cost->high_s);
-}
-
-void print_table(const Comparison& c) {
-    TextTable table({c.path == model_path ? "model" : c.path, c.metric, "n", "minus " + c.baseline,
-                     "n", "error to " + c.most_detailed, "n", "CPU/frame", "of run"});
-    const auto count = [](std::size_t n) { return fmt::format("{}", n); };
-    for (const ComparedModel& m : c.models) {
-        const Answer& a = m.answer;
-        const auto& d = m.difference;
-        table.add({m.model, a.value ? interval(*a.value, a.low, a.high) : "none",
-                   count(a.values.size()), d ? interval(d->difference.mean, d->low, d->high) : "-",
-                   d ? count(d->difference.n) : "-",
-                   m.error ? fmt::format("{:.3g}", *m.error) : "-", count(m.error_n),
-                   cost_text(m.cost),
-                   m.radio_share ? fmt::format("{:.2g} %", 100 * *m.radio_share) : "-"});
-    }
-    fmt::print("{}", table.text());
-}
-
-/// Notes on the data behind the numbers, and missing runs.
-void print_coverage(const Comparison& c) {
-    if (!c.held.empty()) fmt::print("{}\n", c.held);
-    const std::string lacking = incompleteness(c.runs);
-    if (!lacking.empty()) fmt::print("{}\n", lacking);
-    for (const ComparedModel& m : c.models) {
-        const std::string gaps = m.unpaired.text();
-        if (gaps.empty()) continue;
-        if (m.model == c.baseline) {
-            fmt::print("{} lacks replications: {}\n", m.model, gaps);
-        } else {
-            fmt::print("{} and {} lack pairs, as one of both lacks the replication: {}\n", m.model,
-                       c.baseline, gaps);
-        }
-    }
-}
-
-void print_text(const Comparison& c) {
-    print_table(c);
-    if (!c.cost_text.empty()) fmt::print("{}\n", c.cost_text);
-    print_coverage(c);
-    fmt::print("\n");
-    for (const ComparedModel& m : c.models) {
-        if (!m.sentence.empty()) fmt::print("{}\n", m.sentence);
-    }
-    if (c.margin) fmt::print("\n");
-    for (const ComparedModel& m : c.models) {
-        if (!m.equivalence_sentence.empty()) fmt::print("{}\n", m.equivalence_sentence);
-    }
-    fmt::print("\ncommon random numbers: variance of unpaired over that of paired differences\n");
-    for (const PairedVariance& pair : c.pairs) {
-        if (pair.ratio) fmt::print("  {:<32} {:.3g}\n", pair.a + ", " + pair.b, *pair.ratio);
-    }
-}
-
-/// Name of the baseline: of --vary the first value, if none is given; empty for the most detailed
-/// model. A value of --vary stands for its name. @throws std::invalid_argument if it is not
-/// compared
-std::string baseline_of(const CompareArguments& a, const Vary& models) {
-    const std::vector<std::string> names = names_of(models);
-    if (a.baseline.empty()) return a.vary ? names.front() : "";
+/// Name of the baseline: of other keys than the model the first value, if none is given; empty for
+/// the most detailed model. A value of --vary stands for its name. @throws std::invalid_argument if
+/// it is not compared
+std::string baseline_of(const CompareArguments& a, const Vary& vary) {
+    const std::vector<std::string> names = names_of(vary);
+    const bool is_model = !a.vary && vary.path == model_path;
+    if (a.baseline.empty()) return is_model ? "" : names.front();
     for (std::size_t i = 0; i < names.size(); ++i) {
-        if (plain_text(models.values[i]) == a.baseline) return names[i];
+        if (plain_text(vary.values[i]) == a.baseline) return names[i];
     }
     return names[place_of(a.baseline, names)];
 }
@@ -309,15 +195,17 @@ void check_failures(const CompareArguments& a, const Store& store, const SweepRe
 void compare(const CompareArguments& a) {
     if (a.picture) check_picture_name(*a.picture);
     const StudyTable given = ScenarioFile(a.file, options_of(a)).scenario().study;
-    const Vary models = models_to_vary(a, given);
-    const std::string metric = a.metric.empty() ? first_metric(given) : a.metric;
+    const Vary vary = values_to_vary(a, given);
+    const std::vector<std::string> metrics = metrics_of(a, vary, given);
     ScenarioOptions options = study_options(a);
-    if (metric == "reach") options.set.push_back("metrics.reach=true");
-    Study study(a.file, options, std::vector<Vary>{models});
+    if (std::ranges::count(metrics, "reach") > 0) options.set.push_back("metrics.reach=true");
+    Study study(a.file, options, std::vector<Vary>{vary});
     for (const std::string& text : study.base().notices) notice(text);
-    const std::string baseline = baseline_of(a, models);
-    check_metric(metric, study.base(), {"--metric " + metric, 0, 0, true});
-    check_margin(a, metric);
+    const std::string baseline = baseline_of(a, vary);
+    for (const std::string& metric : metrics) {
+        check_metric(metric, study.base(), {"--metric " + metric, 0, 0, true});
+        check_margin(a, metric);
+    }
     const HeldStop until_gone;
     const PassingStore passing;
     const bool is_part = a.store && takes_part_of(*a.store, study);
@@ -330,21 +218,17 @@ void compare(const CompareArguments& a) {
         give_back(store, whole);
     }
     check_interrupted(a, result.progress.left == 0);
-    Comparison comparison = compare_models(store, metric, baseline, a.margin);
-    if (models.path == model_path) {
-        add_costs(comparison, study, store, [] { return stops_asked() > 0; });
+    std::vector<Comparison> all = comparisons_of(store, metrics, baseline, a.margin);
+    if (vary.path == model_path) {
+        add_costs(all.front(), study, store, [] { return stops_asked() > 0; });
         check_interrupted(a, false);
     }
-    tell_other_methods(comparison, interval_method_of(store));
-    comparison.held = held_keys(given, study.base(), models.path);
-    if (a.picture) {
-        write_picture(*a.picture, chart_svg(comparison_charts(comparison), {.width = 480}));
+    for (Comparison& c : all) {
+        tell_other_methods(c, interval_method_of(store));
+        c.held = held_keys(given, study.base(), vary.path);
     }
-    if (a.json) {
-        print_json(comparison);
-    } else {
-        print_text(comparison);
-    }
+    if (a.picture) write_comparison(*a.picture, all.front(), store);
+    print_comparisons(all, a.json ? ReportForm::json : a.csv ? ReportForm::csv : ReportForm::text);
     check_failures(a, store, result);
     check_precision(study, result);
 }

@@ -48,5 +48,8 @@ Scenario scenario_of(const FileArguments& arguments);
 
 /// Simulated time of the option --at; prints a notice if it is after the end of the run.
 Time time_in(const Scenario& scenario, const std::string& at);
+/// Simulated time of the option --at, of a command that shows what traffic leads to.
+/// @throws InputError if it is after the end of the run
+Time time_within(const Scenario& scenario, const std::string& at);
 
 }  // namespace rovernet::cli

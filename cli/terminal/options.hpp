@@ -60,7 +60,7 @@ Check whole_number();
 /// Adds the commands run, live, emulate, in, sweep, compare, advise, fit, probe, locate.
 /// @param typed  command line as the user typed it
 void add_run_commands(Command app, const std::string& typed);
-/// Adds the commands link, links, scene, where, draw, move.
+/// Adds the commands link, links, routes, scene, where, draw, move.
 void add_scene_commands(Command app);
 /// Adds the commands results, plot, explain.
 void add_result_commands(Command app);

@@ -5,6 +5,7 @@
 #include "experiment/reports/network_at.hpp"
 #include "experiment/reports/range_of_model.hpp"
 #include "experiment/run.hpp"
+#include "files/csv_field.hpp"
 #include "models/medium/medium.hpp"
 
 #include <fmt/format.h>
@@ -84,16 +85,10 @@ struct History {
     }
 
   private:
-    static std::string quoted(const std::string& name) {
-        if (name.find_first_of(",\"\r") == name.npos) return name;
-        std::string text = "\"";
-        for (const char c : name) text += c == '"' ? std::string("\"\"") : std::string(1, c);
-        return text + '"';
-    }
     void add(Time t, NodeId from, NodeId to, std::string_view event) {
         const std::int64_t ns = t.time_since_epoch().count();
         write(fmt::format("{}.{:09},{},{},{}\n", ns / 1'000'000'000, ns % 1'000'000'000,
-                          quoted(network->name(from)), quoted(network->name(to)), event));
+                          csv_field(network->name(from)), csv_field(network->name(to)), event));
     }
 };
 

@@ -20,12 +20,16 @@ Scenario without_idle_traffic(const Scenario& scenario) {
     return quiet;
 }
 
-std::unique_ptr<Network> network_at(const Scenario& scenario, Time at, const TellTime& tell) {
-    const Scenario played = without_idle_traffic(scenario);
-    auto network = std::make_unique<Network>(network_settings(played));
-    populate(*network, played);
+std::unique_ptr<Network> network_with_traffic_at(const Scenario& scenario, Time at,
+                                                 const TellTime& tell) {
+    auto network = std::make_unique<Network>(network_settings(scenario));
+    populate(*network, scenario);
     play_until(*network, at, tell);
     return network;
+}
+
+std::unique_ptr<Network> network_at(const Scenario& scenario, Time at, const TellTime& tell) {
+    return network_with_traffic_at(without_idle_traffic(scenario), at, tell);
 }
 
 }  // namespace rovernet

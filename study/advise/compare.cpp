@@ -16,8 +16,6 @@
 namespace rovernet {
 namespace {
 
-constexpr std::string_view model_path = "propagation.model";
-
 /// The one key that varies, and its value.
 const Entry& setting_of(const Answer& answer) {
     if (answer.settings.entries.size() == 1) return answer.settings.entries.front();
@@ -96,20 +94,18 @@ void add_error(ComparedModel& model, const Answer& most_detailed, const std::str
     model.error_interval = interval_of(distances, bounds_of(metric), confidence, wish);
 }
 
-/// Differences to the baseline, with simultaneous intervals.
+/// Whether a model has a difference to the baseline: at least two pairs.
+bool has_difference(const ComparedModel& model, const ComparedModel& baseline) {
+    return &model != &baseline && pairs_of(model.answer, baseline.answer).a.size() >= 2;
+}
+
+/// Differences to the baseline, with intervals that hold together with those of the family.
 void compare_with_baseline(Comparison& comparison, const ComparedModel& baseline,
-                           std::optional<IntervalMethod> wish) {
+                           std::size_t family, std::optional<IntervalMethod> wish) {
     const Bounds bounds = bounds_of(comparison.metric);
-    std::size_t family = 0;
-    const auto differs = [&](const ComparedModel& m, const Pairs& pairs) {
-        return &m != &baseline && pairs.a.size() >= 2;
-    };
-    for (const ComparedModel& m : comparison.models) {
-        if (differs(m, pairs_of(m.answer, baseline.answer))) ++family;
-    }
     for (ComparedModel& m : comparison.models) {
+        if (!has_difference(m, baseline)) continue;
         const Pairs pairs = pairs_of(m.answer, baseline.answer);
-        if (!differs(m, pairs)) continue;
         m.difference = compare_pairs(pairs.a, pairs.b, bounds, comparison.confidence, family, wish);
         m.sentence = comparison_text(m.model, comparison.baseline, *m.difference);
         if (!comparison.margin) continue;
@@ -122,24 +118,9 @@ void compare_with_baseline(Comparison& comparison, const ComparedModel& baseline
     }
 }
 
-}  // namespace
-
-std::string compared_name(const std::string& path, const Value& value) {
-    if (path == model_path) return plain_text(value);
-    return fmt::format("{}={}", path.substr(path.rfind('.') + 1), plain_text(value));
-}
-
-std::size_t place_of(const std::string& model, const std::vector<std::string>& models) {
-    const auto found = std::find(models.begin(), models.end(), model);
-    if (found != models.end()) return static_cast<std::size_t>(found - models.begin());
-    const std::string near = did_you_mean(model, models);
-    throw std::invalid_argument(
-        fmt::format("--baseline: \"{}\" is not compared; expected one of {}{}{}", model,
-                    fmt::join(models, ", "), near.empty() ? "" : "; ", near));
-}
-
-Comparison compare_models(const Store& store, const std::string& metric,
-                          const std::string& baseline, std::optional<double> margin) {
+/// Comparison without differences to the baseline, whose family is not known yet.
+Comparison comparison_of(const Store& store, const std::string& metric, const std::string& baseline,
+                         std::optional<double> margin) {
     Answers all = answers(store, {.metrics = {metric}});
     const Inventory inventory = inventory_of(store);
     const std::vector<double> cpu = mean_cpu(store, all.list.size());
@@ -170,7 +151,6 @@ Comparison compare_models(const Store& store, const std::string& metric,
             model.error_interval.reset();  // 0 by definition
         comparison.models.push_back(std::move(model));
     }
-    compare_with_baseline(comparison, comparison.models[base], interval_method_of(store));
     for (std::size_t i = 0; i < names.size(); ++i) {
         for (std::size_t j = i + 1; j < names.size(); ++j) {
             const Pairs pairs = pairs_of(all.list[i], all.list[j]);
@@ -179,6 +159,48 @@ Comparison compare_models(const Store& store, const std::string& metric,
         }
     }
     return comparison;
+}
+
+/// The model that the others are compared with.
+const ComparedModel& baseline_in(const Comparison& comparison) {
+    return *std::ranges::find(comparison.models, comparison.baseline, &ComparedModel::model);
+}
+
+}  // namespace
+
+std::string compared_name(const std::string& path, const Value& value) {
+    if (path == model_path || path == protocol_path) return plain_text(value);
+    return fmt::format("{}={}", path.substr(path.rfind('.') + 1), plain_text(value));
+}
+
+std::size_t place_of(const std::string& model, const std::vector<std::string>& models) {
+    const auto found = std::find(models.begin(), models.end(), model);
+    if (found != models.end()) return static_cast<std::size_t>(found - models.begin());
+    const std::string near = did_you_mean(model, models);
+    throw std::invalid_argument(
+        fmt::format("--baseline: \"{}\" is not compared; expected one of {}{}{}", model,
+                    fmt::join(models, ", "), near.empty() ? "" : "; ", near));
+}
+
+std::vector<Comparison> comparisons_of(const Store& store, const std::vector<std::string>& metrics,
+                                       const std::string& baseline, std::optional<double> margin) {
+    std::vector<Comparison> all;
+    std::size_t family = 0;
+    for (const std::string& metric : metrics) {
+        const Comparison& made = all.emplace_back(comparison_of(store, metric, baseline, margin));
+        const ComparedModel& base = baseline_in(made);
+        family += static_cast<std::size_t>(std::ranges::count_if(
+            made.models, [&](const ComparedModel& m) { return has_difference(m, base); }));
+    }
+    for (Comparison& each : all) {
+        compare_with_baseline(each, baseline_in(each), family, interval_method_of(store));
+    }
+    return all;
+}
+
+Comparison compare_models(const Store& store, const std::string& metric,
+                          const std::string& baseline, std::optional<double> margin) {
+    return comparisons_of(store, std::vector{metric}, baseline, margin).front();
 }
 
 }  // namespace rovernet

@@ -10,6 +10,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rovernet {
@@ -64,7 +65,13 @@ struct Comparison {
 /// @throws std::invalid_argument if the baseline is not one of the models
 std::size_t place_of(const std::string& baseline, const std::vector<std::string>& models);
 
-/// Name of a compared value: "friis" for the key propagation.model, "ttl=4" for other keys.
+/// Key of the routing protocol, whose values `compare --protocols` sets side by side.
+inline constexpr std::string_view protocol_path = "routing.protocol";
+/// Key of the propagation model, whose values `compare --models` sets side by side.
+inline constexpr std::string_view model_path = "propagation.model";
+
+/// Name of a compared value: "friis" for the key propagation.model, "aodv" for routing.protocol,
+/// "ttl=4" for other keys.
 std::string compared_name(const std::string& path, const Value& value);
 
 /// Compares the models of a study that varies only propagation.model, or the values of its only
@@ -77,5 +84,10 @@ std::string compared_name(const std::string& path, const Value& value);
 /// @throws std::invalid_argument if the metric or the baseline is unknown
 Comparison compare_models(const Store& store, const std::string& metric,
                           const std::string& baseline, std::optional<double> margin = {});
+/// Compares in several metrics. The intervals of the differences in all metrics hold together: the
+/// family of each is all of them.
+std::vector<Comparison> comparisons_of(const Store& store, const std::vector<std::string>& metrics,
+                                       const std::string& baseline,
+                                       std::optional<double> margin = {});
 
 }  // namespace rovernet

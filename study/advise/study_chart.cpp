@@ -61,9 +61,13 @@ std::string label_of(const std::string& path, const std::string& unit) {
     return unit.empty() ? path : fmt::format("{} [{}]", path, unit);
 }
 
-/// Metrics in seconds end in _s.
+/// Metrics in seconds end in _s, those in microseconds in _us.
 std::string metric_label(const std::string& metric) {
-    return metric.ends_with("_s") ? metric.substr(0, metric.size() - 2) + " [s]" : metric;
+    for (const std::string unit : {"s", "us"}) {
+        if (!metric.ends_with("_" + unit)) continue;
+        return fmt::format("{} [{}]", metric.substr(0, metric.size() - unit.size() - 1), unit);
+    }
+    return metric;
 }
 
 /// The bounds of a metric as those of an axis; after a quantile of the runs they are the same.
@@ -147,6 +151,16 @@ ChartPoint point_of(const Answer& answer) {
             .low = answer.low,
             .high = answer.high,
             .n = answer.values.size()};
+}
+
+/// Mark of a routing protocol, with the intervals of both metrics.
+ChartPoint mark_of(const Answer& delivery, const Answer& airtime) {
+    ChartPoint mark = point_of(delivery);
+    mark.x = airtime.value.value_or(std::nan(""));
+    mark.x_low = airtime.low;
+    mark.x_high = airtime.high;
+    mark.label = plain_text(*delivery.settings.find(std::string(protocol_path)));
+    return mark;
 }
 
 }  // namespace
@@ -237,7 +251,7 @@ std::vector<Chart> comparison_charts(const Comparison& comparison) {
     const bool costs = std::all_of(comparison.models.begin(), comparison.models.end(),
                                    [](const ComparedModel& m) { return m.cost.has_value(); });
     Chart values{.kind = ChartKind::bars,
-                 .x_label = comparison.path == "propagation.model" || comparison.path.empty()
+                 .x_label = comparison.path == model_path || comparison.path.empty()
                                 ? "propagation model"
                                 : comparison.path,
                  .y_label = metric_label(comparison.metric),
@@ -271,6 +285,40 @@ std::vector<Chart> comparison_charts(const Comparison& comparison) {
         if (!text.empty()) values.note += "; " + text;
     }
     return {values, errors};
+}
+
+Chart protocol_chart(const Store& store, const std::string& held) {
+    const Answers all = answers(store, {.metrics = {"delivery_ratio", "airtime_per_byte_us"}});
+    Chart chart{.kind = ChartKind::scatter,
+                .x_label = "airtime for each byte delivered [us]",
+                .y_label = "delivery_ratio",
+                .x_limits = {.low = 0},
+                .y_limits = limits_of("delivery_ratio")};
+    ChartSeries& marks = chart.series.emplace_back(ChartSeries{});
+    std::vector<std::string> without;
+    std::vector<Answer> deliveries, airtimes;
+    for (std::size_t i = 0; i + 1 < all.list.size(); i += 2) {
+        const Answer &delivery = all.list[i], &airtime = all.list[i + 1];
+        deliveries.push_back(delivery);
+        airtimes.push_back(airtime);
+        ChartPoint mark = mark_of(delivery, airtime);
+        if (airtime.value) {
+            marks.points.push_back(std::move(mark));
+        } else {
+            without.push_back(std::move(mark.label));
+        }
+    }
+    chart.note =
+        fmt::format("means of {} replications, with {} intervals: of deliveries{}, of airtimes{}",
+                    replications_text(deliveries), percent(confidence_of(store)),
+                    methods_text(deliveries), methods_text(airtimes));
+    if (!without.empty()) {
+        chart.note += fmt::format("; without deliveries: {}", fmt::join(without, ", "));
+    }
+    for (const std::string& text : {held, coverage_text(all)}) {
+        if (!text.empty()) chart.note += "; " + text;
+    }
+    return chart;
 }
 
 }  // namespace rovernet

@@ -46,4 +46,10 @@ Chart study_chart(const Store& store, const ChartQuestion& question);
 /// (against the most detailed model) over its cost.
 std::vector<Chart> comparison_charts(const Comparison& comparison);
 
+/// Chart of routing protocols: the delivery ratio of each over the airtime for each byte delivered,
+/// with the intervals of both. Lower right is worse than upper left.
+/// @param store  store of a study that varies only routing.protocol
+/// @param held   other keys that vary, with the values at which they are fixed, for the note
+Chart protocol_chart(const Store& store, const std::string& held);
+
 }  // namespace rovernet

@@ -299,6 +299,10 @@ const std::vector<Mistake> mistakes = {
     {robot_a + "[routing]\nttl = 0", "5:7", {"from 1 to 65535"}},
     {robot_a + "[routing]\nttl = 65536", "5:7", {"from 1 to 65535"}},
     {robot_a + "[routing]\nprotocol = \"fload\"", "5:12", {"did you mean \"flood\"?"}},
+    {robot_a + "[routing]\nprotocol = \"adov\"", "5:12", {"did you mean \"aodv\"?"}},
+    {robot_a + "[routing]\nprotocol = \"flood\"\nhelo = \"1 s\"",
+     "6:1",
+     {"unknown key \"helo\"", "did you mean \"hello\"?"}},
     // Robots.
     {"[[robot]]\nat = [\"2 m\", \"3 m\"]", "1:1", {"\"name\" is missing"}},
     {"[[robot]]\nnmae = \"A\"", "2:1", {"unknown key \"nmae\"", "did you mean \"name\"?"}},

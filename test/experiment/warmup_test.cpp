@@ -65,6 +65,28 @@ TEST_CASE("warm-up: messages sent before its end count nothing, with all that be
     CHECK(net.metrics().delivery_ratio == 1.0);
 }
 
+TEST_CASE("warm-up: the air is in use by the frames that begin after it") {
+    Network net({.propagation = Disc{.range = Meters{10}}, .warmup = 2s});
+    net.route(Flood{.ttl = 3});
+    const NodeId a = net.add({.name = "a", .at = {}});
+    net.add({.name = "b", .at = {5, 0}});
+    net.add({.name = "c", .at = {9, 0}});
+    net.at(Time{1'999'999'999ns}, [&] { net.send(a, everyone, "early"); });
+    net.run_until(Time{3s});
+    const Radio radio;
+    const auto frame = [&](int bytes) {
+        return radio.preamble + from_seconds(8 * bytes / radio.rate.value);
+    };
+    CHECK(net.airtime() == 2 * frame(5));  // b and c pass it on
+    net.send(a, everyone, "late");
+    net.run_until(Time{4s});
+    CHECK(net.airtime() == 2 * frame(5) + 3 * frame(4));
+    const AirtimeValues values = airtime_values(net.airtime(), net.metrics());
+    CHECK(values.total == seconds(net.airtime()));
+    CHECK(values.per_byte == 1e6 * values.total / 8);  // of which two robots got 4 bytes each
+    CHECK_FALSE(airtime_values(net.airtime(), {}).per_byte);
+}
+
 TEST_CASE("warm-up: a message sent at its end counts") {
     Network net({.propagation = Disc{.range = Meters{10}}, .warmup = 2s});
     net.route(Flood{});

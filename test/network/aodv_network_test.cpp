@@ -152,7 +152,7 @@ TEST_CASE(
         const std::vector<int> b = counts(run.before), a = counts(run.after);
         CHECK(metrics.routing->packets ==
               static_cast<std::uint64_t>(b[0] + b[1] + b[2] + a[0] + a[1] + a[2]));
-        CHECK(metrics.routing->data == static_cast<std::uint64_t>(b[3] + a[3]));
+        CHECK(metrics.routed->data == static_cast<std::uint64_t>(b[3] + a[3]));
         CHECK(metrics.messages == 36);
         CHECK(metrics.delivery_ratio == doctest::Approx(each.delivered / 36.0));
     }

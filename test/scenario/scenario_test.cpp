@@ -252,6 +252,26 @@ TEST_CASE("scenario: one robot is enough, and everything else has the documented
     CHECK(s.traffic.empty());
 }
 
+TEST_CASE("scenario: keys of protocols that are not chosen are checked and kept") {
+    const std::string both =
+        robot_a + "[routing]\nduplicates = \"forward\"\nhello = \"1 s\"\nprotocol = ";
+    const Scenario flood = read(both + "\"flood\""), aodv = read(both + "\"aodv\"");
+    CHECK(flood.routing.name() == "flood");
+    CHECK(aodv.routing.name() == "aodv");
+    for (const Scenario* s : {&flood, &aodv}) {
+        CHECK(std::get<Aodv>(s->routing.parameters).hello == 1s);
+        CHECK(std::get<Flood>(s->routing.parameters).duplicates == Duplicates::forward);
+        CHECK(read(printed(*s)).routing.name() == s->routing.name());
+        CHECK(std::get<Aodv>(read(printed(*s)).routing.parameters).hello == 1s);
+    }
+    const Scenario set = with(both + "\"flood\"", {"routing.protocol=aodv"});
+    CHECK(printed(set) == printed(with(both + "\"aodv\"", {})));
+    CHECK_THROWS_WITH(with(robot_a, {"routing.protocol=adov"}),
+                      doctest::Contains("did you mean \"aodv\"?"));
+    CHECK_THROWS_WITH(with(robot_a, {"routing.hullo=1"}),
+                      doctest::Contains("did you mean \"hello\"?"));
+}
+
 TEST_CASE("scenario: every key of the file arrives in its field") {
     const Scenario s = read(every_key);
     CHECK(s.scenario.duration == 12345678us);

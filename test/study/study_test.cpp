@@ -189,6 +189,25 @@ TEST_CASE("study: what changes a result changes a point's id, and nothing else d
     CHECK(ids.insert(id_of(two_robots + "[study]\nmetrics = [\"reach\"]")).second);
 }
 
+TEST_CASE("study: the routing protocol varies, with keys of each in one table") {
+    const TemporaryFolder folder;
+    const std::string text = two_robots + R"([study]
+vary."routing.protocol" = ["flood", "aodv"]
+)";
+    const std::string path = folder.write("s.toml", text);
+    Study study(path, {.set = {"routing.hello=1 s", "routing.duplicates=forward"}});
+    REQUIRE(study.points().size() == 2);
+    CHECK(study.points()[0].id != study.points()[1].id);
+    CHECK(settings_text(study.points()[1].settings) == "routing.protocol=aodv");
+    CHECK(study.scenario(0, 0).routing.name() == "flood");
+    const Scenario aodv = study.scenario(1, 0);
+    REQUIRE(aodv.routing.as<Aodv>());
+    CHECK(aodv.routing.as<Aodv>()->hello == std::chrono::seconds(1));
+    CHECK(error_of(two_robots + "[study]\nvary.routing.protocol = [\"flood\", \"adov\"]")
+              .find("s.toml:17:34: unknown protocol \"adov\"; expected one of \"flood\"") !=
+          std::string::npos);
+}
+
 TEST_CASE("study: another map under the same name is another point") {
     const TemporaryFolder folder;
     const std::string path = folder.write(

@@ -16,10 +16,10 @@ namespace fs = std::filesystem;
 namespace {
 
 const std::vector<std::string> commands = {
-    "run",          "sweep",       "compare",     "link",          "links",     "scene",
-    "where",        "draw",        "plot",        "move convert",  "results",   "explain",
-    "models",       "loss",        "trace stats", "trace convert", "trace cut", "trace diff",
-    "trace follow", "bench flood", "version",     "replay"};
+    "run",        "sweep",        "compare",     "link",        "links",         "routes",
+    "scene",      "where",        "draw",        "plot",        "move convert",  "results",
+    "explain",    "models",       "loss",        "trace stats", "trace convert", "trace cut",
+    "trace diff", "trace follow", "bench flood", "version",     "replay"};
 
 /// What a line of the shell ends with, where `rovernet` is the command and `examples` the folder.
 Ended shell(const TemporaryFolder& folder, const std::string& line) {

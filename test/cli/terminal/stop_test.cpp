@@ -86,6 +86,7 @@ TEST_CASE(
         {"link", file, "r0", "r1", "--at", end},
         {"links", file, "--at", end},
         {"links", file, "--history"},
+        {"routes", file, "--at", end, "--set", "routing.protocol=aodv"},
         {"where", file, "--at", end},
         {"scene", file, "--at", end},
         {"draw", file, "--trails", "--at", end, "-o", folder.path("picture.svg")},

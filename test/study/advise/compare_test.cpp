@@ -40,6 +40,32 @@ Store made(const std::string& path, const std::vector<std::string>& models,
     return store;
 }
 
+/// A store of protocols with their delivery ratios and airtimes for a byte, by replication.
+Store made_of_protocols(const std::string& path, const std::vector<std::string>& protocols,
+                        const std::vector<std::vector<double>>& deliveries,
+                        const std::vector<std::vector<std::optional<double>>>& airtimes) {
+    Store store = Store::open_to_write(path);
+    std::vector<StoredPoint> points;
+    for (std::uint32_t i = 0; i < protocols.size(); ++i) {
+        Table settings;
+        settings.set("routing.protocol", protocols[i]);
+        points.push_back({i, protocols[i], settings});
+    }
+    store.set_points(points);
+    for (std::uint32_t i = 0; i < protocols.size(); ++i) {
+        for (std::uint32_t r = 0; r < deliveries[i].size(); ++r) {
+            StoredRun run{};
+            run.id = protocols[i] + std::to_string(r);
+            run.point = i;
+            run.replication = r;
+            run.measurement.metrics = {{"delivery_ratio", deliveries[i][r]},
+                                       {"airtime_per_byte_us", airtimes[i][r]}};
+            store.record(run);
+        }
+    }
+    return store;
+}
+
 constexpr double rounding = 1e-12;  // of means of a few numbers below 10
 
 }  // namespace
@@ -170,6 +196,50 @@ TEST_CASE("compare: with a margin, each model is within it, outside, or not deci
     CHECK(c.models[0].equivalence_sentence.starts_with(
         "disc is within 0.05 of friis (95 % for all 3"));
     CHECK_FALSE(compare_models(store, "reach", "friis").models[0].equivalence);
+}
+
+TEST_CASE("compare: intervals of several metrics hold together") {
+    const TemporaryFolder folder;
+    const Store store =
+        made_of_protocols(folder.path("s.db"), {"flood", "aodv", "other"},
+                          {{0.2, 0.4, 0.3, 0.3}, {0.9, 0.8, 0.7, 0.9}, {0.5, 0.6, 0.4, 0.7}},
+                          {{500, 400, 450, 470}, {100, 110, 90, 120}, {200, 240, 260, 210}});
+    const auto all = comparisons_of(store, {"delivery_ratio", "airtime_per_byte_us"}, "flood");
+    REQUIRE(all.size() == 2);
+    CHECK(all[0].path == "routing.protocol");
+    CHECK(all[1].metric == "airtime_per_byte_us");
+    CHECK(all[0].models[1].model == "aodv");
+    CHECK_FALSE(all[0].models[0].difference);
+    CHECK(std::abs(all[0].models[1].difference->difference.mean - 0.525) < rounding);
+    // Four differences, of which each alone holds with less confidence: the interval is wider.
+    const Comparison alone = compare_models(store, "airtime_per_byte_us", "flood");
+    const auto width = [](const Comparison& c) {
+        return c.models[1].difference->high - c.models[1].difference->low;
+    };
+    CHECK(width(all[1]) > 1.1 * width(alone));
+    CHECK(all[1].models[1].sentence.find("for all 4:") != std::string::npos);
+    CHECK(alone.models[1].sentence.find("for all 2:") != std::string::npos);
+}
+
+TEST_CASE("chart: each protocol has a mark with both intervals, but not without deliveries") {
+    const TemporaryFolder folder;
+    const Store store = made_of_protocols(folder.path("s.db"), {"flood", "aodv", "mute"},
+                                          {{0.2, 0.4, 0.3}, {0.9, 0.8, 0.7}, {0, 0, 0}},
+                                          {{500, 400, 450}, {100, 110, 90}, {{}, {}, {}}});
+    const Chart chart = protocol_chart(store, "held as the file has it: radio.power = 15 dBm");
+    REQUIRE(chart.series.size() == 1);
+    const auto& marks = chart.series[0].points;
+    REQUIRE(marks.size() == 2);
+    CHECK(marks[1].label == "aodv");
+    CHECK(std::abs(marks[1].x - 100) < rounding);
+    CHECK(std::abs(marks[1].y - 0.8) < rounding);
+    CHECK(*marks[1].x_low < 100);
+    CHECK(*marks[1].x_high > 100);
+    CHECK(*marks[1].low < 0.8);
+    CHECK(*marks[1].high > 0.8);
+    CHECK(chart.y_limits.high == 1);
+    CHECK(chart.note.find("without deliveries: mute; held as the file has it") !=
+          std::string::npos);
 }
 
 }  // namespace compare_test

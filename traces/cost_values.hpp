@@ -70,4 +70,18 @@ struct RoutingValues {
     friend bool operator==(const RoutingValues&, const RoutingValues&) = default;
 };
 
+/// Use of the air by all frames of a run: messages, their copies, control packets and the control
+/// frames of the access model.
+struct AirtimeValues {
+    double total = 0;                ///< sum of the frames' airtimes [s]
+    std::optional<double> per_byte;  ///< total for each byte delivered [us]; empty without bytes
+
+    static constexpr auto fields() {
+        using A = AirtimeValues;
+        return describe(field("airtime_s", &A::total, "sum over all frames on air"),
+                        field("airtime_per_byte_us", &A::per_byte, "for each byte delivered"));
+    }
+    friend bool operator==(const AirtimeValues&, const AirtimeValues&) = default;
+};
+
 }  // namespace rovernet
