@@ -106,7 +106,7 @@ TEST_CASE("dsr on graphs: requests, replies and errors before and after a break"
         CAPTURE(promiscuous);
         for (const Case& each : cases) {
             CAPTURE(each.name);
-            const Run run(each.nodes, each.edges, each.to, each.vanishes, {promiscuous});
+            const Run run(each.nodes, each.edges, each.to, each.vanishes, {.promiscuous = promiscuous});
             const bool salvages = promiscuous && each.nodes == 9;  // node 2 overheard 1-4-7-8
             CHECK(run.before == each.before);
             CHECK(run.after == (salvages ? Counts{0, 0, 2, 83} : each.after));
