@@ -234,7 +234,7 @@ TEST_CASE("dsr: a route has sixteen nodes at most; messages beyond end without a
     CHECK(n.request(fifteen, 5, 2) == Fate::ttl);      // no room for node 5
     CHECK(n.request(fifteen, 0, 3) == Fate::arrived);  // node 0 is the sixteenth
     CHECK(n.sent(dsr::reply_kind).size() == 1);
-    CHECK(n.router.pairs_too_far() == 0);
+    CHECK(n.router.notice().empty());
     n.send(5, 20);
     n.send(6, 20);
     while (n.link.time < start_of_run + 30s) n.wait();
@@ -242,6 +242,8 @@ TEST_CASE("dsr: a route has sixteen nodes at most; messages beyond end without a
     CHECK(n.link.drops[0].reason == DropReason::no_route);  // too far
     CHECK(n.link.drops[1].reason == DropReason::timeout);   // not heard of
     CHECK(n.router.pairs_too_far() == 1);
+    CHECK(n.router.notice() ==
+          "dsr: 1 pair of robots lost messages, as a route has at most 16 robots");
 }
 
 TEST_CASE("dsr 4.2: at most 64 messages wait, for 30 s each, and the oldest leaves first") {

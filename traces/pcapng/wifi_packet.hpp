@@ -40,9 +40,12 @@ struct PacketAddresses {
     /// Origin and destination of the message; all ones for everyone.
     std::uint32_t origin = 0, destination = 0;
 };
-/// Content of a UDP packet in place of the message's.
-struct UdpContent {
-    /// UDP port of source and destination.
+/// Protocol number of UDP in IP headers.
+inline constexpr std::uint8_t udp_protocol = 17;
+/// Content of an IP packet in place of the message's.
+struct PacketContent {
+    std::uint8_t ip_protocol = udp_protocol;
+    /// UDP port of source and destination; none with another IP protocol.
     std::uint16_t port = 0;
     std::string_view bytes;
 };
@@ -55,14 +58,15 @@ inline constexpr std::size_t message_header = 32;
 inline constexpr std::size_t longest_captured = 65'000;
 
 /// Appends an 802.11 data frame (ad hoc), LLC/SNAP, IPv4 and UDP with the message: Message::size
-/// bytes, the payload filled up with zeros.
+/// bytes, the payload filled up with zeros. With `content` of another IP protocol there is no UDP.
 ///
 /// @param bytes    size of the frame in the simulation
-/// @param content  content of the UDP packet, without the header of messages; null: the message
+/// @param content  content of the packet, without the header of messages; null: the message
 ///
 /// Sources: IEEE 802.11-2020, 9.2 and 9.3.2; RFC 791; RFC 768.
 void append_data_frame(const AirFrame& air, const Message& message, std::uint32_t bytes,
-                       const PacketAddresses& addresses, const UdpContent* content, ByteWriter& to);
+                       const PacketAddresses& addresses, const PacketContent* content,
+                       ByteWriter& to);
 /// Appends an RTS, CTS or ACK. Source: IEEE 802.11-2020, 9.3.1.
 void append_control_frame(const AirFrame& air, const PacketAddresses& addresses, ByteWriter& to);
 
