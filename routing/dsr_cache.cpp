@@ -8,8 +8,9 @@ namespace {
 
 constexpr std::size_t most_own = 30, most_others = 64;
 
+/// Whether a route is a beginning of a stored one, which is most often a new one.
 bool knows(const std::vector<Cache::Known>& all, const Path& path) {
-    return std::any_of(all.begin(), all.end(),
+    return std::any_of(all.rbegin(), all.rend(),
                        [&](const Cache::Known& each) { return each.path.starts_with(path); });
 }
 

@@ -47,7 +47,9 @@ class Path {
     }
     bool has(NodeId node) const { return place(node) < size(); }
     bool starts_with(const Path& other) const {
-        return other.size_ <= size_ && std::equal(other.begin(), other.end(), begin());
+        // The last node differs most often.
+        return other.size_ <= size_ && nodes_[other.size_ - 1U] == other.back() &&
+               std::equal(other.begin(), other.end(), begin());
     }
     /// The first `size` nodes, and the nodes from place `from` on.
     Path first(std::size_t size) const { return Path(std::span(begin(), size)); }

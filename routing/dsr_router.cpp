@@ -3,6 +3,8 @@
 
 #include "routing/in_order.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace rovernet {
@@ -66,6 +68,13 @@ std::vector<RouteState> DsrRouter::routes(NodeId at, Time) const {
 std::size_t DsrRouter::pairs_too_far() const {
     return static_cast<std::size_t>(std::count_if(too_far_.begin(), too_far_.end(),
                                                   [](const auto& each) { return each.second; }));
+}
+
+std::string DsrRouter::notice() const {
+    const std::size_t pairs = pairs_too_far();
+    if (pairs == 0) return {};
+    return fmt::format("dsr: {} pair{} of robots lost messages, as a route has at most {} robots",
+                       pairs, pairs == 1 ? "" : "s", Path::longest);
 }
 
 void DsrRouter::forget(MessageId message) {

@@ -58,8 +58,9 @@ class DsrRouter {
     /// Source route of a frame of a message.
     const Header& header(const Frame& frame) const { return headers_[frame.header - 1]; }
     /// Number of pairs (source, destination) that lost messages because the route between them has
-    /// more than sixteen nodes.
+    /// more than sixteen nodes, and the notice that says so.
     std::size_t pairs_too_far() const;
+    std::string notice() const;
 
   private:
     /// Search for a route, for packets that wait. The entry remains until a route is found, so that

@@ -2,6 +2,7 @@
 #include "routing/packet_on_air.hpp"
 
 #include "routing/aodv_packets.hpp"
+#include "routing/dsr_packets.hpp"
 
 namespace rovernet {
 
@@ -10,6 +11,10 @@ std::optional<PacketOnAir> packet_on_air(const Message& message, const Frame& fr
     if (message.protocol() == "AODV") {
         return PacketOnAir{.port = aodv::port,
                            .bytes = aodv::on_air(message.payload, frame, address)};
+    }
+    if (message.protocol() == "DSR") {
+        return PacketOnAir{.ip_protocol = dsr::ip_protocol,
+                           .bytes = dsr::on_air(message.payload, frame, address)};
     }
     return std::nullopt;
 }

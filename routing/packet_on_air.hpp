@@ -13,9 +13,11 @@ namespace rovernet {
 /// Control packet of a routing protocol as it is on the air, for captures: what follows the IP
 /// header.
 struct PacketOnAir {
-    /// UDP port of source and destination.
+    /// Protocol number in the IP header: 17 for UDP.
+    std::uint8_t ip_protocol = 17;
+    /// UDP port of source and destination; none with another IP protocol.
     std::uint16_t port = 0;
-    /// Bytes after the UDP header.
+    /// Bytes after the UDP header, or after the IP header.
     std::string bytes;
 };
 

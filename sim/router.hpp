@@ -59,6 +59,8 @@ class Router {
     /// Routing table of a node at `now`, in the order of destinations; empty if the protocol has
     /// none.
     std::vector<RouteState> routes(NodeId node, Time now) const { return self_->routes(node, now); }
+    /// Notice of the protocol to the user at the end of a run; empty if there is none.
+    std::string notice() const { return self_->notice(); }
     /// Initial TTL of a message [hops].
     Hops initial_ttl(const Message& m) const { return self_->initial_ttl(m); }
 
@@ -95,6 +97,7 @@ class Router {
         virtual bool keeps(MessageId) const = 0;
         virtual void describe(const Message&, const Frame&, PacketStyle, std::string&) const = 0;
         virtual std::vector<RouteState> routes(NodeId, Time) const = 0;
+        virtual std::string notice() const = 0;
         virtual Hops initial_ttl(const Message&) const = 0;
     };
     // Protocol of type T; functions that it lacks do nothing.
@@ -138,6 +141,10 @@ class Router {
         std::vector<RouteState> routes([[maybe_unused]] NodeId node,
                                        [[maybe_unused]] Time now) const override {
             if constexpr (HasRoutes<T>) return protocol.routes(node, now);
+            return {};
+        }
+        std::string notice() const override {
+            if constexpr (HasNotice<T>) return protocol.notice();
             return {};
         }
         Hops initial_ttl([[maybe_unused]] const Message& m) const override {

@@ -145,6 +145,12 @@ template <class T>
 concept HasRoutes = requires(const T router, NodeId node, Time now) {
     { router.routes(node, now) } -> std::convertible_to<std::vector<RouteState>>;
 };
+/// Protocol with a notice to the user at the end of a run: a limit of the protocol that mattered.
+/// Empty: there is nothing to say.
+template <class T>
+concept HasNotice = requires(const T router) {
+    { router.notice() } -> std::convertible_to<std::string>;
+};
 /// Traits of a protocol: optional static members, false by default. The network reads them once,
 /// when the protocol is set.
 struct RouterTraits {

@@ -143,7 +143,8 @@ void Capturing::add_packet(NodeId at, Time time, PcapngWriter::Way way, const Re
             message.kind.empty()
                 ? std::nullopt
                 : packet_on_air(message, air.frame, [&](NodeId node) { return ip_of(node); });
-        const UdpContent content = own ? UdpContent{own->port, own->bytes} : UdpContent{};
+        const PacketContent content =
+            own ? PacketContent{own->ip_protocol, own->port, own->bytes} : PacketContent{};
         append_data_frame(air, message, frame.bytes, addresses(air), own ? &content : nullptr,
                           bytes_);
     } else {
@@ -160,9 +161,10 @@ PacketAddresses Capturing::addresses(const AirFrame& air) const {
     if (air.control) return both;
     const Message& message = trace_.context().messages[air.frame.message];
     // Who forwards a protocol's broadcast is its source.
-    const bool is_own = !message.kind.empty() && message.to == everyone;
-    both.origin = ip_of(is_own ? air.frame.sender : message.origin);
-    both.destination = ip_of(message.to);
+    const bool is_protocols = !message.kind.empty();
+    both.origin = ip_of(is_protocols && message.to == everyone ? air.frame.sender : message.origin);
+    // A request of DSR goes to everyone, and its message to the node that is sought.
+    both.destination = ip_of(is_protocols && to == everyone ? everyone : message.to);
     return both;
 }
 

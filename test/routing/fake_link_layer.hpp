@@ -167,6 +167,7 @@ class FakeLinkLayer final : public LinkLayer {
     }
     MessageId add(Message message) {
         message.uid = next_uid_++;
+        message.created = time;
         return messages.add(std::move(message));
     }
     std::uint64_t next_uid_ = 0;

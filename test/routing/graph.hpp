@@ -184,6 +184,11 @@ class Graph final : public LinkLayer {
     std::map<std::string_view, int> drops{};
     /// Number of messages in use.
     std::size_t messages_in_use() const { return messages_.size(); }
+    /// Number of headers of frames in use.
+    std::size_t headers_in_use() const {
+        return static_cast<std::size_t>(std::count_if(
+            headers_.begin(), headers_.end(), [](const auto& each) { return each.second > 0; }));
+    }
 
   private:
     struct Event {
@@ -245,6 +250,7 @@ class Graph final : public LinkLayer {
         for (const Reception& r : receptions) {
             if (r.delivered && message.kind.empty())
                 delivered[message.number].emplace_back(r.node, frame.hops);
+            if (r.fate == Fate::ttl && message.kind.empty()) ++drops[reason_of(r.fate).code];
         }
         router_.on_sent(*this, queued,
                         is_missed                    ? SendResult::retries

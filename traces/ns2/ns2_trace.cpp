@@ -213,7 +213,8 @@ void Ns2Trace::Writer::router_line(Time time, const Frame& frame, std::optional<
                                    const RecordContext& context) {
     const Message& message = context.messages[frame.message];
     const bool is_flooded = frame.next_hop == everyone;
-    const bool is_new = frame.sender == message.origin || (is_flooded && !message.kind.empty());
+    const bool is_new =
+        frame.sender == message.origin || (message.to == everyone && !message.kind.empty());
     const char op = is_new ? 's' : 'f';
     MacHeader mac;
     if (heard_from && is_flooded) mac = ip_header(*heard_from);

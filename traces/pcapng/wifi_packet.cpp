@@ -53,15 +53,15 @@ std::uint16_t internet_checksum(std::string_view bytes) {
 }
 
 void append_ip(const AirFrame& air, const Message& message, const PacketAddresses& addresses,
-               std::size_t udp_size, ByteWriter& to) {
+               std::uint8_t protocol, std::size_t size, ByteWriter& to) {
     ByteWriter ip;
     ip.fixed(std::uint8_t{0x45});  // version 4, 5 words
     ip.fixed(std::uint8_t{0});
-    put_big(static_cast<std::uint16_t>(20 + udp_size), ip);
+    put_big(static_cast<std::uint16_t>(20 + size), ip);
     put_big(static_cast<std::uint16_t>(message.uid), ip);
     put_big(std::uint16_t{0x4000}, ip);  // not in fragments
     ip.fixed(static_cast<std::uint8_t>(std::clamp<unsigned>(air.frame.ttl, 1, 255)));
-    ip.fixed(std::uint8_t{17});  // UDP
+    ip.fixed(protocol);
     const std::size_t checksum_at = ip.size();
     put_big(std::uint16_t{0}, ip);
     put_big(addresses.origin, ip);
@@ -109,11 +109,13 @@ void append_radiotap(const RadiotapFacts& facts, ByteWriter& to) {
 }
 
 void append_data_frame(const AirFrame& air, const Message& message, std::uint32_t bytes,
-                       const PacketAddresses& addresses, const UdpContent* content,
+                       const PacketAddresses& addresses, const PacketContent* content,
                        ByteWriter& to) {
     const std::size_t begin = to.size();
     const std::size_t carried = std::min<std::size_t>(message.size, longest_captured);
-    const std::size_t udp_size = 8 + (content ? content->bytes.size() : message_header + carried);
+    const std::uint8_t protocol = content ? content->ip_protocol : udp_protocol;
+    const std::size_t size = (protocol == udp_protocol ? 8 : 0) +
+                             (content ? content->bytes.size() : message_header + carried);
     const std::uint16_t port = content ? content->port : capture_port;
     to.fixed(std::uint8_t{0x08});  // data
     to.fixed(static_cast<std::uint8_t>(air.attempt > 0 ? 0x08 : 0));
@@ -123,11 +125,13 @@ void append_data_frame(const AirFrame& air, const Message& message, std::uint32_
     put_address(network_address, to);
     to.fixed(static_cast<std::uint16_t>((air.number & 0xfff) << 4));
     to.bytes({"\xaa\xaa\x03\0\0\0\x08\0", 8});  // LLC and SNAP: IPv4
-    append_ip(air, message, addresses, udp_size, to);
-    put_big(port, to);
-    put_big(port, to);
-    put_big(static_cast<std::uint16_t>(udp_size), to);
-    put_big(std::uint16_t{0}, to);  // without a checksum
+    append_ip(air, message, addresses, protocol, size, to);
+    if (protocol == udp_protocol) {
+        put_big(port, to);
+        put_big(port, to);
+        put_big(static_cast<std::uint16_t>(size), to);
+        put_big(std::uint16_t{0}, to);  // without a checksum
+    }
     if (content) {
         to.bytes(content->bytes);
     } else {

@@ -40,9 +40,12 @@ struct PacketAddresses {
     /// Origin and destination of the message; all ones for everyone.
     std::uint32_t origin = 0, destination = 0;
 };
-/// Content of a captured UDP packet that replaces the message.
-struct UdpContent {
-    /// UDP port of source and destination.
+/// Protocol number of UDP in IP headers.
+inline constexpr std::uint8_t udp_protocol = 17;
+/// Content of an IP packet in place of the message's.
+struct PacketContent {
+    std::uint8_t ip_protocol = udp_protocol;
+    /// UDP port of source and destination; none with another IP protocol.
     std::uint16_t port = 0;
     std::string_view bytes;
 };
@@ -56,14 +59,15 @@ inline constexpr std::size_t longest_captured = 65'000;
 
 /// Appends an 802.11 data frame (ad hoc mode) that contains the message in a UDP packet: headers of
 /// 802.11, LLC/SNAP, IPv4 and UDP, the header of message_header bytes, then Message::size bytes:
-/// the payload, padded with zeros.
+/// the payload, padded with zeros. With `content` of another IP protocol there is no UDP header.
 ///
 /// @param bytes    size of the frame in the simulation [bytes], stored in the message header
-/// @param content  content of the UDP packet that replaces message header and message; null: these
+/// @param content  content that replaces message header and message; null: these
 ///
 /// Sources: IEEE 802.11-2020, 9.2 and 9.3.2; RFC 791; RFC 768.
 void append_data_frame(const AirFrame& air, const Message& message, std::uint32_t bytes,
-                       const PacketAddresses& addresses, const UdpContent* content, ByteWriter& to);
+                       const PacketAddresses& addresses, const PacketContent* content,
+                       ByteWriter& to);
 /// Appends an 802.11 control frame: RTS, CTS or ACK. Source: IEEE 802.11-2020, 9.3.1.
 void append_control_frame(const AirFrame& air, const PacketAddresses& addresses, ByteWriter& to);
 
