@@ -48,6 +48,8 @@ void where(const WhereArguments& arguments);
 struct DrawArguments : FileArguments {
     std::string at = "0 s";
     std::optional<std::string> coverage, receiver;
+    std::vector<std::string> route;  ///< robots between which the route is drawn: none, or two
+    bool search = false;
     bool links = false;
     bool trails = false;
     bool axes = false;

@@ -64,7 +64,9 @@ void add_draw(Command app) {
     const auto [draw, a] = add_command(app, "draw", "Draw map, robots and radio", cli::draw);
     draw.add_examples({"rovernet draw examples/rescue/rescue.toml --links --at 10s -o rescue.svg",
                        "rovernet draw examples/rescue/rescue.toml --coverage A -o coverage.svg",
-                       "rovernet draw examples/rescue/rescue.toml --coverage A --for B -o b.svg"});
+                       "rovernet draw examples/rescue/rescue.toml --coverage A --for B -o b.svg",
+                       "rovernet draw examples/detour/detour.toml --routes west,east --search --at "
+                       "20s -o route.svg"});
     add_file(draw, a, any_file);
     draw.add_option("--at", a.at, "time of the run, such as 12.5s").shows_default();
     Option coverage =
@@ -73,6 +75,10 @@ void add_draw(Command app) {
                     "robot whose radio and antenna's height receive it (default: like its own)")
         .needs(coverage);
     draw.add_flag("--links", a.links, "show who hears whom");
+    draw.add_option("--routes", a.route, "show the route in use from A to B, as A,B")
+        .delimiter(',');
+    draw.add_flag("--search", a.search,
+                  "show who sent the last request of a route, of A of --routes, or of anybody");
     draw.add_flag("--trails", a.trails, "show where the robots have been");
     draw.add_option("--storey", a.storey, "storey that is drawn, the lowest is 1").shows_default();
     draw.add_flag("--axes", a.axes, "show axes in metres");

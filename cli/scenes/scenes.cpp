@@ -8,6 +8,7 @@
 #include "experiment/reports/link_table.hpp"
 #include "experiment/reports/loss_table.hpp"
 #include "experiment/reports/network_at.hpp"
+#include "experiment/reports/route_report.hpp"
 #include "experiment/reports/scene_report.hpp"
 #include "experiment/reports/whereabouts.hpp"
 #include "experiment/run.hpp"
@@ -198,6 +199,15 @@ void print_robots(const Table& report) {
                std::get<std::int64_t>(c.find("diameter_hops")->data));
 }
 
+/// Both ends of the option --routes.
+std::optional<PictureOptions::Route> route_of(const DrawArguments& a) {
+    if (a.route.empty()) return std::nullopt;
+    if (a.route.size() == 2 && a.route[0] != a.route[1])
+        return PictureOptions::Route{a.route[0], a.route[1]};
+    throw InputError(Location{fmt::format("--routes {}", fmt::join(a.route, ",")), 0, 0, true},
+                     "expected two robots that differ, such as A,B");
+}
+
 std::unique_ptr<Network> played(const std::string& file, const Scenario& scenario, Time until) {
     Playing playing(file, until);
     return network_at(scenario, until, playing.tell());
@@ -306,16 +316,22 @@ void where(const WhereArguments& a) {
 
 void draw(const DrawArguments& a) {
     check_picture_name(a.out);
+    const bool shows_routing = !a.route.empty() || a.search;
+    const auto route = route_of(a);
     const Scenario scenario = scene_of(a);
-    const PictureOptions options{.at = time_in(scenario, a.at),
-                                 .coverage = a.coverage,
-                                 .receiver = a.receiver,
-                                 .links = a.links,
-                                 .trails = a.trails,
-                                 .storey = a.storey,
-                                 .axes = a.axes,
-                                 .width = a.width,
-                                 .font_size = a.font_size};
+    if (shows_routing) check_has_routes(scenario);
+    const PictureOptions options{
+        .at = shows_routing ? time_within(scenario, a.at) : time_in(scenario, a.at),
+        .coverage = a.coverage,
+        .receiver = a.receiver,
+        .route = route,
+        .search = a.search,
+        .links = a.links,
+        .trails = a.trails,
+        .storey = a.storey,
+        .axes = a.axes,
+        .width = a.width,
+        .font_size = a.font_size};
     const std::string svg = [&] {
         const Waiting waiting("drawing " + a.file);
         return draw_svg(scenario, options);

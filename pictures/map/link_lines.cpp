@@ -4,13 +4,13 @@
 #include "experiment/reports/range_of_model.hpp"
 #include "models/link_gain.hpp"
 #include "models/medium/medium.hpp"
+#include "pictures/draw/arrow_head.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 
 namespace rovernet {
@@ -61,27 +61,13 @@ void stroke(Svg& svg, const std::string& data, std::size_t grade, bool dashed, b
                      {"stroke-dasharray", dashed && !seam ? "7 4" : "none"}});
 }
 
-/// Arrow head at `to`, `back` [px] before its centre; none if there is no room.
-void append_head(SvgPath& heads, PicturePoint from, PicturePoint to, double back, double width) {
-    const double dx = to.x - from.x, dy = to.y - from.y;
-    const double length = std::sqrt(dx * dx + dy * dy);
-    const double size = 6 + 1.5 * width;
-    if (length < back + size) return;
-    const double ux = dx / length, uy = dy / length;
-    const PicturePoint tip{to.x - back * ux, to.y - back * uy};
-    const PicturePoint base{tip.x - size * ux, tip.y - size * uy};
-    const double half = 0.45 * size;
-    heads.move(tip.x, tip.y).line(base.x - half * uy, base.y + half * ux);
-    heads.line(base.x + half * uy, base.y - half * ux).close();
-}
-
 LegendItem sample(std::string text, std::size_t grade, bool dashed) {
     return {std::move(text), 30, [grade, dashed](Svg& svg, PicturePoint p) {
                 SvgPath path, head;
                 path.move(p.x, p.y).horizontal(p.x + 30);
                 stroke(svg, path.text(), grade, dashed, false);
                 if (!dashed) return;
-                append_head(head, p, {p.x + 34, p.y}, 2, grades[grade].width);
+                append_arrow_head(head, p, {p.x + 34, p.y}, 2, grades[grade].width);
                 svg.add("path", {{"d", head.text()}, {"fill", ember.at(grades[grade].shade)}});
             }};
 }
@@ -130,7 +116,7 @@ void LinkLines::draw(Svg& svg, const RobotMarks& robots, bool on_colors) const {
         const std::size_t grade = grade_of(line.margin);
         paths[grade][line.both_ways].move(from.at.x, from.at.y).line(to.at.x, to.at.y);
         if (line.both_ways) continue;
-        append_head(heads[grade], from.at, to.at, to.radius + gap, grades[grade].width);
+        append_arrow_head(heads[grade], from.at, to.at, to.radius + gap, grades[grade].width);
     }
     for (std::size_t i = 0; i < grades.size(); ++i) {
         for (const bool both_ways : {false, true}) {

@@ -13,6 +13,8 @@
 #include "pictures/map/map_layer.hpp"
 #include "pictures/map/picture_caption.hpp"
 #include "pictures/map/robot_marks.hpp"
+#include "pictures/map/route_lines.hpp"
+#include "pictures/map/search_marks.hpp"
 #include "pictures/map/trail_lines.hpp"
 
 #include <fmt/format.h>
@@ -106,6 +108,8 @@ class Painter {
     std::optional<HeatLayer> heat_ = std::nullopt;
     std::optional<TrailLines> ways_ = std::nullopt;
     std::optional<LinkLines> links_ = std::nullopt;
+    std::optional<RouteLines> route_ = std::nullopt;
+    std::shared_ptr<LastSearch> search_ = std::make_shared<LastSearch>();
 };
 
 Painter::Painter(const Scenario& scenario, const PictureOptions& options)
@@ -131,6 +135,7 @@ void Painter::check_storey() const {
 void Painter::run() {
     check_storey();
     if (options_.trails) network_.add_sink(trails_);
+    if (options_.search) network_.add_sink(search_);
     populate(network_, scenario_);
     if (network_.size() > most_robots) {
         throw RunError(fmt::format("a picture of {} robots cannot be drawn; expected at most {}",
@@ -138,8 +143,13 @@ void Painter::run() {
     }
     if (options_.coverage) source_ = robot_named(network_, *options_.coverage);
     if (options_.receiver) receiver_ = robot_named(network_, *options_.receiver);
+    const auto& route = options_.route;
+    const NodeId from = route ? robot_named(network_, route->from) : NodeId{};
+    const NodeId to = route ? robot_named(network_, route->to) : NodeId{};
+    if (route) search_->only(from);
     network_.run_until(options_.at);
 
+    if (route) route_.emplace(route_way(network_, from, to));
     const Scene& scene = network_.scene();
     map_.emplace(scene.storey(storey()), network_.planners().scene().storey(storey()));
     for (const Door& door : doors_of(scenario_.scene)) {
@@ -232,6 +242,8 @@ void Painter::draw_world(Svg& svg, const Plot& plot, const RobotMarks& robots) c
     if (heat_) heat_->draw_contours(svg, plot);
     if (ways_) ways_->draw(svg, plot, heat_.has_value());
     if (links_) links_->draw(svg, robots, heat_.has_value());
+    if (options_.search) draw_search(svg, *search_, robots);
+    if (route_) route_->draw(svg, robots);
     robots.draw(svg);
     svg.close();
     svg.add("rect", {{"x", plot.left},
@@ -251,6 +263,8 @@ Legend Painter::legend(const Plot& plot, const RobotMarks& robots) const {
     if (heat_) heat_->append_to(out);
     if (links_) links_->append_to(out);
     if (ways_) ways_->append_to(out);
+    if (route_) route_->append_to(out);
+    if (options_.search && !search_->senders().empty()) append_search(out);
     return out;
 }
 
@@ -261,15 +275,20 @@ std::string Painter::paint() {
     const double right = bar_room();
     const double text_width = plot.right() + right - margin;
     const Time end = start_of_run + scenario_.scenario.duration;
-    const Heading heading(shortened(scenario_.scenario.name, 100),
-                          picture_caption(network_, options_.at, end, storey(), source_, receiver_),
-                          text_width);
+    std::vector<std::string> caption =
+        picture_caption(network_, options_.at, end, storey(), source_, receiver_);
+    if (route_) caption.push_back(route_->text(network_));
+    if (options_.search) caption.push_back(search_->text(network_));
+    const Heading heading(shortened(scenario_.scenario.name, 100), caption, text_width);
     plot.top = margin + heading.height();
 
     RobotMarks robots(network_, storey(), source_, options_.trails, plot);
     LabelPlaces places({plot.left, plot.top, plot.right(), plot.bottom()});
     if (links_) links_->keep_off(places, robots);
+    if (options_.search) add_rings(robots, *search_);
+    if (route_) route_->keep_off(places, robots);
     robots.place_names(places);
+    if (route_) route_->place_ages(places, robots);
     const Legend legend = this->legend(plot, robots);
     const double foot = plot.bottom() + part_gap + (options_.axes ? MapAxes::below : 0);
     const double width = std::ceil(plot.right() + right + margin);

@@ -18,6 +18,14 @@ struct PictureOptions {
     /// Robot whose radio and antenna height the assumed receivers of the coverage have; none: those
     /// of the robot `coverage`.
     std::optional<std::string> receiver = std::nullopt;
+    /// Robots between which the route in use is drawn, with the ages of the routes.
+    struct Route {
+        std::string from, to;
+    };
+    std::optional<Route> route = std::nullopt;
+    /// Whether the robots that sent the last request of a route are marked: of the robot
+    /// Route::from, or of any robot without a route.
+    bool search = false;
     bool links = false;   ///< draw links, coloured by level above sensitivity (margin)
     bool trails = false;  ///< draw the robots' past paths
     int storey = 1;       ///< storey to draw; the lowest is 1

@@ -115,11 +115,12 @@ double RobotMarks::name_size() const {
 void RobotMarks::keep_marks_free(LabelPlaces& places) const {
     for (const auto& robot : marks_) {
         if (!robot.drawn()) continue;
-        const double r = robot.radius;
+        const double r = robot.radius + robot.ring;
         places.keep_free({robot.at.x - r, robot.at.y - r, robot.at.x + r, robot.at.y + r});
         if (!robot.on()) continue;
         const auto [sin, cos] = math::sincos(robot.heading);
-        const double x = robot.at.x + (r + beyond) * cos, y = robot.at.y - (r + beyond) * sin;
+        const double tip = robot.radius + beyond;
+        const double x = robot.at.x + tip * cos, y = robot.at.y - tip * sin;
         places.keep_free({x - 2, y - 2, x + 2, y + 2});
     }
 }
@@ -132,7 +133,8 @@ void RobotMarks::place_names(LabelPlaces& places) {
     for (const auto& robot : marks_) {
         if (!robot.drawn()) continue;
         const std::string text = shortened(robot.name, longest_name);
-        const auto box = places.place(robot.at, robot.radius, text_width(text, size), line * size);
+        const auto box =
+            places.place(robot.at, robot.radius + robot.ring, text_width(text, size), line * size);
         homeless_ += !box;
         if (!box) continue;
         const TextAnchor anchor = box->left >= robot.at.x    ? TextAnchor::start

@@ -8,6 +8,7 @@
 #include "pictures/draw/plot.hpp"
 #include "pictures/draw/svg.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct RobotMark {
     std::string name;
     PicturePoint at;
     double radius = 0;   ///< radius of the robot's circle [px]
+    double ring = 0;     ///< room for a ring around the circle [px], which names keep off
     double heading = 0;  ///< heading of the robot [rad], counter-clockwise from the x axis
     Presence presence = Presence::on;
     bool here = true;         ///< whether the robot is on the drawn storey
@@ -42,7 +44,12 @@ class RobotMarks {
                bool colored, const Plot& plot);
 
     const RobotMark& operator[](NodeId node) const { return marks_[node.index()]; }
-    /// Places the names of the robots. @param places  contains link lines, which names avoid
+    /// Leaves room for a ring around a robot's circle, out to `width` [px] beyond it.
+    void add_ring(NodeId node, double width) {
+        double& ring = marks_[node.index()].ring;
+        ring = std::max(ring, width);
+    }
+    /// Places the names of the robots. @param places  contains the other obstacles already
     void place_names(LabelPlaces& places);
     void draw(Svg& svg) const;
     /// Appends the robots' symbols to a legend, and the number of robots whose name found no room.

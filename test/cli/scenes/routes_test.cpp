@@ -140,4 +140,30 @@ TEST_CASE("routes: what cannot be shown is an error that says what can") {
     CHECK(refusal({"--at", "5s", "--csv", "--json"}, 2).find("excludes") != std::string::npos);
 }
 
+TEST_CASE("draw --routes, --search: the picture, and what cannot be drawn") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("row.toml", row);
+    const auto draw = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"draw", file, "-o", folder.path("p.svg"), "--at"});
+        return command(folder, more);
+    };
+    CHECK(draw({"5s", "--routes", "n0,n4", "--search"}).exit == 0);
+    const std::string svg = content(folder.path("p.svg"));
+    CHECK(svg.find("route from n0 to n4: n0 &gt; n1, relay &gt; n2 &gt; n3 &gt; n4, 4 hops") !=
+          std::string::npos);
+    CHECK(svg.find("last request of n0: sent by ") != std::string::npos);
+    const auto refusal = [&](const std::vector<std::string>& more) {
+        const Ended ended = draw(more);
+        CHECK(ended.exit == 2);
+        return ended.err;
+    };
+    CHECK(refusal({"5s", "--routes", "n0"}).find("--routes n0: expected two robots") !=
+          std::string::npos);
+    CHECK(refusal({"5s", "--routes", "n0,n0"}).find("that differ") != std::string::npos);
+    CHECK(refusal({"5s", "--routes", "n0,n5"}).find("did you mean") != std::string::npos);
+    CHECK(refusal({"10s", "--routes", "n0,n4"}).find("which ends at 9 s") != std::string::npos);
+    CHECK(refusal({"5s", "--search", "--set", "routing.protocol=flood"})
+              .find("flood keeps no routes") != std::string::npos);
+}
+
 }  // namespace routes_test
