@@ -14,14 +14,14 @@
 namespace aodv_links_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
-using test::Node0;
+using test::AodvNode;
 using test::request;
 
 namespace {
 
 constexpr Time start = start_of_run;
 
-void hear_hello(Node0& n, std::uint32_t from, std::uint32_t number = 1) {
+void hear_hello(AodvNode& n, std::uint32_t from, std::uint32_t number = 1) {
     n.hear(from,
            aodv::to_bytes(aodv::Reply{.destination = NodeId{from},
                                       .number = number,
@@ -31,7 +31,7 @@ void hear_hello(Node0& n, std::uint32_t from, std::uint32_t number = 1) {
 }
 
 /// HELLOs that were sent so far.
-std::vector<std::pair<Frame, aodv::Reply>> hellos(const Node0& n) {
+std::vector<std::pair<Frame, aodv::Reply>> hellos(const AodvNode& n) {
     auto all = n.sent<aodv::Reply>();
     std::erase_if(all, [&](const auto& each) {
         return n.link.message(each.first.message).kind != aodv::hello_kind;
@@ -40,8 +40,10 @@ std::vector<std::pair<Frame, aodv::Reply>> hellos(const Node0& n) {
 }
 
 /// Node 0 with HELLOs every second, at 0.5 s, 1.5 s, ...
-struct Hellos : Node0 {
-    explicit Hellos(Aodv aodv = {}) : Node0(with_hellos(aodv)) { router.on_start(link, NodeId{0}); }
+struct Hellos : AodvNode {
+    explicit Hellos(Aodv aodv = {}) : AodvNode(with_hellos(aodv)) {
+        router.on_start(link, NodeId{0});
+    }
     static Aodv with_hellos(Aodv aodv) {
         aodv.hello = 1s;
         return aodv;
@@ -49,7 +51,7 @@ struct Hellos : Node0 {
 };
 
 /// A reply to node 0 with a route that lives long.
-void learn_for_long(Node0& n, std::uint32_t to, std::uint32_t over, std::uint32_t number = 10) {
+void learn_for_long(AodvNode& n, std::uint32_t to, std::uint32_t over, std::uint32_t number = 10) {
     n.hear(over, aodv::Reply{.hops = 1,
                              .destination = NodeId{to},
                              .number = number,
@@ -60,7 +62,7 @@ void learn_for_long(Node0& n, std::uint32_t to, std::uint32_t over, std::uint32_
 }  // namespace
 
 TEST_CASE("aodv 6.2: a message takes the next hop of its route, whose own entry ends meanwhile") {
-    Node0 n;
+    AodvNode n;
     learn_for_long(n, 5, 1);
     learn_for_long(n, 6, 2);
     n.link.time = start + 18500ms;  // the entries of 1 and 2 were broken at 3 s
@@ -71,7 +73,7 @@ TEST_CASE("aodv 6.2: a message takes the next hop of its route, whose own entry 
 }
 
 TEST_CASE("aodv 6.2: under ns2 a message lengthens the life of the route to its destination only") {
-    Node0 n({.profile = AodvProfile::ns2});
+    AodvNode n({.profile = AodvProfile::ns2});
     n.learn(1, 1, 4, 0);
     n.learn(5, 1, 10, 3);
     n.hear(2, request(7, 9), 3);
@@ -85,7 +87,7 @@ TEST_CASE("aodv 6.2: under ns2 a message lengthens the life of the route to its 
 }
 
 TEST_CASE("aodv 6.2: a message to the node itself lengthens the way back to its source") {
-    Node0 n;
+    AodvNode n;
     n.hear(2, request(7, 9), 3);
     n.link.time += 2500ms;
     CHECK(n.forward(7, 2, 0) == Fate::arrived);
@@ -96,7 +98,7 @@ TEST_CASE("aodv 6.2: a message to the node itself lengthens the way back to its 
 }
 
 TEST_CASE("aodv 6.2: a packet does not travel beyond its TTL") {
-    Node0 n;
+    AodvNode n;
     n.learn(5, 1, 10);
     CHECK(n.forward(7, 2, 5, 1) == Fate::ttl);
     CHECK(n.data().empty());
@@ -217,7 +219,7 @@ TEST_CASE("aodv 6.9, 6.13: a node that is off sends no HELLO, and none in its si
 }
 
 TEST_CASE("aodv 6.11: the number of a route that a neighbour asks for in vain is kept on") {
-    Node0 n;
+    AodvNode n;
     n.learn(5, 1, 20);
     n.link.time = start + 17s;  // broken at 3 s with number 21, to be deleted at 18 s
     n.forward(7, 2, 5);
@@ -230,7 +232,7 @@ TEST_CASE("aodv 6.11: the number of a route that a neighbour asks for in vain is
 }
 
 TEST_CASE("aodv 6.11: several users of lost routes get one report, by broadcast") {
-    Node0 n;
+    AodvNode n;
     n.pass_reply(7, 2, 5, 1);
     n.pass_reply(8, 3, 6, 1, 30);
     CHECK(n.forward(7, 2, 5) == Fate::waiting);
@@ -244,7 +246,7 @@ TEST_CASE("aodv 6.11: several users of lost routes get one report, by broadcast"
 }
 
 TEST_CASE("aodv 6.11: a report is passed on to the users of the routes that it ends") {
-    Node0 n;
+    AodvNode n;
     n.pass_reply(7, 2, 5, 1);
     n.learn(6, 1, 4);  // used by node 0 alone
     n.hear(1, aodv::Error{.lost = {{NodeId{5}, 10}, {NodeId{6}, 5}}});
@@ -262,7 +264,7 @@ TEST_CASE("aodv 6.11: a report is passed on to the users of the routes that it e
 
 TEST_CASE(
     "aodv A14: a report with the number that is known ends the route, and raises the number") {
-    Node0 n;
+    AodvNode n;
     n.learn(5, 1, 20);
     n.hear(1, aodv::Error{.lost = {{NodeId{5}, 20}}});
     CHECK_FALSE(n.route(5)->is_valid);
@@ -270,7 +272,7 @@ TEST_CASE(
 }
 
 TEST_CASE("aodv 6.11: users of a route stay known as long as no report has left") {
-    Node0 n;
+    AodvNode n;
     n.pass_reply(7, 2, 5, 1);
     for (int i = 0; i < 10; ++i) n.forward(8, 3, 9);  // ten reports in this second
     n.forward(7, 2, 5);
@@ -283,7 +285,7 @@ TEST_CASE("aodv 6.11: users of a route stay known as long as no report has left"
 }
 
 TEST_CASE("aodv 6.11: a report lists 255 destinations at most, in the order of their keys") {
-    Node0 n({}, 400);
+    AodvNode n({}, 400);
     for (std::uint32_t i = 0; i < 400; ++i) n.link.keys.push_back(1000 - i);
     n.pass_reply(7, 2, 10, 1);
     for (std::uint32_t to = 11; to < 300; ++to) n.pass_reply(7, 2, to, 1);
@@ -299,7 +301,7 @@ TEST_CASE("aodv 6.11: a report lists 255 destinations at most, in the order of t
 
 TEST_CASE(
     "aodv 6.12: a second packet waits for the repair, and own ones for a search of their own") {
-    Node0 n({.local_repair = true});
+    AodvNode n({.local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     n.forward(7, 2, 5);
     n.fail_last();
@@ -317,7 +319,7 @@ TEST_CASE(
 }
 
 TEST_CASE("aodv 6.12: repairs begin in the order of their packets, and other routes are not told") {
-    Node0 n({.local_repair = true});
+    AodvNode n({.local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     n.pass_reply(7, 2, 6, 1);
     n.pass_reply(7, 2, 8, 1);
@@ -338,7 +340,7 @@ TEST_CASE("aodv 6.12: repairs begin in the order of their packets, and other rou
 }
 
 TEST_CASE("aodv 6.12: half the hops to the source + 2 are searched, if that is more") {
-    Node0 n({.local_repair = true});
+    AodvNode n({.local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     const MessageId id = n.link.message_from(NodeId{7}, NodeId{5});
     const Frame frame{
@@ -349,7 +351,7 @@ TEST_CASE("aodv 6.12: half the hops to the source + 2 are searched, if that is m
 }
 
 TEST_CASE("aodv 6.12: far from the destination nothing is repaired; nor are own messages") {
-    Node0 n({.local_repair = true});
+    AodvNode n({.local_repair = true});
     n.hear(2, request(7, 5), 3);
     n.hear(1, aodv::Reply{.hops = 10,
                           .destination = NodeId{5},
@@ -366,7 +368,7 @@ TEST_CASE("aodv 6.12: far from the destination nothing is repaired; nor are own 
 }
 
 TEST_CASE("aodv 6.12: a report of a repaired route is passed on, and changes no route") {
-    Node0 n;
+    AodvNode n;
     n.pass_reply(7, 2, 5, 1);
     n.hear(1, aodv::Error{.is_repaired = true, .lost = {{NodeId{5}, 30}}});
     CHECK(n.route(5)->is_valid);
@@ -379,7 +381,7 @@ TEST_CASE("aodv 6.12: a report of a repaired route is passed on, and changes no 
 
 TEST_CASE("aodv 6.8: the blacklist lasts for the searches of the whole network; ns2 has none") {
     const auto answers = [](Aodv aodv, Duration later) {
-        Node0 n(aodv);
+        AodvNode n(aodv);
         n.hear(2, request(7, 0), 3);
         n.fail_last();
         n.link.time += later;
@@ -407,14 +409,14 @@ TEST_CASE("aodv 6.13: numbers of broken routes are kept for as long as a route m
 }
 
 TEST_CASE("aodv 6.13: a node that is switched on for the first time is not silent") {
-    Node0 n;
+    AodvNode n;
     n.router.on_switched(n.link, NodeId{0}, true);
     n.send(5);
     CHECK(n.sent<aodv::Request>().size() == 1);
 }
 
 TEST_CASE("aodv 6.13: a packet for another node makes the silence longer, and is reported") {
-    Node0 n;
+    AodvNode n;
     n.router.on_switched(n.link, NodeId{0}, false);
     n.router.on_switched(n.link, NodeId{0}, true);
     n.send(5);
@@ -430,7 +432,7 @@ TEST_CASE("aodv 6.13: a packet for another node makes the silence longer, and is
 }
 
 TEST_CASE("aodv 6.13: packets that wait end as a node is switched off, and its timers with them") {
-    Node0 n;
+    AodvNode n;
     n.send(5);
     n.send(5);
     n.router.on_switched(n.link, NodeId{0}, false);
@@ -443,7 +445,7 @@ TEST_CASE("aodv 6.13: packets that wait end as a node is switched off, and its t
 }
 
 TEST_CASE("aodv: a broadcast goes one hop, and ends with a reason if it does not leave") {
-    Node0 n;
+    AodvNode n;
     const MessageId id = n.link.message_from(NodeId{0});
     CHECK(n.router.initial_ttl(n.link.message(id)) == 1);
     n.router.send(n.link, NodeId{0}, id);
@@ -461,7 +463,7 @@ TEST_CASE("aodv: a broadcast goes one hop, and ends with a reason if it does not
 
 TEST_CASE("aodv: a message that does not leave ends with a reason; control packets just end") {
     for (const SendResult result : {SendResult::queue_full, SendResult::off}) {
-        Node0 n;
+        AodvNode n;
         n.learn(5, 1, 4);
         n.send(5);
         n.link.end(n.router, n.link.sent.size() - 1, result);

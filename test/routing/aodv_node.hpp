@@ -16,8 +16,8 @@
 namespace rovernet::test {
 
 /// One node, 0, among neighbours that the test plays.
-struct Node0 {
-    explicit Node0(Aodv aodv = {}, std::size_t nodes = 10)
+struct AodvNode {
+    explicit AodvNode(Aodv aodv = {}, std::size_t nodes = 10)
         : link(nodes), router(AodvRules::of(aodv)) {
         link.on_forgotten = [this](MessageId id) { router.forget(id); };
     }

@@ -15,7 +15,7 @@
 namespace aodv_search_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
-using test::Node0;
+using test::AodvNode;
 using test::request;
 
 namespace {
@@ -24,7 +24,7 @@ constexpr Time start = start_of_run;
 
 /// TTLs of the requests of a search without answers.
 std::vector<int> ttls(Aodv aodv) {
-    Node0 n(aodv);
+    AodvNode n(aodv);
     n.send(5);
     while (n.link.drops.empty()) n.wait();
     std::vector<int> all;
@@ -33,7 +33,7 @@ std::vector<int> ttls(Aodv aodv) {
 }
 
 /// Requests for a destination that were sent so far.
-int asked_for(const Node0& n, std::uint32_t to) {
+int asked_for(const AodvNode& n, std::uint32_t to) {
     int count = 0;
     for (const auto& [frame, asked] : n.sent<aodv::Request>())
         count += asked.destination == NodeId{to};
@@ -63,7 +63,7 @@ TEST_CASE("aodv 6.4: no request goes beyond the diameter of the network") {
 }
 
 TEST_CASE("aodv 6.4: a far destination that was lost is sought in the whole network") {
-    Node0 n;
+    AodvNode n;
     n.learn(5, 1, 10, 4);
     n.learn(6, 1, 10, 5);
     n.link.time += 4s;
@@ -74,7 +74,7 @@ TEST_CASE("aodv 6.4: a far destination that was lost is sought in the whole netw
 }
 
 TEST_CASE("aodv 6.3: waits that double have an end, whatever the keys") {
-    Node0 n({.node_traversal_time = 10000s, .net_diameter = 255, .rreq_retries = 100});
+    AodvNode n({.node_traversal_time = 10000s, .net_diameter = 255, .rreq_retries = 100});
     n.send(5);
     n.run(start + 30s);
     CHECK(n.link.drops.size() == 1);
@@ -86,7 +86,7 @@ TEST_CASE("aodv 6.3: waits that double have an end, whatever the keys") {
 }
 
 TEST_CASE("aodv 6.3: a search ends if no message waits for it any more") {
-    Node0 n({.rreq_retries = 100, .buffer = 1});
+    AodvNode n({.rreq_retries = 100, .buffer = 1});
     n.send(5);
     n.send(6);  // the message to 5 has to leave
     REQUIRE(n.link.drops.size() == 1);
@@ -101,7 +101,7 @@ TEST_CASE("aodv 6.3: a search ends if no message waits for it any more") {
 }
 
 TEST_CASE("aodv 6.3: requests above ten a second leave later, and their messages do not hang") {
-    Node0 n({.rings = false}, 40);
+    AodvNode n({.rings = false}, 40);
     for (std::uint32_t to = 10; to < 35; ++to) n.send(to);
     n.run(start + 999ms);
     CHECK(n.sent<aodv::Request>().size() == 10);
@@ -117,7 +117,7 @@ TEST_CASE("aodv 6.3: requests above ten a second leave later, and their messages
 }
 
 TEST_CASE("aodv 6.3, ns2: a reply before any request of the search does not count as its time") {
-    Node0 n({.profile = AodvProfile::ns2}, 40);
+    AodvNode n({.profile = AodvProfile::ns2}, 40);
     n.link.time += 100s;
     for (std::uint32_t to = 10; to < 21; ++to) n.send(to);
     CHECK(asked_for(n, 20) == 0);  // the eleventh
@@ -131,7 +131,7 @@ TEST_CASE("aodv 6.3, ns2: a reply before any request of the search does not coun
 }
 
 TEST_CASE("aodv 6.3, ns2: a search that took no time is no measure") {
-    Node0 n({.profile = AodvProfile::ns2});
+    AodvNode n({.profile = AodvProfile::ns2});
     n.send(5);
     n.hear(1, reply(5, 4, 0));
     n.run(start + 20s);
@@ -141,7 +141,7 @@ TEST_CASE("aodv 6.3, ns2: a search that took no time is no measure") {
 }
 
 TEST_CASE("aodv 6.3, ns2: waits follow the time of earlier searches, for each hop") {
-    Node0 n({.profile = AodvProfile::ns2});
+    AodvNode n({.profile = AodvProfile::ns2});
     n.send(5);
     n.link.time += 800ms;
     n.hear(1, reply(5, 4, 0));  // 2 hops: 0.4 s each
@@ -154,7 +154,7 @@ TEST_CASE("aodv 6.3, ns2: waits follow the time of earlier searches, for each ho
 }
 
 TEST_CASE("aodv 6.3, ns2: 10 s without searches follow the last one; the next packet is searched") {
-    Node0 n({.profile = AodvProfile::ns2});
+    AodvNode n({.profile = AodvProfile::ns2});
     n.send(5);
     while (n.link.drops.empty()) n.wait();
     const int before = asked_for(n, 5);
@@ -171,7 +171,7 @@ TEST_CASE("aodv 6.3, ns2: 10 s without searches follow the last one; the next pa
 TEST_CASE("aodv 6.1: own numbers and numbers of destinations wrap around") {
     AodvRules rules = AodvRules::of({});
     rules.first_number = 0xffffffff;
-    Node0 n;
+    AodvNode n;
     n.router = AodvRouter(rules);
     n.send(5);
     CHECK(n.sent<aodv::Request>().back().second.originator_number == 0);
@@ -188,7 +188,7 @@ TEST_CASE("aodv 6.1: own numbers and numbers of destinations wrap around") {
 }
 
 TEST_CASE("aodv 6.2: a route from a reply lives for the reply's time, and is not shortened") {
-    Node0 n;
+    AodvNode n;
     n.learn(5, 1, 10);
     CHECK(n.route(5)->until == start + 3s);
     aodv::Reply longer = reply(5, 10, 0);
@@ -207,7 +207,7 @@ TEST_CASE("aodv 6.2: a route from a reply lives for the reply's time, and is not
 }
 
 TEST_CASE("aodv 6.2: a neighbour whose number is not known takes any number") {
-    Node0 n;
+    AodvNode n;
     n.forward(7, 2, 9);
     n.hear(2, request(7, 9), 3);
     CHECK(n.route(2)->number == std::nullopt);
@@ -221,7 +221,7 @@ TEST_CASE("aodv 6.2: a neighbour whose number is not known takes any number") {
 }
 
 TEST_CASE("aodv 6.5: the reverse route lives for 2 NET_TRAVERSAL_TIME less its hops") {
-    Node0 n;
+    AodvNode n;
     n.hear(2, request(7, 9), 3);
     CHECK(n.route(7)->until == start + 5600ms - 6 * 40ms);
     CHECK(n.route(7)->number == std::optional<std::uint32_t>(5));
@@ -231,7 +231,7 @@ TEST_CASE("aodv 6.5: the reverse route lives for 2 NET_TRAVERSAL_TIME less its h
 }
 
 TEST_CASE("aodv 6.5: a request is passed on with the number that it came with, if that is newer") {
-    Node0 n;
+    AodvNode n;
     n.learn(5, 1, 20);
     aodv::Request asked = request(7, 5);
     asked.number = 21;
@@ -241,7 +241,7 @@ TEST_CASE("aodv 6.5: a request is passed on with the number that it came with, i
 }
 
 TEST_CASE("aodv 6.5: ids of requests count by originator, for 5.6 s") {
-    Node0 n;
+    AodvNode n;
     CHECK(n.hear(2, request(7, 5, 1)) == Fate::waiting);
     CHECK(n.hear(2, request(8, 5, 1)) == Fate::waiting);
     n.link.time += 5600ms;
@@ -251,7 +251,7 @@ TEST_CASE("aodv 6.5: ids of requests count by originator, for 5.6 s") {
 }
 
 TEST_CASE("aodv 6.6.2: who answers for another is told of broken links, by both next hops") {
-    Node0 n;
+    AodvNode n;
     n.learn(5, 1, 20, 3);
     CHECK(n.hear(2, request(7, 5), 3) == Fate::arrived);
     SUBCASE("towards the destination") {
@@ -267,7 +267,7 @@ TEST_CASE("aodv 6.6.2: who answers for another is told of broken links, by both 
 }
 
 TEST_CASE("aodv 6.6.2: no answer with a number that is not known") {
-    Node0 n;
+    AodvNode n;
     n.hear(5, request(8, 9));  // 5 is a neighbour of unknown number
     CHECK(n.route(5)->is_valid);
     CHECK(n.hear(2, request(7, 5)) == Fate::waiting);
@@ -275,7 +275,7 @@ TEST_CASE("aodv 6.6.2: no answer with a number that is not known") {
 }
 
 TEST_CASE("aodv 6.6.2: an answer has the time that is left") {
-    Node0 n;
+    AodvNode n;
     n.learn(5, 1, 20);
     n.link.time += 1s;
     n.hear(2, request(7, 5));
@@ -284,7 +284,7 @@ TEST_CASE("aodv 6.6.2: an answer has the time that is left") {
 }
 
 TEST_CASE("aodv 6.6.3: flag G tells the destination the way back; flag D asks the destination") {
-    Node0 n;
+    AodvNode n;
     n.learn(5, 1, 20, 3);
     aodv::Request asked = request(7, 5);
     asked.gratuitous = true;
@@ -299,7 +299,7 @@ TEST_CASE("aodv 6.6.3: flag G tells the destination the way back; flag D asks th
     CHECK(back.hops == 3);
     CHECK(back.number == 5);
     CHECK(back.lifetime == 5600ms - 6 * 40ms);
-    Node0 keys({.destination_only = true, .gratuitous = true});
+    AodvNode keys({.destination_only = true, .gratuitous = true});
     keys.send(5);
     CHECK(keys.sent<aodv::Request>()[0].second.destination_only);
     CHECK(keys.sent<aodv::Request>()[0].second.gratuitous);
@@ -308,7 +308,7 @@ TEST_CASE("aodv 6.6.3: flag G tells the destination the way back; flag D asks th
 }
 
 TEST_CASE("aodv 6.7: a reply that is passed on makes users on four routes, and refreshes one") {
-    Node0 n;
+    AodvNode n;
     n.hear(2, request(7, 5), 3);
     n.link.time += 4s;
     CHECK(n.hear(1, reply(5, 9, 7), 2) == Fate::waiting);
@@ -332,7 +332,7 @@ TEST_CASE("aodv 6.7: a reply that is passed on makes users on four routes, and r
 }
 
 TEST_CASE("aodv A16: a reply's neighbour ends the search for it, and so does a HELLO") {
-    Node0 n({.hello = 1s});
+    AodvNode n({.hello = 1s});
     n.send(3);
     n.send(4);
     n.hear(3, reply(9, 4, 8));
@@ -345,7 +345,7 @@ TEST_CASE("aodv A16: a reply's neighbour ends the search for it, and so does a H
 }
 
 TEST_CASE("aodv A16: a search that waits for its turn ends with a route, too") {
-    Node0 n({}, 40);
+    AodvNode n({}, 40);
     for (std::uint32_t to = 10; to < 21; ++to) n.send(to);
     n.learn(20, 1, 4);
     REQUIRE(n.data().size() == 1);
@@ -355,7 +355,7 @@ TEST_CASE("aodv A16: a search that waits for its turn ends with a route, too") {
 
 TEST_CASE("aodv, ns2: messages that waited leave 10 ms apart; by the RFC together") {
     for (const Duration apart : {0ms, 10ms}) {
-        Node0 n({.profile = apart > 0ms ? AodvProfile::ns2 : AodvProfile::rfc});
+        AodvNode n({.profile = apart > 0ms ? AodvProfile::ns2 : AodvProfile::rfc});
         for (int i = 0; i < 3; ++i) n.send(5);
         n.learn(5, 1, 4);
         std::vector<Time> times;
@@ -369,7 +369,7 @@ TEST_CASE("aodv, ns2: messages that waited leave 10 ms apart; by the RFC togethe
 }
 
 TEST_CASE("aodv: without lifetimes nothing works, and everything ends") {
-    Node0 n({.active_route_timeout = Duration{0}, .my_route_timeout = Duration{0}});
+    AodvNode n({.active_route_timeout = Duration{0}, .my_route_timeout = Duration{0}});
     n.send(5);
     n.learn(5, 1, 10);
     n.hear(2, request(7, 0));

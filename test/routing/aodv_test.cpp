@@ -14,7 +14,7 @@
 namespace aodv_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
-using test::Node0;
+using test::AodvNode;
 using test::request;
 
 TEST_CASE("aodv 5: packets have the RFC's bytes, and are read back") {
@@ -42,7 +42,7 @@ TEST_CASE("aodv 5: packets have the RFC's bytes, and are read back") {
 }
 
 TEST_CASE("aodv 6.1: the own number rises before a request, and takes the asked one for a reply") {
-    Node0 n;
+    AodvNode n;
     n.send(5);
     CHECK(n.sent<aodv::Request>().back().second.originator_number == 1);
     aodv::Request asked = request(3, 0);
@@ -57,7 +57,7 @@ TEST_CASE("aodv 6.1: the own number rises before a request, and takes the asked 
 
 TEST_CASE(
     "aodv 6.2: a route is taken if it is newer, or equally new and shorter, or if none is valid") {
-    Node0 n;
+    AodvNode n;
     n.learn(5, 1, 10, 3);
     CHECK(n.route(5)->hops == 4);
     n.learn(5, 2, 9, 1);  // older
@@ -79,7 +79,7 @@ TEST_CASE(
 }
 
 TEST_CASE("aodv 6.2: a message lengthens the lives of four routes") {
-    Node0 n;
+    AodvNode n;
     n.learn(5, 1, 10, 3);
     n.hear(2, request(7, 9), 3);
     n.link.time += 2500ms;
@@ -91,7 +91,7 @@ TEST_CASE("aodv 6.2: a message lengthens the lives of four routes") {
 }
 
 TEST_CASE("aodv 6.3, 6.4: rings of 1, 3, 5, 7 hops, then the network three times, then no route") {
-    Node0 n;
+    AodvNode n;
     n.send(5);
     std::vector<int> ttls{n.sent<aodv::Request>().back().first.ttl};
     std::vector<double> waits;
@@ -109,7 +109,7 @@ TEST_CASE("aodv 6.3, 6.4: rings of 1, 3, 5, 7 hops, then the network three times
 }
 
 TEST_CASE("aodv 6.4: a lost destination is sought at its last hops + 2") {
-    Node0 n;
+    AodvNode n;
     n.learn(5, 1, 10, 2);
     n.link.time += 4s;
     n.send(5);
@@ -118,7 +118,7 @@ TEST_CASE("aodv 6.4: a lost destination is sought at its last hops + 2") {
 }
 
 TEST_CASE("aodv 6.3: at most ten requests a second") {
-    Node0 n({}, 40);
+    AodvNode n({}, 40);
     for (std::uint32_t to = 1; to <= 15; ++to) n.send(to);
     CHECK(n.sent<aodv::Request>().size() == 10);
     while (n.link.time < start_of_run + 900ms) n.wait();
@@ -131,7 +131,7 @@ TEST_CASE("aodv 6.3: at most ten requests a second") {
 }
 
 TEST_CASE("aodv 6.5: a request is forwarded once, with the larger number, and not beyond its TTL") {
-    Node0 n;
+    AodvNode n;
     n.learn(5, 1, 20, 3);
     n.link.time += 4s;  // broken: number 21
     CHECK(n.hear(2, request(7, 5), 3, 4) == Fate::waiting);
@@ -149,7 +149,7 @@ TEST_CASE("aodv 6.5: a request is forwarded once, with the larger number, and no
 }
 
 TEST_CASE("aodv 6.1: a request older than what is known of its originator is discarded") {
-    Node0 n;
+    AodvNode n;
     n.learn(7, 1, 20, 3);
     n.link.time += 4s;
     CHECK(n.hear(2, request(7, 5, 1, 20), 3) == Fate::arrived);  // 21 is known
@@ -158,7 +158,7 @@ TEST_CASE("aodv 6.1: a request older than what is known of its originator is dis
 }
 
 TEST_CASE("aodv 6.6.2: a node answers with a valid route that is new enough, unless D is set") {
-    Node0 n;
+    AodvNode n;
     n.learn(5, 1, 20, 3);
     aodv::Request asked = request(7, 5);
     asked.number = 21;
@@ -175,7 +175,7 @@ TEST_CASE("aodv 6.6.2: a node answers with a valid route that is new enough, unl
 }
 
 TEST_CASE("aodv 6.7: a reply goes back along the reverse route, and only if it was taken") {
-    Node0 n;
+    AodvNode n;
     n.hear(2, request(7, 5), 3);
     const aodv::Reply reply{
         .hops = 1, .destination = NodeId{5}, .number = 9, .originator = NodeId{7}, .lifetime = 6s};
@@ -190,7 +190,7 @@ TEST_CASE("aodv 6.7: a reply goes back along the reverse route, and only if it w
 }
 
 TEST_CASE("aodv 6.8: requests of a neighbour to which a reply failed are ignored for 5.6 s") {
-    Node0 n;
+    AodvNode n;
     n.hear(2, request(7, 0), 3);
     n.link.go();
     n.link.end(n.router, n.link.sent.size() - 1, SendResult::retries);
@@ -202,7 +202,7 @@ TEST_CASE("aodv 6.8: requests of a neighbour to which a reply failed are ignored
 }
 
 TEST_CASE("aodv 6.11: a broken link is reported to those who used it, and to nobody else") {
-    Node0 n;
+    AodvNode n;
     n.hear(2, request(7, 5), 3);
     n.hear(1,
            aodv::Reply{.hops = 1,
@@ -229,7 +229,7 @@ TEST_CASE("aodv 6.11: a broken link is reported to those who used it, and to nob
 }
 
 TEST_CASE("aodv 6.11: a message without a route is reported to the neighbour that sent it") {
-    Node0 n;
+    AodvNode n;
     CHECK(n.forward(7, 2, 5) == Fate::waiting);
     REQUIRE(n.link.drops.size() == 1);
     CHECK(n.link.drops[0].reason == DropReason::no_route);
@@ -240,7 +240,7 @@ TEST_CASE("aodv 6.11: a message without a route is reported to the neighbour tha
 }
 
 TEST_CASE("aodv A14: a report never lowers a number, and counts only from the next hop") {
-    Node0 n;
+    AodvNode n;
     n.learn(5, 1, 20, 3);
     const auto report = [&](std::uint32_t from, std::uint32_t number) {
         n.hear(from, aodv::Error{.lost = {{NodeId{5}, number}}});
@@ -260,7 +260,7 @@ TEST_CASE("aodv A14: a report never lowers a number, and counts only from the ne
 }
 
 TEST_CASE("aodv A15: no node has a route to itself") {
-    Node0 n;
+    AodvNode n;
     n.hear(1, aodv::Reply{.hops = 2,
                           .destination = NodeId{0},
                           .number = 99,
@@ -271,7 +271,7 @@ TEST_CASE("aodv A15: no node has a route to itself") {
 }
 
 TEST_CASE("aodv A16: a route ends the search for it, however it was learnt") {
-    Node0 n;
+    AodvNode n;
     n.send(7);
     CHECK(n.data().empty());
     n.hear(2, request(7, 5), 3);  // its own request
@@ -283,7 +283,7 @@ TEST_CASE("aodv A16: a route ends the search for it, however it was learnt") {
 }
 
 TEST_CASE("aodv 6.12: a node near the destination seeks a new way, and reports if it finds none") {
-    Node0 n({.local_repair = true});
+    AodvNode n({.local_repair = true});
     n.hear(2, request(7, 5), 3);
     n.hear(1,
            aodv::Reply{.hops = 1,
@@ -316,7 +316,7 @@ TEST_CASE("aodv 6.12: a node near the destination seeks a new way, and reports i
 }
 
 TEST_CASE("aodv 6.13: a node that was switched on again is silent for 15 s") {
-    Node0 n;
+    AodvNode n;
     n.learn(5, 1, 20, 3);
     n.router.on_switched(n.link, NodeId{0}, false);
     n.router.on_switched(n.link, NodeId{0}, true);
@@ -330,7 +330,7 @@ TEST_CASE("aodv 6.13: a node that was switched on again is silent for 15 s") {
 }
 
 TEST_CASE("aodv: at most 64 messages wait, for 30 s each, and the oldest leaves first") {
-    Node0 n({.rreq_retries = 10});
+    AodvNode n({.rreq_retries = 10});
     for (int i = 0; i < 66; ++i) n.send(5);
     REQUIRE(n.link.drops.size() == 2);
     CHECK(n.link.drops[0].reason == DropReason::buffer_full);
@@ -340,7 +340,7 @@ TEST_CASE("aodv: at most 64 messages wait, for 30 s each, and the oldest leaves 
 }
 
 TEST_CASE("aodv: a message that comes twice is delivered once") {
-    Node0 n;
+    AodvNode n;
     const MessageId id = n.link.message_from(NodeId{7}, NodeId{0});
     const Frame frame{
         .message = id, .sender = NodeId{2}, .ttl = 5, .hops = 2, .next_hop = NodeId{0}};

@@ -12,15 +12,15 @@
 namespace dsr_links_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
+using test::DsrNode;
 using test::FakeLinkLayer;
-using test::Node0;
 using test::Nodes;
 using test::Path;
 using test::path;
 using test::values;
 
 TEST_CASE("dsr 8.3.4: a broken link is told to the source, and the message goes another way") {
-    Node0 n;
+    DsrNode n;
     n.learn(path({7, 3, 0, 4, 5}));
     n.learn(path({0, 4, 5}));
     const auto forward = [&] {
@@ -76,7 +76,7 @@ TEST_CASE("dsr 8.3.4: a broken link is told to the source, and the message goes 
 
 TEST_CASE("dsr 8.3.6: a message is salvaged at most 15 times, and never with salvage = 0") {
     for (const int most : {15, 2, 0}) {
-        Node0 n({.salvage = most});
+        DsrNode n({.salvage = most});
         n.learn(path({7, 0, 4, 5}));
         n.send(5, 7);
         n.arrive();
@@ -102,7 +102,7 @@ TEST_CASE("dsr 8.3.6: a message is salvaged at most 15 times, and never with sal
 }
 
 TEST_CASE("dsr: a source whose first link breaks takes another route, or searches one") {
-    Node0 n;
+    DsrNode n;
     n.learn(path({0, 4, 5}));
     n.learn(path({0, 1, 2, 5}));
     n.send(5);
@@ -119,7 +119,7 @@ TEST_CASE("dsr: a source whose first link breaks takes another route, or searche
 
 TEST_CASE("dsr 8.3.5: whoever hears an error forgets the link, and passes the error on") {
     for (const std::uint32_t next : {0, 9}) {  // on the way, and overheard
-        Node0 n;
+        DsrNode n;
         n.learn(path({0, 4, 5, 6}));
         const Path back = path({4, next, 7});
         CHECK(n.error({.from = {4}, .to = {7}, .unreachable = {5}}, back, 0) ==
@@ -132,7 +132,7 @@ TEST_CASE("dsr 8.3.5: whoever hears an error forgets the link, and passes the er
 
 TEST_CASE("dsr 3.4.4: the last error goes with the next request beyond the neighbours, for 1 s") {
     for (const Duration age : {500ms, 1500ms}) {
-        Node0 n;
+        DsrNode n;
         n.learn(path({0, 4, 5}));
         n.error({.from = {4}, .to = {0}, .unreachable = {5}}, path({4, 0}), 0);
         n.link.time += age;
@@ -146,7 +146,7 @@ TEST_CASE("dsr 3.4.4: the last error goes with the next request beyond the neigh
         CHECK_FALSE(n.sent(dsr::request_kind).back().second.error);
     }
     // Who hears it forgets the link before it answers.
-    Node0 n;
+    DsrNode n;
     n.learn(path({0, 4, 5}));
     const dsr::Error error{.from = {4}, .to = {7}, .unreachable = {5}};
     CHECK(n.request(path({7, 3}), 5, 1, 10, error) == Fate::waiting);
@@ -155,7 +155,7 @@ TEST_CASE("dsr 3.4.4: the last error goes with the next request beyond the neigh
 }
 
 TEST_CASE("dsr 3.4.3: who overhears a message that is to pass it later tells a shorter route") {
-    Node0 n;
+    DsrNode n;
     n.learn(path({7, 3, 2, 0, 5}));
     for (int i = 0; i < 2; ++i) {
         n.send(5, 7);
@@ -180,7 +180,7 @@ TEST_CASE("dsr 3.4.3: who overhears a message that is to pass it later tells a s
 
 TEST_CASE(
     "dsr 3.3.1: routes are learnt from overheard packets, over the neighbour that sent them") {
-    Node0 n;
+    DsrNode n;
     n.learn(path({7, 3, 2, 5}));
     n.send(5, 7);
     n.arrive();
@@ -193,7 +193,7 @@ TEST_CASE(
 }
 
 TEST_CASE("dsr: a reply whose next hop is gone is not sent another way, over the dead link") {
-    Node0 n;
+    DsrNode n;
     n.learn(path({0, 1, 7}));
     n.reply(path({7, 2, 0, 6, 8}), path({8, 6, 0, 2, 7}), 1);
     const std::size_t replies = n.sent(dsr::reply_kind).size();
@@ -203,7 +203,7 @@ TEST_CASE("dsr: a reply whose next hop is gone is not sent another way, over the
 }
 
 TEST_CASE("dsr, profile ns2: a message that cannot go on waits where it is, and asks neighbours") {
-    Node0 n({.profile = DsrProfile::ns2});
+    DsrNode n({.profile = DsrProfile::ns2});
     n.learn(path({7, 3, 0, 4, 5}));
     n.send(5, 7);
     n.arrive();
@@ -219,7 +219,7 @@ TEST_CASE("dsr, profile ns2: a message that cannot go on waits where it is, and 
 }
 
 TEST_CASE("dsr, profile ns2: the first three messages along a route are read, for shortening") {
-    Node0 n({.profile = DsrProfile::ns2});
+    DsrNode n({.profile = DsrProfile::ns2});
     n.learn(path({7, 3, 2, 0, 5}));
     for (int i = 0; i < 5; ++i) {
         n.link.time += 1s;

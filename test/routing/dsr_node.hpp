@@ -32,8 +32,8 @@ inline std::vector<std::uint32_t> values(const Path& path) {
 using Nodes = std::vector<std::uint32_t>;
 
 /// Nodes of one router, of which the test plays the others. Node 0 is the one that is tested.
-struct Node0 {
-    explicit Node0(Dsr dsr = {}, std::size_t nodes = 40) : link(nodes), router(dsr) {
+struct DsrNode {
+    explicit DsrNode(Dsr dsr = {}, std::size_t nodes = 40) : link(nodes), router(dsr) {
         link.on_forgotten = [this](MessageId id) { router.forget(id); };
         link.on_header_forgotten = [this](std::uint32_t header) { router.forget_header(header); };
     }

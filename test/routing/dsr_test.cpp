@@ -12,8 +12,8 @@
 namespace dsr_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
+using test::DsrNode;
 using test::FakeLinkLayer;
-using test::Node0;
 using test::Nodes;
 using test::Path;
 using test::path;
@@ -101,7 +101,7 @@ TEST_CASE("dsr 4.1: 30 own and 64 other routes, the shortest one wins, a broken 
 }
 
 TEST_CASE("dsr 8.1.3, 8.1.5: a message has its whole route, and the same bytes on each hop") {
-    Node0 n;
+    DsrNode n;
     n.learn(path({0, 1, 2, 3}));
     n.send(3);
     // The fake's messages have no size: IP, fixed header, and a route of two addresses.
@@ -126,7 +126,7 @@ TEST_CASE("dsr 8.1.3, 8.1.5: a message has its whole route, and the same bytes o
 }
 
 TEST_CASE("dsr 8.2.1: a request to the neighbours, then at most 16, ever rarer, then no route") {
-    Node0 n;
+    DsrNode n;
     n.send(5);
     std::vector<int> ttls{n.sent(dsr::request_kind).back().first.ttl};
     std::vector<double> waits;
@@ -157,7 +157,7 @@ TEST_CASE("dsr 8.2.1: a request to the neighbours, then at most 16, ever rarer, 
 }
 
 TEST_CASE("dsr 8.2.2: the target answers each copy along its way back, and remembers that way") {
-    Node0 n;
+    DsrNode n;
     CHECK(n.request(path({7, 3}), 0) == Fate::arrived);
     CHECK(n.request(path({7, 4, 2}), 0) == Fate::arrived);
     const auto replies = n.sent(dsr::reply_kind);
@@ -174,7 +174,7 @@ TEST_CASE("dsr 8.2.2: the target answers each copy along its way back, and remem
 }
 
 TEST_CASE("dsr 8.2.2: a request is passed on once, with the own address, within its hop limit") {
-    Node0 n;
+    DsrNode n;
     CHECK(n.request(path({7, 3}), 5) == Fate::waiting);
     const auto [frame, packet] = n.sent(dsr::request_kind).back();
     CHECK(values(packet.request.value().path) == Nodes{7, 3, 0});
@@ -193,7 +193,7 @@ TEST_CASE("dsr 8.2.2: a request is passed on once, with the own address, within 
 }
 
 TEST_CASE("dsr 8.2.3: a node answers with a route that it knows, unless a node comes twice") {
-    Node0 n;
+    DsrNode n;
     n.learn(path({0, 1, 2, 5}));
     CHECK(n.request(path({7, 2}), 5) == Fate::waiting);  // 2 would come twice
     CHECK(n.sent(dsr::reply_kind).empty());
@@ -206,7 +206,7 @@ TEST_CASE("dsr 8.2.3: a node answers with a route that it knows, unless a node c
 }
 
 TEST_CASE("dsr 8.2.6: a reply ends the search and its waits; nodes on the way learn both ends") {
-    Node0 n;
+    DsrNode n;
     n.send(5);
     n.send(5);
     n.wait();
@@ -226,7 +226,7 @@ TEST_CASE("dsr 8.2.6: a reply ends the search and its waits; nodes on the way le
 }
 
 TEST_CASE("dsr: a route has sixteen nodes at most; messages beyond end without a route") {
-    Node0 n;
+    DsrNode n;
     const Path fourteen = path({20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33});
     Path fifteen = fourteen;
     fifteen.add(NodeId{34});
@@ -247,7 +247,7 @@ TEST_CASE("dsr: a route has sixteen nodes at most; messages beyond end without a
 }
 
 TEST_CASE("dsr 4.2: at most 64 messages wait, for 30 s each, and the oldest leaves first") {
-    Node0 n;
+    DsrNode n;
     for (int i = 0; i < 66; ++i) n.send(5);
     REQUIRE(n.link.drops.size() == 2);
     CHECK(n.link.drops[0].reason == DropReason::buffer_full);
@@ -257,7 +257,7 @@ TEST_CASE("dsr 4.2: at most 64 messages wait, for 30 s each, and the oldest leav
 }
 
 TEST_CASE("dsr: a node that was switched off begins without routes, but goes on with its numbers") {
-    Node0 n;
+    DsrNode n;
     n.learn(path({0, 4, 5}));
     n.send(6);
     n.router.on_switched(n.link, NodeId{0}, false);
