@@ -51,10 +51,10 @@ struct Message {
 
     /// Protocol of a control packet, the first word of its kind: its type in ns-2 traces.
     std::string_view protocol() const { return kind.substr(0, kind.find(' ')); }
-    /// Whether it is a packet of the link layer, below routing: ARP.
-    bool is_link_packet() const { return !kind.empty() && !is_routed; }
+    /// Whether it is a packet of the link layer, below routing: "ARP REQUEST" or "ARP REPLY".
+    bool is_link_packet() const { return kind.starts_with("ARP "); }
     /// Whether it is a control packet of the routing protocol.
-    bool is_routing_packet() const { return !kind.empty() && is_routed; }
+    bool is_routing_packet() const { return !kind.empty() && !is_link_packet(); }
     /// Whether the routing protocol brings the message to one node.
     bool is_routed_unicast() const { return kind.empty() && is_routed && to != everyone; }
 };

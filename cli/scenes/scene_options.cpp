@@ -34,7 +34,7 @@ void add_routes(Command app) {
                          "rovernet routes examples/detour/detour.toml --at 20s --csv"});
     add_file(routes, a, any_file);
     routes.add_option("--at", a.at, "time of the run, such as 12.5s").required();
-    routes.add_option("--robot", a.robot, "of this robot only");
+    routes.add_option("--robot,--node", a.robot, "of this robot only");
     Option csv = routes.add_flag("--csv", a.csv, "a line for each route, as CSV");
     routes.add_flag("--json", a.json, "print one JSON document").excludes(csv);
 }

@@ -12,10 +12,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace rovernet::cli {
@@ -107,9 +111,21 @@ Table stats_table(const TraceRow& row, const std::string& by) {
     return table;
 }
 
+/// Removes the metrics of routing that only recorded traces have, if they are null.
+void leave_out_unknown(Table& table) {
+    constexpr std::array<std::string_view, 8> of_records = {
+        "routing_requests", "routing_replies", "routing_errors", "routing_hellos",
+        "routes_broken",    "path_stretch",    "delay_waiting",  "delay_travelling"};
+    std::erase_if(table.entries, [&](const Entry& entry) {
+        return std::holds_alternative<std::monostate>(entry.value.data) &&
+               std::find(of_records.begin(), of_records.end(), entry.key) != of_records.end();
+    });
+}
+
 Table stats_table(const ToldStats& stats, const std::string& by) {
     Table table;
     append_metrics(table, stats.metrics);
+    leave_out_unknown(table);
     append_drops(table, stats);
     if (stats.routing_packets > 0) {
         table.set("routing_packets", stats.routing_packets);
