@@ -68,7 +68,7 @@ void AodvRouter::on_broken(LinkLayer& link, NodeId at, NodeId neighbour,
         const Message& message = link.message(each.frame.message);
         if (!message.kind.empty()) continue;
         if (is_repaired(at, message.to)) {
-            keep(link, at, message.to, each);
+            keep(link, at, message.to, each, now);
         } else {
             link.drop(at, each.as_received(), DropReason::broken);
         }
@@ -162,7 +162,7 @@ void AodvRouter::receive_error(LinkLayer& link, const Frame& frame, const aodv::
 /// Notes that a neighbour was heard. Its silence ends routes over it only after a HELLO, as nodes
 /// that carry no messages send none (6.9).
 void AodvRouter::hear(NodeId at, NodeId neighbour, Time now, bool is_hello) {
-    if (rules_.hello == Duration{0} || is_silent(at, now)) return;
+    if (rules_.hello == Duration{0}) return;
     auto& all = node(at).neighbours;
     const auto known = std::find_if(all.begin(), all.end(),
                                     [&](const Neighbour& each) { return each.node == neighbour; });
@@ -191,7 +191,6 @@ void AodvRouter::send_hello(LinkLayer& link, NodeId at) {
         link.send({.message = id, .sender = at, .path = link.key(at), .ttl = 1, .hops = 1}, {},
                   now);
         link.release(id);
-        here.last_broadcast = now;
     }
     std::vector<NodeId> silent;
     std::erase_if(here.neighbours, [&](const Neighbour& each) {

@@ -125,7 +125,7 @@ void AodvRouter::send(LinkLayer& link, NodeId at, MessageId id) {
         use(at, to, next_hop, now);
         return send_on(link, own, next_hop, now);
     }
-    keep(link, at, to, own);
+    keep(link, at, to, own, now);
     search(link, at, to, now);
 }
 
@@ -136,10 +136,10 @@ void AodvRouter::send_on(LinkLayer& link, const QueuedFrame& queued, NodeId next
 }
 
 /// Lets a packet wait for a route; set_timer() is to follow.
-void AodvRouter::keep(LinkLayer& link, NodeId at, NodeId to, const QueuedFrame& queued) {
+void AodvRouter::keep(LinkLayer& link, NodeId at, NodeId to, const QueuedFrame& queued, Time now) {
     link.hold(queued.frame);
     const auto oldest =
-        node(at).buffer.add({to, queued, link.now() + SendBuffer::longest_wait}, rules_.buffer);
+        node(at).buffer.add({to, queued, now + SendBuffer::longest_wait}, rules_.buffer);
     if (oldest) lose(link, at, *oldest, DropReason::buffer_full);
 }
 
@@ -206,7 +206,7 @@ void AodvRouter::receive_message(LinkLayer& link, const Frame& frame, Reception&
         return send_on(link, onward, next_hop, r.time + least_reaction);
     }
     if (is_repaired(at, to)) {
-        keep(link, at, to, onward);
+        keep(link, at, to, onward, r.time);
         return set_timer(link, at);
     }
     // 6.11 (ii): no route, and none is repaired. The sender has a route over this node, so that the

@@ -121,7 +121,7 @@ class AodvRouter {
     // Messages of applications (aodv_router.cpp).
     void receive_message(LinkLayer& link, const Frame& frame, Reception& reception);
     void send_on(LinkLayer& link, const QueuedFrame& queued, NodeId next_hop, Time at);
-    void keep(LinkLayer& link, NodeId at, NodeId destination, const QueuedFrame& queued);
+    void keep(LinkLayer& link, NodeId at, NodeId destination, const QueuedFrame& queued, Time now);
     void lose(LinkLayer& link, NodeId at, const SendBuffer::Packet& packet, DropReason reason);
     // Broken links.
     void on_broken(LinkLayer& link, NodeId at, NodeId neighbour, std::span<const QueuedFrame>);

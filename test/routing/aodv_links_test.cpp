@@ -97,6 +97,25 @@ TEST_CASE("aodv 6.2: a message to the node itself lengthens the way back to its 
     CHECK(n.route(7)->until == n.link.time + 3s);
 }
 
+TEST_CASE("aodv 6.2: a message does not shorten the life of its route") {
+    Node0 n;
+    learn_for_long(n, 5, 1);
+    n.send(5);
+    CHECK(n.route(5)->until == start + 60s);
+}
+
+TEST_CASE("aodv 6.2: messages that waited lengthen the life of their route, too") {
+    Node0 n;
+    n.send(5);
+    n.hear(1, aodv::Reply{.hops = 1,
+                          .destination = NodeId{5},
+                          .number = 3,
+                          .originator = NodeId{0},
+                          .lifetime = 1s});
+    CHECK(n.data().size() == 1);
+    CHECK(n.route(5)->until == start + 3s + 1us);
+}
+
 TEST_CASE("aodv 6.2: a packet does not travel beyond its TTL") {
     AodvNode n;
     n.learn(5, 1, 10);
@@ -157,6 +176,17 @@ TEST_CASE("aodv 6.9: no HELLO if a request was broadcast within the interval") {
     CHECK(hellos(n).size() == 1);
 }
 
+TEST_CASE(
+    "aodv 6.9: no HELLO if a request was passed on; a node that passes a reply on sends some") {
+    Hellos n;
+    n.run(start + 400ms);
+    n.pass_reply(7, 2, 5, 1);
+    n.run(start + 1s);
+    CHECK(hellos(n).empty());
+    n.run(start + 2s);
+    CHECK(hellos(n).size() == 1);
+}
+
 TEST_CASE("aodv 6.9: a HELLO makes a route with its number, for two intervals at least") {
     Hellos n({.active_route_timeout = 1s});
     hear_hello(n, 4, 77);
@@ -185,6 +215,7 @@ TEST_CASE("aodv 6.9: a neighbour is lost that was silent for two intervals after
         CHECK(n.route(5)->number == std::optional<std::uint32_t>(11));
         REQUIRE(n.link.drops.size() == 1);
         CHECK(n.link.drops[0].reason == DropReason::broken);
+        CHECK(n.link.messages.size() == hellos(n).size());  // the message is let go
     }
     SUBCASE("any packet is a sign of life") {
         for (Time t = start + 9s; t < start + 14s; t += 1s) {
@@ -256,10 +287,48 @@ TEST_CASE("aodv 6.11: a report is passed on to the users of the routes that it e
     REQUIRE(error.lost.size() == 1);
     CHECK(error.lost[0].destination == NodeId{5});
     CHECK(error.lost[0].number == 10);
-    CHECK(n.link.sent.back().at > n.link.time);
+    CHECK(n.link.sent.back().at == n.link.time + 1us);
     n.hear(1, aodv::Error{.lost = {{NodeId{5}, 10}}});  // once
     CHECK(n.sent<aodv::Error>().size() == 1);
     CHECK(n.route(5)->until == n.link.time + 15s);
+}
+
+TEST_CASE("aodv 6.11, ns2: reports go to everyone, and wait for the jitter if passed on") {
+    Node0 n({.profile = AodvProfile::ns2, .local_repair = false});
+    n.pass_reply(7, 2, 5, 1);
+    n.learn(6, 1, 4);
+    n.hear(1, aodv::Error{.lost = {{NodeId{5}, 10}, {NodeId{6}, 5}}});
+    REQUIRE(n.sent<aodv::Error>().size() == 1);
+    CHECK(n.sent<aodv::Error>()[0].first.next_hop == everyone);
+    CHECK(n.sent<aodv::Error>()[0].second.lost.size() == 1);
+    CHECK(n.link.sent.back().at == n.link.time + 1us + 5ms);
+    n.learn(6, 1, 7);  // used by node 0 alone
+    n.send(6);
+    n.fail_last();
+    REQUIRE(n.sent<aodv::Error>().size() == 2);
+    CHECK(n.sent<aodv::Error>()[1].first.next_hop == everyone);
+}
+
+TEST_CASE("aodv 6.11: only valid routes over the broken link end, each once") {
+    Node0 n;
+    n.learn(5, 1, 10);
+    n.learn(6, 1, 20);
+    n.learn(8, 2, 30);
+    n.send(5);
+    n.send(6);
+    n.link.end(n.router, n.link.sent.size() - 1, SendResult::retries);
+    CHECK(n.link.drops.size() == 2);  // the message to 5 waited in the queue
+    CHECK(n.link.messages.size() == 0);
+    CHECK(n.route(5)->until == n.link.time + 15s);
+    CHECK(n.route(8)->is_valid);
+    n.link.time += 1s;
+    n.learn(6, 2, 21);
+    n.learn(8, 1, 31);
+    n.send(8);
+    n.fail_last();
+    CHECK(n.route(5)->number == std::optional<std::uint32_t>(11));
+    CHECK(n.route(5)->until == start + 15s);
+    CHECK(n.route(6)->is_valid);
 }
 
 TEST_CASE(
@@ -348,6 +417,41 @@ TEST_CASE("aodv 6.12: half the hops to the source + 2 are searched, if that is m
     n.link.arrive(n.router, frame, {0});
     n.fail_last();
     CHECK(n.sent<aodv::Request>().back().first.ttl == 12 / 2 + 2);
+}
+
+TEST_CASE("aodv 6.12: a repair waits for its TTL only, also if that is the network's diameter") {
+    Node0 n({.net_diameter = 3, .local_repair = true});
+    n.pass_reply(7, 2, 5, 1);
+    n.forward(7, 2, 5);
+    n.fail_last();
+    const Time begun = n.link.time;
+    CHECK(n.sent<aodv::Request>().back().first.ttl == 3);
+    n.wait();
+    CHECK(n.link.time == begun + 400ms);
+    CHECK(n.link.drops.size() == 1);
+}
+
+TEST_CASE("aodv 6.12: a repaired route that is as short is not reported") {
+    Node0 n({.local_repair = true});
+    n.pass_reply(7, 2, 5, 1);
+    n.forward(7, 2, 5);
+    n.fail_last();
+    n.learn(5, 3, 11, 2);
+    CHECK(n.data().back().next_hop == NodeId{3});
+    CHECK(n.sent<aodv::Error>().empty());
+}
+
+TEST_CASE("aodv 6.12: no repair of a route that has another next hop by now") {
+    Node0 n({.local_repair = true});
+    n.pass_reply(7, 2, 5, 1);
+    n.forward(7, 2, 5);
+    const std::size_t handle = n.link.sent.size() - 1;
+    n.link.go();
+    n.learn(5, 3, 11);
+    n.link.end(n.router, handle, SendResult::retries);
+    CHECK(n.route(5)->is_valid);
+    CHECK(n.sent<aodv::Request>().size() == 1);  // passed on
+    CHECK(n.link.drops.size() == 1);
 }
 
 TEST_CASE("aodv 6.12: far from the destination nothing is repaired; nor are own messages") {

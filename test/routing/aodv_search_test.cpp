@@ -204,6 +204,22 @@ TEST_CASE("aodv 6.2: a route from a reply lives for the reply's time, and is not
     longer.number = 12;
     n.hear(1, longer);
     CHECK(n.route(5)->until == start + 1s);  // a broken one's end is another time
+    n.hear(1, aodv::Error{.lost = {{NodeId{5}, 13}}});
+    longer.lifetime = 50s;
+    n.hear(1, longer);  // older than the broken one, whose memory does not grow
+    CHECK(n.route(5)->until == start + 15s);
+}
+
+TEST_CASE("aodv 6.5: a neighbour that is heard has a route for 3 s, which is not shortened") {
+    Node0 n;
+    n.hear(2, request(2, 9, 1), 1);  // a route of 5.52 s
+    n.hear(2, request(7, 9, 1), 3);
+    CHECK(n.route(2)->until == start + 5520ms);
+    n.link.time = start + 10s;  // broken, and remembered until 20.52 s
+    n.hear(2, request(7, 9, 2, 6), 3);
+    CHECK(n.route(2)->is_valid);
+    CHECK(n.route(2)->until == start + 13s);
+    CHECK(n.route(2)->since == start + 10s);
 }
 
 TEST_CASE("aodv 6.2: a neighbour whose number is not known takes any number") {
@@ -283,6 +299,30 @@ TEST_CASE("aodv 6.6.2: an answer has the time that is left") {
     CHECK(n.link.message(n.sent<aodv::Reply>().back().first.message).size == 48);
 }
 
+TEST_CASE("aodv 6.6.2: the time of an answer is in whole ms, not more than is left") {
+    Node0 n;
+    n.learn(5, 1, 20);
+    n.link.time += 1500us;
+    n.hear(2, request(7, 5));
+    CHECK(n.sent<aodv::Reply>().back().second.lifetime == 2998ms);
+}
+
+TEST_CASE("aodv 6.7: a reply does not travel beyond its TTL") {
+    Node0 n;
+    n.hear(2, request(7, 5), 3);
+    CHECK(n.hear(1, aodv::to_bytes(reply(5, 9, 7)), aodv::reply_kind, 2, 1) == Fate::arrived);
+    CHECK(n.sent<aodv::Reply>().empty());
+}
+
+TEST_CASE("aodv 6.3: a search that is due earlier than the others is not late") {
+    Node0 n;
+    n.send(5);
+    n.run(start + 2s);  // waits until 4.72 s
+    n.send(6);
+    n.run(start + 2300ms);
+    CHECK(asked_for(n, 6) == 2);
+}
+
 TEST_CASE("aodv 6.6.3: flag G tells the destination the way back; flag D asks the destination") {
     AodvNode n;
     n.learn(5, 1, 20, 3);
@@ -342,6 +382,13 @@ TEST_CASE("aodv A16: a reply's neighbour ends the search for it, and so does a H
     n.run(start + 40s);
     CHECK(n.sent<aodv::Request>().size() == 2);
     CHECK(n.link.drops.empty());
+}
+
+TEST_CASE("aodv A16: a neighbour that passes a request on ends the search for it") {
+    Node0 n;
+    n.send(3);
+    n.hear(3, request(8, 9), 2);
+    CHECK(n.data().size() == 1);
 }
 
 TEST_CASE("aodv A16: a search that waits for its turn ends with a route, too") {

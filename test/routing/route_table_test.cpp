@@ -68,6 +68,8 @@ TEST_CASE("route table: entries whose time is over do not make it grow") {
         table.add_precursor(NodeId{i}, b);
     }
     CHECK(table.stored().size() < 64);
+    table.add(NodeId{0}, start + 10'000s, 10s);
+    CHECK(table.precursors(NodeId{0}).empty());
 }
 
 TEST_CASE("seen ids: every number once, in any order within 64, also around 2^32") {
