@@ -293,9 +293,7 @@ void DsrRouter::send_otherwise(LinkLayer& link, NodeId at, const QueuedFrame& qu
     const auto path = node(at).cache.find(to);
     if (may && path) return send_along(link, queued, *path, salvage, link.now());
     if (salvage == 0 || (may && is_ns2())) {
-        QueuedFrame waiting = queued;
-        if (salvage == 0) waiting.frame.header = 0;
-        keep(link, at, waiting);
+        keep(link, at, queued);
         return search(link, at, to, link.now());
     }
     link.drop(at, queued.as_received(), path ? DropReason::salvaged : DropReason::broken);

@@ -257,10 +257,15 @@ void DsrRouter::on_timer(LinkLayer& link, NodeId at, std::uint64_t) {
     for (const auto& packet : here.buffer.take_expired(now)) {
         lose(link, at, packet, DropReason::timeout);
     }
-    std::erase_if(here.searches, [&](Search& each) {
+    for (std::size_t i = 0; i < here.searches.size();) {
+        Search& each = here.searches[i];
         const bool is_due = each.until <= now && has_own(at, each.target);
-        return is_due && !proceed(link, at, each, now);
-    });
+        if (is_due && !proceed(link, at, each, now)) {
+            here.searches.erase(here.searches.begin() + static_cast<std::ptrdiff_t>(i));
+        } else {
+            ++i;
+        }
+    }
     set_timer(link, at);
 }
 

@@ -70,7 +70,11 @@ TEST_CASE("dsr 8.3.4: a broken link is told to the source, and the message goes 
         n.link.end(n.router, first, SendResult::retries);
         CHECK(n.link.drops.size() == 2);
         CHECK(n.sent(dsr::error_kind).size() == 2);
-        CHECK(n.link.messages.size() > 0);
+        for (std::size_t i = 0; i < n.link.sent.size(); ++i) {
+            if (n.link.sent[i].stage != FakeLinkLayer::Stage::gone)
+                n.link.end(n.router, i, SendResult::acked);
+        }
+        CHECK(n.link.messages.size() == 0);  // nothing is held
     }
 }
 
