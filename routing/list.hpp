@@ -3,12 +3,13 @@
 
 #include "routing/aodv.hpp"
 #include "routing/flood.hpp"
+#include "routing/suppression.hpp"
 
 #include <tuple>
 
 namespace rovernet {
 
 /// Routing protocols that scenario files can name.
-using RoutingProtocols = std::tuple<Flood, Aodv>;
+using RoutingProtocols = std::tuple<Flood, Aodv, Suppression>;
 
 }  // namespace rovernet
