@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "routing/flood_router.hpp"
+#include "routing/relay.hpp"
 
 #include <algorithm>
 
@@ -8,20 +9,6 @@ namespace rovernet {
 Flood::operator Router() const { return FloodRouter{*this}; }
 
 FloodRouter::FloodRouter(const Flood& flood) : flood_(flood) { check_fields(flood, "flood"); }
-
-namespace {
-
-/// Frame as forwarded by a node that received it.
-QueuedFrame passed_on(const LinkLayer& link, const Frame& frame, NodeId node) {
-    return {{.message = frame.message,
-             .sender = node,
-             .path = combine(frame.path, link.key(node)),
-             .ttl = static_cast<Hops>(frame.ttl - 1),
-             .hops = static_cast<Hops>(frame.hops + 1)},
-            frame.sender};
-}
-
-}  // namespace
 
 /// Allocates the states of a message at all nodes.
 void FloodRouter::make_room(std::size_t message, std::size_t nodes) {
@@ -68,13 +55,7 @@ void FloodRouter::on_receive(LinkLayer& link, const Frame& frame, std::span<Rece
             return is_duplicate(link, frame, r->node, known);
         });
     }
-    // Frames of one time are sent in the order in which they were passed on: sort by the nodes'
-    // keys, so that ids have no effect.
-    if (end - news.begin() > 1) {
-        std::sort(news.begin(), end, [&](const auto* a, const auto* b) {
-            return a->time != b->time ? a->time < b->time : link.key(a->node) < link.key(b->node);
-        });
-    }
+    sort_by_keys(link, {news.begin(), end});
     for (auto each = news.begin(); each != end; ++each) take(link, frame, known, **each);
 }
 

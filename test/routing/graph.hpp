@@ -45,6 +45,12 @@ class Graph final : public LinkLayer {
         std::uint64_t seed = 0;
     };
     Faults faults{};
+    /// Seed of the draws of the protocol.
+    std::uint64_t seed = 0;
+    /// Positions of nodes [m]; nodes beyond the end are at the origin.
+    std::vector<Vec3> positions{};
+    /// Ratio to the noise with which a node hears another; 30 dB if not given.
+    std::function<Db(NodeId from, NodeId to)> snr_between{};
     /// Roles of nodes; nodes beyond the end have none.
     std::vector<std::string_view> roles{};
     /// Keys of nodes; beyond the end the id is the key.
@@ -109,7 +115,9 @@ class Graph final : public LinkLayer {
     std::uint64_t key(NodeId node) const override {
         return node.index() < keys.size() ? keys[node.index()] : node.value;
     }
-    Vec3 position(NodeId) const override { return {}; }
+    Vec3 position(NodeId node) const override {
+        return node.index() < positions.size() ? positions[node.index()] : Vec3{};
+    }
     std::string_view role(NodeId node) const override {
         return node.index() < roles.size() ? roles[node.index()] : std::string_view{};
     }
@@ -152,7 +160,9 @@ class Graph final : public LinkLayer {
         ++drops[reason == DropReason::own ? own_code : reason_of(reason).code];
     }
     Dbm level(const Reception&) const override { return Dbm{-60}; }
-    Db snr(const Reception&) const override { return Db{30}; }
+    Db snr(const Reception& r) const override {
+        return snr_between ? snr_between(arriving_from_, r.node) : Db{30};
+    }
     void timer(NodeId node, Time at, std::uint64_t tag) override {
         schedule(at, [this, node, tag] { router_.on_timer(*this, node, tag); });
     }
@@ -169,11 +179,14 @@ class Graph final : public LinkLayer {
         release(frame.message);
     }
     double draw(Purpose purpose, NodeId node, MessageId id, std::uint64_t index) const override {
-        return uniform(
-            {.purpose = purpose, .a = key(node), .b = messages_[id].key, .index = index});
+        return uniform({.seed = seed,
+                        .purpose = purpose,
+                        .a = key(node),
+                        .b = messages_[id].key,
+                        .index = index});
     }
     double draw(Purpose purpose, NodeId node, std::uint64_t index) const override {
-        return uniform({.purpose = purpose, .a = key(node), .index = index});
+        return uniform({.seed = seed, .purpose = purpose, .a = key(node), .index = index});
     }
 
     /// Nodes at which each message of an application was delivered, with the hops.
@@ -223,11 +236,13 @@ class Graph final : public LinkLayer {
         const Duration more = faults.longest - hop_time;
         const Time end = now_ + hop_time + from_seconds(fault() * seconds(more));
         std::vector<Reception> receptions, overheard;
-        for (std::uint32_t i = 0; i < nodes_; ++i) {
-            const bool is_for = frame.next_hop == everyone || frame.next_hop == NodeId{i};
+        const std::uint32_t sender = frame.sender.value;
+        for (auto e = edges_.lower_bound({sender, 0}); e != edges_.end() && e->first == sender;
+             ++e) {
+            const NodeId to{e->second};
+            const bool is_for = frame.next_hop == everyone || frame.next_hop == to;
             if (!is_for && !router_.traits().overhears) continue;
-            if (edges_.contains({frame.sender.value, i}) && fault() >= faults.loss)
-                (is_for ? receptions : overheard).push_back({end, NodeId{i}});
+            if (fault() >= faults.loss) (is_for ? receptions : overheard).push_back({end, to});
         }
         schedule(end, [this, queued, receptions, overheard] {
             for (Reception each : overheard) {
@@ -245,6 +260,7 @@ class Graph final : public LinkLayer {
             const Message& message = messages_[frame.message];
             if (on_message_at && message.kind.empty()) on_message_at(message, r.node);
         }
+        arriving_from_ = frame.sender;
         if (!receptions.empty()) router_.on_receive(*this, frame, receptions);
         const Message message = messages_[frame.message];
         for (const Reception& r : receptions) {
@@ -274,6 +290,7 @@ class Graph final : public LinkLayer {
     std::uint64_t next_fault_ = 0;
     std::set<Edge> edges_;
     Time now_ = start_of_run;
+    NodeId arriving_from_{};
     std::priority_queue<Event> events_;
     std::uint64_t next_event_ = 0, next_uid_ = 0;
     std::map<std::uint32_t, std::uint64_t> packets_;  // made by each node
