@@ -98,14 +98,14 @@ TEST_CASE("aodv 6.2: a message to the node itself lengthens the way back to its 
 }
 
 TEST_CASE("aodv 6.2: a message does not shorten the life of its route") {
-    Node0 n;
+    AodvNode n;
     learn_for_long(n, 5, 1);
     n.send(5);
     CHECK(n.route(5)->until == start + 60s);
 }
 
 TEST_CASE("aodv 6.2: messages that waited lengthen the life of their route, too") {
-    Node0 n;
+    AodvNode n;
     n.send(5);
     n.hear(1, aodv::Reply{.hops = 1,
                           .destination = NodeId{5},
@@ -294,7 +294,7 @@ TEST_CASE("aodv 6.11: a report is passed on to the users of the routes that it e
 }
 
 TEST_CASE("aodv 6.11, ns2: reports go to everyone, and wait for the jitter if passed on") {
-    Node0 n({.profile = AodvProfile::ns2, .local_repair = false});
+    AodvNode n({.profile = AodvProfile::ns2, .local_repair = false});
     n.pass_reply(7, 2, 5, 1);
     n.learn(6, 1, 4);
     n.hear(1, aodv::Error{.lost = {{NodeId{5}, 10}, {NodeId{6}, 5}}});
@@ -310,7 +310,7 @@ TEST_CASE("aodv 6.11, ns2: reports go to everyone, and wait for the jitter if pa
 }
 
 TEST_CASE("aodv 6.11: only valid routes over the broken link end, each once") {
-    Node0 n;
+    AodvNode n;
     n.learn(5, 1, 10);
     n.learn(6, 1, 20);
     n.learn(8, 2, 30);
@@ -420,7 +420,7 @@ TEST_CASE("aodv 6.12: half the hops to the source + 2 are searched, if that is m
 }
 
 TEST_CASE("aodv 6.12: a repair waits for its TTL only, also if that is the network's diameter") {
-    Node0 n({.net_diameter = 3, .local_repair = true});
+    AodvNode n({.net_diameter = 3, .local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     n.forward(7, 2, 5);
     n.fail_last();
@@ -432,7 +432,7 @@ TEST_CASE("aodv 6.12: a repair waits for its TTL only, also if that is the netwo
 }
 
 TEST_CASE("aodv 6.12: a repaired route that is as short is not reported") {
-    Node0 n({.local_repair = true});
+    AodvNode n({.local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     n.forward(7, 2, 5);
     n.fail_last();
@@ -442,7 +442,7 @@ TEST_CASE("aodv 6.12: a repaired route that is as short is not reported") {
 }
 
 TEST_CASE("aodv 6.12: no repair of a route that has another next hop by now") {
-    Node0 n({.local_repair = true});
+    AodvNode n({.local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     n.forward(7, 2, 5);
     const std::size_t handle = n.link.sent.size() - 1;

@@ -211,7 +211,7 @@ TEST_CASE("aodv 6.2: a route from a reply lives for the reply's time, and is not
 }
 
 TEST_CASE("aodv 6.5: a neighbour that is heard has a route for 3 s, which is not shortened") {
-    Node0 n;
+    AodvNode n;
     n.hear(2, request(2, 9, 1), 1);  // a route of 5.52 s
     n.hear(2, request(7, 9, 1), 3);
     CHECK(n.route(2)->until == start + 5520ms);
@@ -300,7 +300,7 @@ TEST_CASE("aodv 6.6.2: an answer has the time that is left") {
 }
 
 TEST_CASE("aodv 6.6.2: the time of an answer is in whole ms, not more than is left") {
-    Node0 n;
+    AodvNode n;
     n.learn(5, 1, 20);
     n.link.time += 1500us;
     n.hear(2, request(7, 5));
@@ -308,14 +308,14 @@ TEST_CASE("aodv 6.6.2: the time of an answer is in whole ms, not more than is le
 }
 
 TEST_CASE("aodv 6.7: a reply does not travel beyond its TTL") {
-    Node0 n;
+    AodvNode n;
     n.hear(2, request(7, 5), 3);
     CHECK(n.hear(1, aodv::to_bytes(reply(5, 9, 7)), aodv::reply_kind, 2, 1) == Fate::arrived);
     CHECK(n.sent<aodv::Reply>().empty());
 }
 
 TEST_CASE("aodv 6.3: a search that is due earlier than the others is not late") {
-    Node0 n;
+    AodvNode n;
     n.send(5);
     n.run(start + 2s);  // waits until 4.72 s
     n.send(6);
@@ -385,7 +385,7 @@ TEST_CASE("aodv A16: a reply's neighbour ends the search for it, and so does a H
 }
 
 TEST_CASE("aodv A16: a neighbour that passes a request on ends the search for it") {
-    Node0 n;
+    AodvNode n;
     n.send(3);
     n.hear(3, request(8, 9), 2);
     CHECK(n.data().size() == 1);

@@ -183,6 +183,7 @@ reach = false
 flows = false
 robots = true
 topology = true
+path_stretch = true
 
 [trace]
 record = true

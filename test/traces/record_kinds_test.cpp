@@ -228,15 +228,16 @@ TEST_CASE("kinds of records: rows, names and channels are those of the kind") {
     CHECK(kinds.size() == std::variant_size_v<Record> + 1);
 }
 
-// The layouts are those of format 1, which readers elsewhere were written for.
+// The layouts are those of format 3, which readers elsewhere were written for.
 TEST_CASE("kinds of records: layouts in recorded traces") {
     const std::vector<RecordedKind> kinds = recorded_kinds();
     const std::string frame = "message:v sender:v ttl:v hops:v next_hop:node?";
     const std::string air = frame + " heard_from:node? kind:b attempt:b number:v reserved:z";
     const std::string expected[] = {
         "slot:v uid:v origin:v number:v to:node? size:v created:z(before this time) flow:v "
-        "is_routed:b kind:s payload:s",
-        "node:v message:v ttl:v robots:v reachable:v(0 unknown, else + 1)",
+        "is_routed:b port:v kind:s payload:s",
+        "node:v message:v ttl:v robots:v reachable:v(0 unknown, else + 1) "
+        "shortest:v(0 unknown, else + 1)",
         frame + " heard_from:node?",
         frame +
             " reserved:z header:v n:v n*time:z(after the one before, the first after this time) "
@@ -250,7 +251,7 @@ TEST_CASE("kinds of records: layouts in recorded traces") {
         "node:v on:b",
         "from:v to:v",
         "from:v to:v",
-        air + " bytes:v header:v",
+        air + " bytes:v header:v airtime:z",
         air + " node:v fate:b(2 fate + delivered) bytes:v",
         frame + " heard_from:node?",
     };

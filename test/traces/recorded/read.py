@@ -79,8 +79,9 @@ def lines(number, time, m, uids):
         uids[slot] = uid
         m.take(len(m.data) - m.at)
     elif number == 2:
-        node, slot, ttl, robots, reachable = m.v(), m.v(), m.v(), m.v(), m.v()
-        yield f"{time} Sent {node} {uids[slot]} {ttl} {robots} {reachable - 1 if reachable else '-'}"
+        node, slot, ttl, robots = m.v(), m.v(), m.v(), m.v()
+        reachable, shortest = (count - 1 if count else "-" for count in (m.v(), m.v()))
+        yield f"{time} Sent {node} {uids[slot]} {ttl} {robots} {reachable} {shortest}"
     elif number == 3:
         uid, rest = frame(m, uids)
         yield f"{time} Transmitted {uid} {rest} {m.node()}"
@@ -118,7 +119,7 @@ def lines(number, time, m, uids):
     elif number in (10, 11):
         yield f"{time} {'LinkUp' if number == 10 else 'LinkDown'} {m.v()} {m.v()}"
     elif number == 12:
-        yield f"{time} AirSent {air(m, uids)} {m.v()} {m.v()}"
+        yield f"{time} AirSent {air(m, uids)} {m.v()} {m.v()} {m.z()}"
     elif number == 13:
         yield f"{time} ControlReceived {air(m, uids)} {m.v()} {fate(m.b())} {m.v()}"
     elif number == 14:

@@ -319,17 +319,17 @@ std::string varints(const std::vector<std::uint64_t>& numbers, std::size_t zeros
 std::vector<Variant> nonsense(const Sample& s) {
     const std::uint64_t most = ~std::uint64_t{0};
     const std::vector<std::pair<const char*, std::string>> nameless_robots = {
-        {"a message of robot 2^31", chunk_of(1, varints({0, 0, huge >> 32, 0, 0, 0, 0, 0}, 3))},
-        {"a message for robot 400", chunk_of(1, varints({0, 0, 1, 0, 401, 0, 0, 0}, 3))},
-        {"a message of flow 2^30", chunk_of(1, varints({0, 0, 1, 0, 0, 0, 0, 1 << 30}, 3))},
+        {"a message of robot 2^31", chunk_of(1, varints({0, 0, huge >> 32, 0, 0, 0, 0, 0}, 4))},
+        {"a message for robot 400", chunk_of(1, varints({0, 0, 1, 0, 401, 0, 0, 0}, 4))},
+        {"a message of flow 2^30", chunk_of(1, varints({0, 0, 1, 0, 0, 0, 0, 1 << 30}, 4))},
         {"a robot 400", chunk_of(7, varints({400}))},
         {"a robot 2^32 - 2", chunk_of(7, varints({0xfffffffe}))},
         {"a link to robot 400", chunk_of(10, varints({1, 400}))}};
     const std::vector<std::pair<const char*, std::string>> chunks = {
-        {"a message in slot 2^63", chunk_of(1, varints({huge, 0, 0, 0, 0, 0, 0, 0}, 3))},
-        {"a kind of 5,000 letters", chunk_of(1, varints({0, 0, 0, 0, 0, 0, 0, 0, 0, 5000}) +
+        {"a message in slot 2^63", chunk_of(1, varints({huge, 0, 0, 0, 0, 0, 0, 0}, 4))},
+        {"a kind of 5,000 letters", chunk_of(1, varints({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 5000}) +
                                                     std::string(5000, 'x') + varints({0}))},
-        {"a payload of 2^64 - 1 bytes", chunk_of(1, varints({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, most}))},
+        {"a payload of 2^64 - 1 bytes", chunk_of(1, varints({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, most}))},
         {"2^63 receptions", chunk_of(4, varints({0, 0, 1, 1, 0, 0, 0, huge}, 50))},
         {"2^30 receptions", chunk_of(4, varints({0, 0, 1, 1, 0, 0, 0, 1 << 30}, 50))},
         {"a reception at robot -1", chunk_of(4, varints({0, 0, 1, 1, 0, 0, 0, 1, 0, 1, 0}))},
