@@ -91,8 +91,8 @@ void Arp::send(NodeId from, NodeId to, NodeId next_hop, std::string_view kind) {
                           .next_hop = next_hop}});
 }
 
-/// Serves a packet at its receivers: all learn the address of its sender, as in ns-2 (by RFC 826 only
-/// the asked node, and nodes that knew the sender); the asked node answers.
+/// Serves a packet at its receivers: all learn the address of its sender, as in ns-2 (by RFC 826
+/// only the asked node, and nodes that knew the sender); the asked node answers.
 void Arp::receive(const Frame& frame, std::span<Reception> receptions) {
     const Message& packet = world_.messages[frame.message];
     for (Reception& r : receptions) {

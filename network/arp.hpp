@@ -34,8 +34,8 @@ class ArpUser {
 /// Address resolution between the routing layer and the MAC: RFC 826, with the queue of ns-2. A
 /// unicast to a next hop whose address is unknown waits, one frame for each next hop, and a request
 /// of 28 B asks everyone in range. A later frame takes the place of the waiting one, and asks
-/// again; so does the waiting frame itself after three seconds. After three requests without an answer,
-/// the frame is given up.
+/// again; so does the waiting frame itself after three seconds. After three requests without an
+/// answer, the frame is given up.
 class Arp {
   public:
     static constexpr std::uint32_t packet_bytes = 28;

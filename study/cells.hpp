@@ -14,14 +14,16 @@ namespace rovernet {
 /// Row of the results table: the points of a study that have equal values of the group_by keys.
 struct Row {
     Table settings;  ///< value of each group_by key, by the path of the key
-    /// Number of the study's point for each of Rows::combinations; none: excluded by the study.
+    /// Point numbers of the row, one for each of Rows::combinations; none: the study excludes the
+    /// combination.
     std::vector<std::optional<std::uint32_t>> points;
 };
 
 /// Rows of the results table, and the keys that vary within a row.
 struct Rows {
-    std::vector<std::string> averaged;  ///< varied keys over whose values a row is averaged
-    /// Varied keys with one value in each row, but different values in different rows.
+    std::vector<std::string> averaged;  ///< varied keys of the study, averaged over in each row
+    /// Varied keys outside of group_by that have a single value within each row, but not the same
+    /// value in all rows.
     std::vector<std::string> along;
     /// Combinations of values of the keys in `averaged`, in order of first use.
     std::vector<Table> combinations;
@@ -36,11 +38,12 @@ struct Gaps {
     std::uint64_t failed = 0;
     std::uint64_t undefined = 0;  ///< number of finished runs in which the metric is undefined
     std::uint64_t missing = 0;    ///< number of runs that were not made yet
-    /// Text of the numbers of runs above 0: "2 failed, 1 undefined, 3 missing".
+    /// Text that lists the numbers of runs, except zeros: "2 failed, 1 undefined, 3 missing".
     std::string text() const;
 };
 
-/// Values of one metric, by point of the study and replication.
+/// Values of one metric, by point number and, in each list, by replication; none: the run has no
+/// value.
 using ValuesOfPoints = std::map<std::uint32_t, std::vector<std::optional<double>>>;
 
 ValuesOfPoints values_of_points(const Store& store, const std::string& metric);
@@ -51,8 +54,9 @@ class Cells {
   public:
     Cells(const Rows& rows, const Inventory& inventory, ValuesOfPoints values);
 
-    /// Mean of one row of the results table in each replication, over the row's runs with equal
-    /// weights; if `common`, only over runs that have a value in every row.
+    /// Means of one row of the results table, by replication number. Each is the mean over the
+    /// row's cells (combinations of values) in that replication, with equal weights. If `common`,
+    /// only cells for which every row has a value are included. @param row  index of the row
     std::map<std::uint32_t, double> means(std::size_t row, bool common) const;
 
     Gaps gaps(std::size_t row) const;
@@ -73,8 +77,10 @@ class Cells {
     const Inventory& inventory_;
     ValuesOfPoints values_;
     std::size_t replications_ = 0;
-    std::vector<std::vector<bool>> in_every_row_;  // flag for each combination and replication
-    std::vector<bool> in_any_row_;  // flag for each replication, over all combinations
+    // Whether every row has a value, by combination and replication.
+    std::vector<std::vector<bool>> in_every_row_;
+    // Whether any row has a value for any combination, by replication.
+    std::vector<bool> in_any_row_;
 };
 
 }  // namespace rovernet

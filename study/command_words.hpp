@@ -13,10 +13,10 @@ namespace rovernet {
 /// Word quoted for a POSIX shell: in single quotes if necessary.
 std::string shell_word(const std::string& word);
 
-/// Words as one command for a POSIX shell.
+/// Command line for a POSIX shell that consists of `words`, each quoted if necessary.
 std::string shell_command(std::span<const std::string> words);
 
-/// Words of a command line that give the options of a scenario file.
+/// Command-line words that express scenario options: {"--set", "radio.power=15 dBm"}.
 std::vector<std::string> option_words(const ScenarioOptions& options);
 
 }  // namespace rovernet

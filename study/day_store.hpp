@@ -13,8 +13,9 @@ namespace rovernet {
 struct DayRow {
     std::string radio;  ///< name of the radio settings
     PlayedDay day;
-    std::optional<DeliveryChange> change;  ///< change of deliveries against the first row; none for
-                                           ///< the first row and the run as recorded
+    /// Difference of deliveries to the row StoredReplay::first; none for that row and for the row
+    /// of the run as recorded.
+    std::optional<DeliveryChange> change;
 };
 
 /// Results of `rovernet replay` to store: one row for each set of radio settings.
@@ -28,9 +29,9 @@ struct StoredReplay {
 /// Writes the rows of a replay into a study's store, which `results` and `plot` can read: a point
 /// with the key "radio" and one run for each row. Metrics are those of every run; rows with a
 /// change also have "gained", "lost", "gained.at.ROBOT" and "lost.at.ROBOT" [deliveries]. The store
-/// may already have rows of the same command; a row of the same name is not changed.
-/// @throws InputError if the store belongs to a different command or version; RunError if it cannot
-///         be written
+/// may already have rows of the same command. A stored row with the same name stays unchanged.
+/// @throws InputError if the store belongs to a different command or version; RunError if the
+///         store cannot be written
 void store_replay(const std::string& path, const StoredReplay& replay);
 
 }  // namespace rovernet

@@ -7,7 +7,7 @@
 
 namespace rovernet {
 
-/// Shell command that repeats one run of a study's store and writes the run's files.
+/// Shell command that simulates one run of a study's store again and writes the run's files.
 std::string run_command(const Store& store, const StoredPoint& point, std::uint32_t replication);
 
 /// Run of a study's store, with its point.

@@ -11,11 +11,11 @@
 
 namespace rovernet {
 
-/// State of one run in a store.
+/// State of one run in a study's store: not in the store, failed or finished.
 enum class RunState { missing, failed, finished };
 
-/// State of the replications of each point of a study, by point number: requested replications, and
-/// further replications in the store.
+/// States of a study's runs, by point number and, in each list, by replication. A list includes all
+/// replications that the study requests, and further replications in the store.
 using Inventory = std::map<std::uint32_t, std::vector<RunState>>;
 
 /// Number of runs in each state.
@@ -27,13 +27,13 @@ struct RunCounts {
     void add(RunState state);
 };
 
-/// Table [study] of a study's store, with the options of its last sweep; all defaults if the store
-/// has none.
+/// Table [study] that the last sweep wrote into a study's store, with that sweep's options. Without
+/// such a table, every value is the default.
 /// @throws InputError if the store is damaged
 StudyTable study_of(const Store& store);
 
 /// State of every run of a study's store. With [study] precision, the number of requested
-/// replications follows from the values so far.
+/// replications follows from the stored values.
 Inventory inventory_of(const Store& store);
 
 RunCounts counts_of(const Inventory& inventory);

@@ -16,14 +16,16 @@ struct Location;
 struct MetricValues;
 struct Scenario;
 
-/// Metric of a run; without a value if undefined, such as the latency when nothing was delivered.
+/// Metric of a run. An undefined metric has no value, such as the latency if no message was
+/// delivered.
 struct MetricValue {
     std::string name;
     std::optional<double> value;
     friend bool operator==(const MetricValue&, const MetricValue&) = default;
 };
 
-/// Metrics of summary.json as a list; drops are "drops.DUP" and so on.
+/// Metrics of summary.json as a list. Counts of dropped packets are named "drops.REASON", such as
+/// "drops.DUP".
 std::vector<MetricValue> metric_list(const MetricValues& values);
 
 /// Measurement of one run, as stored by a study.
@@ -35,7 +37,7 @@ struct Measurement {
     std::string host;
     std::uint64_t searches = 0;  ///< number of path searches not answered by the cache; not stored
 
-    /// What is measured besides the metrics, in the order of the pipe.
+    /// Members except the metrics, in the order in which to_text() writes them.
     static constexpr auto fields() {
         using M = Measurement;
         return describe(field("fingerprint", &M::fingerprint, "of the run"),
@@ -47,24 +49,27 @@ struct Measurement {
     friend bool operator==(const Measurement&, const Measurement&) = default;
 };
 
-/// Names of the metrics of every run: metrics of summary.json, drops as "drops.DUP" and so on,
-/// airtime, number of events, and end of the warm-up [s].
+/// Names of the metrics of every run: metrics of summary.json (counts of dropped packets as
+/// "drops.REASON", such as "drops.DUP"), airtime, number of events, and end of the warm-up [s].
 const std::vector<std::string>& metric_names();
-/// Names of the metrics of a scenario's runs: metrics of every run, and metrics chosen in
-/// [metrics], named without a run: "delivery_ratio.FLOW" and "delivery_ratio.at.ROBOT", likewise
-/// messages, deliveries, throughput_bps and latency_mean_s.
+/// Names of the metrics of a scenario's runs: metrics of every run, and metrics that the scenario
+/// chooses in [metrics]. Metrics of a flow or robot, such as "delivery_ratio.FLOW" and
+/// "delivery_ratio.at.ROBOT", exist for delivery_ratio, messages, deliveries, throughput_bps and
+/// latency_mean_s.
 std::vector<std::string> metric_names(const Scenario& scenario);
 
-/// Checks that the scenario has a metric of this name. @throws InputError at `where` if not
+/// Checks that runs of the scenario have a metric with this name. @throws InputError at `where` if
+/// not
 void check_metric(const std::string& name, const Scenario& scenario, const Location& where);
 
-/// Runs a scenario and measures it, without writing files.
-/// @param kept  path planners shared by runs in one scene, for speed only: the result is the same
-/// without
+/// Runs a scenario and returns its metrics and costs, without writing files.
+/// @param kept  cache of path planners, shared by runs in one scene; it saves time and does not
+///              affect results
 /// @throws InputError, RunError
 Measurement measure(const Scenario& scenario, KeptPlanners& kept);
 
-/// Conversion of a measurement to a text and back, for pipes between processes.
+/// Conversion of a measurement to a text, and of the text to a measurement, to send measurements
+/// between processes.
 std::string to_text(const Measurement& measurement);
 Measurement measurement_of(std::string_view text);
 

@@ -7,8 +7,8 @@ struct sqlite3;
 
 namespace rovernet {
 
-/// Guard that makes an SQLite connection read-only during its lifetime: statements cannot attach or
-/// write files, change settings or load libraries.
+/// Guard that makes an SQLite connection read-only during the guard's lifetime. SQL statements
+/// cannot attach or write files, change settings or load libraries.
 class OnlyReading {
   public:
     explicit OnlyReading(sqlite3* database);
@@ -16,7 +16,7 @@ class OnlyReading {
     OnlyReading(const OnlyReading&) = delete;
     OnlyReading& operator=(const OnlyReading&) = delete;
 
-    bool denied() const { return denied_; }  ///< whether a statement tried more than reading
+    bool denied() const { return denied_; }  ///< whether a statement tried more than to read
 
   private:
     sqlite3* database_;

@@ -10,19 +10,20 @@
 
 namespace rovernet {
 
-/// Whether a study covers only a part of a store: both share a point, and the store has further
-/// points or more replications. False if the file does not exist or has a different version.
+/// Whether a study covers only a part of the store at `path`: study and store share a point, and
+/// the store has further points or more replications. False if the file does not exist, or if its
+/// runs are of a different code version.
 bool takes_part_of(const std::string& path, const Study& study);
 
-/// Number of the last replication in a store that exceeds the study's replications; none if there
-/// is no such replication, or if the study has a `precision`.
+/// Number of replications in a store, at the points of a study, if the store has more replications
+/// than the study. None otherwise, or if the study has a `precision`.
 std::optional<std::uint32_t> more_replications(const Store& store, const Study& study);
 
-/// Copies the runs of the study from the whole store into the store `part`.
+/// Copies the runs that the study requests from the store `whole` into the store `part`.
 void take_part(const Store& whole, const Study& study, Store& part);
 
-/// Adds points and runs of `part` back to the whole store. A key that only one of the two stores
-/// varies gets, in the other store, its value at a common point.
+/// Adds the points and runs of the store `part` to the store `whole`. If only one of the two stores
+/// varies a key, points of the other store get the value that the key has at a common point.
 void give_back(const Store& part, Store& whole);
 
 }  // namespace rovernet

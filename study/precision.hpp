@@ -11,28 +11,32 @@
 
 namespace rovernet {
 
-/// Main metric of a study: the first of its `metrics`, or delivery_ratio.
+/// Name of a study's main metric: the first one in [study] metrics, or else delivery_ratio.
 std::string first_metric(const StudyTable& study);
 
-/// Precision reached at a point of a study: half-width of the interval of the first metric.
+/// Precision reached at a point of a study: half-width of the confidence interval of the study's
+/// main metric, see first_metric().
 struct ReachedPrecision {
     std::size_t values = 0;
-    /// Half-width of the interval, in the metric's unit; none without an interval.
+    /// Half-width of the confidence interval, in the metric's unit; none: no interval exists.
     std::optional<double> half_width;
     bool enough = true;  ///< true if [study] precision is reached or not given
 };
 
-/// Precision reached by these values of the study's first metric, in the order of replications.
+/// Precision reached by values of the study's main metric (see first_metric()) at one point.
 ///
-/// If the metric has two bounds, the betting interval is valid at every n, so that a point may stop
-/// as soon as it is narrow. Student's t is not: values that are close by chance would stop a point
-/// too early. By t, at least 10 values are needed, and equal values never suffice.
+/// For a metric with two bounds, the default is the betting interval. It is valid after any number
+/// of replications, so that a point needs no more runs once its interval is narrow enough.
+/// Student's t interval is not: values that are close by chance would end a point too early. By t,
+/// at least 10 values are needed, and equal values never suffice.
+/// @param values  in the order of the replications
 ReachedPrecision reached_precision(const StudyTable& study, std::span<const double> values);
 
-/// Number of replications that a point needs for [study] precision, after `made` >= 1 replications
-/// with these values. The result is `made` if the precision is reached or not given. Otherwise it
-/// is the estimate of replications_for_width(), limited to between 17/16 and 2 times `made`
-/// (estimates from few values are rough) and to max_replications.
+/// Estimated number of replications that a point needs for [study] precision. The result is `made`
+/// if the precision is reached or not given. Otherwise the result is that of
+/// replications_for_width(), limited to between 17/16 and 2 times `made` (estimates from few values
+/// are rough) and to max_replications.
+/// @param made  number of replications so far, >= 1, with these values
 std::uint32_t replications_for(const StudyTable& study, std::span<const double> values,
                                std::uint32_t made);
 

@@ -15,23 +15,26 @@
 
 namespace rovernet {
 
-/// Condition on a varied key: value that it must have, as printed in results.
+/// Condition on a varied key of a study: the path of the key, and its required value as a text, as
+/// printed in results.
 struct Condition {
     std::string path, value;
 };
 
 /// Query of a study's results.
 struct Question {
-    /// Names of metrics; empty: those of [study] metrics, or else the default metrics.
+    /// Names of the metrics to compute; empty: the metrics of [study] metrics, or else the default
+    /// metrics.
     std::vector<std::string> metrics = {};
-    /// Paths of varied keys to group by; not given: all varied keys; empty: one row for everything.
+    /// Paths of varied keys; points with equal values of these keys form a row of the table. Not
+    /// given: all varied keys; empty: one row for all points.
     std::optional<std::vector<std::string>> group_by = {};
-    std::vector<Condition> where = {};  ///< values that varied keys must have in all points used
+    std::vector<Condition> where = {};  ///< conditions; only points that meet all of them are used
     std::optional<double> confidence = {};  ///< confidence level [-]; none: as in [study]
     std::optional<double> quantile = {};    ///< quantile to compute instead of the mean [-]
     /// Interval method for means; none: as in [study], or else by method_for().
     std::optional<IntervalMethod> interval = {};
-    bool common = false;  ///< true: average only over runs for which every row has a value
+    bool common = false;  ///< true: average only over cells with a value in every row, see Cells
 };
 
 /// Value of one metric for one row of the results table (points with equal group_by values).
@@ -40,8 +43,8 @@ struct Answer {
     std::string metric;                      ///< name of the metric
     std::map<std::uint32_t, double> values;  ///< mean over the points of the row, by replication
     Gaps gaps;                               ///< number of runs of the row that have no value
-    std::uint64_t cells = 0;                 ///< number of runs of each row, see Cells
-    std::uint64_t left_out = 0;              ///< number of runs skipped because of Question::common
+    std::uint64_t cells = 0;                 ///< number of cells of each row, see Cells
+    std::uint64_t left_out = 0;              ///< number of cells skipped due to Question::common
     std::optional<Summary> summary;          ///< summary of the values; none without values
     std::optional<double> value;             ///< mean or quantile of `values`
     std::optional<double> low, high;  ///< ends of the interval of `value`; none: too few values
@@ -52,23 +55,23 @@ struct Answer {
 /// Table of results of a study.
 struct Answers {
     std::vector<Answer> list;           ///< answers, row by row, and within a row metric by metric
-    std::vector<std::string> averaged;  ///< varied keys over whose values a row is averaged
-    std::vector<std::string> along;     ///< keys with one value in each row, as in [study] zip
-    RunCounts runs;                     ///< runs of the whole study, independent of the query
+    std::vector<std::string> averaged;  ///< varied keys of the study, averaged over in each row
+    std::vector<std::string> along;     ///< ungrouped varied keys with one value in each row
+    RunCounts runs;                     ///< counts of all runs of the study, for any query
 };
 
 /// Computes the results of a study for a query.
 ///
 /// The replication is the unit of statistics: points of a row are first averaged in each
-/// replication, with equal weights. All such rows must have the same cells (a cell is a combination
-/// of values of the averaged keys, in one replication). A row that lacks a cell, since a run
-/// failed, is missing or has no value, would differ from other rows for that reason alone.
+/// replication, with equal weights. All averaged rows must have the same cells (a cell is a
+/// combination of values of the averaged keys, in one replication). A row that lacks a cell, since
+/// a run failed, is missing or has no value, would differ from other rows for that reason alone.
 /// @throws std::invalid_argument for an unknown metric or path, if no point meets the conditions,
 ///         or if rows have different cells and `common` is false
 Answers answers(const Store& store, const Question& question);
 
-/// Note on the data behind the numbers: averaged keys and missing runs, as in "averaged over
-/// routing.ttl". Empty if each row is one point and every run has a value.
+/// Note on the runs from which results are computed: averaged keys and missing runs, as in
+/// "averaged over routing.ttl". Empty if each row is one point and every run has a value.
 std::string coverage_text(const Answers& answers);
 
 /// Paths of the varied keys of the store's study.
@@ -77,13 +80,14 @@ std::vector<std::string> varied_paths(const Store& store);
 /// Confidence level of intervals [-], from the study's table [study].
 double confidence_of(const Store& store);
 
-/// Interval method of the study, if given: StudyTable::interval_wish().
+/// Interval method that the study requests: StudyTable::interval_wish(); none: no request.
 std::optional<IntervalMethod> interval_method_of(const Store& store);
 
 /// Points of the study that meet all conditions. @throws std::invalid_argument if no point does
 std::vector<StoredPoint> points_where(const Store& store, const std::vector<Condition>& where);
 
-/// Names of the metrics of a query. @throws std::invalid_argument for an unknown metric
+/// Names of the metrics that a query computes: Question::metrics, or else [study] metrics, or else
+/// the default metrics. @throws std::invalid_argument for an unknown metric
 std::vector<std::string> metrics_of(const Store& store, const Question& question);
 
 }  // namespace rovernet

@@ -8,21 +8,21 @@
 
 namespace rovernet {
 
-/// Function that writes the next piece of a text.
+/// Function that writes the next part of a file.
 using Write = std::function<void(std::string_view)>;
 
-/// Writes results as comma-separated values (RFC 4180) with a header line. Each row is a finished
-/// run and metric, sorted by point, replication and metric. Columns: point, varied keys,
-/// replication, metric, value (empty if undefined). All metrics are written if the query names
-/// none. Equal results give equal bytes.
+/// Writes results as comma-separated values (RFC 4180) with a header line. Each line has one metric
+/// of one finished run. Lines are sorted by point, replication and metric. Columns: point, varied
+/// keys, replication, metric, value (empty if undefined). If the query names no metrics, all
+/// metrics are written. Equal results give equal bytes.
 ///
-/// With `group_by`, each line is a row of answers(), a metric and a replication instead. Columns:
-/// the group_by keys, replication, metric, value.
+/// If Question::group_by is given, each line has one metric of one replication of a row of
+/// answers(). Columns: the group_by keys, replication, metric, value.
 /// @throws std::invalid_argument as answers()
 void write_csv(const Store& store, const Question& question, const Write& write);
 
-/// Writes one line for each run, including failed runs: point, replication, id, fingerprint, times
-/// and host.
+/// Writes comma-separated values with one line for each run, including failed runs. Columns: point,
+/// varied keys, replication, id, fingerprint, error, times and host.
 void write_provenance_csv(const Store& store, const std::vector<Condition>& where,
                           const Write& write);
 

@@ -15,33 +15,36 @@ namespace rovernet {
 /// is 1001 by default.
 inline constexpr std::uint64_t longest_array = 1000;
 
-/// Number of runs of a chunk (one task), at least `wanted`, so that all runs fit one job array.
+/// Number of runs of a chunk (one task of a job array): `wanted`, or more if all runs would not fit
+/// one array of longest_array tasks.
 std::uint64_t chunk_for_array(std::uint64_t runs, std::uint64_t wanted);
 
-/// Numbers of the chunks (runs of one task) with unfinished runs, ascending.
+/// Numbers of the chunks (runs of one task of a job array) that have unfinished runs, ascending.
+/// @param runs  states of all runs in the order of run_states()
 /// @param size  number of runs of a chunk, > 0
 std::vector<std::uint64_t> open_chunks(std::span<const RunState> runs, std::uint64_t size);
 
-/// Text of ascending numbers for sbatch --array: "0-3,7,9-10".
+/// Task numbers as a text for sbatch --array: "0-3,7,9-10". @param numbers  ascending
 std::string array_ranges(std::span<const std::uint64_t> numbers);
 
 /// Sweep on a Slurm cluster. Each task of a job array makes one chunk of the runs and writes a
 /// separate store, a shard. A second job merges the shards after all tasks, even if tasks failed.
-/// The progress is taken from the store, not from Slurm.
+/// The store determines which runs are finished; Slurm is not asked.
 ///
 /// Scripts and logs are in the folder STORE.slurm: job.sh, merge.sh, shards/ and logs/. File names
 /// may contain any character except a line break.
 struct SlurmSweep {
     std::string command;  ///< absolute path of the program rovernet
-    /// Working directory, to which relative paths in the options refer: absolute.
+    /// Absolute path of the working directory, to which relative paths in `options` refer.
     std::string directory;
     std::string file, store;           ///< scenario file and store of the study: absolute paths
-    std::vector<std::string> options;  ///< words of the command line after FILE
+    std::vector<std::string> options;  ///< command-line words after FILE of `rovernet sweep FILE`
     std::uint64_t chunk;               ///< number of runs of a task, > 0
-    /// Numbers of the chunks (parts of the runs) to make; a task has the number of its chunk.
+    /// Numbers of the chunks (parts of the runs) to make. The number of a task in the job array is
+    /// the number of its chunk.
     std::vector<std::uint64_t> chunks;
     std::size_t workers = 0;               ///< largest number of simultaneous tasks; 0: no limit
-    std::vector<std::string> sbatch = {};  ///< further options for sbatch, for both jobs
+    std::vector<std::string> sbatch = {};  ///< further options of sbatch, for both jobs
 
     std::string folder() const { return store + ".slurm"; }
     std::string job_file() const { return folder() + "/job.sh"; }
@@ -49,12 +52,13 @@ struct SlurmSweep {
 
     /// Bash script of a task, which needs SLURM_ARRAY_TASK_ID.
     std::string job_script() const;
-    /// Script of the merge job; a user may run it by hand, too.
+    /// Bash script of the job that merges the shards; a user may also run the script by hand.
     std::string merge_script() const;
 
-    /// Command that submits the tasks and prints the number of the job.
+    /// Words of the sbatch command that submits the job array and prints the number of that job.
     std::vector<std::string> submit_job() const;
-    /// Command that submits the merge job, to run after `job`.
+    /// Words of the sbatch command that submits the merge job, to run when the job array has ended.
+    /// @param job  number of the job array
     std::vector<std::string> submit_merge(const std::string& job) const;
 };
 

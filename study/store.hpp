@@ -26,7 +26,7 @@ struct StoredRun {
     std::uint32_t point;  ///< number of the run's point
     std::uint32_t replication;
     std::string error;        ///< error message of a failed run; empty: finished
-    Measurement measurement;  ///< measurement; a failed run has no metrics
+    Measurement measurement;  ///< metrics, times and host; a failed run has no metrics
 };
 
 /// Value of a metric in a run of a study, as stored.
@@ -38,11 +38,11 @@ struct StoredValue {
 /// Store of a study: its results in one SQLite file.
 ///
 /// Tables: `study` (key, value: version, scenario, created), `point`, `run`, `metric_name`,
-/// `metric` (one value for each run and metric); the view `result` joins them. A run is written in
-/// one transaction, completely or not at all. One process may write at a time; other processes may
-/// read meanwhile if the file system supports locks, see StoreConnection.
+/// `metric` (one value for each run and metric). The view `result` joins these tables. A run is
+/// written in one transaction, completely or not at all. One process may write at a time. Other
+/// processes may read meanwhile if the file system supports locks, see StoreConnection.
 ///
-/// Every value read is checked, column by column: for a damaged store every function throws an
+/// Every value read is checked, column by column. If the store is damaged, every function throws an
 /// InputError that names table and row.
 class Store {
   public:
@@ -50,15 +50,17 @@ class Store {
     /// format
     static Store open(const std::string& path);
     /// Opens a store for writing, or creates it. @throws InputError as open(); RunError if another
-    /// process writes to it, or the file cannot be written
+    /// process writes to the store, or the file cannot be written
     static Store open_to_write(const std::string& path);
     ~Store();
     Store(Store&&) noexcept;
     Store& operator=(Store&&) noexcept;
 
-    /// Property of the study: "version", "scenario", "created"; empty if there is none.
+    /// Text of a property of the study, such as "version", "scenario" or "created"; empty if the
+    /// store does not have the property.
     std::string property(const std::string& key) const;
-    /// Property that is stored as JSON; an empty Value if there is none.
+    /// Value of a property of the study that is stored as JSON; an empty Value if the store does
+    /// not have the property.
     Value document(const std::string& key) const;
     void set_property(const std::string& key, const std::string& value);
 

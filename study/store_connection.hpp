@@ -22,9 +22,9 @@ struct StoreConnection {
     /// @throws RunError if another process writes to the file; SQLite::Exception
     static StoreConnection to_write(const std::string& path);
     /// Opens a connection for reading. If a killed process left a journal that cannot be recovered
-    /// in place, the connection is to a copy in a temporary folder.
-    /// @throws RunError if another process writes to the file and locks cannot prevent that;
-    /// SQLite::Exception
+    /// in place, the connection is to a copy of the file in a temporary folder.
+    /// @throws RunError if another process writes to the file, and SQLite's locks do not allow
+    /// reading meanwhile; SQLite::Exception
     static StoreConnection to_read(const std::string& path);
 
     /// Temporary folder with a copy of the store, removed by the destructor.
@@ -38,7 +38,7 @@ struct StoreConnection {
     };
 
     std::unique_ptr<Copy> copy = {};
-    std::unique_ptr<WriteLock> lock = {};  ///< must outlive the connection, see flock(2)
+    std::unique_ptr<WriteLock> lock = {};  ///< lock of a writer; outlives `sqlite`, see flock(2)
     std::unique_ptr<SQLite::Database> sqlite;
 };
 

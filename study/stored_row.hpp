@@ -29,13 +29,13 @@ class StoredRow {
     /// Value in a column of the row.
     /// @throws InputError by refuse() if the value has a wrong type or is out of range
     std::string text(int column) const;
-    std::uint32_t number(int column) const;                 ///< whole number below a million
+    std::uint32_t number(int column) const;                 ///< whole number, 0 ... 999,999
     double real(int column) const;                          ///< finite number
     std::optional<double> optional_real(int column) const;  ///< finite number; none: NULL
     Value document(int column) const;                       ///< value parsed from a JSON text
 
-    /// Reports a damaged store, with table, row, column, found and expected value.
-    /// @throws InputError
+    /// Throws an InputError that reports a damaged store: table, row, column, found and expected
+    /// value.
     [[noreturn]] void refuse(int column, const std::string& found,
                              const std::string& expected) const;
 
@@ -45,7 +45,7 @@ class StoredRow {
     int keys_;
 };
 
-/// Error of a damaged store, with a remedy.
+/// Error that reports a damaged store, with a remedy for the user.
 /// @param what  found and expected content
 InputError damaged_store(const std::string& path, const std::string& what);
 

@@ -37,14 +37,14 @@ std::string settings_text(const Table& settings);
 class Study {
   public:
     /// Reads the scenario of every point of the study.
-    /// @param vary     varied keys that replace those of the file and its `zip` groups
-    /// @param exclude  points to skip, if `vary` is given
+    /// @param vary     varied keys; they replace [study] vary, zip and exclude of the file
+    /// @param exclude  combinations of values to skip, if `vary` is given
     /// @throws InputError at the first mistake, naming the point
     Study(const std::string& path, const ScenarioOptions& options,
           const std::optional<std::vector<Vary>>& vary = {},
           const std::vector<Exclusion>& exclude = {});
 
-    /// Whether the scene of some point has walls, so that paths must be searched.
+    /// Whether the scene of any point has walls, so that robots need path planning.
     bool has_walls() const;
     const Scenario& base() const {
         return base_;
@@ -62,7 +62,8 @@ class Study {
     struct Walls {
         std::shared_ptr<const Scene> scene;  ///< scene of the point; null: an open field
         std::string digest;
-        /// Scenes with doors closed, stored since computing them may take longer than a run.
+        /// Changes of the scene by doors that open or close; cached, since computing the changed
+        /// scenes may take longer than a run.
         std::shared_ptr<const std::vector<SceneChange>> changes;
     };
 
@@ -74,7 +75,7 @@ class Study {
     ScenarioFile file_;
     Scenario base_;
     std::vector<StudyPoint> points_;
-    // Walls by the text of [scene], so that a map is read only once.
+    // Walls by the text of the table [scene], so that each map is read only once.
     std::map<std::string, Walls> walls_;
 };
 

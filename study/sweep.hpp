@@ -15,22 +15,23 @@
 
 namespace rovernet {
 
-/// Share of a study's runs for one of several machines: `size` runs from run number * size on, in
-/// the order of the study.
+/// Part of a study's runs, for one of several machines: the runs with indices `number * size` to
+/// `(number + 1) * size - 1`, in the order of run_states().
 struct Shard {
     std::uint64_t number, size;
 };
 
 /// Progress of a sweep.
 struct SweepProgress {
-    std::uint64_t before = 0;    ///< runs finished by an earlier sweep
-    std::uint64_t finished = 0;  ///< runs finished in this sweep
-    std::uint64_t failed = 0;    ///< runs failed in this sweep
-    std::uint64_t left = 0;      ///< runs left so far; [study] precision may need more
+    std::uint64_t before = 0;    ///< number of runs that earlier sweeps finished
+    std::uint64_t finished = 0;  ///< number of runs finished in this sweep
+    std::uint64_t failed = 0;    ///< number of runs failed in this sweep
+    std::uint64_t left = 0;      ///< number of planned runs to make; `precision` may add more
     std::uint64_t searches = 0;  ///< number of path searches made by workers
 };
 
-/// Request to stop a sweep: no; when running tasks have ended; at once.
+/// Request to stop a sweep: do not stop; stop after the running tasks have ended; kill the running
+/// tasks and stop immediately.
 enum class Stop { no, when_idle, at_once };
 
 struct SweepOptions {
@@ -42,13 +43,13 @@ struct SweepOptions {
     /// any replication.
     bool replication_on_one_worker = false;
     std::optional<Shard> shard = {};
-    /// Number of replications of each point, by point number, instead of [study] replications and
-    /// precision.
+    /// Number of replications of each point, by point number; replaces [study] replications and
+    /// precision. None: as in [study].
     std::optional<std::vector<std::uint32_t>> replications = {};
     std::set<std::string> elsewhere = {};  ///< ids of runs to skip, since another store has them
-    /// Called continually; its result requests to stop the sweep.
+    /// Function that returns whether to stop the sweep; called at least every 0.2 s.
     std::function<Stop()> stop = [] { return Stop::no; };
-    /// Called after every run, and at least every 0.2 s.
+    /// Function that receives the progress; called after every run, and at least every 0.2 s.
     std::function<void(const SweepProgress&)> progress = [](const SweepProgress&) {};
 };
 
@@ -56,7 +57,7 @@ struct SweepOptions {
 struct ImprecisePoint {
     std::uint32_t point = 0;
     std::size_t values = 0;            ///< number of replications in which the metric has a value
-    std::optional<double> half_width;  ///< half-width of the interval; none without interval
+    std::optional<double> half_width;  ///< half-width of the metric's interval, if it exists
 };
 
 struct SweepResult {
@@ -66,22 +67,22 @@ struct SweepResult {
     std::vector<ImprecisePoint> imprecise;  ///< points that miss the precision; empty if stopped
 };
 
-/// Opens or creates the store of a study. @throws InputError if it has runs of a different version,
-/// or points outside the study; RunError if it cannot be written
+/// Opens or creates the store of a study. @throws InputError if the store has runs of a different
+/// version, or points outside the study; RunError if the store cannot be written
 Store open_store(const std::string& path, Study& study);
 
 /// Ids of the finished runs in a store.
 std::set<std::string> finished_runs(const Store& store);
 
-/// State of each run of a study in a store, in the order used by shards. With `precision`, only the
-/// first `replications` runs of each point are included.
+/// State of each run of a study in a store, in the order of the runs: replication 0 of every point,
+/// then replication 1, and so on to [study] replications, also if `precision` is given.
 std::vector<RunState> run_states(const Study& study, const Store& store);
 
 /// Makes the missing and failed runs of a study in worker processes, and stores each run as soon as
-/// it ends. A run whose process dies is tried once more. Each point gets [study] replications; with
-/// `precision` further replications until the interval of the first metric is narrow enough, see
-/// reached_precision(), up to max_replications. The set of runs depends on results only, never on
-/// the order in which runs end.
+/// the run ends. A run whose process dies is tried once more. Each point gets [study] replications.
+/// With `precision`, further replications follow until the interval of the first metric is narrow
+/// enough, see reached_precision(), up to max_replications. The set of runs depends on results
+/// only, never on the order in which runs end.
 /// @throws RunError if the store cannot be written
 SweepResult sweep(Study& study, Store& store, const SweepOptions& options);
 

@@ -13,8 +13,8 @@ namespace rovernet {
 
 /// Limits of a worker process.
 struct WorkerLimits {
-    std::optional<double> timeout_s;      ///< limit of real time for one task [s]
-    std::optional<std::uint64_t> memory;  ///< limit of address space [bytes]
+    std::optional<double> timeout_s;      ///< limit of real time for one task [s]; none: no limit
+    std::optional<std::uint64_t> memory;  ///< limit of address space [bytes]; none: no limit
 };
 
 /// End of a worker's task.
@@ -46,24 +46,24 @@ class Workers {
     Workers(const Workers&) = delete;
     Workers& operator=(const Workers&) = delete;
 
-    /// Numbers of idle workers, from 0.
+    /// Indices of the workers without a task.
     std::vector<std::size_t> idle() const;
     /// Number of tasks that are running.
     std::size_t busy() const;
-    /// Gives a task to an idle worker. @throws RunError if the process cannot be started
+    /// Gives a task to an idle worker. @throws RunError if the worker's process cannot be started
     void begin(std::size_t worker, std::uint64_t task);
-    /// Waits up to `seconds` for a task to end, and returns it; none after that time, or when a
-    /// signal interrupts.
+    /// Waits up to `seconds` for a task to end, and returns the end of that task; none if no task
+    /// ends in this time, or if a signal interrupts the wait.
     std::optional<TaskEnd> wait(double seconds);
 
   private:
     struct Worker {
-        pid_t pid = 0;    // 0: not running
-        int socket = -1;  // tasks are sent, results received
-        int words = -1;   // file that captures its standard error
-        std::string got;  // received part of its result
+        pid_t pid = 0;    // process id; 0: not running
+        int socket = -1;  // socket that sends tasks and receives results
+        int words = -1;   // file with the process's standard error
+        std::string got;  // received part of the task's result
         std::optional<std::uint64_t> task;
-        double deadline = 0;  // time limit [s] of the steady clock
+        double deadline = 0;  // latest end of the task [s], by the steady clock
     };
 
     void start(Worker& worker);

@@ -23,12 +23,13 @@ class FileNumber {
 /// Exclusive lock for writing to a store's file, released by the destructor.
 ///
 /// The lock is a flock on the file if the file system supports it. Without flock, or if the file
-/// system implements flock by range locks (which SQLite uses), the lock is a file `PATH.lock` with
-/// process and host. A lock file of a dead process on this host is taken over.
+/// system implements flock by range locks (which SQLite uses), the lock is a file `PATH.lock` that
+/// names process and host. A lock file of a dead process on this host is taken over.
 class WriteLock {
   public:
-    /// Takes the lock; creates the store file if missing. Waits up to 1 s for another writer.
-    /// @throws RunError if the file cannot be written, or another process holds the lock
+    /// Takes the lock of the store file at `path`; creates the file if missing. Waits up to 1 s if
+    /// another process holds the lock.
+    /// @throws RunError if the file cannot be written, or another process still holds the lock
     explicit WriteLock(const std::string& path);
     ~WriteLock();
     WriteLock(const WriteLock&) = delete;
@@ -44,16 +45,16 @@ class WriteLock {
     int owner_ = 0;
 };
 
-/// Whether the file system of an existing file supports range locks, which SQLite needs. Must not
-/// be called while this process has the file open in SQLite, since it would release SQLite's locks.
+/// Whether the file system of an existing file supports range locks, which SQLite needs. It is an
+/// error if this process has the file open in SQLite, since the call would release SQLite's locks.
 bool has_range_locks(const std::string& path);
 
 /// Whether the file is on a known type of network or cluster file system, which several hosts may
 /// share.
 bool is_shared_by_hosts(const std::string& path);
 
-/// Checks that no process writes to a file, for readers that SQLite's locks do not protect.
-/// @throws RunError if a process writes, or if that cannot be determined
+/// Checks that no process writes to the file of a store, for readers that SQLite's locks do not
+/// protect. @throws RunError if a process writes to the file, or if that cannot be determined
 void need_no_writer(const std::string& path);
 
 }  // namespace rovernet

@@ -15,9 +15,9 @@
 
 namespace rovernet {
 
-/// CPU cost of a candidate model, measured on this machine. No decision depends on it.
+/// CPU cost of a candidate model, measured on this machine. No decision depends on the cost.
 struct CandidateCost {
-    double run_s = 0;  ///< [s] CPU time of a run, median; 0: not measured
+    double run_s = 0;  ///< median CPU time of a run [s]; 0: not measured
     /// CPU time of the simulated medium for each transmission [s]: median, lowest and highest of
     /// the measurement turns.
     std::optional<double> transmission_s, low_s, high_s;
@@ -33,11 +33,13 @@ struct JudgedCandidate {
     std::size_t path_loss, reception;  ///< indices into the lists of AdviceCandidates
     std::string name;                  ///< name of the candidate: "log_distance + sinr"
     CandidateDecision decision;
-    /// False: a cheaper candidate was found sufficient before this candidate had a verdict.
+    /// False: a cheaper candidate is sufficient, so that the choice does not depend on this one.
     bool needed = true;
-    /// Means of D (candidate minus reference) and of |D|, in the metric's unit.
+    /// Mean of D and mean of |D|, in the metric's unit, with D = value of the candidate - value of
+    /// the reference in one replication.
     double bias = 0, run_error = 0;
-    /// Confidence interval of `bias` and of `run_error`, each alone at confidence 1 - alpha.
+    /// Confidence intervals of `bias` and of `run_error`, each alone at the confidence 1 -
+    /// DecisionRule::alpha.
     std::optional<MeanInterval> bias_interval, run_error_interval;
     CandidateCost cost;
 };
@@ -62,28 +64,29 @@ struct Advice {
 
     /// Whether the advice was stopped before any candidate was compared.
     bool knows_nothing() const;
-    /// Verdict on the chosen models; null: the reference was chosen.
+    /// Judged candidate that has both chosen models; null: the reference was chosen.
     const JudgedCandidate* chosen() const;
     /// Whether the reference costs hardly more than the choice: the medium takes at most 5 % of the
     /// reference's CPU time, or runs of the choice need more than 9/10 of the reference's CPU time.
-    /// False if costs were not measured.
+    /// False if costs were not measured, or if the reference was chosen.
     bool saves_nothing() const;
 };
 
-/// Function that makes the missing runs of a study. @param replications  number of replications of
-/// each point. @return false if it was stopped early; the advice then uses the existing runs. Its
-/// exceptions end the advice
+/// Function that makes the missing runs of a study, for advise(). Exceptions of the function end
+/// the advice.
+/// @param replications  requested number of replications of each point
+/// @return false if the function was stopped early; the advice then uses the existing runs
 using MakeRuns = std::function<bool(const std::vector<std::uint32_t>& replications)>;
 
 /// Compares the candidates with the reference: first path losses, then receptions, then both chosen
-/// models together. Replications 0, 1, 2, ... are added in blocks until a candidate has a verdict,
-/// or the choice no longer depends on it. A candidate that is undecided after `rule.most`
-/// replications counts as insufficient. If the pair of chosen models is insufficient, the chosen
-/// path loss is combined with the reference's reception.
+/// models together. Replications 0, 1, 2, ... are added in blocks until each candidate has a
+/// verdict, or the choice no longer depends on that candidate. A candidate that is undecided after
+/// `rule.most` replications counts as insufficient. If the pair of chosen models is insufficient,
+/// the chosen path loss is combined with the reference's reception.
 ///
 /// Candidates that need few more replications come first: a block contains the candidates whose
 /// predicted number of replications is at most 4 times the least. A candidate with 100 replications
-/// and a prediction above `rule.most` gets no more: its error is too close to the tolerance.
+/// and a prediction above `rule.most` gets no more runs: its error is too close to the tolerance.
 ///
 /// The advice depends on results only, not on the number of workers, the speed of the machine or
 /// the initial content of the store, unless make_runs() stops it.
@@ -91,8 +94,9 @@ using MakeRuns = std::function<bool(const std::vector<std::uint32_t>& replicatio
 Advice advise(const AdviceCandidates& candidates, const Store& store, const std::string& metric,
               const DecisionRule& rule, const MakeRuns& make_runs);
 
-/// Number of replications after the next block, after n replications: 10 at first, then a quarter
-/// more each time. Blocks are small because runs after a verdict within a block are wasted.
+/// Number of replications at the end of the next block, if n replications exist: n + 10, or 5/4 n
+/// if that is larger, but at most `most`. Blocks are small, since runs after a verdict within a
+/// block are wasted.
 std::size_t next_block(std::size_t n, std::size_t most);
 
 }  // namespace rovernet

@@ -17,10 +17,11 @@
 
 namespace rovernet {
 
-/// Question of a user: the models that may be candidates, and the reference.
+/// Request of a user: models that may be candidates, and changes of the reference.
 struct CandidateQuestion {
-    /// Names of propagation models or candidates. If empty: on a map, the models listed before the
-    /// reference; on an open field, the models that need no map.
+    /// Names of propagation models or of candidates. If empty: on a map, all models less detailed
+    /// than the reference (earlier in the list of models); on an open field, all models that need
+    /// no map.
     std::vector<std::string> models;
     /// Assignments "propagation.KEY=VALUE" and "reception.KEY=VALUE" that change the reference.
     std::vector<std::string> reference;
@@ -30,8 +31,8 @@ struct CandidateQuestion {
 
 /// Propagation or reception model that is a candidate.
 struct CandidateModel {
-    /// Name, "log_distance"; for a cheaper form of the reference also the changed keys: "rays
-    /// order=1 diffraction=none".
+    /// Name of the candidate, such as "log_distance"; for a cheaper form of the reference also the
+    /// changed keys: "rays order=1 diffraction=none".
     std::string name;
     std::string model;  ///< name of the model in the list of models
     Table table;        ///< complete table [propagation] or [reception] of a scenario file
@@ -64,18 +65,19 @@ struct AdviceCandidates {
     /// Name of a pair of models: "log_distance + sinr".
     std::string name_of(std::size_t path_loss, std::size_t reception) const;
 
-    /// Varied keys, and excluded points, of a study over all pairs of models.
+    /// Varied keys of a study over all pairs of path loss and reception.
     std::vector<Vary> vary() const;
+    /// Pairs of incompatible models, which a study over all pairs must skip.
     std::vector<Exclusion> exclude() const;
 };
 
-/// Candidates for a scenario. The reference has the reception `sinr` and, on a map, the model
-/// `rays` (order 3, diffraction utd) or else the most detailed listed model; on an open field
-/// two_ray (form exact). Free parameters of the other models are fitted to the reference, see
-/// calibrate_to_model().
+/// Candidates for a scenario. Unless `question` changes the reference, it has the reception `sinr`
+/// and this path loss: on a map `rays` (order 3, diffraction utd), on a map of several storeys
+/// `multi_wall`, on an open field `two_ray` (form exact). Free parameters of the other models are
+/// fitted to the reference, see calibrate_to_model().
 /// @param tell  called with the finished share of the fit, 0 ... 1; may be empty
-/// @throws InputError for the file; at an option with an unknown model, or with a reference that is
-///         invalid in the scenario
+/// @throws InputError if the file is invalid, if an option names an unknown model, or if the
+///         reference is invalid in the scenario
 AdviceCandidates candidates_for(const std::string& file, const ScenarioOptions& options,
                                 const CandidateQuestion& question,
                                 const std::function<void(double)>& tell = {});

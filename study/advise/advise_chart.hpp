@@ -8,9 +8,9 @@
 
 namespace rovernet {
 
-/// Charts of an advice, error against cost: path losses over the CPU time of the medium for each
-/// transmission, and all compared candidates over the CPU time of a run. Marks are |bias| and run
-/// error with their intervals. If costs were not measured, one bar chart.
+/// Charts of an advice, error against cost: first path losses over the CPU time of the medium per
+/// transmission, then all compared candidates over the CPU time of a run. Marks are |bias| and run
+/// error with their intervals. If costs were not measured, the result is one bar chart of errors.
 std::vector<Chart> advice_charts(const Advice& advice);
 
 }  // namespace rovernet

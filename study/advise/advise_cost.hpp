@@ -13,15 +13,15 @@ namespace rovernet {
 /// Measures the costs of an advice's candidates, and fills in JudgedCandidate::cost,
 /// Advice::reference_cost and cost_text:
 ///
-/// - CPU time of the medium alone, for the transmissions of replication 0 at the reference, with
-///   path losses in alternation; it does not depend on the reception
-/// - CPU time of whole runs of a few replications, in alternation, with paths already planned; it
-///   includes the cost of the reception
-/// @param stopped  called now and then; returning true ends the measurement, and nothing is filled
-/// in
+/// - CPU time of the medium alone, for the transmissions of replication 0 of the reference. Path
+///   losses are measured in turns. The time does not depend on the reception.
+/// - CPU time of whole runs of a few replications, without path planning. Candidates are measured
+///   in turns. The time includes the cost of the reception.
+/// @param stopped  called now and then; returning true ends the measurement without filling in
 void add_costs(Advice& advice, Study& study, const std::function<bool()>& stopped);
 
-/// Advice as a sentence for the user: recommended models, confidence, and saved time.
+/// Advice as sentences for the user: recommended models, confidence, saved CPU time, and undecided
+/// candidates.
 std::string advice_text(const Advice& advice);
 
 }  // namespace rovernet

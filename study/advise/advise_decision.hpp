@@ -12,7 +12,7 @@
 #include <vector>
 
 // Decisions of `rovernet advise`: find the cheapest candidate whose error against the reference is
-// within the tolerance. Nothing here runs a simulation.
+// within the tolerance. No function of this file runs a simulation.
 
 namespace rovernet {
 
@@ -32,7 +32,7 @@ struct DecisionRule {
     ErrorCriterion criterion = ErrorCriterion::mean;
     double tolerance = 0.02;  ///< largest accepted error, > 0, in the metric's unit
     Bounds bounds;            ///< bounds of the metric, see bounds_of()
-    double alpha = 0.05;      ///< [-] probability of at least one false verdict on all candidates
+    double alpha = 0.05;      ///< largest probability of any false verdict on the candidates [-]
     std::size_t family = 1;   ///< number of candidates that may be compared
     std::size_t most = 4000;  ///< largest number of replications for a candidate
 
@@ -44,11 +44,11 @@ struct DecisionRule {
 /// Comparison of a candidate with the reference: values of both in each replication, and the first
 /// verdict that follows.
 ///
-/// If the metric has two bounds, values are clipped to them, and the verdict is that of an
+/// If the metric has two bounds, values are clipped to the bounds, and the verdict is that of an
 /// EquivalenceTest of D, or of |D| if the criterion is `run`. Since |D| is never negative, only the
-/// wealth `above` can falsely give "outside", so that the threshold family / alpha suffices for it.
-/// All verdicts of the family are right with probability 1 - alpha, for any distribution and any
-/// stopping time.
+/// wealth `above` can falsely give "outside", so that the threshold family / alpha suffices for
+/// this wealth. All verdicts of the family are right with probability 1 - alpha, for any
+/// distribution and any stopping time.
 ///
 /// Otherwise Student's two-sided interval for the mean of D, or of |D|, is tested after 10, 20, 40,
 /// ... and `most` pairs, at the level alpha / (family * number of tests). Verdict "within": the
@@ -69,15 +69,17 @@ class CandidateDecision {
     std::size_t n() const { return candidate_.size(); }
     /// Differences (candidate - reference), in the metric's unit, in the order of replications.
     std::vector<double> differences() const;
-    /// Predicted total number of replications for a verdict, if further ones resemble those given.
-    /// None if there is a verdict, if Student's interval is used, or if 100,000 would not suffice.
+    /// Predicted total number of replications for a verdict, if further replications resemble the
+    /// given ones. None if a verdict exists, if Student's interval is used, or if 100,000 would not
+    /// suffice.
     std::optional<std::size_t> needed() const;
-    /// Larger tolerance, with two digits, for which the given replications show the error to lie
-    /// within it. None if there is a verdict, or if no such tolerance is below the metric's range.
+    /// Least larger tolerance (with two digits) for which the given replications give the verdict
+    /// "within". None if a verdict exists, or if no such tolerance is below the metric's range and
+    /// below 1000 times the rule's tolerance.
     std::optional<double> deciding_tolerance() const;
 
   private:
-    /// Verdict of the given replications for a different tolerance.
+    /// Verdict of the given replications if the rule had a different tolerance.
     Equivalence verdict_with(double tolerance) const;
     void bet(double error);
     void look(double error);
@@ -85,15 +87,15 @@ class CandidateDecision {
     double error_of(double candidate, double reference) const;
 
     DecisionRule rule_;
-    std::optional<EquivalenceTest> test_;  // only if the metric has two bounds
+    std::optional<EquivalenceTest> test_;  // betting test; none unless the metric has two bounds
     std::vector<double> candidate_, reference_, errors_;
-    std::vector<std::size_t> looks_;  // otherwise: numbers of pairs at which to test
+    std::vector<std::size_t> looks_;  // numbers of pairs after which Student's interval is tested
     Equivalence verdict_ = Equivalence::undecided;
     std::optional<std::size_t> decided_at_;
 };
 
-/// Candidates of one kind (path loss or reception models) in the order of detail, the cheapest
-/// first. The reference follows after the last.
+/// Decisions on candidates of one kind (path loss or reception models), in the order of detail, the
+/// cheapest first. The reference is more detailed than all candidates.
 class Ladder {
   public:
     Ladder(std::size_t candidates, const DecisionRule& rule);
@@ -106,7 +108,7 @@ class Ladder {
     /// Whether the choice still depends on candidate i: it has no verdict, and no cheaper candidate
     /// is within the tolerance.
     bool wants(std::size_t i) const;
-    /// Whether the choice depends on no further verdict.
+    /// Whether the choice is final: it depends on no further verdict.
     bool decided() const;
 
     std::size_t size() const { return decisions_.size(); }

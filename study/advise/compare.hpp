@@ -18,27 +18,27 @@ namespace rovernet {
 /// Propagation model, or value of any varied key, in a comparison over common random numbers.
 struct ComparedModel {
     std::string model;  ///< name of the model or value: "friis", "ttl=4"
-    Answer answer;      ///< value of the metric over all replications of this model, as in results
+    Answer answer;      ///< mean of the metric over all replications of this model, see answers()
     double cpu_s = 0;   ///< mean CPU time of a run [s]
     std::optional<MediumCost> cost;  ///< CPU cost of the medium; see add_costs()
-    /// Approximate share of the medium's cost in the runs' CPU time [-].
+    /// Approximate share of the medium's CPU time in the CPU time of the runs [-].
     std::optional<double> radio_share;
     /// Mean absolute difference to the most detailed model, in the metric's unit, over replications
     /// in which both have a value; 0 for the most detailed model itself.
     std::optional<double> error;
     /// Confidence interval of `error`, see interval_of(); none for the most detailed model.
     std::optional<MeanInterval> error_interval;
-    /// Number of replications in `error`.
+    /// Number of replications over which `error` is the mean.
     std::size_t error_n = 0;
     /// Difference of this model to the baseline, over replications in which both have a value; none
     /// for the baseline itself, or for fewer than 2 replications.
     std::optional<PairedComparison> difference;
-    Gaps unpaired;  ///< number of replications missing in `difference`, since a model has no value
+    Gaps unpaired;         ///< number of replications without a value of both models, by reason
     std::string sentence;  ///< `difference` as a sentence; empty without a difference
-    /// Verdict whether the difference lies within the margin, if a margin is given; and the verdict
-    /// as a sentence.
+    /// Verdict whether the difference to the baseline lies within Comparison::margin; none without
+    /// a margin or a difference.
     std::optional<EquivalenceVerdict> equivalence;
-    std::string equivalence_sentence;
+    std::string equivalence_sentence;  ///< `equivalence` as a sentence; empty without a verdict
 };
 
 /// Variance reduction by common random numbers between two models.
@@ -50,12 +50,13 @@ struct PairedVariance {
 struct Comparison {
     std::string metric, baseline;
     std::string most_detailed;  ///< most detailed model; if another key varies, its first value
-    std::string path = {};      ///< varied key, by path
+    std::string path = {};      ///< path of the varied key
     double confidence = 0.95;
     std::optional<double> margin;       ///< equivalence margin, in the metric's unit
     std::vector<ComparedModel> models;  ///< models in the order of the study
-    RunCounts runs;                     ///< runs of all models
-    /// Other varied keys of the study, with the values at which they are fixed.
+    RunCounts runs;                     ///< numbers of runs of all models, by state
+    /// Text on the keys that [study] of the scenario file varies but the comparison does not, with
+    /// their fixed values; empty: none.
     std::string held = {};
     std::vector<PairedVariance> pairs;
     std::string cost_text = {};  ///< text on how costs were measured, and whether they matter
@@ -74,10 +75,10 @@ inline constexpr std::string_view model_path = "propagation.model";
 /// "ttl=4" for other keys.
 std::string compared_name(const std::string& path, const Value& value);
 
-/// Compares the models of a study that varies only propagation.model, or the values of its only
-/// varied key. Each pair is compared over replications in which both have a value. The most
-/// detailed model is the last one in the list of `rovernet models`, so that errors do not depend on
-/// the speed of a machine. For other keys, errors are differences to the first value.
+/// Compares the values of the only varied key of a study, such as propagation models. Two models
+/// are compared over replications in which both have a value of the metric. The most detailed model
+/// is the last one in the list of `rovernet models`, so that errors do not depend on the speed of a
+/// machine. If the key is not propagation.model, errors are differences to the first value.
 /// @param  baseline  name of a model; empty: the most detailed model
 /// @param  margin    > 0, in the metric's unit: largest difference to the baseline that counts as
 ///                   equivalent; none: no test of equivalence

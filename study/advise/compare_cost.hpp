@@ -11,10 +11,9 @@ namespace rovernet {
 
 /// Measures the CPU cost of the compared models, on the frames of replication 0 of the most
 /// detailed model. Fills in ComparedModel::cost, ComparedModel::radio_share and
-/// Comparison::cost_text; they stay empty if the run fails or has no frames.
+/// Comparison::cost_text. These members stay empty if that replication fails or has no frames.
 /// @param study    study whose points are the compared models
-/// @param stopped  called now and then; returning true ends the measurement, and nothing is filled
-/// in
+/// @param stopped  called now and then; returning true ends the measurement without filling in
 void add_costs(Comparison& comparison, Study& study, const Store& store,
                const std::function<bool()>& stopped);
 

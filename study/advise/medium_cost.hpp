@@ -27,11 +27,12 @@ struct MediumRecord {
     /// Number of frames on air, including control frames (RTS, CTS, ACK).
     std::uint64_t frames = 0;
     std::uint64_t transmissions = 0;  ///< number of frames that carry messages
-    /// Number of receivers of all frames, whether frames were lost or not.
+    /// Number of receivers found, summed over all frames, whether receptions were lost or not.
     std::uint64_t receivers = 0;
 };
 
-/// Records one run of a scenario, at most its first 200,000 frames.
+/// Records one run of a scenario: at most the first 200,000 frames, and about the first 2,000,000
+/// events.
 /// @param stopped  called now and then; returning true ends the recording early
 MediumRecord record_medium(const Scenario& scenario, const std::function<bool()>& stopped);
 
@@ -40,12 +41,13 @@ class MediumReplay {
   public:
     explicit MediumReplay(const Scenario& scenario);
 
-    /// Cost of a replay of recorded frames.
+    /// Result of a replay: number of frames, number of receivers found, and CPU time.
     struct Answers {
         std::uint64_t frames = 0, receivers = 0;
         double cpu_s = 0;  ///< CPU time of this thread [s], without the construction of the medium
     };
-    /// Replays a recording from its beginning, as in the run: the caches of the medium start empty.
+    /// Replays a recording from its beginning, with empty caches of the medium, as at the start of
+    /// a run.
     /// @param most_frames  largest number of frames
     /// @param most_s       approximate limit of CPU time [s]
     Answers answer(const MediumRecord& record, std::uint64_t most_frames, double most_s) const;
@@ -68,17 +70,17 @@ struct MediumCosts {
     std::vector<MediumCost> models;  ///< cost for each scenario; empty if no robot sends
     std::uint64_t frames = 0;        ///< number of frames of the recording, replayed in each pass
     double frames_per_transmission = 1;
-    double turn_s = 0;  ///< least CPU time of a measurement turn [s]
+    double turn_s = 0;  ///< least CPU time of each model in a measurement turn [s]
     int turns = 0;
 };
 
 /// Duration of a cost measurement.
 struct CostTurns {
     int turns = 5;
-    double total_s = 3;  ///< CPU time of all measurement turns together [s], 0.05 to 0.2 each
+    double total_s = 3;  ///< CPU time of all turns [s]; 0.05 to 0.2 s for each model and turn
 };
 
-/// Measures the cost of each scenario's model on the frames of `record`. Each of the 5 turns
+/// Measures the cost of each scenario's propagation model on the frames of `record`. Each turn
 /// measures all models one after the other, so that a slowdown of the machine affects all models
 /// equally. Results differ between machines and between measurements.
 /// @param scenarios  scenarios with the same robots

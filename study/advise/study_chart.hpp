@@ -16,29 +16,32 @@ struct ChartQuestion {
     std::optional<ChartKind> kind = {};
     std::string x = {};   ///< varied key along the x axis, see varied_path(); empty for a cdf
     std::string y = {};   ///< metric along the y axis
-    std::string by = {};  ///< key of the series, or of the rows of a heat map
-    std::vector<Condition> where = {};  ///< values that varied keys must have in all shown points
+    std::string by = {};  ///< varied key with a series, or row of a heat map, for each value
+    std::vector<Condition> where = {};  ///< conditions that all shown points of the study meet
     std::optional<double> confidence = {};
     std::optional<double> quantile = {};
     std::optional<IntervalMethod> interval = {};  ///< interval method; none: see Question::interval
     bool log_x = false, log_y = false;
-    /// True: average only over runs for which every position of the chart has a value.
+    /// True: average only over cells for which every position of the chart has a value, see Cells.
     bool common = false;
 };
 
-/// Full path of the varied key that the user names by `word`. The word may be that path, its last
-/// part if no other varied key has it, or "robots" for the count of robots.
-/// @throws std::invalid_argument if no key fits
+/// Full path of the varied key that the user names by `word`. The word may be the full path, the
+/// last part of the path if only one varied key ends with that part, or "robots" for the count of
+/// robots.
+/// @param paths  paths of all varied keys
+/// @throws std::invalid_argument if no key or several keys fit
 std::string varied_path(const std::vector<std::string>& paths, const std::string& word);
 
 /// Parses texts such as "ttl=6" into conditions; the key is found by varied_path().
-/// @throws std::invalid_argument
+/// @throws std::invalid_argument if a text is not KEY=VALUE, or as varied_path()
 std::vector<Condition> conditions_of(const std::vector<std::string>& paths,
                                      const std::vector<std::string>& texts);
 
 /// Chart of a study: a value with its interval for each x and series or, as cdf, the distribution
 /// over replications. Results are averaged over varied keys other than `x` and `by`, as in
-/// answers(). The note names these keys, n, and the missing runs.
+/// answers(). The chart's note lists the averaged keys, the number of replications, and missing
+/// runs.
 /// @throws std::invalid_argument as answers()
 Chart study_chart(const Store& store, const ChartQuestion& question);
 

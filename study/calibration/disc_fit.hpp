@@ -14,16 +14,16 @@ struct DiscLink {
     bool up;
 };
 
-/// Fitted disc: the range with the fewest wrong decisions.
+/// Fitted disc model: the range with the fewest wrong decisions (link up or down).
 struct DiscFit {
     Meters range;
     std::size_t wrong;  ///< wrong decisions: links that are down within the range, or up beyond it
 };
 
-/// Fits the range of a disc for the fewest wrong decisions. Among equally good ranges, ordered by
-/// the number of links within them, the lower median is chosen. The range is the geometric mean of
-/// the distances of the farthest link within and the nearest link beyond; half the nearest distance
-/// if no link is within; the farthest distance if all are.
+/// Fits the range of a disc model for the fewest wrong decisions (link up or down). Among equally
+/// good ranges, ordered by the number of links within, the lower median is chosen. The range is the
+/// geometric mean of the distances of the farthest link within the range and the nearest link
+/// beyond; half the nearest distance if no link is within; the farthest distance if all links are.
 /// @param links  links in any order; links of equal distance keep their order
 /// @throws std::invalid_argument without a link, or if a distance is not > 0 and finite
 DiscFit fit_disc(std::vector<DiscLink> links);

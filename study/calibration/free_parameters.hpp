@@ -14,41 +14,45 @@
 
 namespace rovernet {
 
-/// Parameter of a propagation model that a fit can determine, as its field says.
+/// Parameter of a propagation model that a fit to known losses can determine, see Fit.
 struct FreeParameter {
     std::string_view model, key;
-    std::string_view unit = "";  ///< unit of the parameter; empty: a bare number
-    Fit fit = {};                ///< way in which it is determined; `base` is varied by a search
-    bool non_negative = false;   ///< true: negative values are out of range
+    std::string_view unit = "";  ///< unit of the parameter; empty: a number without unit
+    Fit fit = {};                ///< way to determine the parameter; with_bases() sets Fit::base
+    bool non_negative = false;   ///< true: negative values of the parameter are out of range
 };
 
-/// Free parameters of a propagation model, by its name; most models have none.
+/// Parameters that a fit can determine, of the propagation model with the name `model`; most models
+/// have none.
 std::vector<FreeParameter> free_parameters(std::string_view model);
-/// Key of the model's parameter that a fit determines in this way; empty: it has none.
+/// Key of the parameter of a propagation model that a fit determines in the way `way`, such as
+/// "range" of `disc` by the number of wrong decisions; empty: the model has no such parameter.
 std::string_view key_determined(std::string_view model, Fit::Way way);
 
-/// Propagation model with the scenario's parameters, overridden by `values`, without random draws.
-/// @param values  values by key, in the units of FreeParameter
+/// Propagation model with the scenario's parameters, overridden by `values`, and with median losses
+/// in place of random draws.
+/// @param values  values of free parameters by key, in the units of FreeParameter
 /// @throws InputError as read_propagation()
 Propagation model_with(const Scenario& scenario, std::string_view model,
                        const std::map<std::string, double>& values);
 
-/// Parameters with searched bases: a compass search minimises the squared error in dB on a sample
-/// of the links. Unseen links count only if the model predicts them as seen, and measured links
-/// have a free constant. Parameters with linear loss keep their bases.
+/// Copy of free parameters in which the bases (Fit::base) of the parameters that need a search are
+/// found by a compass search: it minimises the squared error in dB on a sample of the links. An
+/// unseen link counts only if the predicted loss is below the link's lower bound. Measured links
+/// have a free constant. Parameters of which the loss is a linear function keep their bases.
 /// @throws InputError, std::invalid_argument if the model cannot be evaluated
 std::vector<FreeParameter> with_bases(std::vector<FreeParameter> free, const KnownLinks& known,
                                       const Scenario& scenario);
 
-/// Loss of one link as a linear function of the model's free parameters b: offset + sum over j of
-/// columns[j] b_j.
+/// Loss [dB] of one link as a linear function of a model's free parameters b_j: offset + sum over j
+/// of columns[j] b_j.
 struct LinearLoss {
-    double offset = 0;  ///< loss for b = 0 [dB]
+    double offset = 0;  ///< loss if all free parameters are 0 [dB]
     std::vector<double> columns;
 };
 
 /// Losses of all links as linear functions of a model's free parameters, found by evaluating the
-/// model at values one unit apart.
+/// model at the base of each parameter and one unit above.
 /// @throws InputError, std::invalid_argument if the model cannot be evaluated
 std::vector<LinearLoss> linear_losses(const KnownLinks& known, const Scenario& scenario,
                                       std::string_view model, std::span<const FreeParameter> free);

@@ -19,17 +19,18 @@
 
 namespace rovernet {
 
-/// Link with known loss.
+/// Link whose path loss is known, by a measurement or by a reference model.
 struct KnownLink {
-    std::string name;        ///< name of the link for reports: end points and time
+    std::string name;        ///< name of the link for reports: end points and time, or file line
     std::string place = {};  ///< label of the antennas' positions, equal for levels measured at the
                              ///< same positions; empty: not measured
     Vec3 from, to;           ///< positions of the antennas [m]
     Hertz frequency;
-    /// Random-draw keys of the end points, and replication number, for models with random draws.
+    /// Random-draw keys of the end points, and replication number, for propagation models with
+    /// random draws.
     std::uint64_t from_key = 0, to_key = 0;
     std::uint32_t replication = 0;
-    /// Group of links with dependent errors: links of one replication, or of one measured receiver.
+    /// Number of the link's group: links with dependent errors, of one replication or one receiver.
     std::uint32_t group = 0;
     /// Path loss [dB]; for an unseen link its lower bound.
     double loss = 0;
@@ -45,12 +46,12 @@ struct KnownLink {
 struct KnownLinks {
     std::vector<KnownLink> links;
     std::size_t groups = 0;
-    const char* group_name = "replication";  ///< meaning of KnownLink::group, for reports
+    const char* group_name = "replication";  ///< kind of the groups of links, for reports
     /// True if levels were measured, so that powers and gains may differ from the scenario.
     bool measured = false;
-    /// True if receiver positions are given; false: KnownLink::to is meaningless.
+    /// True if receiver positions are known; false: KnownLink::to is meaningless.
     bool knows_receivers = true;
-    /// Scene in which the links are.
+    /// Scene (walls) in which the links are.
     std::shared_ptr<const Scene> scene;
     Meters floor_height;
     std::uint64_t seed = 0;
@@ -58,7 +59,7 @@ struct KnownLinks {
     double loss_by(const Propagation& model, const KnownLink& link) const;
 };
 
-/// First replication number for samples of links; studies use smaller numbers.
+/// First replication number that samples of links use; studies use smaller numbers.
 inline constexpr std::uint32_t first_sampled_replication = 1'000'000;
 
 /// Size of a sample of links.
@@ -69,25 +70,26 @@ struct SampleSize {
     std::uint32_t first_replication = first_sampled_replication;
 };
 
-/// Links between a scenario's robots, with losses by a reference model. At random times of
-/// replications (by default of numbers that no study uses), all pairs of robots are taken that are
-/// on and within the range of the reference for a budget raised by 20 dB. Pairs are selected by
-/// distance only, since a selection by loss would bias every fit. Of too many links every k-th is
-/// taken.
+/// Sample of links between a scenario's robots, with losses by a reference model. At random times
+/// of replications (by default with numbers that no study uses), the sample takes all pairs of
+/// robots that are switched on and within the reference's range for a link budget raised by 20 dB.
+/// Pairs are selected by distance only, since a selection by loss would bias every fit. If the
+/// links are too many, every k-th link is taken.
 ///
-/// If robots react to messages, the scenario is run with its traffic, but with multi_wall instead
-/// of rays (faster): only the robots' positions depend on these runs.
+/// If robots react to messages, the scenario is run with its traffic, but with the faster model
+/// multi_wall instead of rays: only the robots' positions depend on these runs.
 ///
 /// Groups are replications, or senders if all replications are equal.
-/// @param tell  called with the finished share, 0 ... 1, of the runs, then of the losses; may be
-///              empty
+/// @param tell  called with the finished share, 0 ... 1, of the runs, then of the computed losses;
+///              may be empty
 /// @throws InputError, RunError as a run; InputError if no two robots are within range
 KnownLinks sample_links(const Scenario& scenario, const Propagation& reference,
                         const SampleSize& size, const std::function<void(double)>& tell = {});
 
-/// Sample of links of known loss that can grow. Each size gives the links and losses of
-/// sample_links(), but reuses the results of smaller sizes. The reference is evaluated once for
-/// each link; a reference without random draws only once for all links with equal end points.
+/// Sample of links of known loss that can grow. The sample for each number of replications is equal
+/// to that of sample_links(), but is computed from the sample for a smaller number. The reference
+/// model is evaluated once for each link; a reference without random draws only once for all links
+/// with equal end points.
 class LinkSample {
   public:
     /// @param size  largest number of links, and number of times in each replication; for
@@ -97,7 +99,8 @@ class LinkSample {
     LinkSample(const LinkSample&) = delete;
     LinkSample& operator=(const LinkSample&) = delete;
 
-    /// Links of `replications` replications, not fewer than before; otherwise like sample_links().
+    /// Grows the sample to the links of `replications` replications (not fewer than before), and
+    /// returns all links, as sample_links() does.
     KnownLinks grow(std::uint32_t replications, const std::function<void(double)>& tell = {});
 
   private:
@@ -105,7 +108,7 @@ class LinkSample {
     std::unique_ptr<State> state_;
 };
 
-/// Receiver positions in a file of measured levels: required, or optional.
+/// Receiver positions in a file of measured levels: required (known), or optional.
 enum class Receivers { known, may_be_unknown };
 
 /// Measured levels as links of a scenario: a file of comma-separated values whose first line names
@@ -113,9 +116,10 @@ enum class Receivers { known, may_be_unknown };
 ///
 ///   from_x_m, from_y_m, to_x_m, to_y_m   antennas [m]; from_z_m, to_z_m: 0 if not given
 ///   level_dbm                            received level [dBm]; empty: below `floor`
-///   group                                any word; the receiver's place if not given
-///   place                                any word, equal where one place was measured again; both
-///                                        antennas' places if not given
+///   group                                any word: name of the group, see KnownLink::group; if
+///                                        not given, the receiver's position
+///   place                                any word, equal for repeated measurements at the same
+///                                        positions; if not given, both antennas' positions
 ///
 /// Loss = power of the scenario's [radio] + gains - level.
 /// @param floor      level [dBm] below which nothing was received
@@ -124,16 +128,17 @@ enum class Receivers { known, may_be_unknown };
 KnownLinks read_levels(const std::string& path, const Scenario& scenario, std::optional<Dbm> floor,
                        Receivers receivers = Receivers::known);
 
-/// Repeatability of measured levels.
+/// Repeatability of measured levels: differences of levels measured again at the same positions.
 struct Repeatability {
-    std::size_t levels = 0;  ///< number of levels measured again at a known position
+    std::size_t levels = 0;  ///< number of repeated levels, without the first at each position
     double rms = 0;  ///< root mean square difference to the first level at the position [dB]
 
-    /// Error of one level [dB], which even an exact model would show: the difference of two levels
-    /// with independent errors is sqrt(2) times as large.
+    /// Standard deviation of the error of one level [dB], which even an exact model would show: the
+    /// difference of two levels with independent errors is sqrt(2) times as large.
     double one_level() const { return rms / std::numbers::sqrt2; }
 };
-/// Repeatability over two sets of measured levels.
+/// Repeatability of measured levels over two sets together. A level counts if either set has an
+/// earlier level with equal KnownLink::place.
 Repeatability repeatability(const KnownLinks& first, const KnownLinks& second);
 
 }  // namespace rovernet

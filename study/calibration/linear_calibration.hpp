@@ -18,19 +18,20 @@ namespace rovernet {
 /// Parameter with its fitted value.
 struct FittedParameter {
     std::string key;           ///< key in [propagation]; "power" is a key of [radio]
-    std::string unit;          ///< unit of the parameter; empty: a bare number
+    std::string unit;          ///< unit of the parameter; empty: a number without unit
     bool is_constant = false;  ///< true: a term of the loss that is equal for all links
     double value = 0;  ///< fitted value, or the scenario's value if the links do not determine it
     bool determined = true;
-    bool at_bound = false;  ///< true: the fit would be negative, so that the value is fixed at 0
-    /// Standard errors of the value, see Coefficient; NaN if the method gives none.
+    bool at_bound = false;  ///< true: the value is fixed at 0, since the fit would be negative
+    /// Standard errors of the fitted value, see Coefficient; NaN if the method gives none.
     double se_plain = 0, se_by_group = 0;
 };
 
-/// Gains of transmitters: equal (included in the model's constant), or one for each transmitter.
+/// Fitted gains of transmitters: equal gains (part of the model's constant), or a gain for each
+/// transmitter.
 enum class Gains { equal, by_transmitter };
 
-/// Gain of a transmitter relative to the mean of all.
+/// Fitted gain of a transmitter, relative to the mean gain of all transmitters.
 struct TransmitterGain {
     Vec3 at;           ///< position of the transmitter's antenna [m]
     Coefficient gain;  ///< gain relative to the mean of all transmitters [dB]
@@ -43,9 +44,9 @@ struct FittedSettings {
     Table tables;
 };
 
-/// Fit of a model whose loss is linear in its free parameters to known links: by least squares in
-/// dB, or by the Tobit model if some links are unseen. Parameters that no link determines keep
-/// their values.
+/// Fit of a propagation model, whose loss is linear in its free parameters, to links of known loss.
+/// The method is least squares in dB, or the Tobit model if some links are unseen. Parameters that
+/// no link determines keep their values.
 class LinearCalibration {
   public:
     /// Fitted values of the determined parameters, with standard errors if the method has them.
@@ -63,7 +64,7 @@ class LinearCalibration {
     /// Fits the model to the links for which `takes` returns true.
     /// @throws std::invalid_argument if the links do not determine the parameters
     Solution fit(const std::function<bool(const KnownLink&)>& takes) const;
-    /// Predicted loss of the i-th link [dB].
+    /// Predicted loss of known link i [dB], by a solution of fit().
     double predict(const Solution& solution, std::size_t i) const;
     FittedSettings settings(const Solution& solution) const;
 
@@ -80,7 +81,7 @@ class LinearCalibration {
     std::vector<LinearLoss> losses_;
     std::vector<std::size_t> used_;   // indices of free parameters that affect some link
     std::vector<Vec3> transmitters_;  // positions of transmitters with free gains
-    // Transmitter of each link, as an index into transmitters_.
+    // Transmitter of each known link, as an index into transmitters_; empty: equal gains.
     std::vector<std::size_t> transmitter_;
 };
 

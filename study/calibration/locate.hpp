@@ -18,11 +18,12 @@ namespace rovernet {
 
 /// Settings of a localisation by received levels.
 struct LocateQuestion {
-    /// Standard deviation of a level's error [dB]; none: that of the scenario's shadowing.
+    /// Standard deviation of a level's error [dB]; none: standard deviation of the scenario's
+    /// shadowing.
     std::optional<Db> sigma = {};
     bool knows_power = true;
-    /// Margin [m] around the bounding box of the anchors (transmitters of known position).
-    /// Positions are searched in this area on an open field, and on the whole map otherwise.
+    /// Margin [m] around the bounding box of the anchors (transmitters of known position). On an
+    /// open field, positions are searched in this extended box; with a map, on the whole map.
     Meters margin{0};
 };
 
@@ -49,30 +50,33 @@ struct Located {
     /// Number of positions without a fix, since fewer than three anchors were received.
     std::size_t too_few = 0;
 
-    /// Root mean square of errors and of bounds [m], over the fixes that have both; none without
-    /// such fixes.
+    /// Root mean squares [m] of the errors and of the bounds, over the fixes that have both.
     struct Errors {
         std::size_t fixes;
         double rms, bound;
     };
+    /// Root mean squares of errors and bounds; none if no fix has both.
     std::optional<Errors> errors() const;
 };
 
-/// Least number of anchors (known transmitters) for a fix: with two, two positions are possible.
+/// Least number of anchors (transmitters of known position) for a fix. Two anchors would leave two
+/// possible positions.
 inline constexpr std::size_t fewest_anchors = 3;
 
 /// Locates all robots except the anchors, at given times of a scenario's run, by the levels that
 /// they receive from anchors. Levels include shadowing but no fading, as in `rovernet links`. The
 /// locator uses the scenario's propagation model, without knowing the shadowing.
 /// @param anchors  names of robots
-/// @throws InputError for an unknown robot, a directional antenna, no known sigma
+/// @throws InputError for an unknown robot, for an anchor with a directional antenna, or if neither
+///         `question` nor the scenario gives the standard deviation of levels
 Located locate_robots(const Scenario& scenario, const std::vector<std::string>& anchors,
                       const std::vector<Time>& times, const LocateQuestion& question);
 
 /// Locates the receivers of a file of measured levels, see read_levels(). The senders are the
 /// anchors. Receiver positions in the file are the true positions; without them, the column `place`
 /// groups levels that were measured together.
-/// @throws InputError for the file, or no known sigma
+/// @throws InputError if the file is invalid, or if neither `question` nor the scenario gives the
+///         standard deviation of levels
 Located locate_levels(const std::string& path, const Scenario& scenario,
                       const LocateQuestion& question);
 

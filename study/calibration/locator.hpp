@@ -33,7 +33,8 @@ struct LocatorSettings {
     Meters floor_height = no_storeys;
     Hertz frequency;
     Vec3 low, high;  ///< corners of the search area [m]; z is ignored
-    /// True: losses are absolute; false: all losses have an unknown common offset, estimated, too.
+    /// True: the transmit power is known, so that losses are absolute. False: all losses have an
+    /// unknown common offset, which is also estimated.
     bool knows_power = true;
 };
 
@@ -74,12 +75,15 @@ class Locator {
     const Grid& grid_of(Vec3 anchor, double z);
     std::vector<Vec3> valleys(std::span<const AnchorLoss> losses, double z);
     std::pair<double, Vec3> refined(std::span<const AnchorLoss> losses, Vec3 from) const;
-    /// Sum of squared errors, minus the part of their mean if the power is not known.
+    /// Sum of squared errors of losses [dB^2]; if the power is not known, about the mean error.
+    /// @param losses  number of losses
+    /// @param sum     sum of the errors [dB]
     double misfit(std::size_t losses, double squares, double sum) const;
     Vec3 point(int i, int j, double z) const;
 
     LocatorSettings settings_;
-    std::map<std::tuple<double, double, double, double>, Grid> grids_;  // by anchor and height
+    // Losses on the search grid, by x, y, z of the anchor and by height of the receiver [m].
+    std::map<std::tuple<double, double, double, double>, Grid> grids_;
 };
 
 }  // namespace rovernet

@@ -14,7 +14,7 @@
 
 namespace rovernet {
 
-/// Prediction errors of one group of links; groups are independent of each other.
+/// Prediction errors on one group of links. Errors of different groups are independent.
 struct GroupErrors {
     std::size_t losses = 0;
     double squares = 0;  ///< sum of squared errors [dB^2]
@@ -23,14 +23,14 @@ struct GroupErrors {
 
 /// Errors of predicted losses (predicted minus known [dB]) and of decisions (link up or down).
 struct PredictionErrors {
-    std::size_t losses = 0;      ///< number of predicted losses, for rmse, bias and most_in_95
+    std::size_t losses = 0;      ///< number of losses behind rmse, bias and most_in_95
     double rmse = 0;             ///< root mean square error [dB]
-    double bias = 0;             ///< mean error [dB]
-    double most_in_95 = 0;       ///< 95 % quantile of the absolute errors [dB]
-    std::size_t decisions = 0;   ///< number of decisions, for false_up and false_down
-    std::size_t false_up = 0;    ///< number of links predicted up, but down
-    std::size_t false_down = 0;  ///< number of links predicted down, but up
-    std::map<std::uint32_t, GroupErrors> groups = {};  ///< errors by KnownLink::group
+    double bias = 0;             ///< mean error, predicted minus known loss [dB]
+    double most_in_95 = 0;       ///< absolute error that 95 % of the losses do not exceed [dB]
+    std::size_t decisions = 0;   ///< number of links whose decision (up or down) is judged
+    std::size_t false_up = 0;    ///< number of links that are predicted up, but are down
+    std::size_t false_down = 0;  ///< number of links that are predicted down, but are up
+    std::map<std::uint32_t, GroupErrors> groups = {};  ///< errors by number of the group
 
     double wrong() const {
         return decisions == 0
@@ -39,23 +39,24 @@ struct PredictionErrors {
     }
 };
 
-/// Link with a large prediction error.
+/// Link with one of the largest prediction errors.
 struct WorstLink {
     std::string name;
     double error;  ///< predicted minus known loss [dB]
 };
 
-/// Collector of predictions for known links; computes their errors.
+/// Collector of predictions for links of known loss; computes the errors of the predictions.
 class Predictions {
   public:
-    /// @param decided_within  decisions (link up or down) are counted on links up to this length
+    /// @param decided_within  largest length of links whose decisions (up or down) are judged
     Predictions(const KnownLinks& known, Meters decided_within)
         : known_(known), decided_within_(decided_within) {}
 
-    /// Adds a prediction for link i: the loss [dB] (none for a model without losses) and the
-    /// decision.
+    /// Adds a prediction for link i: the loss [dB] (none for a model without losses), and the
+    /// decision whether the link is up.
     void add(std::size_t i, std::optional<double> loss, bool up);
-    /// Adds a predicted loss [dB] of link i; the decision follows from the link budget.
+    /// Adds a predicted loss [dB] of link i. The link is predicted up if this loss does not exceed
+    /// the link budget.
     void add(std::size_t i, double loss) { add(i, loss, loss <= known_.links[i].budget); }
 
     PredictionErrors errors() const;
@@ -66,7 +67,7 @@ class Predictions {
     const KnownLinks& known_;
     Meters decided_within_;
     PredictionErrors decisions_;
-    std::vector<std::pair<double, std::size_t>> errors_;  // error [dB] and link
+    std::vector<std::pair<double, std::size_t>> errors_;  // error [dB], and index of the link
 };
 
 }  // namespace rovernet

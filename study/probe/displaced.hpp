@@ -30,8 +30,8 @@ struct Displaced {
         return ways[mix(key) % ways.size()];
     }
 
-    /// Range [m] of the model, extended by the displacements of both antennas, since the antennas
-    /// may come nearer by that much.
+    /// Range [m] of the model, extended by the displacements of both antennas, since displaced
+    /// antennas may be nearer to each other by that much.
     Meters reach(Db loss, Hertz frequency, Meters highest) const {
         constexpr double slack = 1 + 1e-12;  // larger than rounding errors
         return {(model.reach(loss, frequency, highest).value + 2 * by.value) * slack};
@@ -39,7 +39,9 @@ struct Displaced {
     void check_frequency(Hertz frequency) const { model.check_frequency(frequency); }
     void check_scene(const Scene& scene) const { model.check_scene(scene); }
 
-    /// Fills out_db[i] [dB] for the i-th receiver; same size as the batch, which needs keys.
+    /// Writes path losses [dB] between displaced antennas: out_db[i] for receiver i of `links`.
+    /// @param links   batch of links, with the keys of sender and receivers
+    /// @param out_db  one element for each receiver
     void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const {
         std::vector<Vec3> to(links.to.begin(), links.to.end());
         for (std::size_t i = 0; i < to.size(); ++i) {

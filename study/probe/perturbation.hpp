@@ -20,7 +20,7 @@ struct Perturbation {
     std::string name;     ///< name of the perturbation, such as "resolution x2"
     Scenario scenario;    ///< scenario with the perturbation applied
     Meters moved{0};      ///< displacement of each antenna [m]; 0: the antennas are not displaced
-    std::string nothing;  ///< reason why the scenario is not perturbed; empty: it is perturbed
+    std::string nothing;  ///< reason why the scenario is not perturbed; empty: perturbed
 
     /// Settings of a network for the perturbed scenario.
     /// @throws InputError as network_settings()
@@ -32,9 +32,9 @@ struct Perturbation {
 ///   1 cm, 1 um                   each antenna is displaced by that much, see Displaced
 ///   resolution x2, x0.5          cells of the maps split in four, or four joined into one: see
 ///                                scene/redrawing.hpp
-///   walls outlined, filled       thick walls hollow, hollow ones up to 1 m wide solid
-///   MATERIAL +3 dB, -3 dB        loss of a crossing, not below 0 dB; up to 8 materials one by one,
-///                                more of them all at once
+///   walls outlined, filled       thick walls made hollow; hollow walls up to 1 m wide made solid
+///   MATERIAL +3 dB, -3 dB        loss of a wall crossing changed, not below 0 dB; up to 8
+///                                materials one by one, more materials all together
 ///
 /// A material with only a loss per metre changes by 3 dB at the median drawn thickness of its
 /// walls. Walls without a material change together, by the model's wall_factor, light_wall and

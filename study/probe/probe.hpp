@@ -11,15 +11,15 @@
 #include <string>
 #include <vector>
 
-// Effect of each of the perturbations() on links and messages of a scenario. A result that changes
-// depends on the drawing of the map or on exact positions.
+// Effect of each of the perturbations() on links and messages of a scenario. A result that a
+// perturbation changes depends on the drawing of the map or on exact positions.
 
 namespace rovernet {
 
-/// Limits of the work that a probe does.
+/// Limits of the work of probe().
 struct ProbeSize {
     std::uint32_t times = 20;  ///< number of times at which links are sampled
-    std::size_t links = 1000;  ///< largest number of links
+    std::size_t links = 1000;  ///< largest number of sampled links
     /// Number of events in the part of the run in which messages are compared; 0: no comparison.
     std::uint64_t events = 1'000'000;
     std::size_t messages = 100;  ///< largest number of message changes listed for each perturbation
@@ -29,12 +29,12 @@ struct ProbeSize {
 /// with the largest change of loss is listed.
 struct LinkEffect {
     std::string link;          ///< name of the link: end points and time
-    std::string perturbation;  ///< name, such as "resolution x2" or "1 cm: A to the east"
+    std::string perturbation;  ///< name, such as "resolution x2" or "1 cm east of the sender"
     double distance = 0;       ///< distance between the antennas [m]
     double budget = 0;         ///< link budget: largest loss at which the link is up [dB]
     double before = 0;         ///< path loss without perturbation [dB]
     double after = 0;          ///< path loss with the perturbation [dB]
-    double moved = 0;          ///< displacement of one antenna [m]; 0: none
+    double moved = 0;          ///< displacement of one antenna [m]; 0: not displaced
 
     double change() const { return after - before; }  ///< change of the path loss [dB]
     bool was_up() const { return before <= budget; }
@@ -60,27 +60,27 @@ struct MessageEffect {
 /// Effect of one perturbation on all links and messages.
 struct PerturbationEffect {
     std::string name;
-    std::string nothing;       ///< reason why the scenario was not perturbed; empty: it was
+    std::string nothing;       ///< reason why the scenario was not perturbed; empty: perturbed
     std::size_t changed = 0;   ///< number of links whose loss changes by more than 0.01 dB
     std::size_t flips = 0;     ///< number of links that the perturbation turns up or down
-    double worst = 0;          ///< change of the loss with the largest absolute value [dB]
+    double worst = 0;          ///< change of a link's loss that is largest in absolute value [dB]
     double rms = 0;            ///< root mean square change of the loss [dB]
     double steepest = 0;       ///< largest change of the loss per displacement [dB/mm]
-    std::uint64_t lost = 0;    ///< receptions in the unperturbed run only
-    std::uint64_t gained = 0;  ///< receptions in the perturbed run only
+    std::uint64_t lost = 0;    ///< number of receptions that only the unperturbed run has
+    std::uint64_t gained = 0;  ///< number of receptions that only the perturbed run has
 };
 
 /// Result of a probe: effects of small perturbations on a scenario's links and messages.
 struct Probe {
     std::string model;
     std::size_t links = 0;
-    /// Receptions in the unperturbed run, one for each message and robot.
+    /// Number of receptions in the unperturbed run: one for each message and receiving robot.
     std::uint64_t deliveries = 0;
     Time until = start_of_run;  ///< [ns] end of the part of the run in which messages are compared
     bool whole_run = true;      ///< whether `until` is the end of the run
     std::vector<PerturbationEffect> perturbations;
-    /// Links whose loss changes: first links with more than 0.5 dB per mm, by steepness; then links
-    /// that go up or down, by change; then other links, by change.
+    /// Effects on links whose loss changes. First links with a change above 0.5 dB per mm, by
+    /// steepness; then links that go up or down, by change; then other links, by change.
     std::vector<LinkEffect> effects;
     /// Messages received in only one of two runs, by perturbation, then in order of time.
     std::vector<MessageEffect> messages;

@@ -9,7 +9,7 @@
 
 namespace rovernet {
 
-/// Interval for the mean of bounded values, in the unit of the values.
+/// Confidence interval for the mean of bounded values, in the unit of the values.
 struct BoundedMean {
     double low = 0;
     double high = 0;
@@ -17,9 +17,9 @@ struct BoundedMean {
 };
 
 /// Betting confidence sequence for the mean of independent, identically distributed values on [0,
-/// 1] (values with other bounds are scaled). For any distribution, the intervals after all n
-/// together cover the true mean with probability >= confidence. So one may compute it after every
-/// value and stop when it is narrow. Its width is never 0.
+/// 1] (values with other bounds are scaled). For any distribution, the intervals after 1, 2, 3, ...
+/// values all cover the true mean with probability >= confidence. Hence sampling may stop as soon
+/// as the interval is narrow. Its width is never 0.
 ///
 /// A candidate mean m is rejected when the wealth of bets on "the true mean is above m" becomes
 /// large. A gambler who stakes the share f of his wealth on each value has after n values
@@ -28,8 +28,8 @@ struct BoundedMean {
 /// 16 gamblers with f_k = (1 - cos((2 k - 1) pi / 32)) / 2, k = 1 ... 16: Jeffreys' prior on f. By
 /// Ville's inequality, W(mean) ever reaches 1 / a with probability <= a. Each m for which W(m) has
 /// reached 2 / (1 - confidence) lies below the interval. The same bets on 1 - x give the upper end.
-/// Each factor falls with m, and so does W. Hence the remaining m form an interval, which bisection
-/// finds to 1e-12 of the range.
+/// Each factor of W falls with m, so that W falls with m. Hence the remaining m form an interval,
+/// which bisection finds to 1e-12 of the range.
 ///
 /// The result depends slightly on the order of the values, which should be that of the
 /// replications. The interval is widened to contain the sample mean if necessary (values with a
@@ -45,10 +45,10 @@ struct BoundedMean {
 ///         confidence is not in (0, 1)
 BoundedMean bounded_mean(std::span<const double> values, const Bounds& bounds, double confidence);
 
-/// Estimated total number of replications for an interval of width 2 * wanted, if further values
-/// resemble these: the least N with W(m)^(N/n) large enough at both ends, since each gambler's
-/// wealth keeps its growth rate. The estimate is rough: repeat it after more runs. The result is at
-/// least n; none if 10^9 would not suffice.
+/// Estimated total number of replications after which bounded_mean() gives an interval of width 2 *
+/// wanted, if further values resemble the n given ones: the least N at which the wealth W(m) of the
+/// gamblers suffices at both ends, if each gambler's wealth keeps its growth rate. The estimate is
+/// rough: repeat it after more runs. The result is at least n; none if 10^9 would not suffice.
 /// @param  wanted  half-width > 0, in the metric's unit; other parameters as in bounded_mean()
 std::optional<std::size_t> bounded_mean_replications(std::span<const double> values,
                                                      const Bounds& bounds, double wanted,

@@ -29,8 +29,8 @@ struct PairedComparison {
     friend bool operator==(const PairedComparison&, const PairedComparison&) = default;
 
     bool found() const { return p <= 1 - confidence; }  ///< whether the interval excludes 0
-    /// Whether the sign test is significant: in a single run, one variant is more often above the
-    /// other than below.
+    /// Whether the sign test is significant: values of one variant are more often above than below
+    /// values of the other variant in the same replication.
     bool direction_found() const { return sign_p && *sign_p <= 1 - confidence; }
 };
 
@@ -55,8 +55,8 @@ struct PairedComparison {
 /// sign_p: sign test. Replications with ai = bi are ignored; under the null hypothesis each sign
 ///   has the probability 1/2 (W. J. Conover, Practical Nonparametric Statistics, 3rd ed., section
 ///   3.4). The test needs no bounds, but n fixed beforehand. It shows a direction, not a mean
-///   difference: rare replications that did not occur may dominate the mean. The sign tests of the
-///   family, and its intervals, are each valid together at `confidence`.
+///   difference: rare replications that did not occur may dominate the mean. All sign tests of the
+///   family together are valid at `confidence`, as are all intervals together.
 /// Source: A. M. Law, Simulation Modeling and Analysis, 5th ed., sections 9.7 (Bonferroni) and
 /// 10.2.1.
 ///

@@ -11,15 +11,17 @@ namespace rovernet {
 // distribution with `degrees` > 0 degrees of freedom; levels and probabilities are above 0 and
 // below 1.
 
-/// Critical value t > 0 of Student's t distribution: |T| exceeds it with probability `level`.
+/// Critical value t > 0 of Student's t distribution with `degrees` degrees of freedom: a variable T
+/// with this distribution has |T| > t with probability `level`.
 double t_critical(double degrees, double level);
 
-/// Probability that |T| exceeds |t|, for T with Student's t distribution; 0 for an infinite t.
+/// Probability that |T| exceeds |t|, for T with Student's t distribution with `degrees` degrees of
+/// freedom; 0 for an infinite t.
 double t_exceeded(double degrees, double t);
 
 /// Shift at which the two-sided t-test of this level rejects with probability `power` > level: the
-/// noncentrality d >= 0 of T with P(|T| > t_critical) = power, including rejections with the wrong
-/// sign.
+/// noncentrality d >= 0 for which a noncentral t variable T has P(|T| > t_critical()) = power,
+/// including rejections with the wrong sign.
 ///
 /// Solved by bracketing (TOMS 748) to the last digits; the relative error against an integration
 /// with 30 digits is below 1e-14. None if t_critical > 10^4 (with one degree of freedom: a level

@@ -19,12 +19,12 @@ enum class Equivalence { undecided, within, outside };
 struct EquivalenceVerdict {
     Equivalence verdict = Equivalence::undecided;
     IntervalMethod method{};  ///< method of the test, see method_for()
-    /// Number of replications that gave the verdict: by betting those up to the first verdict,
-    /// otherwise all.
+    /// Number of replications that gave the verdict. Method betting: the number of replications up
+    /// to the verdict; other methods: all. None: undecided.
     std::optional<std::size_t> decided_at;
     /// Predicted total number of replications for a verdict, if undecided and if further
-    /// replications resemble these. None if no prediction is possible, or if 100,000 (by STaR-Bets
-    /// 10,000) would not suffice.
+    /// replications resemble the given ones. None if no prediction is possible, or if 100,000 (by
+    /// STaR-Bets 10,000) would not suffice.
     std::optional<std::size_t> needed;
     /// Least margin that this number of replications can decide with 80 % power if the true
     /// difference is 0, in the metric's unit: half-width of the one-sided interval plus the 90 %
@@ -68,30 +68,31 @@ class EquivalenceTest {
     /// Adds the next difference. @param  difference  [-], -1 ... 1
     void add(double difference);
 
-    /// First verdict: within if not_above and not_below have each reached family / alpha at some
-    /// time, outside if above or beneath has reached 2 family / alpha.
+    /// Verdict after the differences so far; the first verdict is final. `within`: the wealths
+    /// not_above and not_below have each reached family / alpha at some time. `outside`: the wealth
+    /// above or beneath has reached 2 family / alpha.
     Equivalence verdict() const { return verdict_; }
     double log_wealth(Wealth which) const { return log_wealth_[which]; }
 
   private:
     double margin_;
-    double log_within_, log_outside_;  ///< thresholds of the log wealth, for both verdicts
+    double log_within_, log_outside_;  ///< thresholds of the logarithm of a wealth, by verdict
     double n_ = 0, sum_ = 0, squares_ = 0;
     std::array<double, 4> log_wealth_{}, log_most_{};
     Equivalence verdict_ = Equivalence::undecided;
 };
 
-/// Tests whether the true mean of paired differences lies within `margin` of 0. In a study with
-/// `family` such tests, the probability of at least one false verdict is at most alpha.
+/// Tests whether the true mean D of paired differences is between -margin and margin (verdict
+/// within) or not (outside). If a study makes `family` such tests, the probability of at least one
+/// false verdict is at most alpha.
 ///
-/// By STaR-Bets and by t, a single test is made at the level alpha / family: within if both
-/// one-sided tests (TOST) reject, outside if one of the two tests for "beyond the margin" rejects
-/// at half that level. Both methods need a number of replications fixed beforehand. The method t
-/// assumes normal means, and gives no verdict for equal differences. Source: D. J. Schuirmann, J.
+/// Methods star and t: one test at the level L = alpha / family, with a number of replications
+/// fixed beforehand. "Within": D >= margin and D <= -margin are both rejected at level L (TOST).
+/// "Outside": D <= margin or D >= -margin is rejected at level L / 2. Method t assumes that means
+/// are normal, and gives no verdict if all differences are equal. Source: D. J. Schuirmann, J.
 /// Pharmacokinetics and Biopharmaceutics 15(6), 1987.
 ///
-/// By betting, an EquivalenceTest over the replications in order is made; it is valid at any
-/// stopping time.
+/// Method betting: an EquivalenceTest of the differences, valid at any stopping time.
 ///
 /// @param  differences  in the metric's unit, in the order of the replications
 /// @param  margin       > 0, in the metric's unit

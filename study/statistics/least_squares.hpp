@@ -34,14 +34,15 @@ struct Observations {
 struct Coefficient {
     double value = 0;
     double se_plain = 0;     ///< standard error if the errors of all observations are independent
-    double se_by_group = 0;  ///< standard error if only groups are independent; NaN with one group
+    double se_by_group = 0;  ///< standard error if errors depend within groups; NaN with one group
 };
 
 /// Least squares fit of a linear model.
 struct LinearFit {
-    /// Coefficient b_j of each column x_j; none (counts as 0) if x does not determine it.
+    /// Coefficient b_j of each column x_j; none (taken as 0): not determined by the observations.
     std::vector<std::optional<Coefficient>> coefficients;
-    /// For each coefficient: whether it is fixed at 0, since it must not be negative.
+    /// Flag of each coefficient; true: fixed at 0, since the fit would make it negative although it
+    /// must not be.
     std::vector<bool> at_bound;
     double rmse = 0;   ///< sqrt(SSE / N), in units of y; SSE: sum of squared errors
     double sigma = 0;  ///< sqrt(SSE / (N - p)), in units of y; p fitted coefficients
@@ -52,9 +53,10 @@ struct LinearFit {
 /// Fits a linear model by Householder QR with column pivoting. A column whose pivot is below 1e-9
 /// of the first pivot is omitted. Coefficients that must not be negative but would be are fixed at
 /// 0 one by one, the most negative first, and the rest is fitted again. Standard errors by group
-/// use the sandwich estimator, times G / (G - 1) (N - 1) / (N - p) with G groups. Source: G. H.
-/// Golub, C. F. Van Loan, Matrix Computations, 4th ed., section 5.4; A. C. Cameron, D. L. Miller, A
-/// Practitioner's Guide to Cluster-Robust Inference, JHR 50(2), 2015.
+/// use the sandwich estimator, times G / (G - 1) (N - 1) / (N - p), with G groups, N observations
+/// and p fitted coefficients. Source: G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed.,
+/// section 5.4; A. C. Cameron, D. L. Miller, A Practitioner's Guide to Cluster-Robust Inference,
+/// JHR 50(2), 2015.
 /// @param not_below_0  for each coefficient: whether it must be >= 0; empty: none must
 /// @throws std::invalid_argument without a row, or if sizes differ or a number is not finite
 LinearFit least_squares(const Observations& observations,

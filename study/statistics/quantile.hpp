@@ -16,8 +16,9 @@ struct QuantileInterval {
 
 /// Quantile of a metric over the replications.
 struct Quantile {
-    double value = 0;                          ///< quantile of the sample, in the metric's unit
-    std::optional<QuantileInterval> interval;  ///< none if there are too few values for one
+    double value = 0;  ///< quantile of the sample, in the metric's unit
+    /// Confidence interval for the true quantile; none: too few values.
+    std::optional<QuantileInterval> interval;
     friend bool operator==(const Quantile&, const Quantile&) = default;
 };
 

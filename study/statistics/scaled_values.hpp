@@ -9,8 +9,8 @@
 
 namespace rovernet {
 
-/// Bounded values scaled to 0 ... 1, and the same values mirrored. The lower end of an interval of
-/// the mirrored values gives the upper end for the values.
+/// Bounded values scaled to 0 ... 1, and mirrored (1 - value). The lower end of an interval for the
+/// mean of the mirrored values gives the upper end of the interval for the mean of the values.
 struct ScaledValues {
     std::vector<double> values;    ///< (v - low) / (high - low)
     std::vector<double> mirrored;  ///< 1 - values
@@ -21,7 +21,8 @@ struct ScaledValues {
     double unscaled(double share) const { return low + width * share; }
 };
 
-/// Scales values to their bounds.
+/// Scales values to their bounds, and checks the arguments of the calling function.
+/// @param  confidence  confidence level of the calling function, for the check only
 /// @param  owner  name of the calling function, for the message
 /// @throws std::invalid_argument without values, without bounds, if a value is out of bounds, or if
 ///         confidence is not in (0, 1)

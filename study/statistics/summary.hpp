@@ -22,7 +22,7 @@ struct Summary {
 /// Summary of the values; none without values. The standard deviation is 0 exactly if all values
 /// are equal (for values and differences between 1e-150 and 1e150).
 ///
-/// Computed in two passes over x - x1, in the order of the values, so that a common offset costs no
+/// Method: two passes over x - x1, in the order of the values, so that a common offset costs no
 /// precision and all machines give the same bits. Source: T. F. Chan, G. H. Golub, R. J. LeVeque,
 /// The American Statistician 37(3), 1983, on shifted data.
 /// @throws std::invalid_argument if a value is not finite
@@ -34,9 +34,9 @@ std::optional<Summary> summary_of(std::span<const double> values);
 /// @throws std::invalid_argument unless 0 < confidence < 1
 std::optional<double> half_width(const Summary& summary, double confidence = 0.95);
 
-/// Estimated total number of replications for the wanted half-width: the least N >= n with t(N - 1)
-/// s / sqrt(N) <= wanted. It is an estimate since s is one: repeat it after more runs. None for n =
-/// 1, or if 10^9 would not suffice.
+/// Estimated total number of replications for the wanted half-width of Student's interval: the
+/// least N >= n with t(N - 1) s / sqrt(N) <= wanted. Since the standard deviation s is an estimate,
+/// repeat the estimate after more runs. None for n = 1, or if 10^9 would not suffice.
 ///
 /// Source: A. M. Law, Simulation Modeling and Analysis, 5th ed., section 9.4.1.
 /// @param  wanted  > 0, in the metric's unit

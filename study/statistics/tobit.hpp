@@ -15,8 +15,8 @@ struct TobitFit {
     double negative_log_likelihood = 0;
 };
 
-/// Fits  y = x b + e,  e normal with deviation sigma, where only the floor is known of unseen rows,
-/// by maximising the log-likelihood
+/// Fits  y = x b + e,  e normal with deviation sigma, by maximising the log-likelihood, if the
+/// values of unseen rows are only known to be below a floor y:
 ///   sum over the seen of log(phi((y - x b) / sigma) / sigma)
 ///   + sum over the unseen of log Phi((y - x b) / sigma).
 /// Ignoring unseen rows would underestimate the loss of long links. The maximum is found by

@@ -21,10 +21,10 @@ struct EnumNames<BenchMobility> {
 struct FloodBench {
     std::vector<std::uint32_t> nodes = {1000};
     ReceptionTable reception = {};
-    /// Access model; with csma the jitter is 50 ms instead of 10 ms.
+    /// Access model. With csma, the jitter of forwarding is 50 ms instead of 10 ms.
     AccessTable access = {};
     BenchMobility mobility = BenchMobility::fixed;  ///< random waypoint: 1-20 m/s, without pauses
-    Db shadowing{0};        ///< shadowing of each link; 0: links depend on distance only
+    Db shadowing{0};        ///< standard deviation of each link's shadowing; 0: no shadowing
     bool recorded = false;  ///< true: with metrics, fingerprint and timeline, as in `rovernet run`
     double cpu_s = 2;       ///< least CPU time of the measurement for each network size [s]
     std::uint64_t seed = 1;
@@ -37,13 +37,15 @@ struct FloodBenchRow {
     std::uint64_t receptions;     ///< number of received frames, including duplicates
     std::uint64_t attempts;       ///< number of robots within range, summed over all transmissions
     std::uint64_t events;         ///< number of processed events
-    /// CPU time per robot within range [ns]: median of five parts of the measurement.
+    /// CPU time per robot within range of a transmission [ns]: median of five parts of the
+    /// measurement.
     double ns_per_reception;
     double bfs_ns_per_edge;  ///< CPU time per edge of a breadth-first search on the same graph [ns]
     double bytes_per_node;   ///< memory of the network after the floods, per robot [bytes]
 };
 
-/// Runs floods until the CPU time is used up. @throws std::invalid_argument for fewer than 2 nodes
+/// Runs floods in a network of `nodes` robots until the CPU time FloodBench::cpu_s is used up.
+/// @throws std::invalid_argument for fewer than 2 nodes
 FloodBenchRow flood_bench(const FloodBench& bench, std::uint32_t nodes);
 
 }  // namespace rovernet

@@ -17,7 +17,7 @@ struct Validation {
     ValidationSize size;
     std::vector<ValidationChart> charts = {};
     std::vector<Promise> promises = {};
-    std::vector<std::string> left_out = {};  ///< skipped checks, with reasons
+    std::vector<std::string> left_out = {};  ///< sentences on skipped checks, with reasons
 
     /// Whether every error is within its promised limit.
     bool kept() const;
@@ -25,7 +25,7 @@ struct Validation {
 
 /// Makes all charts and checks all promised error limits: errors of this build, and costs on this
 /// machine.
-/// @param field  folder of measurements, see measured_flat(); without it their chart is omitted
+/// @param field  folder of measurements, see measured_flat(); none: no chart of measurements
 /// @param tell   called with the name of the next step; may be empty
 /// @throws InputError for a damaged folder of measurements
 Validation validate(const ValidationSize& size, const std::optional<std::string>& field,

@@ -18,20 +18,20 @@
 
 namespace rovernet {
 
-/// Further column of a table of results: name with unit, and number.
+/// Cell of a further column in a table of results: name of the column, with unit, and number.
 using Detail = std::pair<std::string, double>;
 
 /// Method in a chart, with its cost and its error.
 struct ValidationPoint {
     std::string label;        ///< name of the method
     std::string series = {};  ///< series of related methods, such as "fitted"
-    TurnCost cost = {};       ///< cost [ns] of the operation named on the panel's axis
+    TurnCost cost = {};       ///< CPU time [ns] of an operation, see ValidationPanel::cost_label
     double error = 0;         ///< error in the panel's unit, >= 0
     std::optional<double> error_low = {}, error_high = {};  ///< confidence interval of the error
-    /// Further columns of the table; all points of a panel have the same ones.
+    /// Further columns of the table of results; all points of a panel have the same columns.
     std::vector<Detail> details = {};
     /// Independent parts of the error, such as one for each replication, in the same order in all
-    /// points of a panel. Their mean is the error, or its square.
+    /// points of a panel. The mean of the parts is the error or its square.
     std::vector<double> parts = {};
 };
 
@@ -40,18 +40,19 @@ struct ValidationPanel {
     std::string title = {};
     std::string cost_label = "CPU per link [ns]";
     std::string error_label = {};  ///< label of the error, with unit
-    bool log_error = true;         ///< logarithmic axis; an error of 0 is drawn at its left end
-    /// Uncertainty of the reference: smaller errors are meaningless; and the reason.
+    bool log_error = true;         ///< true: logarithmic error axis, with 0 at the left end
+    /// Uncertainty of the reference, in the unit of the error: smaller errors are meaningless.
+    /// None: not known.
     std::optional<double> unknowable = {};
-    std::string unknowable_label = {};
-    std::string interval_label = {};  ///< meaning of error_low to error_high, for the legend
+    std::string unknowable_label = {};  ///< text on the uncertainty of the reference
+    std::string interval_label = {};    ///< meaning of error_low to error_high, for the legend
     std::vector<ValidationPoint> points = {};
 };
 
 /// Chart for one question, with the reference of its errors.
 struct ValidationChart {
     std::string name;   ///< name of the chart's files, without ending
-    std::string title;  ///< question that the chart answers, or subject
+    std::string title;  ///< question that the chart answers, or subject of the chart
     std::string truth;  ///< sentence on the reference ("truth") and the number of cases
     std::vector<ValidationPanel> panels = {};
     std::vector<std::string> sentences = {};  ///< conclusions for users, with numbers
@@ -73,46 +74,51 @@ struct Promise {
     }
 };
 
-/// Measures methods in turns, and sets the costs of the panel's points; one method for each point.
+/// Measures the CPU time of methods in turns, and sets the costs of a panel's points.
+/// @param methods  one method for each point, in the order of the points
 void set_costs(ValidationPanel& panel, std::span<const TimedMethod> methods, const Turns& turns);
 
-/// Pareto front: the cheapest point (by median cost), and each point with a significantly smaller
-/// error than all cheaper points; in order of cost. Errors with parts are compared by their parts,
-/// at 95 % for all pairs together (Bonferroni). Errors with intervals differ if the intervals do
-/// not overlap. Errors without either always differ.
+/// Indices of the points on the Pareto front, in order of cost: the cheapest point (by median
+/// cost), and each point with a significantly smaller error than all cheaper points. Errors with
+/// parts are compared by their parts, at 95 % for all pairs together (Bonferroni). Errors with
+/// intervals differ if the intervals do not overlap. Errors without parts and intervals always
+/// differ.
 std::vector<std::size_t> pareto_front(const std::vector<ValidationPoint>& points);
 
-/// Whether some points have parts or intervals, which give the uncertainty of their errors.
+/// Whether any point has parts of its error, or an interval: the uncertainty of its error is known.
 bool have_intervals(const std::vector<ValidationPoint>& points);
 
-/// Point of least error, and points whose errors do not differ significantly from it.
+/// Point of least error, and points whose errors do not differ significantly from that error.
 struct Nearest {
     const ValidationPoint* point = nullptr;  ///< point of least error; null: there is none
+    /// Points whose errors do not differ significantly from the least error.
     std::vector<const ValidationPoint*> alike = {};
 };
 
-/// Finds the point of least error among points for which `takes` returns true. A point differs
-/// significantly from it if Student's interval for the mean difference of their parts, at 95 % for
-/// all pairs together (Bonferroni), excludes 0. With fewer than six parts no point differs: five
-/// differences have the same sign by chance in 6 % of cases.
+/// Finds the point of least error among the points for which `takes` returns true. Another point
+/// differs significantly if Student's interval for the mean difference of the parts of both errors,
+/// at 95 % for all pairs together (Bonferroni), excludes 0. With fewer than six parts no point
+/// differs: five differences have the same sign by chance in 6 % of cases.
 Nearest nearest_to_truth(const ValidationPanel& panel,
                          const std::function<bool(const ValidationPoint&)>& takes);
 
-/// Sentence naming the best method, or methods that do not differ from it: "multi_wall fitted is
-/// nearest, 4.01 dB off" or "disc fitted (0.012 off) is not told apart from friis as given (0.013
-/// off)".
-/// @param nearest  result with a point
-/// @param off  function that formats an error, as in "4.01 dB off"
+/// Sentence that names the method with the least error, such as "multi_wall fitted is nearest, 4.01
+/// dB off". If other methods do not differ significantly, the sentence names up to three of these:
+/// "disc fitted (0.012 off) is not told apart from friis as given (0.013 off)".
+/// @param nearest  result of nearest_to_truth() that has a point
+/// @param off      function that returns an error as a text, such as "4.01 dB off"
 std::string nearest_text(const Nearest& nearest, const std::function<std::string(double)>& off);
 
-/// Point with this label and series. @throws std::out_of_range if it does not exist
+/// Point of a panel with the given label and series. @throws std::out_of_range without such a point
 const ValidationPoint& point_of(const ValidationPanel& panel, std::string_view label,
                                 std::string_view series = "");
 
-/// Cost or ratio of costs with two digits, without an exponent: "1400000", "0.0043".
+/// Text of a cost or a ratio of costs, with two significant digits and without an exponent:
+/// "1400000", "0.0043".
 std::string two_digits(double value);
 
-/// Number of a point's detail with this name. @throws std::out_of_range if it does not exist
+/// Number in the further column `name` of a point, see ValidationPoint::details.
+/// @throws std::out_of_range without such a column
 double detail_of(const ValidationPoint& point, const std::string& name);
 
 }  // namespace rovernet

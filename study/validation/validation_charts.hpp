@@ -12,7 +12,8 @@
 #include <vector>
 
 // Validations, each with its own function and file. Errors are the same in every run and on every
-// machine; costs are not. Each function appends its checks: claimed bound and worst error found.
+// machine; costs are not. Each function appends its checks to `promises`: claimed error limit and
+// worst error found.
 
 namespace rovernet {
 
@@ -41,12 +42,13 @@ ValidationChart decisions_chart(const ValidationSize& size, Promises& promises);
 ValidationChart interference_cut_chart(const ValidationSize& size);
 /// Chart that compares reception models on the same floods.
 ValidationChart reception_chart(const ValidationSize& size);
-/// Chart on shadowing that is redrawn for each frame, fixed for each link, or a spatial field: rate
-/// of link changes.
+/// Chart on the rate of link changes due to shadowing: redrawn for each frame, fixed for each link,
+/// or a spatial field.
 ValidationChart shadowing_chart(const ValidationSize& size);
 /// Charts on path loss models with given and with fitted parameters: errors of the delivery ratio
 /// and of link decisions.
-/// @param field  folder of measurements, for the error of the reference model itself
+/// @param field  folder of measurements, for the error of the reference model itself; none: that
+///               error is not shown
 std::vector<ValidationChart> path_loss_charts(const ValidationSize& size,
                                               const std::optional<std::string>& field);
 /// Chart on the effect of the cell size and the drawing of a map.
@@ -68,8 +70,8 @@ void check_motion(Promises& promises);
 /// Checks shadows of the model `rays`: behind wall ends, blocks and oblique walls.
 void check_ray_shadows(Promises& promises);
 
-/// Random number in (0, 1) for a validation. @param what  name of the validation and of the drawn
-/// quantity
+/// Random number in (0, 1) for a validation; it depends on all parameters and nothing else.
+/// @param what  name of the validation or of the drawn quantity
 double validation_draw(std::string_view what, std::uint64_t of, std::uint64_t index);
 
 }  // namespace rovernet

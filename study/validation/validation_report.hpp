@@ -9,8 +9,9 @@
 
 namespace rovernet {
 
-/// Picture of a chart: cost along x and error along y, both mostly logarithmic. Whiskers along x
-/// show the lowest and highest measurement. A dashed line joins the points of the Pareto front.
+/// Picture of a chart as SVG: a dot plot for each panel, with a row for each method in order of
+/// cost. Each row shows the error with its interval and, on a second scale, the cost. Names of
+/// methods on the Pareto front are bold. Empty if all errors are 0.
 std::string validation_svg(const ValidationChart& chart);
 
 /// Numbers of a chart as comma-separated values. Columns: panel, method, series, cost_ns,
@@ -18,11 +19,11 @@ std::string validation_svg(const ValidationChart& chart);
 /// Costs are measured on this machine.
 std::string validation_csv(const ValidationChart& chart);
 
-/// Self-contained HTML page with sentences, pictures and tables.
+/// Self-contained HTML page of a validation, with sentences, pictures and tables.
 std::string validation_html(const Validation& validation);
 
-/// Page of the documentation, docs/accuracy.md: sentences and tables, with links to the pictures.
-/// Costs are rounded to two digits.
+/// Text of the documentation page docs/accuracy.md: sentences and tables, with links to the
+/// pictures. Costs are rounded to two digits.
 std::string validation_page(const Validation& validation);
 
 }  // namespace rovernet

@@ -20,7 +20,7 @@ struct Bianchi {
     double slot, payload, success, collision;  ///< slot time, mean payload time E[P], durations of
                                                ///< a success Ts and of a collision Tc [us]
 
-    /// Probability that a station transmits in a slot, given the collision probability `p`.
+    /// Probability that a station transmits in a slot, if its frames collide with probability `p`.
     double attempts(double p) const {
         const double q = 1 - 2 * p;
         return 2 * q / (q * (window + 1) + p * window * (1 - std::pow(2 * p, stages)));

@@ -40,8 +40,8 @@ inline constexpr Meters office_cell{0.05};
 bool is_rock(Vec3 p);
 inline constexpr double cave_width = 60, cave_depth = 40;  // [m]
 
-/// Map with square cells of size `cell` [m], from (0, 0): a cell is a wall if its centre is in a
-/// wall.
+/// Map of width x depth [m], from (0, 0), with square cells of size `cell` [m]. A cell is occupied
+/// if `is_wall` is true for its centre.
 OccupancyGrid drawn_map(double width, double depth, double cell,
                         const std::function<bool(Vec3)>& is_wall);
 

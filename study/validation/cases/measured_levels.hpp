@@ -7,9 +7,9 @@
 
 #include <string>
 
-// Levels measured in two buildings, as known links; the README beside them describes the
-// measurements. The folder has flat/ (cells.csv, anchors.csv, map.yaml) and lab/ (links.csv,
-// sensors.csv).
+// Levels measured in two buildings, as links of known loss. The folder of the measurements has
+// flat/ (cells.csv, anchors.csv, map.yaml) and lab/ (links.csv, sensors.csv), and a README that
+// describes the measurements.
 
 namespace rovernet {
 
@@ -28,8 +28,9 @@ MeasuredBuilding measured_flat(const std::string& folder);
 /// the second set is a different day.
 MeasuredBuilding measured_lab(const std::string& folder);
 
-/// Root mean square error [dB] of a model in a building, without the measurement error of levels.
-/// The model's constant is fitted to the first set, and the error is taken on the second.
+/// Root mean square error [dB] of a model in a building, after subtraction of the measurement error
+/// of levels. The model's constant is fitted to the first set of levels, and the error is computed
+/// on the second set.
 Db error_against(const MeasuredBuilding& building, const Propagation& model);
 
 }  // namespace rovernet

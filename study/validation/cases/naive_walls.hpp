@@ -16,7 +16,8 @@ namespace rovernet {
 /// Raster of walls with square cells parallel to the axes.
 class NaiveRaster {
   public:
-    /// @param is_wall  called for the centre of each cell
+    /// @param cell     size of a cell [m]
+    /// @param is_wall  whether a point is in a wall; called for the centre of each cell
     NaiveRaster(Vec3 low, Vec3 high, double cell, const std::function<bool(Vec3)>& is_wall);
 
     /// Length [m] of the line a-b inside wall cells, by traversal of cells along the line (digital
@@ -40,8 +41,8 @@ class NaiveRaster {
     std::vector<std::uint8_t> cells_;
 };
 
-/// Length [m] of the line a-b inside walls, by samples at a fixed step. @param is_wall  called for
-/// each sample
+/// Length [m] of the line a-b inside walls, by samples at about every `step` [m].
+/// @param is_wall  whether a point is in a wall; called for each sample
 template <class IsWall>
 double sampled_wall(Vec3 a, Vec3 b, double step, const IsWall& is_wall) {
     const double length = distance(a, b);

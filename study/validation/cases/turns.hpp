@@ -16,11 +16,12 @@ struct TurnCost {
     double median = 0, low = 0, high = 0;
 };
 
-/// Method whose CPU time is measured: `pass` performs all operations once.
+/// Method whose CPU time is measured by costs_in_turns().
 struct TimedMethod {
-    std::function<double()> pass;  ///< returns any number that depends on every operation, so that
-                                   ///< none is optimised away
-    double operations = 1;         ///< number of operations in a pass, > 0
+    /// Function that performs all operations once. Its result depends on every operation, so that
+    /// the compiler removes none.
+    std::function<double()> pass;
+    double operations = 1;  ///< number of operations in a pass, > 0
 };
 
 /// Method that sums value(x) over all elements x of `all`, which must outlive the method.
@@ -34,15 +35,17 @@ TimedMethod timed_sum(const All& all, Value value) {
             static_cast<double>(std::size(all))};
 }
 
-/// Length of a cost measurement.
+/// Length of a cost measurement by costs_in_turns().
 struct Turns {
     int turns = 5;
-    double least_s = 0.02;  ///< least CPU time of each method in a turn [s]
+    /// Least CPU time [s] of each method in a turn: passes of the method are repeated until their
+    /// CPU time reaches this value.
+    double least_s = 0.02;
 };
 
 /// Measures the CPU time of methods in this thread. Each turn measures all methods one after the
-/// other, each for enough passes to fill its time.
-/// @return cost of each method, in their order
+/// other. Passes of a method are repeated until they take Turns::least_s.
+/// @return cost of each method, in the order of `methods`
 std::vector<TurnCost> costs_in_turns(std::span<const TimedMethod> methods, const Turns& turns);
 
 }  // namespace rovernet

@@ -16,13 +16,13 @@
 
 namespace rovernet {
 
-/// Scenario without a file: its text and, optionally, its walls.
+/// Scenario that is not in a file: the text of a scenario file and, optionally, walls.
 struct ValidationScene {
     std::string name;
     std::string text;  ///< content of a scenario file, without [scene]
     std::shared_ptr<const Scene> walls = nullptr;
 
-    /// Scenario of the text, overridden by the tables `settings`.
+    /// Scenario that `text` describes, overridden by the tables in `settings`.
     /// @param settings  tables by name, such as [propagation] of a fitted model
     Scenario scenario(const Table& settings, std::uint32_t replication = 0) const;
 };
@@ -41,13 +41,14 @@ struct Variant {
     Table settings;
 };
 
-/// Results of the runs of a variant.
+/// Results of the runs of one variant of a scene.
 struct VariantRuns {
     std::vector<double> delivery_ratio;  ///< delivery ratio of each replication
-    TurnCost cost;  ///< CPU time of a run for each transmission [ns], over the runs
+    TurnCost cost;  ///< CPU time of a run per transmission [ns]: median, lowest and highest run
 };
 
-/// Runs all variants on the same replications; each replication runs all variants in turn.
+/// Runs all variants of a scene on the same replications. In each replication, the variants run one
+/// after the other, so that a slowdown of the machine affects all variants equally.
 std::vector<VariantRuns> paired_runs(const ValidationScene& scene,
                                      const std::vector<Variant>& variants,
                                      std::size_t replications);
@@ -56,7 +57,7 @@ std::vector<VariantRuns> paired_runs(const ValidationScene& scene,
 struct RunErrors {
     std::vector<double> distances = {};  ///< absolute difference of each replication
     double mean = 0;                     ///< mean absolute difference of delivery ratios
-    std::optional<MeanInterval> likely;  ///< 95 % interval of the mean absolute difference
+    std::optional<MeanInterval> likely;  ///< 95 % interval of `mean`; none if `mean` is 0
     double bias = 0;                     ///< mean difference of delivery ratios (with sign)
 };
 RunErrors run_errors(const VariantRuns& runs, const VariantRuns& truth);
