@@ -329,7 +329,8 @@ std::vector<Variant> nonsense(const Sample& s) {
         {"a message in slot 2^63", chunk_of(1, varints({huge, 0, 0, 0, 0, 0, 0, 0}, 4))},
         {"a kind of 5,000 letters", chunk_of(1, varints({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 5000}) +
                                                     std::string(5000, 'x') + varints({0}))},
-        {"a payload of 2^64 - 1 bytes", chunk_of(1, varints({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, most}))},
+        {"a payload of 2^64 - 1 bytes",
+         chunk_of(1, varints({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, most}))},
         {"2^63 receptions", chunk_of(4, varints({0, 0, 1, 1, 0, 0, 0, huge}, 50))},
         {"2^30 receptions", chunk_of(4, varints({0, 0, 1, 1, 0, 0, 0, 1 << 30}, 50))},
         {"a reception at robot -1", chunk_of(4, varints({0, 0, 1, 1, 0, 0, 0, 1, 0, 1, 0}))},
