@@ -9,7 +9,7 @@ set(ROVERNET_PUBLIC_HEADERS
     mobility/patrol.hpp mobility/random_direction.hpp mobility/random_walk.hpp
     mobility/random_waypoint.hpp mobility/straight.hpp mobility/wander.hpp mobility/way.hpp
     mobility/waypoints.hpp
-    models/access/access.hpp models/access/aloha.hpp models/access/arp.hpp models/access/csma.hpp
+    models/access/access.hpp models/access/aloha.hpp models/access/csma.hpp
     models/access/no_access.hpp
     models/antenna.hpp models/arrival.hpp
     models/links/link_search.hpp

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/access/arp.hpp"
+#include "models/access/access.hpp"
 #include "sim/ids.hpp"
 #include "sim/message.hpp"
 #include "sim/record.hpp"

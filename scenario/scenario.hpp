@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/access/arp.hpp"
+#include "models/access/access.hpp"
 #include "models/links/link_search.hpp"
 #include "models/radio.hpp"
 #include "models/variation/fading.hpp"

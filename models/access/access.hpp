@@ -3,6 +3,7 @@
 
 #include "models/arrival.hpp"
 #include "models/phy/phy.hpp"
+#include "sim/fields.hpp"
 #include "sim/ids.hpp"
 #include "sim/message.hpp"
 #include "sim/record.hpp"
@@ -12,6 +13,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -149,6 +151,24 @@ class AccessModel {
     // Name of the access model, and the function that creates the model from its settings.
     std::string_view name_;
     std::function<std::unique_ptr<Access>()> make_;
+};
+
+/// Settings of address resolution (ARP, RFC 826), keys of [access] beside those of the access
+/// model. With ARP a robot asks for the MAC address of a next hop by a broadcast before its first
+/// unicast to it; without ARP all addresses are known.
+struct ArpSettings {
+    /// Whether robots resolve addresses.
+    bool arp = false;
+    /// Time after which an address is forgotten [ns], > 0; empty: never, as in ns-2.
+    std::optional<Duration> arp_timeout = std::nullopt;
+
+    static constexpr auto fields() {
+        return describe(
+            field("arp", &ArpSettings::arp, "whether robots ask for the address of a next hop"),
+            field("arp_timeout", &ArpSettings::arp_timeout,
+                  Range{.low = 0, .high = 1e18, .low_included = false, .text = "> 0 s"},
+                  "after which an address is forgotten; never if not given"));
+    }
 };
 
 }  // namespace rovernet
