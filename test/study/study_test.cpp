@@ -204,7 +204,7 @@ vary."routing.protocol" = ["flood", "aodv"]
     REQUIRE(aodv.routing.as<Aodv>());
     CHECK(aodv.routing.as<Aodv>()->hello == std::chrono::seconds(1));
     CHECK(error_of(two_robots + "[study]\nvary.routing.protocol = [\"flood\", \"adov\"]")
-              .find("s.toml:17:34: unknown protocol \"adov\"; expected one of \"flood\"") !=
+              .find("s.toml:17:35: unknown protocol \"adov\"; expected one of \"flood\"") !=
           std::string::npos);
 }
 
