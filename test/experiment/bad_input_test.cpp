@@ -303,6 +303,10 @@ const std::vector<Mistake> mistakes = {
     {robot_a + "[routing]\nprotocol = \"flood\"\nhelo = \"1 s\"",
      "6:1",
      {"unknown key \"helo\"", "did you mean \"hello\"?"}},
+    {robot_a + "[routing]\nprotocol = \"flood\"\nhello = \"-1 s\"", "6:9", {"from 0 to 10000 s"}},
+    {robot_a + "[routing]\nprotocol = \"aodv\"\nduplicates = \"foward\"",
+     "6:14",
+     {"did you mean \"forward\"?"}},
     // Robots.
     {"[[robot]]\nat = [\"2 m\", \"3 m\"]", "1:1", {"\"name\" is missing"}},
     {"[[robot]]\nnmae = \"A\"", "2:1", {"unknown key \"nmae\"", "did you mean \"name\"?"}},
