@@ -27,6 +27,7 @@
 #include "network/network.hpp"
 #include "routing/aodv.hpp"
 #include "routing/flood.hpp"
+#include "routing/managed.hpp"
 #include "routing/suppression.hpp"
 #include "scenario/document/toml.hpp"
 #include "scenario/scenario_file.hpp"

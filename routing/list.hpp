@@ -3,6 +3,7 @@
 
 #include "routing/aodv.hpp"
 #include "routing/flood.hpp"
+#include "routing/managed.hpp"
 #include "routing/suppression.hpp"
 
 #include <tuple>
@@ -10,6 +11,6 @@
 namespace rovernet {
 
 /// Routing protocols that scenario files can name.
-using RoutingProtocols = std::tuple<Flood, Aodv, Suppression>;
+using RoutingProtocols = std::tuple<Flood, Aodv, Suppression, Managed>;
 
 }  // namespace rovernet
