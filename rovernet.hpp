@@ -28,6 +28,7 @@
 #include "routing/aodv.hpp"
 #include "routing/dsr.hpp"
 #include "routing/flood.hpp"
+#include "routing/managed.hpp"
 #include "routing/suppression.hpp"
 #include "scenario/document/toml.hpp"
 #include "scenario/scenario_file.hpp"

@@ -25,7 +25,7 @@ set(ROVERNET_PUBLIC_HEADERS
     models/variation/fading.hpp models/variation/shadowing.hpp
     network/neighbour.hpp network/network.hpp network/robot.hpp network/settings.hpp
     network/subscription.hpp
-    routing/aodv.hpp routing/dsr.hpp routing/flood.hpp routing/suppression.hpp
+    routing/aodv.hpp routing/dsr.hpp routing/flood.hpp routing/managed.hpp routing/suppression.hpp
     rovernet.hpp
     scenario/document/toml.hpp scenario/document/value.hpp
     scenario/scenario_file.hpp

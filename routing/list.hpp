@@ -4,6 +4,7 @@
 #include "routing/aodv.hpp"
 #include "routing/dsr.hpp"
 #include "routing/flood.hpp"
+#include "routing/managed.hpp"
 #include "routing/suppression.hpp"
 
 #include <tuple>
@@ -11,6 +12,6 @@
 namespace rovernet {
 
 /// Routing protocols that scenario files can name.
-using RoutingProtocols = std::tuple<Flood, Aodv, Dsr, Suppression>;
+using RoutingProtocols = std::tuple<Flood, Aodv, Dsr, Suppression, Managed>;
 
 }  // namespace rovernet

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "routing/cluster_router.hpp"
 #include "routing/disc_cover.hpp"
 #include "routing/relay.hpp"
 #include "routing/suppression_router.hpp"
@@ -9,7 +10,10 @@
 
 namespace rovernet {
 
-Suppression::operator Router() const { return SuppressionRouter{*this}; }
+Suppression::operator Router() const {
+    if (scheme == SuppressionScheme::cluster) return ClusterRouter{*this};
+    return SuppressionRouter{*this};
+}
 
 namespace {
 
@@ -30,6 +34,7 @@ Threshold threshold_of(SuppressionScheme scheme) {
             return {40, 0, infinity, false, ">= 0 m for scheme \"distance\""};
         case SuppressionScheme::location:
             return {0.05, 0, 1, false, "from 0 to 1 for scheme \"location\""};
+        case SuppressionScheme::cluster: break;
     }
     return {};
 }
@@ -136,6 +141,7 @@ bool SuppressionRouter::suppresses(LinkLayer& link, const Heard& heard, Known& k
             return squared_distance(heard.from, link.position(node)) < threshold_ * threshold_;
         case SuppressionScheme::location:
             return is_covered(heard, known, wait, link.position(node));
+        case SuppressionScheme::cluster: break;
     }
     return false;
 }

@@ -10,9 +10,10 @@
 
 namespace rovernet {
 
-/// Routing protocol of a Suppression. For each message in use it stores a bit per node; except for
-/// scheme "probability", four bytes more, and eight bytes per node that waits or waited; for
-/// "location" also the place of each sender that such a node heard.
+/// Routing protocol of a Suppression, except for scheme "cluster" (ClusterRouter). For each message
+/// in use it stores a bit per node; except for scheme "probability", four bytes more, and eight
+/// bytes per node that waits or waited; for "location" also the place of each sender that such a
+/// node heard.
 ///
 /// All schemes are monotone: further copies only add reasons not to forward. So a waiting copy is
 /// cancelled at the copy that decides, in place of at the end of the delay.

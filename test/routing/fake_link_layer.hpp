@@ -140,8 +140,10 @@ class FakeLinkLayer final : public LinkLayer {
         if (frame.header != 0) ++headers[frame.header];
     }
     void release(const Frame& frame) override { release_reference(frame); }
-    double draw(Purpose, NodeId, MessageId, std::uint64_t) const override { return drawn; }
-    double draw(Purpose, NodeId, std::uint64_t) const override { return drawn; }
+    double draw(Purpose, NodeId, MessageId, std::uint64_t index) const override {
+        return draw_of(index);
+    }
+    double draw(Purpose, NodeId, std::uint64_t index) const override { return draw_of(index); }
 
     Time time = start_of_run;
     std::vector<bool> on;
@@ -150,6 +152,8 @@ class FakeLinkLayer final : public LinkLayer {
     std::vector<std::uint64_t> keys{};  ///< of nodes; beyond the end the id is the key
     Dbm received_power{-60}, noise{-95};
     double drawn = 0.5;  ///< by every draw
+    /// By draws of an index, in place of `drawn`.
+    std::map<std::uint64_t, double> drawn_at{};
     MessageTable messages{};
     std::vector<Sending> sent{};
     std::vector<Timer> timers{};
@@ -160,6 +164,10 @@ class FakeLinkLayer final : public LinkLayer {
     std::function<void(std::uint32_t)> on_header_forgotten{};
 
   private:
+    double draw_of(std::uint64_t index) const {
+        const auto own = drawn_at.find(index);
+        return own != drawn_at.end() ? own->second : drawn;
+    }
     void release_reference(const Frame& frame) {
         if (frame.header != 0 && --headers[frame.header] == 0 && on_header_forgotten)
             on_header_forgotten(frame.header);

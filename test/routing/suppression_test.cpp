@@ -117,6 +117,13 @@ TEST_CASE("suppression, probability: a draw below P is forwarded, whatever is he
     }
 }
 
+TEST_CASE("suppression, probability: the delay does not depend on the draw against P") {
+    Hearer node({.scheme = Scheme::probability, .threshold = 0.3, .delay = 80ms});
+    node.link.drawn_at = {{0, 0.75}, {1, 0.1}};
+    CHECK(node.hear().fate == Fate::waiting);
+    CHECK(node.link.sent[0].at == start_of_run + 1us + 60ms);
+}
+
 TEST_CASE("suppression, distance: the first or a later sender nearer than D suppresses") {
     const Suppression within_50{.scheme = Scheme::distance, .threshold = 50};
     Hearer first(within_50);

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "routing/suppression.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rovernet {
+
+/// Routing protocol of a Suppression with scheme "cluster": lowest-key clusters, of which heads and
+/// gateways forward messages. Each node tells the head of its cluster in HELLO packets. A node is a
+/// head if none of its neighbours with a lower key (LinkLayer::key) is one; otherwise it belongs to
+/// the head with the lowest key. A gateway hears a node of another cluster.
+///
+/// Clusters settle in the order of keys. Once they have, heads and gateways connect what the plain
+/// flood connects: two neighbours of one cluster have their head between them, two of different
+/// clusters are gateways. A node stores 16 bytes for each neighbour, and a bit for each message.
+class ClusterRouter {
+  public:
+    /// @throws std::invalid_argument if a parameter is out of its range, or a threshold is given
+    explicit ClusterRouter(const Suppression& suppression);
+
+    Hops initial_ttl() const { return static_cast<Hops>(settings_.ttl); }
+    void send(LinkLayer& link, NodeId node, MessageId message);
+    void on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions);
+    void on_start(LinkLayer& link, NodeId node);
+    void on_timer(LinkLayer& link, NodeId node, std::uint64_t tag);
+    void on_switched(LinkLayer& link, NodeId node, bool on);
+    void forget(MessageId message);
+
+    /// Head of a node's cluster; `everyone` before the node's first HELLO.
+    NodeId head(NodeId node) const {
+        return node.index() < nodes_.size() ? nodes_[node.index()].head : everyone;
+    }
+    /// Whether a node forwards messages: a head, a gateway, or a node without a cluster yet.
+    bool is_relay(NodeId node, Time now) const;
+
+  private:
+    struct Neighbour {
+        NodeId node, head;
+        Time last;
+    };
+    struct Node {
+        NodeId head = everyone;
+        std::uint32_t hellos = 0;
+        std::vector<Neighbour> neighbours;
+    };
+    Node& node(NodeId id);
+    std::vector<bool>& heard(const LinkLayer& link, MessageId message);
+    bool is_near(const Neighbour& each, Time now) const;
+    void hear_hello(NodeId at, const Neighbour& sender);
+    void join(const LinkLayer& link, NodeId at);
+    void take(LinkLayer& link, const Frame& frame, Reception& reception);
+
+    Suppression settings_;
+    std::vector<Node> nodes_;
+    std::vector<std::vector<bool>> heard_;  // by message, then by node
+    std::vector<Reception*> news_;          // first copies of one frame, memory for reuse
+};
+
+}  // namespace rovernet

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "routing/managed.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rovernet {
+
+/// Routing protocol of a Managed. For each message in use it stores eight bytes per node. Rules M1
+/// to M6 in comments are those of docs/routing.md; a copy is queued while it waits for its send
+/// time, and no more once it is in the queue of the MAC.
+class ManagedRouter {
+  public:
+    static constexpr bool wants_levels = true;
+    static constexpr auto& roles = Managed::roles;
+
+    /// @throws std::invalid_argument if a parameter is out of its range
+    explicit ManagedRouter(const Managed& managed);
+
+    Hops initial_ttl() const { return static_cast<Hops>(settings_.hop_limit + 1); }
+    void send(LinkLayer& link, NodeId node, MessageId message);
+    void on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions);
+    void forget(MessageId message);
+
+    /// Exponent CW of the contention window of a copy received with this ratio to the noise: -20 to
+    /// 10 dB map to 3 to 8 in whole numbers (M2).
+    static int contention_window(Db snr);
+
+  private:
+    /// State of a message at a node: not heard; its own; heard, and nothing queued; a copy queued;
+    /// a copy queued in the late window.
+    enum class Stage : std::uint8_t { unheard, own, idle, queued, late };
+    struct State {
+        SendHandle copy = 0;
+        Stage stage = Stage::unheard;
+        /// CW of the queued copy, and number of copies that were queued so far.
+        std::uint8_t window = 0, copies = 0;
+    };
+    /// Reaction to a copy.
+    enum class Act { ignore, cancel, move, relay };
+
+    std::vector<State>& states(const LinkLayer& link, MessageId message);
+    QueuedFrame* queued_copy(LinkLayer& link, MessageId message, NodeId node, State& mine) const;
+    Act act(LinkLayer& link, const Frame& frame, NodeId node, State& mine) const;
+    void relay(LinkLayer& link, const Frame& frame, Reception& reception, State& mine);
+    void move(LinkLayer& link, const Reception& reception, State& mine);
+    void queue(LinkLayer& link, const QueuedFrame& copy, const Reception& reception, int slots,
+               State& mine);
+
+    Managed settings_;
+    std::vector<std::vector<State>> states_;  // by message, then by node
+    std::vector<Reception*> relays_, moves_;  // of one frame, memory for reuse
+};
+
+}  // namespace rovernet
