@@ -255,27 +255,14 @@ void DsrRouter::on_broken(LinkLayer& link, NodeId at, NodeId neighbour,
             here.error_time = link.now();
         } else {
             const auto made = static_cast<std::size_t>(each.frame.hops - own.first_hops);
-            send_error(link, at, error, own.path.first(made + 1).reversed());
+            send_packet(link, at, {.error = error, .route = own.path.first(made + 1).reversed()},
+                        dsr::error_kind, link.now());
         }
     }
     for (const QueuedFrame& each : stranded) {
         if (link.message(each.frame.message).kind.empty()) send_otherwise(link, at, each);
     }
     set_timer(link, at);
-}
-
-void DsrRouter::send_error(LinkLayer& link, NodeId at, const dsr::Error& error, const Path& route) {
-    const std::string bytes = dsr::to_bytes({.error = error, .route = route});
-    const auto size = static_cast<std::uint32_t>(dsr::ip_header + bytes.size());
-    const MessageId id = link.originate(at, error.to, dsr::error_kind, size, bytes);
-    link.send({.message = id,
-               .sender = at,
-               .path = link.key(at),
-               .ttl = 255,
-               .hops = 1,
-               .next_hop = route[1]},
-              {}, link.now());
-    link.release(id);
 }
 
 /// How often a message has changed its route on its way once a node sends it along a new one.

@@ -13,6 +13,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -118,7 +119,6 @@ class DsrRouter {
     void lose(LinkLayer& link, NodeId at, const SendBuffer::Packet& packet, DropReason reason);
     // Broken links.
     void on_broken(LinkLayer& link, NodeId at, NodeId neighbour, std::span<const QueuedFrame>);
-    void send_error(LinkLayer& link, NodeId at, const dsr::Error& error, const dsr::Path& route);
     unsigned salvage_of(const QueuedFrame& queued) const;
     void send_otherwise(LinkLayer& link, NodeId at, const QueuedFrame& queued);
 
@@ -130,8 +130,12 @@ class DsrRouter {
                          Reception& reception);
     Fate receive_request(LinkLayer& link, const Frame& frame, const dsr::Packet& packet,
                          const Reception& reception);
-    void send_reply(LinkLayer& link, NodeId at, const dsr::Path& path, const dsr::Path& back,
-                    Time when);
+    void pass_on(LinkLayer& link, const Frame& frame, const dsr::Packet& packet,
+                 const Reception& reception);
+    void send_packet(LinkLayer& link, NodeId at, const dsr::Packet& packet, std::string_view kind,
+                     Time when);
+    void send_request(LinkLayer& link, Frame frame, const dsr::Packet& packet,
+                      std::optional<NodeId> heard_from, Time when);
     void search(LinkLayer& link, NodeId at, NodeId target, Time when);
     void request(LinkLayer& link, NodeId at, Search& search, Time when);
     bool proceed(LinkLayer& link, NodeId at, Search& search, Time when);

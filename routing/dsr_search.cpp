@@ -68,8 +68,9 @@ void DsrRouter::shorten(LinkLayer& link, NodeId sender, Way way, const Reception
     sent.push_back({source, sender, r.time + shortening_hold_off});
     Path to_here = way.path.first(way.sender + 1);
     to_here.add(at);
-    send_reply(link, at, joined(to_here, way.path, mine + 1), to_here.reversed(),
-               r.time + least_reaction);
+    const dsr::Reply shorter{joined(to_here, way.path, mine + 1)};
+    send_packet(link, at, {.reply = shorter, .route = to_here.reversed()}, dsr::reply_kind,
+                r.time + least_reaction);
 }
 
 /// Receives a control packet, at a node of its route or at one that overhears it.
@@ -99,21 +100,22 @@ void DsrRouter::receive_control(LinkLayer& link, const Frame& frame, const dsr::
     end_searches(link, at, r.time + least_reaction);
 }
 
-/// Receives a request (8.2.2). The target answers each copy, others answer with a route that they
-/// know, or pass the request on.
+/// Receives a request (8.2.2). The target answers each copy (8.2.4), others answer with a route
+/// that they know, or pass the request on.
 Fate DsrRouter::receive_request(LinkLayer& link, const Frame& frame, const dsr::Packet& packet,
                                 const Reception& r) {
     const NodeId at = r.node;
     const dsr::Request& asked = *packet.request;
     Node& here = node(at);
-    if (asked.path.has(at)) return Fate::duplicate;
+    if (asked.path.has(at) || asked.path.is_full()) return Fate::duplicate;
     Path to_here = asked.path;
     to_here.add(at);
     const Path back = to_here.reversed();
     here.cache.add(back, dsr::Cache::Origin::others, r.time);
     const Time soon = r.time + least_reaction;
     if (asked.target == at) {
-        send_reply(link, at, to_here, back, soon + jitter(link, at, frame.message));
+        send_packet(link, at, {.reply = dsr::Reply{to_here}, .route = back}, dsr::reply_kind,
+                    soon + jitter(link, at, frame.message));
         return Fate::arrived;
     }
     if (!here.seen.note16(asked.path.front(), asked.id, r.time, request_memory)) {
@@ -122,7 +124,8 @@ Fate DsrRouter::receive_request(LinkLayer& link, const Frame& frame, const dsr::
     if (const auto known = here.cache.find(asked.target)) {  // 8.2.3
         const Path whole = joined(to_here, *known, 1);
         if (whole.back() == asked.target && !has_repetition(whole)) {
-            send_reply(link, at, whole, back, soon);
+            send_packet(link, at, {.reply = dsr::Reply{whole}, .route = back}, dsr::reply_kind,
+                        soon);
             return Fate::arrived;
         }
     }
@@ -131,37 +134,50 @@ Fate DsrRouter::receive_request(LinkLayer& link, const Frame& frame, const dsr::
         too_far_.try_emplace({asked.path.front(), asked.target}, false);
         return Fate::ttl;
     }
-    const std::string bytes = dsr::to_bytes(
-        {.request = dsr::Request{asked.id, asked.target, to_here}, .error = packet.error});
-    const Time when = soon + jitter(link, at, frame.message);
-    const MessageId id =
-        link.originate(asked.path.front(), asked.target, dsr::request_kind,
-                       static_cast<std::uint32_t>(dsr::ip_header + bytes.size()), bytes);
-    link.send({.message = id,
-               .sender = at,
-               .path = combine(frame.path, link.key(at)),
-               .ttl = static_cast<Hops>(frame.ttl - 1),
-               .hops = static_cast<Hops>(frame.hops + 1)},
-              frame.sender, when);
-    link.release(id);
+    pass_on(link, frame,
+            {.request = dsr::Request{asked.id, asked.target, to_here}, .error = packet.error}, r);
     return Fate::waiting;
 }
 
-/// Sends a reply with a route to the first node of that route (8.2.4).
-/// @param back  route from the node to there
-void DsrRouter::send_reply(LinkLayer& link, NodeId at, const Path& path, const Path& back,
-                           Time when) {
-    const std::string bytes = dsr::to_bytes({.reply = dsr::Reply{path}, .route = back});
+/// Passes a request on, with the own address in its list.
+void DsrRouter::pass_on(LinkLayer& link, const Frame& frame, const dsr::Packet& packet,
+                        const Reception& r) {
+    const NodeId at = r.node;
+    Frame onward = frame;
+    onward.sender = at;
+    onward.path = combine(frame.path, link.key(at));
+    --onward.ttl;
+    ++onward.hops;
+    send_request(link, onward, packet, frame.sender,
+                 r.time + least_reaction + jitter(link, at, frame.message));
+}
+
+/// Sends a packet along the route that it has.
+void DsrRouter::send_packet(LinkLayer& link, NodeId at, const dsr::Packet& packet,
+                            std::string_view kind, Time when) {
+    const Path& route = *packet.route;
+    const std::string bytes = dsr::to_bytes(packet);
     const auto size = static_cast<std::uint32_t>(dsr::ip_header + bytes.size());
-    const MessageId id = link.originate(at, path.front(), dsr::reply_kind, size, bytes);
+    const MessageId id = link.originate(at, route.back(), kind, size, bytes);
     link.send({.message = id,
                .sender = at,
                .path = link.key(at),
                .ttl = 255,
                .hops = 1,
-               .next_hop = back[1]},
+               .next_hop = route[1]},
               {}, when);
     link.release(id);
+}
+
+/// Sends a request to everyone: a packet of its originator for its target.
+void DsrRouter::send_request(LinkLayer& link, Frame frame, const dsr::Packet& packet,
+                             std::optional<NodeId> heard_from, Time when) {
+    const std::string bytes = dsr::to_bytes(packet);
+    const auto size = static_cast<std::uint32_t>(dsr::ip_header + bytes.size());
+    frame.message = link.originate(packet.request->path.front(), packet.request->target,
+                                   dsr::request_kind, size, bytes);
+    link.send(frame, heard_from, when);
+    link.release(frame.message);
 }
 
 /// Starts a search for a target to which a packet waits, or goes on with one whose wait is over.
@@ -202,17 +218,13 @@ void DsrRouter::request(LinkLayer& link, NodeId at, Search& search, Time when) {
     dsr::Packet packet{.request = dsr::Request{++here.request, search.target, Path{at}}};
     if (propagates && here.error && when - here.error_time <= error_age) packet.error = here.error;
     if (propagates) here.error.reset();
-    const std::string bytes = dsr::to_bytes(packet);
-    const MessageId id =
-        link.originate(at, search.target, dsr::request_kind,
-                       static_cast<std::uint32_t>(dsr::ip_header + bytes.size()), bytes);
-    link.send({.message = id,
-               .sender = at,
-               .path = link.key(at),
-               .ttl = propagates ? farthest : Hops{1},
-               .hops = 1},
-              {}, when);
-    link.release(id);
+    send_request(link,
+                 {.message = {},
+                  .sender = at,
+                  .path = link.key(at),
+                  .ttl = propagates ? farthest : Hops{1},
+                  .hops = 1},
+                 packet, {}, when);
     const int doublings = std::min(search.requests - 1, 10);
     search.until = when + (propagates ? std::min(first_wait * (1 << doublings), longest_backoff)
                                       : nonpropagating_wait);

@@ -188,8 +188,10 @@ TEST_CASE("dsr 8.2.2: a request is passed on once, with the own address, within 
     CHECK(n.request(path({0, 4}), 5, 9) == Fate::duplicate);     // its own
     CHECK(n.request(path({7, 4}), 5, 3, 1) == Fate::ttl);        // not beyond the neighbours
     CHECK(n.request(path({7, 4}), 5, 2) == Fate::waiting);       // late, but new
-    CHECK(n.request(path({7, 4}), 5, 0xffff) == Fate::waiting);  // 16 bits wrap around
-    CHECK(n.sent(dsr::request_kind).size() == 3);
+    CHECK(n.request(path({8, 4}), 5, 0xffff) == Fate::waiting);
+    CHECK(n.request(path({8, 4}), 5, 0) == Fate::waiting);  // 16 bits wrap around
+    CHECK(n.request(path({8, 4}), 5, 0xffff) == Fate::duplicate);
+    CHECK(n.sent(dsr::request_kind).size() == 4);
 }
 
 TEST_CASE("dsr 8.2.3: a node answers with a route that it knows, unless a node comes twice") {
