@@ -4,10 +4,10 @@
 #include "sim/fields.hpp"
 #include "sim/geometry.hpp"
 #include "sim/ids.hpp"
+#include "sim/message.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -86,8 +86,7 @@ struct PlaceCommand {
     void carry_out(auto& robots, NodeId robot) const { robots.place(robot, at, heading); }
 };
 
-inline constexpr std::size_t longest_message = 65'535;  ///< largest payload of a message [bytes]
-inline constexpr Range message_sizes{.low = 0, .high = longest_message, .text = "65535 at most"};
+inline constexpr Range message_sizes{.low = 0, .high = longest_message, .text = "65507 at most"};
 
 /// Command to send a message, as Network::send.
 struct SendCommand {

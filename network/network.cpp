@@ -145,6 +145,10 @@ std::vector<RouteState> Network::routes(NodeId node) const {
     const std::optional<Router>& router = engine_->routing.router();
     return router ? router->routes(engine_->known(node), now()) : std::vector<RouteState>{};
 }
+std::string Network::routing_notice() const {
+    const std::optional<Router>& router = engine_->routing.router();
+    return router ? router->notice() : std::string{};
+}
 const NetworkSettings& Network::settings() const { return engine_->world.settings; }
 
 Db Network::path_loss(NodeId from, NodeId to) const {

@@ -170,6 +170,8 @@ class Network {
     std::vector<Neighbour> links(NodeId node, Time t) const;
     /// Routing table of a robot now, in the order of destinations; empty if the protocol has none.
     std::vector<RouteState> routes(NodeId node) const;
+    /// Notice of the routing protocol to the user, see HasNotice; empty: there is none.
+    std::string routing_notice() const;
     /// Path loss [dB] of the link now, with shadowing, without the antennas' gains.
     /// Example: examples/walls.cpp.
     Db path_loss(NodeId from, NodeId to) const;

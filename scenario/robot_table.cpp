@@ -63,7 +63,7 @@ ReactionTable read_reaction(const Value& value, Trigger trigger) {
     if (const Value* move = table.take("move")) reaction.move = read_move(*move, true);
     table.read("send", reaction.send);
     if (table.read("to", reaction.to)) reaction.to_where = table.take("to")->where;
-    table.read("size", reaction.size);
+    table.read("size", reaction.size, sizes_of_messages);
     table.read("stop", reaction.stop);
     table.reject_unknown();
     check_receiver(reaction, table);

@@ -201,10 +201,10 @@ void TrafficReader::tell(App& app) {
     if (word(1).text != "set") fail(word(1), "set or attach-agent");
     const Word key = word(2), value = word(3);
     if (key.text == "packetSize_") {
-        app.size = amount(value, 0, "a size in bytes from 0 to 1000000");
-        if (app.size > 1e6 || app.size != std::floor(app.size)) {
-            fail(value, "a size in bytes from 0 to 1000000");
-        }
+        constexpr std::string_view sizes =
+            "a size in bytes from 0 to 65507, the content of a UDP packet";
+        app.size = amount(value, 0, sizes);
+        if (app.size > longest_message || app.size != std::floor(app.size)) fail(value, sizes);
     } else if (key.text == "interval_") {
         app.interval = amount(value, 1e-9, "a time from 1e-9 to 1e9 [s]");
     } else if (key.text == "rate_") {

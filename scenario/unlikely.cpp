@@ -124,7 +124,8 @@ void note_unicasts(Scenario& out) {
     };
     for (const TrafficTable& traffic : out.traffic) {
         if (!traffic.to || traffic.hops || traffic.saturate) continue;
-        note(traffic.to_where, *traffic.to, "; hops = 1 asks for that");
+        note(traffic.to_where, *traffic.to,
+             "; hops = 1 asks for that, and [routing] protocol = \"aodv\" finds a way");
     }
     for (const RobotTable& robot : out.robots) {
         for (const ReactionTable& reaction : robot.reactions) {
@@ -133,6 +134,21 @@ void note_unicasts(Scenario& out) {
         }
     }
     unicasts.note(out.notices);
+}
+
+/// Notices broadcasts over one hop: the key is mostly meant for unicasts.
+void note_broadcasts(Scenario& out) {
+    Affected broadcasts;
+    for (const TrafficTable& traffic : out.traffic) {
+        if (traffic.kind == TrafficKind::unicast || !traffic.hops) continue;
+        broadcasts.add([&] {
+            return fmt::format(
+                "{}: hops: with hops = 1 the routing protocol does not forward these broadcasts, "
+                "which only neighbours of \"{}\" hear; without the key it does",
+                traffic.hops_where.text(), traffic.from);
+        });
+    }
+    broadcasts.note(out.notices);
 }
 
 /// Calls look(propagation, where) for each choice of a propagation model that some robot uses.
@@ -180,6 +196,7 @@ void note_unlikely(Scenario& scenario) {
     }
     note_payloads(scenario);
     note_unicasts(scenario);
+    note_broadcasts(scenario);
     note_equal_starts(scenario);
 }
 

@@ -16,6 +16,10 @@
 
 namespace rovernet {
 
+/// Largest size of a message [bytes]: the content of a UDP packet over IPv4, whose total length of
+/// 65,535 bytes includes headers of 20 and 8 bytes. Sources: RFC 791, 3.1; RFC 768.
+inline constexpr std::uint32_t longest_message = 65'507;
+
 /// Message of an application, or control packet of a routing protocol. A message does not change
 /// once it is in the MessageTable.
 struct Message {

@@ -81,6 +81,7 @@ void print_result(const Scenario& scenario, const RunResult& result) {
             "{:.2f} dB lower",
             db->value));
     }
+    if (const std::string text = result.network->routing_notice(); !text.empty()) notice(text);
     notice(fmt::format("{} events, {:.2f} s; results in {}", result.events, result.wall_s,
                        result.folder));
 }

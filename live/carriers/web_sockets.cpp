@@ -43,7 +43,7 @@ constexpr int system_buffer =
     256 << 10;  // [bytes] socket buffer; small, since buffered messages become outdated
 constexpr std::size_t portion = 16'384;  // [bytes] of one read
 
-struct Message {
+struct Output {
     std::string bytes;
     bool is_text;
 };
@@ -111,7 +111,7 @@ struct Client {
     http::response<http::string_body> response = {};  // of a request that opens no WebSocket
     beast::flat_buffer input = {};
     InputRate rate = {};
-    std::deque<Message> output = {};  // the first is being written
+    std::deque<Output> output = {};  // the first is being written
     std::size_t waiting = 0;          // [bytes] of those behind the first
     bool is_open = false;             // its users know it
     bool is_reading = false;
@@ -255,7 +255,7 @@ struct WebSockets::State {
         return bytes;
     }
 
-    void send(Connection to, Message message) {
+    void send(Connection to, Output message) {
         const auto found = clients.find(to);
         if (found == clients.end()) return;
         const Shared client = found->second;

@@ -25,6 +25,16 @@ void check_receiver(const TrafficTable& traffic) {
         fmt::format("to: found \"{}\", which is the sender; expected another robot", *traffic.to));
 }
 
+/// Notes the place of the payload, which has to fit into a packet if no size is given.
+void read_payload_place(TrafficTable& traffic, TableReader& table) {
+    traffic.payload_where = table.take("payload")->where;
+    if (traffic.size || traffic.payload.size() <= longest_message) return;
+    throw InputError(traffic.payload_where,
+                     fmt::format("payload: found a text of {} bytes; expected at most {}, which "
+                                 "fit into a UDP packet",
+                                 traffic.payload.size(), longest_message));
+}
+
 /// Checks that traffic does not stop before it starts.
 void check_stop(const TrafficTable& traffic, TableReader& table) {
     if (!traffic.stop || !traffic.start || *traffic.stop > *traffic.start) return;
@@ -55,13 +65,13 @@ TrafficTable read_traffic(const Value& value) {
                          "to: a broadcast is for everybody; expected kind = "
                          "\"unicast\", or no to");
     }
-    table.read(
-        "hops", traffic.hops,
-        Range{.low = 1, .high = 1, .text = "of 1: over one hop, without the routing protocol"});
+    constexpr Range one{
+        .low = 1, .high = 1, .text = "of 1: over one hop, without the routing protocol"};
+    if (table.read("hops", traffic.hops, one)) traffic.hops_where = table.take("hops")->where;
     table.read("saturate", traffic.saturate);
     const bool payload = table.read("payload", traffic.payload);
-    const bool size = table.read("size", traffic.size);
-    if (payload) traffic.payload_where = table.take("payload")->where;
+    const bool size = table.read("size", traffic.size, sizes_of_messages);
+    if (payload) read_payload_place(traffic, table);
     if (!payload && !size) table.missing("payload", "payload = \"F\", or size = \"64 B\"");
     read_start(table.take("start"), traffic, table);
     table.read("every", traffic.every, positive);

@@ -4,6 +4,7 @@
 #include "scenario/document/value.hpp"
 #include "sim/error.hpp"
 #include "sim/fields.hpp"
+#include "sim/message.hpp"
 #include "sim/time.hpp"
 
 #include <array>
@@ -58,9 +59,15 @@ struct TrafficTable {
     /// End of the flow [ns], and largest number of messages; none: no limit.
     std::optional<Duration> stop;
     std::optional<int> count;
-    /// File positions of the keys `from`, `to` and `payload`, for errors and notices.
-    Location from_where = {}, to_where = {}, payload_where = {};
+    /// File positions of the keys `from`, `to`, `hops` and `payload`, for errors and notices.
+    Location from_where = {}, to_where = {}, hops_where = {}, payload_where = {};
 };
+
+/// Range of `size` in [[traffic]] and reactions.
+inline constexpr Range sizes_of_messages{
+    .low = 0,
+    .high = longest_message,
+    .text = "from 0 to 65507 bytes, which fit into a UDP packet"};
 
 /// Reads one flow of [[traffic]]. A table that names a traffic file is read by read_flows().
 /// @throws InputError for a key that is unknown, is missing, or contradicts another key

@@ -337,7 +337,7 @@ class Commands(unittest.TestCase):
                             ("speed of robot A must be from -1000 to 1000 m/s, got 5000", {"v": 5000}),
                             ("timeout of robot A must be > 0 s", {"timeout": 0}), ("got 4 numbers", {"place": (1, 2, 3, 4)}),
                             ("port must be from 0 to 65535, got -1", {"data": b"", "port": -1}),
-                            ("size of robot A must be 65535 at most", {"data": b"", "size": 70000}),
+                            ("size of robot A must be 65507 at most", {"data": b"", "size": 70000}),
                             ('no robot "Z"', {"data": b"", "to": "Z"}), ("expected another robot", {"data": b"", "to": "A"})):
             with self.subTest(keys), self.assertRaisesRegex(ValueError, words):
                 session.command("A", **keys)

@@ -188,7 +188,7 @@ TEST_CASE("stepped run: numbers out of their range are refused, and nothing of t
               run.command(2, GoalCommand{{1, 0, 0}, {0}});
           }) == "speed of robot C must be above 0 and up to 1000 m/s, got 0");
     CHECK(refusal([&] { run.command(0, SendCommand{.payload = std::string(65'536, 'x')}); }) ==
-          "a message of robot A has 65536 bytes; expected 65535 at most");
+          "a message of robot A has 65536 bytes; expected 65507 at most");
     step(run);
     CHECK(run.poses()[0] == 0);
     CHECK(refusal([] { SteppedRun(three_in_a_row(), {.step = 999ns}); }) ==

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// Mistakes in what a scenario says about routing: errors and notices with their place, what is
+// wrong, and a suggestion.
+#include "experiment/run.hpp"
+#include "network/network.hpp"
+#include "scenario/scenario_file.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+namespace routing_input_test {
+using namespace rovernet;
+using test::TemporaryFolder;
+
+namespace {
+
+const std::string two_robots =
+    "[[robot]]\nname = \"A\"\nat = [\"0 m\", \"0 m\"]\n"
+    "[[robot]]\nname = \"B\"\nat = [\"5 m\", \"0 m\"]\n";
+
+/// Error of a scenario of two robots with these lines, which begin in line 7; empty if it is valid.
+std::string error_of(const std::string& lines, const std::string& robots = two_robots) {
+    const TemporaryFolder folder;
+    try {
+        load_scenario(folder.write("s.toml", robots + lines), {});
+    } catch (const InputError& error) {
+        const std::string text = error.what();
+        return text.substr(text.find("s.toml"));
+    }
+    return "";
+}
+
+std::string all_notices(const std::string& lines) {
+    const TemporaryFolder folder;
+    std::string all;
+    for (const std::string& each :
+         load_scenario(folder.write("s.toml", two_robots + lines), {}).notices) {
+        all += each.substr(each.find("s.toml")) + "\n";
+    }
+    return all;
+}
+
+bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+std::string unicast(const std::string& more) {
+    return "[[traffic]]\nkind = \"unicast\"\nfrom = \"A\"\nto = \"B\"\n" + more + "\n";
+}
+
+}  // namespace
+
+TEST_CASE("routing input: an unknown protocol is an error with all names and a suggestion") {
+    const std::string error = error_of("[routing]\nprotocol = \"aovd\"\n");
+    CHECK(has(error,
+              "s.toml:8:12: unknown protocol \"aovd\"; expected one of \"flood\", \"aodv\", "
+              "\"dsr\", \"suppression\", \"managed\"; did you mean \"aodv\"?"));
+}
+
+TEST_CASE("routing input: an unknown key is an error, and keys of other protocols are suggested") {
+    const std::string chosen = "[routing]\nprotocol = \"flood\"\n";
+    CHECK(
+        has(error_of(chosen + "colour = 3\n"), "s.toml:9:1: unknown key \"colour\" in [routing]"));
+    const std::string error = error_of(chosen + "hop_limt = 3\n");
+    CHECK(has(error, "s.toml:9:1: unknown key \"hop_limt\""));
+    CHECK(has(error, "did you mean \"hop_limit\"?"));
+    CHECK(error_of(chosen + "hop_limit = 3\n").empty());
+    CHECK(has(error_of(chosen + "hop_limit = 8\n"), "s.toml:9:13: hop_limit: found the number 8"));
+}
+
+TEST_CASE("routing input: a role that no protocol has is an error at the robot") {
+    const std::string robots = two_robots + "role = \"ruoter\"\n";
+    const std::string error = error_of("[routing]\nprotocol = \"managed\"\n", robots);
+    CHECK(has(error,
+              "s.toml:7:8: unknown role \"ruoter\"; expected one of \"client\", \"router\", "
+              "\"router_late\", \"mute\"; did you mean \"router\"?"));
+    CHECK(error_of("", two_robots + "role = \"mute\"\n").empty());  // beside another protocol
+}
+
+TEST_CASE("routing input: sizes and payloads that fit into no UDP packet are errors") {
+    CHECK(error_of(unicast("size = \"65507 B\"")).empty());
+    CHECK(has(error_of(unicast("size = \"65508 B\"")),
+              "s.toml:11:8: size: found \"65508 B\"; expected a value from 0 to 65507 bytes, which "
+              "fit into a UDP packet"));
+    CHECK(error_of(unicast("payload = \"" + std::string(65'507, 'x') + "\"")).empty());
+    CHECK(has(error_of(unicast("payload = \"" + std::string(65'508, 'x') + "\"")),
+              "s.toml:11:11: payload: found a text of 65508 bytes; expected at most 65507"));
+    CHECK(has(error_of("on_receive = { send = \"x\", size = \"1 MB\" }\n"),
+              "s.toml:7:35: size: found \"1 MB\"; expected a value from 0 to 65507 bytes"));
+}
+
+TEST_CASE("routing input: a broadcast over one hop is a notice") {
+    const std::string text = all_notices("[[traffic]]\nfrom = \"A\"\nsize = \"9 B\"\nhops = 1\n");
+    CHECK(text ==
+          "s.toml:10:8: hops: with hops = 1 the routing protocol does not forward these "
+          "broadcasts, which only neighbours of \"A\" hear; without the key it does\n");
+    CHECK(all_notices("[[traffic]]\nfrom = \"A\"\nsize = \"9 B\"\n").empty());
+    CHECK(has(error_of("[[traffic]]\nfrom = \"A\"\nsize = \"9 B\"\nhops = 2\n"),
+              "s.toml:10:8: hops: found the number 2; expected a value of 1"));
+}
+
+TEST_CASE("routing input: a unicast under a flood is a notice that names what routes it") {
+    for (const std::string protocol : {"flood", "suppression", "managed"}) {
+        const std::string chosen = "[routing]\nprotocol = \"" + protocol + "\"\n";
+        const std::string text = all_notices(unicast("size = \"9 B\"") + chosen);
+        CHECK(has(text, "s.toml:10:6: to: the routing protocol does not route messages to one"));
+        CHECK(has(text, "[routing] protocol = \"aodv\" finds a way"));
+    }
+    for (const std::string protocol : {"aodv", "dsr"}) {
+        CHECK(
+            all_notices(unicast("size = \"9 B\"") + "[routing]\nprotocol = \"" + protocol + "\"\n")
+                .empty());
+    }
+}
+
+TEST_CASE("routing input: a route of more than sixteen robots is a notice at the end of the run") {
+    const auto notice_with = [](int robots) {
+        std::string text =
+            "[scenario]\nduration = \"60 s\"\n[propagation]\nmodel = \"disc\"\nrange = \"9 m\"\n"
+            "[access]\nmodel = \"csma\"\n[routing]\nprotocol = \"dsr\"\n";
+        for (int i = 0; i < robots; ++i) {
+            text +=
+                fmt::format("[[robot]]\nname = \"r{0}\"\nat = [\"{1} m\", \"0 m\"]\n", i, 8 * i);
+        }
+        text += fmt::format(
+            "[[traffic]]\nkind = \"unicast\"\nfrom = \"r0\"\nto = \"r{}\"\nsize = \"9 B\"\n",
+            robots - 1);
+        const TemporaryFolder folder;
+        const Scenario scenario = load_scenario(folder.write("s.toml", text), {});
+        ScenarioRun run(scenario);
+        run.session().run();
+        return run.finish().network->routing_notice();
+    };
+    CHECK(notice_with(16).empty());
+    CHECK(notice_with(18) ==
+          "dsr: 1 pair of robots lost messages, as a route has at most 16 robots");
+}
+
+}  // namespace routing_input_test
