@@ -20,9 +20,9 @@ struct World;
 
 /// Applications of all robots: messages that robots send, and callbacks for received messages.
 ///
-/// Network calls it to send; it creates a Message, emits Sent and passes the message to Routing.
-/// Routing calls it back, as its RoutingUser, for delivered messages: each robot with a callback
-/// then reacts 1 us later, by a separate event.
+/// Network::send calls Applications, which creates a Message, emits the record Sent and passes the
+/// message to Routing. Routing calls Applications as its RoutingUser when messages are delivered.
+/// Each receiving robot with a callback then reacts 1 us later, by a separate event.
 class Applications final : public RoutingUser {
   public:
     /// @param routing  layer below, which may still be under construction
@@ -30,58 +30,64 @@ class Applications final : public RoutingUser {
     Applications(World& world, Routing& routing, const Mac& mac)
         : world_(world), routing_(routing), mac_(mac) {}
 
-    /// Sends a message, as Network::send.
+    /// Sends a message to `to`, a robot or everyone; implements Network::send.
+    /// @return uid of the message; empty if `from` is switched off
     std::optional<std::uint64_t> send(NodeId from, NodeId to, std::string payload,
                                       const SendOptions& options);
-    /// Starts saturated traffic of a node, as Network::saturate: two messages are queued at the
-    /// start, and each message sent creates the next.
+    /// Starts saturated traffic of a node; implements Network::saturate. Two messages are queued at
+    /// the start, and each message that has left the queue is followed by a new message.
     /// @throws std::invalid_argument without an access model, because sending would be unlimited
     void saturate(NodeId node, NodeId to, const SendOptions& options);
-    /// True once any message was sent; selects the hint in the event-limit error.
+    /// Whether any message was sent so far. If so, the error at the event limit advises the user to
+    /// send fewer messages.
     bool has_sent() const { return has_sent_; }
-    /// Calls `react` whenever a message is delivered to `node`, as Network::on_receive.
+    /// Calls `react` 1 us after each delivery of a message to `node`; implements
+    /// Network::on_receive.
     void on_receive(NodeId node, Callback<const Heard&> react, HearOptions options);
-    /// Serves the event of a delivered message: calls the node's callbacks, if it is still on.
-    /// Nodes with messages at the same time react in the order of their keys.
-    /// @param slot  place of the delivery in deliveries_
+    /// Serves the event of a message delivered to `node`: calls the node's callbacks, if the node
+    /// is still on. Nodes that receive messages at the same time react in the order of their keys.
+    /// @param slot  slot of the delivery in deliveries_
     void react(NodeId node, std::size_t slot);
-    /// Drops the messages of which no frame has ended yet, as Network::finish.
+    /// Records each message of which no frame has ended at a receiver as dropped, at the end of the
+    /// run; implements Network::finish.
     void cut_off();
 
-    /// Implements RoutingUser: handles receptions of which some are delivered to an application.
+    /// Implements RoutingUser: queues the callbacks of nodes to which the message of a frame is
+    /// delivered.
     void delivered(const Frame& frame, std::span<const Reception> receptions,
                    std::span<const Dbm> levels) override;
     /// Implements RoutingUser: sends the next message of a node with saturated traffic.
     void has_room(NodeId node) override;
 
   private:
-    /// Saturated traffic of a node.
+    /// Saturated traffic of a node: destination and options of the node's messages.
     struct Saturated {
         NodeId to;
         SendOptions options;
     };
-    /// Callback of a node.
+    /// Callback of a node for received messages, and the callback's options.
     struct Reaction {
         Callback<const Heard&> call;
         HearOptions options;
     };
-    /// Message on its way from routing to the callbacks of a node; it holds a reference to the
-    /// message.
+    /// Delivery of a message to a node whose callbacks have not run yet. A Delivery holds a
+    /// reference to the message.
     struct Delivery {
         MessageId message;
         NodeId last_hop;
         Hops hops;
-        /// Received power [dBm]; NaN unless a callback asked for it.
+        /// Received power of the frame [dBm]; NaN if the power was not requested at the node.
         Dbm level;
     };
 
-    // Whether the node has a callback for messages.
+    // Whether the node has a callback for received messages.
     bool reacts(NodeId node) const {
         return node.index() < reactions_.size() && !reactions_[node.index()].empty();
     }
-    // Whether the routing protocol forwards a message. @throws as Network::send
+    // Whether the routing protocol forwards a message from `from` to `to`; false for a message over
+    // one hop. @throws as Network::send
     bool is_routed(NodeId from, NodeId to, bool one_hop) const;
-    // Stores a message of the node with one reference, the caller's.
+    // Stores a new message of the node `from`, with one reference, which the caller holds.
     MessageId new_message(NodeId from, NodeId to, std::string payload, const SendOptions& options,
                           bool is_routed);
     std::optional<std::uint32_t> reachable(NodeId from, NodeId to);
@@ -90,15 +96,15 @@ class Applications final : public RoutingUser {
     World& world_;
     Routing& routing_;
     const Mac& mac_;
-    // Number of messages sent by each node, and callbacks of each node. The lists end at the last
-    // node that has any.
+    // Number of messages sent by each node, and callbacks of each node, by node id. Each list ends
+    // at the last node with an entry.
     std::vector<std::uint32_t> messages_sent_;
     std::vector<Few<Reaction>> reactions_;
-    // Deliveries whose events are due.
+    // Deliveries whose events are queued.
     Slots<Delivery> deliveries_;
-    // Nodes with saturated traffic.
+    // Saturated traffic, by sending node.
     std::map<NodeId, Saturated> saturated_;
-    // Search for Sent::reachable; kept to reuse its memory.
+    // Search that computes Sent::reachable; kept to reuse its memory.
     Reachability reachability_;
     bool has_sent_ = false;
     // Indices of the receptions of one frame at nodes with callbacks; kept to reuse its memory.

@@ -11,18 +11,20 @@ namespace rovernet {
 
 /// User function that the network calls until its Subscription is ended.
 ///
-/// Copies share the function and its state. A callback may be ended while it runs, or while an
-/// event for it is queued: its state is kept until then, and it is not called again:
+/// Copies of a Callback share the function and its state. A callback may be ended while the
+/// function runs, or while an event for the callback is queued. The function is then not called
+/// again, and the state remains until the last copy is destroyed:
 ///
 ///   Callback<> callback(std::move(action));
 ///   world.schedule(time, callback);
 ///   return callback.subscription();
 ///
-/// @tparam Arguments  arguments of the function
+/// @tparam Arguments  types of the function's arguments
 template <class... Arguments>
 class Callback {
   public:
-    /// Callback without a function, to be assigned later; calling it is an error.
+    /// Callback without a function. It is an error to call the Callback before another one is
+    /// assigned.
     Callback() = default;
     /// Callback with a function, which must not be empty.
     explicit Callback(std::function<void(Arguments...)> call)
@@ -40,12 +42,12 @@ class Callback {
     }
 
   private:
-    // Function and end flag. A Subscription points to the flag and keeps both alive.
+    // Function and end flag. A Subscription points to the flag and keeps the whole State alive.
     struct State {
         std::function<void(Arguments...)> call;
         bool ended = false;
     };
-    // Null for a callback without a function.
+    // Function and end flag, shared by copies; null for a callback without a function.
     std::shared_ptr<State> state_;
 };
 

@@ -19,12 +19,15 @@ namespace rovernet {
 
 struct World;
 
-/// Group of receptions of a frame that are served together, in order of time and then of node.
-/// World::now is the end of the last one. Pointers are valid only during the call.
+/// Group of receptions of one frame that the channel passes up in one call, in order of time and
+/// then of node. World::now is the time of the last reception. The spans are valid only during the
+/// call.
 struct Arriving {
-    /// Receptions with the fate set by channel and reception model; higher layers may change it.
+    /// Receptions of the group. The channel and the reception model have set each fate; higher
+    /// layers may change the fate.
     std::span<Reception> receptions;
-    /// Received power of each reception [dBm], NaN at nodes that do not ask for it; may be empty.
+    /// Received power of each reception [dBm]; NaN at nodes for which the power is not requested.
+    /// Empty if the power is requested at no receiver of the frame.
     std::span<const Dbm> levels;
     /// True if no reception can have errors, neither by interference nor by the sender's success
     /// rate.
@@ -36,26 +39,26 @@ class ChannelUser {
   public:
     /// Called when the frame ends at some of its receivers, once for each group of receptions.
     virtual void frame_ended(const AirFrame& frame, const Arriving& part) = 0;
-    /// Called from transmit() with the nodes that sense the new frame, and the times between which
-    /// they do.
+    /// Called from Channel::transmit with the nodes that sense the new frame, and the frame's begin
+    /// and end at each of these nodes.
     virtual void sensed(std::span<const Sensing> nodes) = 0;
 
   protected:
     ~ChannelUser() = default;
 };
 
-/// Channel: carries frames from transmitters to the receivers that can decode them, and sets their
-/// fate there.
+/// Radio channel: carries each frame from its transmitter to the receivers that can decode the
+/// frame, and sets the fate of the frame at each receiver.
 ///
 ///   sender       |==== frame ====|
 ///   receiver 1     |==== frame ====|            delay by distance
 ///   receiver 2        |==== frame ====|
 ///                                  ^  ^         ends: one event, if no other event is between
 ///
-/// Receivers and times of arrival are fixed when a frame starts, whatever moves later. The frame is
-/// then a Flight with one event, due when the frame ends at its first receiver; the event serves
-/// all receptions until the next other event. If the reception model has a Judge, Interference uses
-/// the frames on air.
+/// Receivers and times of arrival are fixed when a frame starts; later movements do not change
+/// them. The frame then becomes a Flight with one event, due when the frame ends at its first
+/// receiver. The event serves all receptions that end before the next event in the queue. If the
+/// reception model has a Judge, the frames on air are stored in Interference.
 class Channel {
   public:
     /// @param user  layer above, which may still be under construction
@@ -63,21 +66,21 @@ class Channel {
 
     /// Starts to transmit a frame now. The frame holds a reference to its message until the last
     /// reception.
-    /// @param is_sensed  the access model uses carrier sensing: sensed() reports the nodes that
-    /// sense
-    ///                   the frame
-    /// @return receptions at the nodes that can decode it, in order; valid until the next call
+    /// @param is_sensed  whether the access model uses carrier sensing: then ChannelUser::sensed is
+    ///                   called
+    /// @return receptions at the nodes that can decode the frame, in order of time and then of
+    ///         node; valid until the next call
     std::span<const Reception> transmit(const AirFrame& frame, const Transmission& how,
                                         bool is_sensed);
-    /// Serves the event of a frame: passes the receptions that end now to the layer above, and
-    /// queues the event again for the rest.
+    /// Serves the event of a frame: passes the receptions that end before the next event in the
+    /// queue to the layer above, and queues the event again for the remaining receptions.
     void arrive(const Event& event);
 
-    /// Adds the last node of the world, which starts on `leg`.
+    /// Adds a node, the last one in the world, whose first leg is `leg`.
     void added(NodeId node, const Leg& leg);
-    /// Called before the node's leg or radio changes in Legs or Medium: frames on air are judged by
-    /// the old state.
-    /// @param on  whether the node is on until now
+    /// Called before the node's leg or radio changes in Legs or Medium, so that interference of
+    /// frames already on air is computed with the old leg and radio.
+    /// @param on  whether the node's radio is on before the change
     void before_change(NodeId node, bool on);
     /// Sets a new leg of the node, which begins now.
     void goes(NodeId node, const Leg& leg);
@@ -85,7 +88,7 @@ class Channel {
     /// Checks a bit rate that a robot or the access model may use.
     /// @throws std::invalid_argument if the reception model cannot judge receptions at this rate
     void check(BitRate rate) const;
-    /// Upper bound on the SINR reduction by neglected interference so far, see
+    /// Upper bound [dB] on the reduction of any SINR so far by neglected interference, see
     /// Network::interference_left_out.
     std::optional<Db> interference_left_out() const;
 
@@ -93,38 +96,42 @@ class Channel {
     /// Frame in flight; some receivers may already have received it.
     struct Flight {
         AirFrame air;
-        /// Serial number of the frame in Interference, if the network has one.
+        /// Serial number of the frame in Interference, if the reception model has a Judge.
         std::uint64_t emission = 0;
         /// Receptions of the frame, in order of time; the first `served` of them have been served.
         Medium::Receivers receivers;
-        /// Received power of each reception [dBm], as in Arriving.
+        /// Received power of each reception [dBm], see Arriving::levels.
         std::vector<Dbm> levels;
         std::size_t served = 0;
         bool error_free = false;
     };
 
-    // Finds all nodes that sense the frame, with the receivers, and reports them.
+    // Finds the receivers of the frame and all nodes that sense the frame; reports the sensing
+    // nodes by ChannelUser::sensed.
     void find_sensors(Flight& flight, const Transmission& how);
-    // Adds the frame to the frames that may interfere.
+    // Adds the frame of the Flight in `slot` to the frames that may interfere with other frames.
     void put_on_air(std::size_t slot, const Transmission& how);
-    // Sets the received power of each reception at a node that asks for it.
+    // Computes the received power of the frame at each receiver for which the power is requested.
     void find_levels(Flight& flight, Time end);
-    // Frees the flights of frames that cannot interfere any more.
+    // Frees the Flights of frames that cannot interfere with other frames any more.
     void forget_frames();
-    // Marks receptions as garbled by the sender's success rate.
+    // Marks random receptions as garbled, according to the sender's success rate.
     void garble(Flight& flight) const;
-    // Time up to which receptions can be served together, without another event between.
+    // Last time up to which the event with this key can serve receptions before the next event in
+    // the queue.
     Time served_until(EventKey key) const;
-    // Next receptions to serve; sets World::now to the end of the last one.
+    // Receptions of a Flight that the event with this key serves next; sets World::now to the time
+    // of the last of these receptions.
     std::span<Reception> next_of(Flight& flight, EventKey key) const;
 
     World& world_;
     ChannelUser& user_;
-    // Frames in flight. With interference a slot is kept while the frame may affect other frames.
+    // Frames in flight. If the reception model has a Judge, a slot is kept while its frame may
+    // interfere with other frames.
     Slots<Flight> flights_;
     // Nodes that sense one frame; kept to reuse its memory.
     std::vector<Sensing> sensed_;
-    // Frames on air and their judge, if the reception model has one.
+    // Frames on air, and the Judge of the reception model; empty if the model has no Judge.
     std::optional<Interference> interference_;
 };
 

@@ -38,24 +38,26 @@ class Engine {
     void reserve(std::size_t robots);
     NodeId add(Robot robot);
     SinkId add_sink(Sink sink);
-    /// Switches a robot's radio, in the order that records and protocols rely on: channel, medium,
-    /// MAC, record, links, motion, routing. Does nothing if the radio is already in that state.
+    /// Switches a robot's radio on or off, and notifies the parts in the order that records and
+    /// protocols rely on: channel, medium, MAC, record, links, motion, routing. Does nothing if the
+    /// radio is already in the state `on`.
     void switch_robot(NodeId node, bool on);
-    /// Serves events up to `end`, in order, at most `most_events`. It first starts everything that
-    /// has not started: the run, movements, link monitoring. The clock is at `end` when all are
-    /// served.
-    /// @return whether `end` is reached; if not, events are left
+    /// Serves the events up to the time `end`, in order, but at most `most_events` of them. First
+    /// starts the run, the movements and the link monitoring, if not yet started. After the last
+    /// event up to `end`, the simulated time is `end`.
+    /// @return whether `end` is reached; if not, events up to `end` remain
     /// @throws RunError   at an event limit
-    /// @throws StalledRun if the events of a robot stop the clock
+    /// @throws StalledRun if the events of a robot follow one another without end while time hardly
+    ///         grows
     bool advance(Time end, std::uint64_t most_events);
-    /// Checks a robot's id passed by the user.
-    /// @throws std::out_of_range if there is no such robot
+    /// Checks a robot's id passed by the user, and returns the id.
     NodeId known(NodeId node) const {
         if (node.index() >= world.size()) throw std::out_of_range("there is no such robot");
         return node;
     }
 
-    /// Parts in order of construction; each stores references to the parts that it calls.
+    /// Parts of the network in order of construction; each stores references to the parts that it
+    /// calls.
     World world;
     Applications applications;
     Routing routing;
@@ -65,31 +67,35 @@ class Engine {
     Motion motion;
     /// Names of robots, by id.
     NameTable names;
-    /// Robots that are absent (not departed or left), and the reason; all are off.
+    /// Robots that are absent, with the reason (not_departed or left); their radios are off.
     std::map<NodeId, Presence> away;
-    /// Metrics of the run, which are a sink; null if the settings disable them.
+    /// Metrics of the run, computed by a sink; null if the settings disable the metrics.
     std::shared_ptr<Metrics> metrics;
     /// Number of events served so far.
     std::uint64_t served = 0;
 
   private:
-    // Passes an event to its part.
+    // Passes an event to the part of the network that serves events of its kind.
     void serve(const Event& event);
-    // Changes to the next scene, which is due, and notifies the parts. Not inlined, which would
-    // cost registers in serve().
+    // Changes to the scene that is due now, and notifies LinkMonitor and Motion. Not inlined,
+    // because inlining would cost registers in serve().
     [[gnu::noinline]] void change_scene();
-    // Facts for sinks that begin now.
+    // Description of the run for sinks: scenario, number and names of the robots, seed,
+    // replication.
     RunInfo run_info() const;
-    // Checks the event limits and the growth of time, and sets when the next check is due.
+    // Checks the event limits and the growth of simulated time, and sets check_at_ for the next
+    // check.
     void count_events();
-    // Counts the next event while time hardly grows. @throws StalledRun
+    // Counts the next event for its robot, while simulated time hardly grows. @throws StalledRun if
+    // the robot has had too many events
     void count_next();
 
-    // Number of scheduled events below which no limit can be reached.
+    // Number of scheduled events below which no event limit can be reached.
     std::uint64_t check_at_ = 0;
-    // Number of scheduled events at which the clock is checked next.
+    // Number of scheduled events at which the growth of simulated time is checked next.
     std::uint64_t look_at_ = Liveness::most_events;
-    // Stall detection for legs (at least 10 ns each on average) and for other events.
+    // Stall detection: 100000 legs of a robot must take at least 1 ms of simulated time (10 ns each
+    // on average), 100000 other events of a robot at least 1 us.
     Liveness legs_{std::chrono::milliseconds(1)}, others_{std::chrono::microseconds(1)};
 };
 

@@ -7,12 +7,12 @@
 #include <vector>
 
 // Lists for a table with an entry for each robot, most of them empty: a million empty std::vectors
-// take 24 MB, a million of these take 8 MB.
+// take 24 MB, a million empty Few take 8 MB.
 
 namespace rovernet {
 
-/// List that is usually empty: it has the size of a pointer while empty. Applications store the
-/// callbacks of each node in one.
+/// List that is usually empty: an empty Few has the size of a pointer. Applications store the
+/// callbacks of each node in a Few.
 template <class T>
 class Few {
   public:
@@ -20,7 +20,7 @@ class Few {
     bool empty() const { return !values_; }
     /// Number of values in the list.
     std::size_t size() const { return values_ ? values_->size() : 0; }
-    /// Value number `i` < size().
+    /// Value with index `i`, 0 ... size() - 1.
     const T& operator[](std::size_t i) const { return (*values_)[i]; }
     /// Appends a value; references to the values become invalid.
     void push_back(T value) {
@@ -38,7 +38,7 @@ class Few {
     }
 
   private:
-    // Null if the list is empty.
+    // Values of the list; null if the list is empty.
     std::unique_ptr<std::vector<T>> values_;
 };
 

@@ -14,20 +14,22 @@ namespace rovernet {
 
 struct World;
 
-/// Monitor of links that go up and down. It works only if a sink wants LinkUp or LinkDown, or if a
-/// callback for lost links exists; otherwise it costs the test of a bit.
+/// Monitor of the links between robots that go up or down. The monitor works only if a sink wants
+/// LinkUp or LinkDown, or if a callback for lost links exists; otherwise it only costs the test of
+/// a bit.
 ///
-/// It predicts the next change (LinkWatch) and queues an event for it. Changes of legs and radios
-/// cause a new prediction. Records are emitted at the instant of a change, to the nanosecond if the
-/// loss depends on distance; callbacks run 1 us later.
+/// The monitor predicts the next link change (LinkWatch) and queues an event for the change.
+/// Changes of legs and radios cause a new prediction. LinkUp and LinkDown are emitted at the time
+/// of the change, to the nanosecond if the path loss depends on distance; callbacks run 1 us later.
 class LinkMonitor {
   public:
     explicit LinkMonitor(World& world) : world_(world) {}
 
-    /// Requests link changes, from now on or from the start of the run.
+    /// Enables the monitor, from the next call of begin() on.
     void want() { wanted_ = true; }
-    /// Searches all links, if link changes are requested and this was not done yet; after that
-    /// every change must be reported to the monitor. Engine calls it whenever the run continues.
+    /// Begins to monitor: searches all links, if the monitor is enabled and has not begun. From
+    /// then on every change of a leg, a radio or the scene must be reported to the monitor. Engine
+    /// calls begin() whenever the run continues.
     void begin();
     /// Adds a node, whose links are monitored from now on.
     void added(NodeId node);
@@ -39,22 +41,23 @@ class LinkMonitor {
     /// of on_link_lost() for 1 us later, in the order of the key of the node that lost the link,
     /// then of the key of the node that it cannot hear any more (see World::key).
     void change_links();
-    /// Calls react(from) whenever `node` cannot hear `from` any more.
+    /// Calls react(from) 1 us after `node` has lost the link from `from`: `node` cannot hear `from`
+    /// any more.
     void on_link_lost(NodeId node, Callback<NodeId> react);
 
   private:
-    // Queues an event for the next change, unless an earlier or equal one is queued.
+    // Queues an event for the next link change, unless an event at that time or earlier is queued.
     void expect_change();
-    // Queues the node's reaction to a lost link.
+    // Queues the callbacks of `node` for the loss of the link from `from`.
     void tell_lost(NodeId node, NodeId from);
 
     World& world_;
     bool wanted_ = false;
-    // State of all links, once they are requested and the run has begun.
+    // State and next changes of all links; empty until the monitor has begun.
     std::optional<LinkWatch> watch_;
-    // Time of the next valid event; earlier events are void.
+    // Time of the queued event for the next link change; events at other times are ignored.
     Time expected_ = never;
-    // Callbacks, by the node that hears.
+    // Callbacks for lost links, by the node at the receiving end of the link.
     std::map<NodeId, std::vector<Callback<NodeId>>> on_lost_;
 };
 

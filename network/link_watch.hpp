@@ -18,7 +18,7 @@ namespace rovernet {
 
 class Medium;
 
-/// Change of a link: node `to` can hear `from` from `time` on (up), or cannot any more.
+/// Change of a link: from `time` on, node `to` can hear node `from` (up), or cannot hear it (down).
 struct LinkChange {
     Time time;
     NodeId from;
@@ -31,15 +31,16 @@ struct LinkChange {
 /// Prediction of link changes in a network: state of every ordered pair of robots, and time of its
 /// next change.
 ///
-/// Every new leg, switch and scene must be reported at once. next() returns the time at which
-/// `advance` must be called; `advance` reports every change once, in the order of (time, from, to).
-/// A leg must be replaced at its end. Links count as down before `start`. A new leg costs a search
-/// for each pair with that robot, see next_link_change; robots at rest cost nothing. A model of
-/// unknown shape is sampled as far ahead as the watch has lasted so far (at least 16 samples),
-/// because legs may last far beyond the run.
+/// Every new leg, every switched radio and every new scene must be reported immediately. A leg must
+/// be replaced at its end. next() returns the time at which advance() must be called; advance()
+/// reports every change once, in the order of (time, from, to). Links count as down before start().
+///
+/// A new leg costs a search for each pair with its robot, see next_link_change; robots at rest cost
+/// nothing. Links of a propagation model of unknown shape (LossShape) are sampled as far ahead as
+/// the watch has lasted so far (at least 16 samples), because legs may last far beyond the run.
 ///
 /// Memory: 9 bytes for each pair, and 16 more while a change is pending; 225 MB for 5000 robots,
-/// the largest number.
+/// the largest number of robots.
 class LinkWatch {
   public:
     /// Largest number of robots; with more robots RunError is thrown.
@@ -47,7 +48,8 @@ class LinkWatch {
 
     /// Inputs of the prediction.
     struct Settings {
-        /// Medium that determines links; not null. All pointers must outlive the LinkWatch.
+        /// Medium that determines links; not null. All objects in Settings must outlive the
+        /// LinkWatch.
         const Medium* medium = nullptr;
         /// Current leg (straight movement or rest) of each node of the medium; not null.
         const Legs* legs = nullptr;
@@ -61,8 +63,8 @@ class LinkWatch {
 
     explicit LinkWatch(const Settings& settings) : settings_(settings) {}
 
-    /// Starts the prediction: searches all pairs of robots; links that are up count as changes at
-    /// `now`.
+    /// Starts the prediction: searches all pairs of robots. A link that is up is reported as a
+    /// change at `now`.
     /// @throws RunError if there are too many robots
     void start(Time now);
     /// Reports that the robot's leg was replaced at `now`, or its radio switched on or off.
@@ -73,10 +75,11 @@ class LinkWatch {
     /// @throws RunError if there are too many robots
     void added(NodeId node, Time now);
 
-    /// Time at which `advance` must be called next; empty if nothing is pending. There may be no
-    /// change to report then, but a search to continue.
+    /// Time at which `advance` must be called next; empty if nothing is pending. At this time
+    /// either a change is due, or only the continuation of a search.
     std::optional<Time> next() const;
-    /// Reports the changes due at or before `now`. `tell` must not call this object.
+    /// Calls `tell` for each link change due at or before `now`. `tell` must not call the
+    /// LinkWatch.
     void advance(Time now, const Tell& tell);
 
     /// State of a link (true: up), as reported so far.
@@ -90,51 +93,53 @@ class LinkWatch {
         NodeId from;
         NodeId to;
     };
-    // Bits of a pair's state: the link is up; the pending time is not a change, but the time to
-    // continue the search.
+    // Bits of a pair's state. `up`: the link is up. `look_again`: the pending time is not a change,
+    // but the time to continue the search.
     static constexpr std::uint8_t up = 1;
     static constexpr std::uint8_t look_again = 2;
 
-    // Index of an ordered pair. Pairs with the last robot come last, so that adding a robot moves
-    // no entry.
+    // Index of an ordered pair of robots. Pairs with the last robot come last, so that adding a
+    // robot moves no entry.
     static std::size_t pair(NodeId from, NodeId to) {
         const std::size_t i = from.index(), j = to.index();
         return i < j ? j * j + i : i * i + i + j;
     }
-    // Order of the heap, the earliest on top.
+    // Order of the heap: whether `p` is later than `q`, so that the earliest entry is on top.
     static bool later(const Entry& p, const Entry& q);
 
     // Allocates memory for the pairs of this many robots.
     void grow(std::size_t robots);
-    // Searches again: all pairs, all pairs of a robot, or one pair.
+    // Repeat the search for the next change: of all pairs, of all pairs of a robot, or of one pair.
     void look_at_all(Time now);
     void look_at(NodeId node, Time now);
     void look_at(NodeId from, NodeId to, Time now);
-    // Searches the next change of a pair, and queues it.
+    // Searches the first link change of a pair later than `after`, and queues the change.
     void search(NodeId from, NodeId to, Time after);
-    // Sets the pending time of a pair.
+    // Sets the pending time of a pair: a link change, or the continuation of a search (not
+    // `change`).
     void expect(NodeId from, NodeId to, Time time, bool change);
-    // Whether the pair's pending time has changed since the entry was made.
+    // Whether an entry is stale: the pair's pending time has changed since the entry was made.
     bool stale(const Entry& entry) const { return next_[pair(entry.from, entry.to)] != entry.time; }
     // Removes stale entries from the top of the heap, and all stale entries if there are too many.
     void drop_stale();
-    // Walls that the search for this sender's links needs.
+    // Walls for the search of links from `from`; an empty set if the sender's path loss does not
+    // depend on walls.
     const WallPassages& walls_for(NodeId from);
 
     Settings settings_;
-    // Time passed to `start`.
+    // Time at which the prediction started, passed to start().
     Time begin_ = {};
     std::size_t robots_ = 0;
-    // Pending time, by pair; `never` if nothing is pending.
+    // Pending time of each pair (a change, or the continuation of a search); `never` for none.
     std::vector<Time> next_;
-    // State bits, by pair.
+    // State of each pair: bits `up` and `look_again`.
     std::vector<std::uint8_t> state_;
     // Heap of pending times, earliest first; entries replaced by a later search are stale.
     std::vector<Entry> heap_;
     // Number of pairs with a pending time.
     std::size_t pending_ = 0;
-    // Corners of walls, collected when a sender's loss depends on walls; and an empty set for other
-    // senders.
+    // Corners of the scene's walls, collected when first a sender's path loss depends on walls; and
+    // an empty set for all other senders.
     std::optional<WallPassages> walls_;
     const WallPassages no_walls_ = {};
 };

@@ -12,8 +12,9 @@ namespace rovernet {
 /// Stall detection: finds a robot whose events follow one another without end while simulated time
 /// hardly grows, so that the run would never end.
 ///
-/// The clock is checked once in `most_events` events. If simulated time has grown by less than
-/// `growth` since the last check, the events of each robot are counted until it has.
+/// Simulated time is checked once in `most_events` events. If it has grown by less than `growth`
+/// since the last check, the events of each robot are counted until simulated time has grown by
+/// `growth`.
 class Liveness {
   public:
     /// Largest number of events of one robot within the simulated time `growth`.
@@ -22,13 +23,13 @@ class Liveness {
     /// @param growth  shortest simulated time [ns] that most_events events of one robot may take
     explicit Liveness(Duration growth) : growth_(growth) {}
 
-    /// Checks how far simulated time has grown; called after every `most_events` events of all
-    /// robots.
+    /// Checks the growth of simulated time since the last call, and starts to count events if it is
+    /// below `growth`. Called after every `most_events` events of all robots.
     void look(Time now) {
         if (now - last_look_ < growth_) begin_ = now, is_counting_ = true;
         last_look_ = now;
     }
-    /// Whether the events of robots have to be counted now.
+    /// Whether the events of robots are counted now. Counting ends once time has grown by `growth`.
     bool is_counting(Time now) {
         if (is_counting_ && now - begin_ >= growth_) {
             is_counting_ = false;
@@ -36,7 +37,8 @@ class Liveness {
         }
         return is_counting_;
     }
-    /// Counts an event of a robot, while is_counting(). @return whether the robot has had too many
+    /// Counts an event of a robot; to be called only while is_counting().
+    /// @return whether the robot has had `most_events` events since counting began
     bool is_stuck(NodeId node) {
         if (counts_.size() <= node.index()) counts_.resize(node.index() + 1);
         return ++counts_[node.index()] >= most_events;
@@ -47,7 +49,7 @@ class Liveness {
     Time last_look_ = before_run;
     Time begin_ = start_of_run;
     bool is_counting_ = false;
-    // Number of events by node since begin_; empty while nothing is counted.
+    // Number of events of each node since begin_; empty while no events are counted.
     std::vector<std::uint32_t> counts_;
 
     static constexpr Time before_run = start_of_run - Duration{1'000'000'000};

@@ -17,15 +17,16 @@ struct World;
 class MacUser {
   public:
     /// Called when a frame of a message ends at some of its receivers, see ChannelUser. Control
-    /// frames are not passed up.
+    /// frames of the access model are not passed up.
     virtual void frame_ended(const AirFrame& frame, const Arriving& part) = 0;
     /// Called when a frame was transmitted. Each frame passed to Mac::send causes one call of
-    /// sent() or lost(), unless it was taken.
-    /// @param acked  the next hop acknowledged it, or is known to have received it
+    /// sent() or lost(), unless Mac::take removed the frame.
+    /// @param acked  whether the next hop acknowledged the frame, or is known to have received the
+    ///               frame
     virtual void sent(const QueuedFrame& frame, bool acked) = 0;
-    /// Called when a frame was dropped, with the reason.
+    /// Called when the MAC has dropped a frame, with the reason.
     virtual void lost(const QueuedFrame& frame, DropReason reason) = 0;
-    /// Whether somebody waits for the result of this unicast.
+    /// Whether the layer above needs the result of this unicast: received by the next hop, or not.
     virtual bool wants_result(const Frame& frame) const = 0;
 
   protected:
@@ -33,10 +34,10 @@ class MacUser {
 };
 
 /// MAC layer: passes frames to the channel when the access model allows it, and reports to the
-/// access model what its stations receive and sense.
+/// access model which frames its stations receive and sense.
 ///
-/// It depends on no particular access model: one Access, made from the settings, decides for all
-/// nodes, and calls back through Air. The MAC adds the common parts: records of frames on air, bit
+/// The MAC works with any access model: one Access, made from the settings, decides for all nodes,
+/// and calls the MAC through Air. The MAC adds the common parts: records of frames on air, bit
 /// rates, airtimes, timers and random draws.
 class Mac final : public Air, public ChannelUser {
   public:
@@ -49,30 +50,32 @@ class Mac final : public Air, public ChannelUser {
     void add() { access_->add(); }
     /// Clears the queue of a node that was switched off.
     void switch_off(NodeId node) { access_->switch_off(*this, node); }
-    /// Removes waiting frames from a node's queue, see LinkLayer::take_queued.
+    /// Removes and returns the frames for `next_hop` in the queue of `node`, see
+    /// LinkLayer::take_queued.
     std::vector<QueuedFrame> take(NodeId node, NodeId next_hop) {
         return access_->take(node, next_hop);
     }
-    /// Accepts a frame from its sender, which must be on; the frame holds a reference to its
-    /// message. Ends with a call of sent() or lost().
+    /// Accepts a frame from its sender, which must be on. The frame holds a reference to its
+    /// message. The MAC later reports the result by MacUser::sent or MacUser::lost.
     void send(const QueuedFrame& frame) { access_->send(*this, frame); }
-    /// Serves the event of a unicast that its next hop, out of range, did not receive: it ends now.
+    /// Serves the event of the end of a unicast to a next hop out of range: reports the loss.
+    /// @param slot  slot of the frame in unheard_
     void on_unheard(std::size_t slot);
-    /// Serves a timer of the access model.
+    /// Serves the event of a timer of the access model, with the timer's tag.
     void on_timer(NodeId node, std::uint32_t tag) { access_->on_timer(*this, node, tag); }
 
-    /// Whether control packets of the routing protocol go first.
+    /// Whether the access model sends control packets of the routing protocol before messages.
     bool has_priority() const { return has_priority_; }
-    /// Whether frames wait in a queue for access, so that a sender may pass several frames.
+    /// Whether the access model queues frames, so that a sender may pass several frames.
     bool queues() const { return access_->queues(); }
     /// Bit rates [bit/s] of the access model's frames, in addition to those of the radios.
     std::span<const BitRate> own_rates() const { return access_->own_rates(); }
-    /// Bytes that the access model adds to a message.
+    /// Size [bytes] of the header that the access model adds to a message.
     std::uint32_t header() const { return header_; }
-    /// Sum of the airtimes of all frames that began after the warm-up [ns].
+    /// Sum [ns] of the airtimes of all frames so far, without frames that began in the warm-up.
     Duration airtime_so_far() const { return airtime_so_far_; }
-    /// Whether `frame` repeats a frame that `node` already has, because its sender missed the
-    /// acknowledgement. It must be called exactly once for each received frame.
+    /// Whether `frame` is a retransmission of a frame that `node` has already received, because the
+    /// sender missed the acknowledgement. Must be called exactly once for each received frame.
     bool is_repeated(NodeId node, const AirFrame& frame) {
         return listens_ && access_->is_repeated(node, frame);
     }
@@ -82,14 +85,15 @@ class Mac final : public Air, public ChannelUser {
     /// Transmits a frame: emits Transmitted and AirSent, computes rate and airtime, and passes the
     /// frame to the channel.
     Time transmit(const AirFrame& frame) override;
-    /// Transmission, airtime [ns] and size [bytes] of a frame, including the access model's
-    /// additions.
+    /// Transmission of a frame (bit rate, coding, airtime), its airtime [ns], and its size on air
+    /// [bytes]; the size includes the bytes that the access model adds.
     const Transmission& transmission(const AirFrame& frame) const;
     Duration airtime(const AirFrame& frame) const override { return transmission(frame).airtime(); }
     std::uint32_t bytes(const AirFrame& frame) const override;
     void access_timer(NodeId node, Time at, std::uint32_t tag) override;
     double access_draw(NodeId node, std::uint64_t index) const override;
-    /// A unicast that the MAC judges has its result when it ends.
+    /// Reports the result of a transmitted frame to the user; not of a unicast whose result the MAC
+    /// finds itself when the frame ends (see judges()).
     void sent(const QueuedFrame& frame) override {
         if (judges(frame.frame)) return;
         user_.sent(frame, listens_ && frame.frame.next_hop != everyone);
@@ -101,17 +105,20 @@ class Mac final : public Air, public ChannelUser {
     void sensed(std::span<const Sensing> nodes) override { access_->sensed(*this, nodes); }
 
   private:
-    // Bit rate of a frame: the sender's, unless the access model sets its own.
+    // Bit rate [bit/s] of a frame: of the sender's radio, unless the access model sets another
+    // rate.
     BitRate rate_of(const AirFrame& frame) const;
-    // Whether the MAC, in place of the access model, finds the result of a unicast: an ideal MAC.
+    // Whether the MAC itself finds the result of a unicast: the access model has no
+    // acknowledgements, so that the MAC acts as an ideal MAC.
     bool judges(const Frame& frame) const {
         return frame.next_hop != everyone && !listens_ && user_.wants_result(frame);
     }
-    // Ends a unicast whose next hop has not received it, because it is out of range.
+    // Handles a unicast whose next hop is out of range: emits Dropped, or queues an event at `end`
+    // that reports the result.
     void miss(const AirFrame& air, Time end);
-    // Reports the result of a unicast that ends at its next hop.
+    // Reports to the user whether the next hop has received a unicast that ends now.
     void judge(const AirFrame& air, std::span<const Reception> receptions);
-    // Reports to the access model which stations have received or missed the frame.
+    // Reports to the access model which stations have received or missed a frame that ends now.
     void tell_stations(const AirFrame& frame, std::span<const Reception> receptions);
 
     World& world_;
@@ -119,15 +126,16 @@ class Mac final : public Air, public ChannelUser {
     MacUser& user_;
     // Access model of all nodes.
     std::unique_ptr<Access> access_;
-    // Constant properties of the access model.
+    // Constant properties of the access model, read once.
     bool listens_, has_own_rates_, has_priority_;
-    // Bytes that the access model adds to a message.
+    // Size [bytes] of the header that the access model adds to a message.
     std::uint32_t header_;
     Duration airtime_so_far_{0};
-    // Last transmission, and the kind of its sender.
+    // Transmission computed last, and radio kind of its sender: reused for a frame of the same
+    // size, rate and kind.
     mutable Transmission last_{};
     mutable std::uint32_t last_kind_ = ~std::uint32_t{0};
-    // Unicasts on air to a next hop out of range, if somebody waits for their results.
+    // Unicasts on air to a next hop out of range, if the layer above needs their results.
     Slots<QueuedFrame> unheard_;
 };
 

@@ -20,13 +20,13 @@ namespace rovernet {
 
 struct World;
 
-/// Body and motion limits of a robot; consecutive robots with equal values share one.
+/// Body and motion limits of a robot; consecutive robots with equal values share one Body.
 struct Body {
     /// Radius of the body [m], for paths around walls.
     Meters radius;
     /// Speed limit of all movements [m/s]; may be infinite.
     MetersPerSecond top_speed;
-    /// Rate of turning in place before the robot moves [rad/s]; empty: it turns instantly.
+    /// Rate of turning in place before the robot moves [rad/s]; empty: the robot turns instantly.
     std::optional<RadiansPerSecond> turn_rate;
     friend bool operator==(const Body&, const Body&) = default;
 };
@@ -38,10 +38,10 @@ struct Body {
 ///                    ^          a leg                        |
 ///                    +------------- on_leg_end <-------------+   an event at the leg's end
 ///
-/// A movement model returns a leg when it begins, when a leg ends, and when the robot is first
-/// switched on. Between these times only doors have an effect: a leg ends at a closed door, and the
-/// movement then acts by its AtDoors. A robot touched by a closing door is caught: it stands until
-/// the doors change and free it.
+/// A movement model returns a leg when the movement begins, when a leg ends, and when the robot is
+/// first switched on. Between these times only doors change the motion: a leg ends at a closed
+/// door, and the movement's AtDoors determines the next leg. A robot that a closing door touches is
+/// caught: the robot stands until a later change of the doors frees it.
 class Motion {
   public:
     /// @param channel  notified before a leg changes, and then of the new leg
@@ -55,26 +55,27 @@ class Motion {
     /// Adds the next node, which stands still until begin_all().
     NodeId add(Robot robot);
     /// Begins the movements that have not begun. The movement of a robot that is off begins when
-    /// the robot is switched on. Engine calls it whenever the run continues.
+    /// the robot is switched on. Engine calls begin_all() whenever the run continues.
     void begin_all();
-    /// Serves the event of the end of the leg with this version, unless the leg was replaced since.
+    /// Serves the event of the end of a leg: begins the next leg, unless the leg with this version
+    /// was replaced since the event was queued.
     void on_leg_end(NodeId node, std::uint64_t version);
 
     /// Replaces the node's movement by another one, which begins now.
     void move(NodeId node, Movement movement);
-    /// Puts a robot at another position at once, at rest; its movement ends.
-    /// @param heading  heading there; unchanged if not given
+    /// Moves a robot immediately to the position `at` [m], where it rests; its movement ends.
+    /// @param heading  heading at the new position [rad]; unchanged if not given
     /// @throws std::invalid_argument for a coordinate that is not finite or beyond 1e15 m
     void place(NodeId node, Vec3 at, std::optional<Radians> heading = {});
-    /// Stops a robot that was switched off, and stores its leg for resume().
+    /// Stops a robot that was switched off, and stores the robot's leg for resume().
     void pause(NodeId node);
-    /// Continues the motion of a robot that was switched on: the rest of its leg takes as long as
-    /// before.
+    /// Continues the motion of a robot that was switched on: the remaining time of the interrupted
+    /// leg is the same as when the robot was switched off.
     void resume(NodeId node);
     /// Handles a scene change now: stops robots at doors that have closed, and lets robots continue
-    /// that waited.
+    /// that waited at doors now open.
     void scene_changed();
-    /// Calls react() whenever the node ends a movement and rests, 1 us later.
+    /// Calls react() 1 us after each time that the node ends a movement and rests.
     void on_arrival(NodeId node, Callback<> react) {
         on_arrival_[node].push_back(std::move(react));
     }
@@ -84,32 +85,35 @@ class Motion {
     const Body& body(NodeId node) { return bodies_[nodes_.at(node.index()).body]; }
 
   private:
-    /// State of one robot. There may be millions of robots, so rare state is in the maps below.
+    /// State of one robot's motion. There may be millions of robots, so rare state is in maps of
+    /// Motion.
     struct Moving {
         /// Index of the robot's body in bodies_.
         std::uint32_t body : 31 = 0;
         /// Whether the robot's movement has begun.
         std::uint32_t moving : 1 = 0;
-        /// Number of movements that the robot had before its present one: part of the key of its
-        /// draws.
+        /// Number of movements that the robot had before its present movement: part of the key of
+        /// the movement's random draws.
         std::uint32_t movements = 0;
         Movement movement = {};
     };
 
     // Input of the movement model: position and body of the robot, path planner, random draws.
     Mover mover(NodeId node);
-    // Asks the movement for the next leg, or begins the leg that waited for the end of a turn.
+    // Begins the next leg: the leg that waited for the end of a turn, or a new leg of the movement
+    // model.
     void next_leg(NodeId node);
-    // Begins a leg of the movement, after turning towards it if the robot turns in place.
+    // Begins a leg of the movement model; a robot that turns in place first turns towards the leg.
     void begin_leg(NodeId node, const Leg& leg);
-    // Removes all planned motion of the robot.
+    // Ends the robot's movement, and removes its interrupted and waiting legs.
     void end_movement(NodeId node);
-    // Begins a leg, up to the first closed door; go_to_doors() if there are closed doors.
+    // Begins a leg, which ends at the first closed door; go_to_doors() if the scene has closed
+    // doors.
     void go(NodeId node, const Leg& leg);
     void go_to_doors(NodeId node, const Leg& leg);
     // Continues the motion of a robot that waited for a door.
     void go_on(NodeId node);
-    // Whether doors determine the next leg: the robot is caught, or has stopped at a door.
+    // Whether doors determine the robot's next leg: the robot is caught, or has stopped at a door.
     bool is_held(NodeId node);
     // Whether a closed door touches the robot and stops it.
     bool is_caught(NodeId node);
@@ -117,36 +121,39 @@ class Motion {
     bool is_free(NodeId node);
     // Whether the robot stands and waits for a door.
     bool waits(NodeId node) const;
-    // Remaining part of a leg, joined with the part that waits behind it, which is removed.
+    // Remaining part of a leg, joined with the part behind a door that waits in held_. Removes the
+    // latter from held_.
     Leg rest_of(NodeId node, const Leg& leg);
-    // Replaces the leg and emits Moved.
+    // Replaces the robot's current leg, notifies channel, medium and link monitor, and emits Moved.
     void take(NodeId node, const Leg& leg);
-    // Replaces the leg and notifies the other parts, without a record.
+    // Replaces the robot's current leg, notifies channel, medium and link monitor, without a
+    // record.
     void put(NodeId node, const Leg& leg);
-    // Queues the event of the leg's end.
+    // Queues the event of the end of the robot's current leg.
     void expect_leg_end(NodeId node);
-    // Queues the reactions of callbacks that wait for the robot to come to rest.
+    // Queues the callbacks of on_arrival() for a robot that has come to rest.
     void tell_arrival(NodeId node);
 
     World& world_;
     Channel& channel_;
     LinkMonitor& links_;
-    // Robots by node.
+    // State of each robot's motion, by node.
     Chunks<Moving> nodes_;
-    // Bodies; each differs from the one before.
+    // Bodies of robots, by Moving::body; each differs from the previous one.
     std::vector<Body> bodies_;
-    // Legs interrupted by switching off.
+    // Legs that were interrupted when their robot was switched off, by node.
     std::map<NodeId, Leg> interrupted_;
-    // Legs that begin after the turn on the current leg.
+    // Legs that begin when the robot's current leg, a turn in place, ends; by node.
     std::map<NodeId, Leg> after_turn_;
-    // Remaining legs that wait for a door, from the robot's stop; empty: the movement is asked for
-    // a new leg.
+    // Legs that continue once a closed door opens, from the robot's stop on, by node; empty: the
+    // movement is asked for a new leg.
     std::map<NodeId, std::optional<Leg>> held_;
-    // Callbacks by node.
+    // Callbacks of on_arrival(), by node.
     std::map<NodeId, std::vector<Callback<>>> on_arrival_;
-    // Number of nodes whose movement has begun: the first ones.
+    // Number of nodes that begin_all() has handled: the nodes with the lowest ids.
     std::size_t begun_ = 0;
-    // Nodes that need an event during begin_all(); events are queued in the order of their keys.
+    // Nodes for which begin_all() has to queue an event; events are queued in the order of the
+    // nodes' keys.
     std::vector<NodeId> set_off_;
     bool beginning_ = false;
 };

@@ -25,29 +25,31 @@ class NameTable {
 
     /// Number of names.
     std::size_t size() const { return ends_.size(); }
-    /// Number of a name; empty if it is not in the table.
+    /// Number of a name; empty if the name is not in the table.
     std::optional<std::uint32_t> find(std::string_view name) const;
-    /// Name with that number, which must exist; valid until the next add().
+    /// Name with the number `number`, which must be < size(); the view is valid until the next
+    /// add().
     std::string_view operator[](std::uint32_t number) const {
         const std::size_t begin = number == 0 ? 0 : ends_[number - 1];
         return std::string_view(characters_).substr(begin, ends_[number] - begin);
     }
 
   private:
-    // Free entry of the index.
+    // Value of a free entry of the index.
     static constexpr std::uint32_t none = 0xffffffff;
 
-    // Entry of the index that has the name, or where it has to be inserted.
+    // Place in the index of the entry for `name`; if there is none, place at which to insert the
+    // entry.
     std::size_t place(std::string_view name) const;
-    // Builds an index for this many names, with the existing ones.
+    // Builds an index with room for `names` names, and enters the existing names.
     void lay_index(std::size_t names);
 
     // Characters of all names.
     std::string characters_;
     // End of each name in characters_, by number.
     std::vector<std::uint32_t> ends_;
-    // Numbers by the hash of their names; the size is a power of two, and at least one entry is
-    // free.
+    // Hash table of the numbers of names, by the hash of the name; the size is a power of two, and
+    // at least one entry is free.
     std::vector<std::uint32_t> index_ = {none};
 };
 

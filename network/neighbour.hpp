@@ -15,24 +15,26 @@ namespace rovernet {
 class Legs;
 class Medium;
 
-/// Neighbour of a robot: a robot that it hears. Received powers are local means, without errors or
-/// interference.
+/// Neighbour of a robot: another robot whose signals the robot can receive. Received powers are
+/// local means, without errors or interference.
 struct Neighbour {
     NodeId node;
     /// Received power [dBm] of the neighbour's signal at the robot.
     Dbm level;
-    /// Noise [dBm] at the robot: thermal noise in the receiver's bandwidth, plus its noise figure.
+    /// Noise [dBm] at the robot: thermal noise in the receiver's bandwidth, plus the receiver's
+    /// noise figure.
     Dbm noise;
     /// Quality of the link, 0 ... 100, see link_quality().
     int quality;
 };
 
-/// Quality of a link: 2 for each decibel above the receiver's sensitivity, 0 at a margin of 0 dB,
-/// 100 from 50 dB on. Link tables show it, like wireless tools do.
+/// Quality of a link, as wireless tools show it in link tables: 2 for each decibel of margin above
+/// the receiver's sensitivity, 0 at a margin of 0 dB, 100 from 50 dB on.
+/// @param margin  received power relative to the receiver's sensitivity [dB]
 int link_quality(Db margin);
 
-/// Neighbours that `node` hears at `t`, in order of id: nodes that are on, in its network, and
-/// within the link budget. It checks every node.
+/// Neighbours that `node` can hear at `t`, in order of id: nodes that are on, in the network of
+/// `node`, and within the link budget. The function checks every node.
 /// @param legs  legs of the medium's nodes; `t` must not be before their starts
 std::vector<Neighbour> neighbours(const Medium& medium, const Legs& legs, NodeId node, Time t);
 

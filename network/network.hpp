@@ -32,7 +32,7 @@ struct SendOptions {
     std::uint32_t flow = 0;
     /// Port, which selects a program of the receiver; 0 for none.
     std::uint16_t port = 0;
-    /// True: over one hop, without the routing protocol.
+    /// True: the message is sent over one hop, without the routing protocol.
     bool one_hop = false;
 };
 
@@ -53,19 +53,19 @@ class Medium;
 ///   network.at(start_of_run + 1s, [&] { network.send(a, everyone, "hello"); });
 ///   network.run_for(10s);
 ///
-/// Two Networks in one process never interact. Not thread-safe; each thread runs its own.
+/// Two Networks in one process never interact. A Network is not thread-safe: use one per thread.
 /// Examples: examples/hello.cpp, examples/failures.cpp.
 class Network {
   public:
     /// @throws std::invalid_argument if a setting is out of its range
     explicit Network(NetworkSettings settings = {});
     ~Network();
-    Network(const Network&) = delete;  // actions and reactions refer to it
+    Network(const Network&) = delete;  // callbacks refer to the Network
     Network& operator=(const Network&) = delete;
 
     /// Reserves memory for `robots` robots in total, which avoids the overhead of gradual growth.
     void reserve(std::size_t robots);
-    /// Adds a robot, switched on. Its movement begins now.
+    /// Adds a robot, switched on. Its movement begins with the run, or now if the run has begun.
     /// @throws std::invalid_argument for a name in use or a parameter out of its range
     NodeId add(Robot robot);
     /// Sets the routing protocol of all robots. @throws std::invalid_argument if one is already set
@@ -73,39 +73,39 @@ class Network {
     /// Adds a sink: it gets every record of the kinds that it wants from now on. Its begin() is
     /// called at the start of the run, or now if the run has begun.
     SinkId add_sink(Sink sink);
-    /// Removes a sink: it gets no more records, and its finish() is not called. Not allowed inside
-    /// a sink.
+    /// Removes a sink: the sink gets no more records, and its finish() is not called. It is an
+    /// error to call remove_sink() inside a sink.
     void remove_sink(SinkId sink);
 
-    /// Sends a message from `from` to `to`, a robot or `everyone`. The routing protocol forwards it
-    /// if it can: every protocol forwards messages to everyone, protocols with the trait
-    /// routes_unicasts also those to one robot. All other messages go over one hop: the access
-    /// model "csma" repeats one to a robot until it is acknowledged or the retry limit is reached.
-    /// @return uid of the message, unique in the run; none if `from` is off, and does not send
-    /// @throws std::invalid_argument for a message to everyone, not over one hop, if no protocol is
-    ///         set; and if `to` is `from` or no robot
+    /// Sends a message from `from` to `to`, a robot or `everyone`. Every routing protocol forwards
+    /// messages to everyone; a protocol with the trait routes_unicasts also forwards messages to
+    /// one robot. All other messages go over one hop: the access model "csma" retransmits a message
+    /// to one robot until an acknowledgement or the retry limit.
+    /// @return uid of the message, unique in the run; empty if `from` is off and sends nothing
+    /// @throws std::invalid_argument if `to` is `from` or no robot; or without a routing protocol,
+    ///         for a message to everyone that is not limited to one hop
     std::optional<std::uint64_t> send(NodeId from, NodeId to, std::string payload,
                                       SendOptions options = {});
     /// Starts saturated traffic: from now on `node` always has another message of `size` [bytes] to
     /// send to `to`, or to everyone, over one hop.
     /// @throws std::invalid_argument without an access model, because sending would be unlimited
     void saturate(NodeId node, NodeId to, std::uint32_t size, std::uint32_t flow = 0);
-    // Callbacks: each one is called until its Subscription is ended.
+    // Callbacks: each callback is called until its Subscription is ended.
 
     /// Calls `react` whenever a message is delivered to `node`, 1 us after its reception.
     /// Example: examples/reactions.cpp.
     Subscription on_receive(NodeId node, std::function<void(const Message&)> react);
     Subscription on_receive(NodeId node, std::function<void(const Heard&)> react,
                             HearOptions options = {});
-    /// Calls `react` whenever `node` ends a movement and rests, 1 us later.
+    /// Calls `react` 1 us after each time that `node` ends a movement and rests.
     Subscription on_arrival(NodeId node, std::function<void()> react);
-    /// Calls `react(from)` whenever `node` cannot hear `from` any more, 1 us later. Link monitoring
-    /// costs a search whenever a robot begins a new leg.
+    /// Calls `react(from)` 1 us after `node` has lost the link from `from`, and cannot hear it any
+    /// more. Link monitoring costs a search whenever a robot begins a new leg.
     Subscription on_link_lost(NodeId node, std::function<void(NodeId from)> react);
     /// Replaces the node's movement by another one, which begins now.
     void move(NodeId node, Movement movement);
-    /// Puts a robot at another position at once, at rest; its movement ends.
-    /// @param heading  heading there [rad]; unchanged if not given
+    /// Moves a robot immediately to the position `at` [m], where it rests; its movement ends.
+    /// @param heading  heading at the new position [rad]; unchanged if not given
     void place(NodeId node, Vec3 at, std::optional<Radians> heading = {});
     /// Stops a robot at its position; its movement ends.
     void stop(NodeId node);
@@ -114,10 +114,10 @@ class Network {
     void set_rate(NodeId node, BitRate rate);
     /// Switches a robot off: it stops, and its radio neither transmits nor receives.
     void switch_off(NodeId node);
-    /// Switches a robot off and marks it as absent.
-    /// @param why  not_departed or left; switch_on() makes the robot present
+    /// Switches a robot off and marks the robot as absent until switch_on().
+    /// @param why  reason of the absence: not_departed or left
     void take_away(NodeId node, Presence why);
-    /// Switches a robot on again: it continues its movement. Does nothing if it is on.
+    /// Switches a robot on: the robot continues its movement. Does nothing if the robot is on.
     void switch_on(NodeId node);
 
     /// Calls `action` at `time`.
@@ -136,30 +136,29 @@ class Network {
     /// @return whether `end` is reached
     bool advance(Time end, std::uint64_t most_events);
 
-    /// Ends the run: messages still at their senders are recorded as dropped ("END"), so that
-    /// metrics() can leave them out unless the routing protocol held them; then the sinks finish.
-    /// Call once, after the last run_until().
-    /// @throws std::logic_error in a debug build if the protocol holds messages that it does not
-    ///         keep
+    /// Ends the run, then the sinks finish. Messages of which no frame has ended at a receiver are
+    /// recorded as dropped ("END"); metrics() leaves these messages out, unless the routing
+    /// protocol still held them. Call once, after the last run_until().
+    /// @throws std::logic_error in a debug build if the protocol still holds messages that it does
+    ///         not keep
     void finish();
 
     /// Simulated time: time of the current event, or the end of the last run.
     Time now() const;
     /// Time of the next event; `never` if there is none.
     Time next_event() const;
-    /// Number of robots.
-    std::size_t size() const;
+    std::size_t size() const;  ///< number of robots
     /// Number of events served so far.
     std::uint64_t events() const;
     /// Number of frames transmitted so far.
     std::uint64_t transmissions() const;
-    /// Upper bound on the reduction of a signal to interference ratio, so far, by frames that
-    /// `sinr` neglected (Sinr::interference_cut); it assumes that all frames on air anywhere came
-    /// from just beyond the cut.
+    /// Upper bound [dB] on the reduction of any SINR so far by frames that the reception model
+    /// `sinr` neglected (Sinr::interference_cut), as if all frames on air anywhere came from just
+    /// beyond the cut-off; empty if no frames are neglected.
     std::optional<Db> interference_left_out() const;
     /// Name of a robot. @throws std::out_of_range if there is no such robot
     std::string name(NodeId node) const;
-    /// Robot with that name, if there is one.
+    /// Robot with the name `name`; empty if there is none.
     std::optional<NodeId> find(std::string_view name) const;
     /// Current position of a robot [m].
     Vec3 position(NodeId node) const;
@@ -170,33 +169,32 @@ class Network {
     std::vector<Neighbour> links(NodeId node, Time t) const;
     /// Routing table of a robot now, in the order of destinations; empty if the protocol has none.
     std::vector<RouteState> routes(NodeId node) const;
-    /// Notice of the routing protocol to the user, see HasNotice; empty: there is none.
-    std::string routing_notice() const;
-    /// Path loss [dB] of the link now, with shadowing, without the antennas' gains.
+    std::string routing_notice() const;  ///< notice of the protocol, see HasNotice; or empty
+    /// Current path loss [dB] from `from` to `to`, with shadowing, without the antennas' gains.
     /// Example: examples/walls.cpp.
     Db path_loss(NodeId from, NodeId to) const;
-    /// Appends the nodes that would hear `node` if it transmitted now to `out`, in any order.
+    /// Appends to `out` the nodes that would hear `node` if `node` transmitted now, in any order.
     void find_hearers(NodeId node, std::vector<NodeId>& out);
     /// Current state of a robot.
     RobotState robot(NodeId node) const;
-    /// Settings as given, legs of all robots, the medium and the scene.
+    /// Settings of the network, as given; and current legs of all robots.
     const NetworkSettings& settings() const;
     const Legs& legs() const;
-    /// Radio medium, which stores radios and propagation models.
+    /// Radio medium, which stores radios and propagation models; and current scene.
     const Medium& medium() const;
     const Scene& scene() const;
     /// Planners of paths around the scene's walls.
     Planners& planners();
     /// Metrics so far. @throws std::invalid_argument if settings.metrics is off
     MetricValues metrics() const;
-    /// Sum of the airtimes of all frames so far, without those that began in the warm-up [ns].
+    /// Sum [ns] of the airtimes of all frames so far, without frames that began in the warm-up.
     Duration airtime() const;
 
   private:
     std::unique_ptr<Engine> engine_;
 };
 
-/// Robot with this name. @throws std::invalid_argument listing some existing names
+/// Robot with this name. @throws std::invalid_argument, with some existing names, if there is none
 NodeId robot_named(const Network& network, const std::string& name);
 
 }  // namespace rovernet

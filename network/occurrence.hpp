@@ -24,15 +24,17 @@ struct Occurrence {
         /// End of the leg of `node`; data: the leg's version, because the leg may have been
         /// replaced.
         leg_end,
-        /// Reaction of an application at `node` to a message; data: see Applications::react.
+        /// Reaction of an application at `node` to a message; data: slot of the delivery, see
+        /// Applications::react.
         handed_over,
         /// Action of the user; data: slot of the action in World. `node` is not used.
         action,
-        /// Change of a link, or continued search for one; see LinkMonitor. `node` is not used.
+        /// Change of a link, or continued search for a change; see LinkMonitor. `node` is not used.
         link_change,
         /// Timer of the access model at `node`; data: the model's tag.
         access_timer,
-        /// End of a unicast of `node` that its next hop did not receive; data: its slot in Mac.
+        /// End of a unicast of `node` that its next hop did not receive; data: slot of the frame in
+        /// Mac.
         unheard,
         /// Change of the scene: a door closes or opens. `node` is not used.
         scene_change,
@@ -40,7 +42,7 @@ struct Occurrence {
         arp
     };
     Kind kind;
-    /// Node of the event, if it concerns one.
+    /// Node of the event; not used by kinds that concern no node.
     NodeId node;
     std::uint64_t data;
 };

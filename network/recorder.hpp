@@ -9,28 +9,29 @@
 #include <utility>
 #include <vector>
 
-// Delivery of records. Sinks get them in the order in which the sinks were added; a record is made
-// once for all sinks.
+// Delivery of records. Sinks get each record in the order in which the sinks were added; a record
+// is made once for all sinks.
 
 namespace rovernet {
 
-/// Sinks of a network: each gets the kinds of records that it wants, in the order of the run.
+/// Sinks of a network: each sink gets the kinds of records that it wants, in the order of the run.
 ///
-/// World::emit() calls it, with the state that sinks may read. A kind that no sink wants costs the
-/// test of a bit; before a costly record is made, the caller checks wants(). Sinks may be added and
-/// removed during the run; see Network::add_sink() for sinks added late.
+/// World::emit() passes each record to the Recorder, with the state that sinks may read. A record
+/// of a kind that no sink wants costs the test of a bit; before a costly record is made, the caller
+/// checks wants(). Sinks may be added and removed during the run; see Network::add_sink() for sinks
+/// added late.
 class Recorder {
   public:
     /// Adds a sink, which gets the records from now on.
-    /// @return number for remove(); numbers are not reused
+    /// @return number of the sink, for remove(); numbers are not reused
     std::uint32_t add(Sink sink) {
         wanted_ |= sink.kinds() & ~stopped_;
         sinks_.push_back({std::move(sink), next_});
         return next_++;
     }
-    /// Removes a sink: it gets no more records, and its finish() is not called. Not allowed inside
-    /// a sink, while the list is being traversed. Kinds that only this sink wanted are no longer
-    /// made.
+    /// Removes a sink: the sink gets no more records, and its finish() is not called. It is an
+    /// error to call remove() inside a sink, while the list is being traversed. Kinds that only
+    /// this sink wanted are no longer made.
     void remove(std::uint32_t number) {
         std::erase_if(sinks_, [&](const Numbered& each) { return each.number == number; });
         wanted_ = 0;

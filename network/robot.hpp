@@ -39,8 +39,8 @@ struct Robot {
     Radians heading{0};
     /// Speed limit of all movements [m/s], > 0.
     MetersPerSecond top_speed{std::numeric_limits<double>::infinity()};
-    /// Turn rate [rad/s], within turn_rates: the robot turns in place before it moves; empty: it
-    /// turns instantly.
+    /// Turn rate [rad/s], within the range turn_rates: the robot turns in place before it moves;
+    /// empty: the robot turns instantly.
     std::optional<RadiansPerSecond> turn_rate = std::nullopt;
     /// Role in the routing protocol, one of the protocol's RouterTraits::roles; empty: the
     /// protocol's default.
@@ -54,9 +54,9 @@ enum class Presence {
     on,
     /// Present, switched off.
     off,
-    /// Not yet present, and off; its position is where it will appear.
+    /// Not yet present, and off; the position is the place where the robot will appear.
     not_departed,
-    /// No longer present, and off; its position is its last one.
+    /// No longer present, and off; the position is the robot's last position.
     left,
 };
 

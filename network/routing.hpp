@@ -22,26 +22,26 @@ struct World;
 /// such small interfaces, so that each can be tested alone.
 class RoutingUser {
   public:
-    /// Called for receptions of a frame; `delivered` marks those whose nodes pass the message to
-    /// their application.
-    /// @param levels  received power of each reception [dBm], NaN where nobody asked for it; may be
-    ///                empty
+    /// Called for receptions of a frame. Reception::delivered is true if the reception's node
+    /// passes the message to its application.
+    /// @param levels  received power of each reception [dBm], NaN at nodes for which it is not
+    ///                requested; may be empty
     virtual void delivered(const Frame& frame, std::span<const Reception> receptions,
                            std::span<const Dbm> levels) = 0;
-    /// Called when the node's queue has space for one more frame: a frame was sent, or dropped
-    /// after its last attempt.
+    /// Called when the interface queue of `node` has space for one more frame: a frame was sent, or
+    /// dropped after its last attempt.
     virtual void has_room(NodeId node) = 0;
 
   protected:
     ~RoutingUser() = default;
 };
 
-/// Routing layer: forwards messages hop by hop. It contains the routing protocol, and implements
-/// the link layer that the protocol calls.
+/// Routing layer: forwards messages hop by hop. Routing contains the routing protocol, and
+/// implements the link layer that the protocol calls.
 ///
-/// Frames that the protocol sends at once leave after the protocol's function has returned, so that
-/// it is not called back inside its own functions. Frames for a later time wait here, each with an
-/// event. Messages over one hop pass the protocol by.
+/// Frames that the protocol sends immediately leave after the protocol's function has returned, so
+/// that the protocol is not called back inside its own functions. Frames for a later time wait in
+/// Routing, each with an event. Messages over one hop bypass the protocol.
 class Routing final : public LinkLayer, public MacUser, public ArpUser {
   public:
     /// @param user  layer above, which may still be under construction
@@ -51,28 +51,30 @@ class Routing final : public LinkLayer, public MacUser, public ArpUser {
     /// Sets the protocol of all nodes, and reads its traits.
     /// @throws std::invalid_argument if a protocol is already set
     void set(Router router);
-    /// Routing protocol of all nodes, if one is set.
+    /// Routing protocol of all nodes; empty if no protocol is set.
     const std::optional<Router>& router() const { return router_; }
     /// Passes to the protocol a message that a node's application sends; a protocol must be set.
     void originate(NodeId node, MessageId message);
-    /// Transmits a frame at once, without the protocol. The frame holds a reference to its message.
+    /// Passes a frame to the MAC immediately, without the routing protocol. Adds a reference to the
+    /// frame's message.
     void send_one_hop(const Frame& frame);
-    /// Serves the event of a timer of the protocol.
+    /// Serves the event of a timer that the protocol has set at `node`, with the timer's tag.
     void on_timer(NodeId node, std::uint64_t tag);
-    /// Serves the event of a frame whose send time has come.
+    /// Serves the event of a frame whose send time has come: passes the frame down.
     void on_send(SendHandle handle);
     /// Sets the role of a node that was just added.
     void set_role(NodeId node, std::string role);
     /// Checks the roles of all nodes, and calls the protocol's on_start for them at the start of
     /// the run, in the order of their keys.
     void start();
-    /// Serves an event of address resolution.
+    /// Serves an event of address resolution (ARP) at `node`, for the address of `neighbour`.
     void on_arp(NodeId node, NodeId neighbour);
-    /// Calls the protocol's on_start for a node added after the start of the run, or on_switched.
+    /// Calls the protocol's on_start for a node added after the start of the run; or on_switched
+    /// for a node that was switched on or off.
     void on_start(NodeId node);
     void on_switched(NodeId node, bool on);
-    /// Checks at the end of the run, in a debug build, that the protocol holds only messages that
-    /// it keeps. @throws std::logic_error naming a message
+    /// Checks at the end of the run, in a debug build, that the protocol holds references only to
+    /// messages that it keeps (Router::keeps). @throws std::logic_error naming a message
     void check_held() const;
 
     // Implementation of LinkLayer, for the protocol: see sim/routing_protocol.hpp.
@@ -113,36 +115,39 @@ class Routing final : public LinkLayer, public MacUser, public ArpUser {
     void unresolved(const QueuedFrame& frame, bool is_displaced) override;
 
   private:
-    // Passes a frame from a node that is on to the MAC, or to ARP if its next hop is unresolved.
+    // Passes a frame from a node that is on to the MAC; or to ARP if the next hop's address is
+    // unknown.
     void pass_down(const QueuedFrame& frame);
     // Emits Dropped for a frame that was not transmitted, and reports the result to the protocol.
     void lose(const QueuedFrame& frame, DropReason reason, SendResult result);
     // Throws std::invalid_argument if the protocol does not know the role of the node.
     void check_role(NodeId node) const;
-    // Calls the protocol, then transmits the frames that it queued meanwhile.
+    // Calls the protocol by `call`, then passes down the frames that the protocol queued meanwhile.
     template <class Call>
     void call_router(Call call);
     // Passes a frame to the MAC, or drops it if its sender is off.
     void send_now(const QueuedFrame& frame);
-    // Reports the result of a frame to the protocol, if it has on_sent.
+    // Reports the result of a frame to the protocol, if the protocol has the function on_sent.
     void tell(const QueuedFrame& frame, SendResult result);
-    // Emits Dropped for a frame that its sender has lost.
+    // Emits a Dropped record with the data of `frame`, for the frame `sending` that `node` has
+    // lost.
     void drop_sending(NodeId node, const Frame& frame, const Frame& sending, DropReason reason);
-    // Emits Received, and behind each reception the drops of its node in on_receive.
+    // Emits Received, and after each reception the Dropped records that the protocol made for the
+    // reception's node in on_receive.
     void emit_with_drops(const Received& record);
-    // Emits the drops in on_receive; calls before(place) before the drop of a node whose reception
-    // has that place.
+    // Emits the Dropped records that the protocol made in on_receive. Before each record, calls
+    // before(place) with the index of the node's reception.
     template <class Before>
     void emit_drops(std::span<const Reception> receptions, Before before);
-    // Counts references of the protocol to a message, in a debug build.
+    // Adds `change` to the number of the protocol's references to a message, in a debug build.
     void count_holds(MessageId id, int change);
-    // Passes receptions to the protocol, which sets their fate; without a protocol they go no
-    // further.
+    // Passes receptions to the protocol, which sets their fate. Without a protocol, the message is
+    // delivered at each node, and not forwarded.
     void hand_up(const Frame& frame, std::span<Reception> receptions, std::span<const Dbm> levels);
-    // Passes up the receptions of a group that were decoded at nodes that are on.
+    // Passes the receptions of a group that were decoded at nodes that are on to hand_up().
     void hand_up_heard(const Frame& frame, const Arriving& part);
-    // Handles receptions of a broadcast: passed to the protocol, recorded, and passed to the
-    // applications.
+    // Handles receptions of a broadcast: passes them to the protocol, emits Received, and passes
+    // them to the applications.
     void receive_broadcast(const AirFrame& air, const Arriving& part);
     // Handles receptions of a unicast: at its destination, and at nodes that overhear it.
     void receive_unicast(const AirFrame& air, const Arriving& part);
@@ -151,23 +156,23 @@ class Routing final : public LinkLayer, public MacUser, public ArpUser {
 
     // World of the network.
     World& world_;
-    // Layers below and above.
+    // MAC layer, below; and user of the routing layer, above.
     Mac& mac_;
     RoutingUser& user_;
-    // Address resolution, if the settings ask for it.
+    // Address resolution (ARP); empty unless the settings enable ARP.
     std::optional<Arp> arp_;
-    // Protocol of all nodes; if there is none, messages go over one hop only.
+    // Routing protocol of all nodes; without a protocol, messages go over one hop only.
     std::optional<Router> router_;
-    // True during on_receive of the protocol: it may not send at once.
+    // True during on_receive of the protocol, which may not send frames immediately.
     bool receiving_ = false;
     // True during any function of the protocol.
     bool calling_ = false;
-    // Frames sent by the current function of the protocol.
+    // Frames that the current function of the protocol sends immediately.
     std::vector<QueuedFrame> outbox_;
     // Frames that wait for their send time; an entry without a sender was sent or cancelled.
     Slots<QueuedFrame> waiting_;
-    // Receptions of a frame that are passed up, their levels, and their indices among all
-    // receptions; kept to reuse their memory.
+    // Receptions of a frame that are passed to hand_up(), their received powers, and their indices
+    // among all receptions of the frame; kept to reuse their memory.
     std::vector<Reception> heard_;
     std::vector<Dbm> heard_levels_;
     std::vector<std::size_t> places_;
@@ -175,12 +180,12 @@ class Routing final : public LinkLayer, public MacUser, public ArpUser {
     std::vector<std::string> roles_;
     // Number of control packets that each node has made so far.
     std::vector<std::uint32_t> packets_;
-    // Drops by the protocol in on_receive, until the Received of the frame is emitted; they hold
-    // references to their frames.
+    // Dropped records made by the protocol in on_receive, until Received is emitted. Each record
+    // holds a reference to its frame.
     std::vector<Dropped> drops_;
     // Number of the protocol's own references to each message; counted in a debug build.
     std::vector<std::int32_t> held_;
-    // First of the receptions in on_receive, and the levels of all, for level().
+    // First reception passed to on_receive, and received powers of all receptions, for level().
     const Reception* handed_up_ = nullptr;
     std::span<const Dbm> levels_;
 };

@@ -27,7 +27,7 @@ class Planners;
 class Scene;
 
 /// Settings of a Network, all with defaults: an open field, free space, and frames that do not
-/// interfere and are transmitted at once.
+/// interfere and are transmitted immediately.
 ///
 ///   Network network({.seed = 7, .propagation = LogDistance{}, .reception = Sinr{}, .access =
 ///   Csma{}});
@@ -47,7 +47,8 @@ struct NetworkSettings {
     /// Scenes that later replace `scene`, in ascending order of time, see scene_changes(). Robots
     /// plan their paths in `scene`, where all doors are open.
     std::vector<SceneChange> scene_changes = {};
-    /// Planners of the scene, if reused from an earlier run in the same scene; see KeptPlanners.
+    /// Path planners of `scene` that were made in an earlier run; null: the Network makes new ones.
+    /// See KeptPlanners.
     std::shared_ptr<Planners> planners = nullptr;
     /// Height of one storey [m], for losses per floor; see LinkBatch.
     Meters floor_height = no_storeys;
@@ -59,19 +60,21 @@ struct NetworkSettings {
     AccessModel access = NoAccess{};
     /// Address resolution before the first unicast to a neighbour; off by default.
     ArpSettings arp = {};
-    /// True: frames travel at the speed of light; false: they arrive at once.
+    /// True: frames travel at the speed of light; false: frames arrive without delay.
     bool propagation_delay = true;
-    /// Largest number of events of a run; beyond it RunError is thrown. It catches endless
-    /// scheduling.
+    /// Largest number of events of a run; with more events RunError is thrown. The limit stops a
+    /// run that schedules events without end.
     std::uint64_t event_limit = 100'000'000;
     /// Reference mode for tests: checks every pair of robots, and serves receptions at different
-    /// times by separate events. Slow, with identical records: the fast methods must agree with it.
+    /// times by separate events. The mode is slow; its records must equal those of the fast
+    /// methods.
     bool reference = false;
     /// True: the network computes Metrics, for Network::metrics().
     bool metrics = true;
     /// Parts of the traffic (flows, robots) for which Metrics are also computed separately.
     MetricParts metric_parts = {};
-    /// Scenario as TOML for sinks, see RunInfo; empty if the network was built by a C++ program.
+    /// Function that returns the scenario as TOML for sinks, see RunInfo; empty if the network was
+    /// built by a C++ program.
     std::function<std::string()> scenario = {};
     /// Warm-up time [ns]: Metrics leave out the messages of this time.
     Duration warmup{0};

@@ -9,12 +9,12 @@
 #include <optional>
 #include <utility>
 
-// Callbacks of a Network: handles that end them, and what those for messages get.
+// Callbacks of a Network: handles that end callbacks, and data passed to callbacks for messages.
 
 namespace rovernet {
 
-/// Handle that can end a callback of a Network. It may outlive the network. Destroying it does not
-/// end the callback, so it may be ignored.
+/// Handle that can end a callback of a Network. A Subscription may outlive the Network. Destroying
+/// a Subscription does not end its callback, so a returned Subscription may be ignored.
 ///
 ///   Subscription heard = network.on_receive(node, [&](const Message&) { heard.end(); });
 class Subscription {
@@ -24,19 +24,19 @@ class Subscription {
     /// @param ended  flag of a callback, not null
     explicit Subscription(std::shared_ptr<bool> ended) : ended_(std::move(ended)) {}
 
-    /// Ends the callback: it is not called again, not even if it is due. A second call does
-    /// nothing.
+    /// Ends the callback: the callback is not called again, even if its event is queued. A second
+    /// call of end() does nothing.
     void end() {
         if (ended_) *ended_ = true;
         ended_.reset();
     }
 
   private:
-    // Flag in the callback's state, which it keeps alive; null after end().
+    // End flag in the callback's state; the pointer keeps the state alive. Null after end().
     std::shared_ptr<bool> ended_;
 };
 
-/// Message that a node receives, and the frame that brought it. References are valid during the
+/// Message that a node receives, with data of the received frame. The reference is valid during the
 /// callback.
 struct Heard {
     const Message& message;
@@ -44,7 +44,7 @@ struct Heard {
     int hops;
     /// Transmitter of the frame.
     NodeId last_hop;
-    /// Received power of the frame [dBm], if the callback asked for it.
+    /// Received power of the frame [dBm]; empty unless HearOptions::level is true for the callback.
     std::optional<Dbm> level = {};
 };
 

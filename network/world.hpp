@@ -25,7 +25,7 @@
 namespace rovernet {
 
 /// State that all parts of a running network share: time, events, legs and radios of robots,
-/// messages and records. State that only one part changes is in that part.
+/// messages and records. State that only one part changes is a member of that part.
 ///
 /// A part stores only references to the World and to the parts that it calls: two networks in one
 /// process share nothing.
@@ -33,7 +33,7 @@ struct World {
     /// Creates an empty world.
     /// @throws std::invalid_argument if a setting is out of its range
     explicit World(NetworkSettings given);
-    /// Not copyable, because the parts refer to it.
+    /// Not copyable, because the parts of the network refer to the World.
     World(const World&) = delete;
     World& operator=(const World&) = delete;
 
@@ -60,11 +60,11 @@ struct World {
     double draw(Purpose purpose, std::uint64_t a, std::uint64_t b, std::uint64_t index) const {
         return uniform({settings.seed, settings.replication, purpose, a, b, index});
     }
-    /// Removes a reference to a message; the routing protocol is notified after the last one.
+    /// Removes a reference to a message; the routing protocol is notified after the last removal.
     void release(MessageId id) {
         if (messages.release(id) && on_forgotten) on_forgotten(id);
     }
-    /// Adds a reference to the message and the header of a frame, or removes them.
+    /// Adds a reference to the message of a frame and one to the frame's header; or removes both.
     void hold(const Frame& frame) {
         messages.hold(frame.message);
         if (frame.header != 0) [[unlikely]]
@@ -76,26 +76,26 @@ struct World {
         release(frame.message);
     }
 
-    /// Calls `call` at `time`, and then every `period` [ns] unless that is 0. Actions of one time
-    /// are called in the order of scheduling, after all other events of that time.
+    /// Calls `call` at `time`, and then every `period` [ns] unless `period` is 0. Actions of the
+    /// same time are called in the order of scheduling, after all other events of that time.
     /// @throws std::invalid_argument if `time` is before now
     void schedule(Time time, Callback<> call, Duration period = {});
-    /// Serves the event of a user's action: calls the action in that slot, and queues the event
-    /// again if the action has a period.
+    /// Serves the event of a user's action: calls the action in `slot`, and queues the event again
+    /// if the action has a period.
     void act(std::size_t slot);
 
-    /// Changes to the next scene of the settings, which is due.
+    /// Changes `scene` and `doors` to the scene of settings.scene_changes that is due now.
     void change_scene();
 
     /// Settings of the network, as given.
     NetworkSettings settings;
-    /// Current scene: that of the settings or an open field, later one of its scene_changes; never
-    /// null.
+    /// Current scene: at first settings.scene or an open field, later a scene of
+    /// settings.scene_changes; never null.
     const Scene* scene;
-    /// Closed doors of the current scene; null if there are none.
+    /// Closed doors of the current scene; null if no door is closed.
     const ClosedDoors* doors = nullptr;
-    /// Path planners for the settings' scene, in which all doors are open; shared with other runs
-    /// if the settings contain them.
+    /// Path planners for settings.scene, in which all doors are open; shared with other runs if
+    /// settings.planners is set.
     std::shared_ptr<Planners> planners;
     /// Time of the current event, and end of the current run_until().
     Time now = start_of_run, end_of_run = start_of_run;
@@ -103,7 +103,7 @@ struct World {
     bool running = false;
     /// Future events of the run.
     Scheduler<Occurrence> events;
-    /// Motion of all robots, as their current legs.
+    /// Current leg (straight movement or rest) of each robot.
     Legs legs;
     /// Radios and propagation, which determine links and receivers.
     Medium medium;
@@ -125,19 +125,21 @@ struct World {
     std::uint64_t transmissions = 0;
     /// True if a sink or the routing protocol asks for the received powers at all nodes.
     bool levels_wanted = false;
-    /// Nodes whose applications ask for received powers, as flags; empty if none does.
+    /// Flag of each node, by id: an application of the node requests received powers. Empty if
+    /// there is no such node.
     std::vector<bool> level_wanted_at = {};
-    /// Whether the received power of frames is wanted anywhere, and at `node`.
+    /// Whether received powers of frames are requested: at any node; and at `node`.
     bool wants_levels() const { return levels_wanted || !level_wanted_at.empty(); }
     bool wants_level_at(NodeId node) const {
         return levels_wanted ||
                (node.index() < level_wanted_at.size() && level_wanted_at[node.index()]);
     }
-    /// Received powers of receptions as records have them: none unless they are known at all nodes.
+    /// Received powers of receptions for records: `levels` if requested at all nodes, otherwise
+    /// empty.
     std::span<const Dbm> for_sinks(std::span<const Dbm> levels) const {
         return levels_wanted ? levels : std::span<const Dbm>{};
     }
-    /// Computes the received powers of frames at `node` from now on.
+    /// Requests the received powers of frames at `node` from now on.
     void want_level_at(NodeId node) {
         if (node.index() >= level_wanted_at.size()) level_wanted_at.resize(node.index() + 1);
         level_wanted_at[node.index()] = true;
@@ -152,9 +154,9 @@ struct World {
         Callback<> call = {};
         Duration period{0};
     };
-    // Actions by slot, which their events store.
+    // Scheduled actions; the event of an action stores the action's slot.
     Slots<Action> actions_;
-    // Number of references to each header of frames, by its number.
+    // Number of references to each header of frames, by Frame::header.
     std::vector<std::uint32_t> header_holders_;
 };
 

@@ -11,7 +11,7 @@
 
 namespace rovernet {
 
-/// Variant of AODV: the text of RFC 3561, or what ns-2.35 makes of it (docs/routing.md).
+/// Variant of AODV: the text of RFC 3561, or the implementation in ns-2.35 (docs/routing.md).
 enum class AodvProfile { rfc, ns2 };
 
 template <>
@@ -20,45 +20,48 @@ struct EnumNames<AodvProfile> {
 };
 
 /// Ad hoc on-demand distance vector routing of messages to one robot (RFC 3561). A node without a
-/// route floods a request (RREQ); the destination, or a node with a route that is new enough,
-/// answers along the way back (RREP); a node whose next hop is gone reports the lost destinations
-/// to the neighbours that used it (RERR). Sequence numbers of destinations keep routes free of
-/// loops.
+/// route floods a request (RREQ). The destination, or a node with a route that is new enough, sends
+/// a reply along the reverse route (RREP). A node whose next hop cannot be reached reports the lost
+/// destinations to the neighbours that used routes over this next hop (RERR). Sequence numbers of
+/// destinations keep routes free of loops.
 ///
 /// Messages to everyone go over one hop. A robot that was switched off starts again without routes,
-/// and stays out of searches for DELETE_PERIOD (6.13).
+/// and takes no part in route searches for DELETE_PERIOD (6.13).
 struct Aodv {
     static constexpr std::string_view name = "aodv";
 
-    /// Variant; the keys below that are not given have its values.
+    /// Variant of AODV; determines the default of each parameter that is not given.
     AodvProfile profile = AodvProfile::rfc;
-    /// Time for which an unused route is kept [ns]: 3 s; ns2: 10 s.
+    /// Lifetime of an unused route [ns]; default: 3 s, with profile ns2 10 s.
     std::optional<Duration> active_route_timeout = std::nullopt;
-    /// Lifetime of a route that its destination offers [ns]: twice active_route_timeout; ns2: 10 s.
+    /// Lifetime of a route in a reply of its destination [ns]; default: twice active_route_timeout,
+    /// with profile ns2 10 s.
     std::optional<Duration> my_route_timeout = std::nullopt;
-    /// Longest time that a packet takes for a hop [ns]: 40 ms; ns2: 30 ms.
+    /// Longest time of a packet for one hop [ns]; default: 40 ms, with profile ns2 30 ms.
     std::optional<Duration> node_traversal_time = std::nullopt;
-    /// TTL of a search of the whole network [hops]: 35; ns2: 30.
+    /// TTL of a request to the whole network [hops]; default: 35, with profile ns2 30.
     std::optional<int> net_diameter = std::nullopt;
-    /// Searches of the whole network after the first one that is not answered: 2; ns2: 3.
+    /// Number of repeated requests to the whole network if the first one is not answered; default:
+    /// 2, with profile ns2 3.
     std::optional<int> rreq_retries = std::nullopt;
-    /// Whether a search begins with small TTLs (expanding ring search, 6.4); ns2: only if the
-    /// destination was known before.
+    /// Whether a route search begins with small TTLs (expanding ring search, 6.4); with profile ns2
+    /// only if the destination was known before.
     bool rings = true;
-    /// Whether only the destination may answer a request (flag D).
+    /// Whether only the destination may answer a request, not a node with a route (flag D).
     bool destination_only = false;
-    /// Whether a node that answers in place of the destination tells it the way back (flag G,
-    /// 6.6.3), for traffic in both directions.
+    /// Whether a node that answers a request in place of the destination also sends the destination
+    /// the route to the originator, for traffic in both directions (gratuitous reply, flag G,
+    /// 6.6.3).
     bool gratuitous = false;
-    /// Time between HELLO packets of a node whose routes carry messages [ns]; 0: none, as the link
-    /// layer reports broken links.
+    /// Period of the HELLO packets of a node whose routes carry messages [ns]; 0: no HELLO packets,
+    /// because the link layer reports broken links.
     Duration hello{0};
-    /// Whether a node near the destination searches a new way for packets whose next hop is gone
-    /// (6.12); ns2: it does.
+    /// Whether a node near the destination searches a new route for packets whose next hop cannot
+    /// be reached (6.12); default: false, with profile ns2 true.
     std::optional<bool> local_repair = std::nullopt;
-    /// Packets that may wait at a node for routes, for 30 s each.
+    /// Largest number of packets that wait at a node for routes, each for at most 30 s.
     int buffer = 64;
-    /// TTL of messages [hops]: 64; ns2: 30.
+    /// Initial TTL of messages [hops]; default: 64, with profile ns2 30.
     std::optional<int> ttl = std::nullopt;
     /// Longest random delay before a request is forwarded [ns].
     Duration jitter = std::chrono::milliseconds{10};

@@ -16,12 +16,12 @@
 
 namespace rovernet {
 
-/// Routing protocol of an Aodv. Numbers in comments are sections of RFC 3561, and rules that go
-/// beyond its text:
+/// Routing protocol with the parameters of an Aodv. Numbers in comments are sections of RFC 3561.
+/// Names in comments are rules beyond the text of the RFC:
 ///
-/// - A14: the number of a route never falls, also by a RERR.
+/// - A14: the sequence number of a route never decreases, not even by a RERR.
 /// - A15: no node has a route to itself.
-/// - A16: a route to a destination, however it was learnt, ends the search for it.
+/// - A16: a route to a destination, however it was learnt, ends the search for the destination.
 class AodvRouter {
   public:
     static constexpr bool routes_unicasts = true;
@@ -47,29 +47,31 @@ class AodvRouter {
 
     /// Routing table of a node at `now`, in the order of destinations.
     std::vector<RouteState> routes(NodeId node, Time now) const;
-    /// Routing table of a node as it is stored: a route whose time is over is in it.
+    /// Routing table of a node as stored, including expired routes that were not yet updated.
     std::span<const Route> stored_routes(NodeId node) const {
         return node.index() < nodes_.size() ? nodes_[node.index()].routes.stored()
                                             : std::span<const Route>{};
     }
 
   private:
-    /// Search for a route, for packets that wait.
+    /// Search for a route to a destination, for packets that wait for the route.
     struct Search {
         NodeId destination;
-        /// TTL of the last request, and number of requests with the largest TTL so far.
+        /// TTL of the last request [hops], and number of requests with the largest TTL so far.
         int ttl = 0, full = 0;
-        /// End of the wait for an answer.
+        /// Time at which the wait for a reply ends.
         Time until = start_of_run;
-        /// Time of the last request; none before the first one.
+        /// Time of the last request; empty before the first request.
         std::optional<Time> begun = std::nullopt;
-        /// Hops of the broken route, if a node on the way repairs it; 0: it is the source's search.
+        /// Hops of the broken route if the search is a local repair; 0 if it is a search by the
+        /// source.
         Hops repaired_hops = 0;
-        /// Whether no request is sent before `until`: all searches failed, or the node has sent too
-        /// many requests, or is silent.
+        /// Whether no request is sent before `until`: all requests failed, the node has sent too
+        /// many requests, or the node is silent after a restart.
         bool pauses = false;
     };
-    /// Mean time of the last three searches for a destination, for each hop [s].
+    /// Durations of the last three searches for a destination, each divided by the number of hops
+    /// to the destination [s].
     struct Latency {
         NodeId destination;
         std::array<float, 3> times{};
@@ -79,36 +81,39 @@ class AodvRouter {
         NodeId node;
         Time last;
     };
-    /// Times of the last ten packets of a kind, of which a node sends no more in a second (6.3,
-    /// 6.11).
+    /// Rate limit for packets of one kind: at most ten in a second (6.3, 6.11). Stores the times of
+    /// the last ten packets.
     class RateLimit {
       public:
-        /// Counts a packet. @return time from which it may be sent
+        /// Permission to send a packet: if allowed at `now`, counts the packet.
+        /// @return earliest time at which the packet may be sent; `now` if it was counted
         Time take(Time now);
 
       private:
         std::vector<Time> last_;
     };
     struct Node {
-        /// Own sequence number, and number of the last request.
+        /// Sequence number of the node, and RREQ ID of the node's last request.
         std::uint32_t number = 0, request = 0;
         RouteTable routes;
         SeenIds seen;
         SendBuffer buffer;
         std::vector<Search> searches;
         std::vector<Latency> latencies;
-        std::vector<Neighbour> neighbours;  ///< from which there were HELLOs (6.9)
-        std::vector<Neighbour> one_way;     ///< neighbours to which a RREP failed (6.8)
+        std::vector<Neighbour> neighbours;  ///< neighbours that have sent a HELLO (6.9)
+        std::vector<Neighbour> one_way;     ///< blacklist: neighbours a RREP did not reach (6.8)
         RateLimit requests, errors;
-        /// Time of the next timer of searches and of the buffer; none if none is set.
+        /// Time of the next timer event, for searches and waiting packets; empty if no timer is
+        /// set.
         std::optional<Time> timer;
-        /// End of the silence after a restart.
+        /// Time until which the node takes no part in route searches after a restart (6.13).
         Time silent_until = start_of_run;
         std::optional<Time> last_broadcast;
         /// Time until which the node counts as part of a route that carries messages (6.9).
         Time active_until = start_of_run;
         bool is_started = false;
-        bool was_off = false;  ///< during the run, so that others may have routes over the node
+        /// Whether the node was off during the run: other nodes may then have routes over the node.
+        bool was_off = false;
     };
 
     Node& node(NodeId id);
@@ -123,17 +128,18 @@ class AodvRouter {
     void send_on(LinkLayer& link, const QueuedFrame& queued, NodeId next_hop, Time at);
     void keep(LinkLayer& link, NodeId at, NodeId destination, const QueuedFrame& queued, Time now);
     void lose(LinkLayer& link, NodeId at, const SendBuffer::Packet& packet, DropReason reason);
-    // Broken links.
+    // Broken links (aodv_links.cpp).
     void on_broken(LinkLayer& link, NodeId at, NodeId neighbour, std::span<const QueuedFrame>);
     bool repairs(const Route& route, const QueuedFrame& queued) const;
     std::vector<Search> repairs_of(LinkLayer& link, NodeId at, NodeId neighbour,
                                    std::span<const QueuedFrame> stranded);
     bool is_repaired(NodeId at, NodeId destination);
-    /// Whom a RERR reaches beside the neighbours that used its routes.
+    /// Options of a route error (RERR): receiver beside the neighbours that used the routes, and
+    /// flags.
     struct ErrorOptions {
         std::optional<NodeId> asker = {};  ///< neighbour whose packet could not be forwarded
-        bool is_first = false;             ///< it is not the report of another node, passed on
-        bool is_repaired = false;          ///< flag N: the routes remain
+        bool is_first = false;             ///< true unless the RERR forwards another node's RERR
+        bool is_repaired = false;          ///< flag N: the receivers keep their routes
     };
     void send_errors(LinkLayer& link, NodeId at, std::span<const aodv::Error::Lost> lost, Time when,
                      ErrorOptions options);
@@ -169,7 +175,8 @@ class AodvRouter {
 
     AodvRules rules_;
     std::vector<Node> nodes_;
-    // Messages that have arrived at their destination, by slot: a repaired route may bring a copy.
+    // Flag of each message that has arrived at its destination, by slot: after a repair of the
+    // route, another copy may arrive.
     std::vector<bool> arrived_;
 };
 

@@ -11,54 +11,60 @@
 
 namespace rovernet {
 
-/// Constants of AODV as they follow from an Aodv (RFC 3561, section 10), with the differences of
-/// ns-2.35, each by its place in docs/routing.md.
+/// Constants of AODV (RFC 3561, section 10), computed from the parameters in an Aodv; and the
+/// differences of ns-2.35, each of which docs/routing.md lists.
 struct AodvRules {
+    /// Constants for the parameters `aodv`.
     /// @throws std::invalid_argument if a parameter is out of its range
     static AodvRules of(const Aodv& aodv);
 
     Duration active_route_timeout, my_route_timeout, node_traversal_time, hello, jitter;
-    /// Time for which a broken route keeps its sequence number: longer than any node may still use
-    /// a route over the node at which it broke.
+    /// Time for which a broken route is stored with its sequence number [ns]: longer than any other
+    /// node may still use a route over this node.
     Duration delete_period;
-    /// Time for which a node that was switched on again takes no part in searches.
+    /// Time for which a node that was switched on again takes no part in route searches [ns].
     Duration silence;
-    /// Time for which requests of a neighbour are ignored that a reply did not reach
-    /// (BLACKLIST_TIMEOUT); 0: they are not.
+    /// Time for which a node ignores requests from a neighbour that a reply did not reach [ns]
+    /// (BLACKLIST_TIMEOUT); 0: the node ignores no requests.
     Duration blacklist_timeout;
     int net_diameter, ttl, rreq_retries;
     bool rings, destination_only, gratuitous, local_repair;
     std::size_t buffer;
 
     // Differences of ns-2.
-    /// Bytes of IP and UDP headers before data, and of all but the addresses of control packets.
+    /// Sizes [bytes]: headers (IP, UDP) before data; RREQ, RREP, and RERR without its destinations,
+    /// each with these headers.
     std::uint32_t data_header, request_bytes, reply_bytes, error_bytes;
-    /// Whether a destination that was never known is searched by rings, too.
+    /// Whether the search for a destination that was never known also begins with small TTLs
+    /// (rings).
     bool rings_first;
-    /// Largest TTL to which rings grow.
+    /// Largest TTL of a ring [hops]; after this ring the TTL is net_diameter.
     int ring_threshold;
-    /// Whether waits follow the measured time of the last searches, and searches are looked at
-    /// every `poll` only, or as a packet comes.
+    /// Whether the wait for a reply follows from the durations of the last searches; and interval
+    /// [ns] of the times at which a search continues, unless a packet comes earlier (0: exactly
+    /// when its wait ends).
     bool measures_latency;
     Duration poll;
-    /// Time without searches after the last one; 0: the next packet begins a new one.
+    /// Time without requests after a search has failed [ns]; 0: the next packet begins a new
+    /// search.
     Duration pause_after_failure;
-    /// Whether there is a route to each neighbour that was heard, and a packet lengthens the lives
-    /// of all routes that it uses, and not of the destination's alone.
+    /// Whether a node stores a route to each neighbour that it hears, and extends the lifetimes of
+    /// all routes that a message uses; if false, only of the route to the message's destination.
     bool meets_neighbours;
-    /// Whether a RERR lists routes that no neighbour uses, and goes to everyone.
+    /// Whether a RERR also lists routes that no neighbour uses, and is broadcast.
     bool errors_for_all;
-    /// Whether a RERR that is passed on waits for the jitter.
+    /// Whether a node forwards a RERR after the random delay `jitter`, not immediately.
     bool delays_errors;
-    /// Whether a node repairs a route if the packet has made more hops than are left.
+    /// Whether a node repairs a route if the packet has made more hops than remain; if false, a
+    /// node repairs a route with at most 10 remaining hops.
     bool repairs_near_destination;
-    /// Time between packets that waited for the same route.
+    /// Time between the transmissions of packets that waited for the same route [ns].
     Duration spacing;
 
     // For tests of loop freedom.
-    /// Sequence number with which a node begins.
+    /// Initial sequence number of a node.
     std::uint32_t first_number = 0;
-    /// Whether a RERR may lower the number of a route, against rule A14.
+    /// Whether a RERR may decrease the sequence number of a route, against rule A14 (AodvRouter).
     bool numbers_may_fall = false;
 
     Duration net_traversal_time() const { return 2 * node_traversal_time * net_diameter; }

@@ -9,14 +9,16 @@
 
 namespace rovernet {
 
-/// Routing protocol of a Suppression with scheme "cluster": lowest-key clusters, of which heads and
-/// gateways forward messages. Each node tells the head of its cluster in HELLO packets. A node is a
-/// head if none of its neighbours with a lower key (LinkLayer::key) is one; otherwise it belongs to
-/// the head with the lowest key. A gateway hears a node of another cluster.
+/// Routing protocol for scheme "cluster" of a Suppression: lowest-key clusters, of which heads and
+/// gateways forward messages. Each node announces the head of its cluster in HELLO packets. A node
+/// is a head if none of its neighbours with a lower key (LinkLayer::key) is a head; otherwise the
+/// node belongs to the neighbouring head with the lowest key. A gateway hears a node of another
+/// cluster.
 ///
-/// Clusters settle in the order of keys. Once they have, heads and gateways connect what the plain
-/// flood connects: two neighbours of one cluster have their head between them, two of different
-/// clusters are gateways. A node stores 16 bytes for each neighbour, and a bit for each message.
+/// Clusters settle in the order of keys. Once settled, heads and gateways connect the nodes that a
+/// plain flood connects: between two neighbours of one cluster is their head, two neighbours of
+/// different clusters are gateways. A node stores 16 bytes for each neighbour, and a bit for each
+/// message.
 class ClusterRouter {
   public:
     /// @throws std::invalid_argument if a parameter is out of its range, or a threshold is given
@@ -56,8 +58,8 @@ class ClusterRouter {
 
     Suppression settings_;
     std::vector<Node> nodes_;
-    std::vector<std::vector<bool>> heard_;  // by message, then by node
-    std::vector<Reception*> news_;          // first copies of one frame, memory for reuse
+    std::vector<std::vector<bool>> heard_;  // nodes that have heard a message, by message and node
+    std::vector<Reception*> news_;          // receptions of first copies; kept for its memory
 };
 
 }  // namespace rovernet

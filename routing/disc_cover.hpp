@@ -8,10 +8,10 @@
 namespace rovernet {
 
 /// Share [-] of the disc of `radius` [m] around the origin that no disc of the same radius around
-/// one of `centres` [m] covers; heights are ignored. Exact, but for rounding (1e-12).
+/// one of `centres` [m] covers; heights are ignored. Exact except for rounding (1e-12).
 ///
-/// The border of the uncovered part consists of arcs of the circles; Green's theorem,
-/// A = 1/2 closed integral of (x dy - y dx), adds up their shares of its area.
+/// The border of the uncovered part consists of arcs of the circles. By Green's theorem, A = 1/2
+/// closed integral of (x dy - y dx), the area is the sum of the integrals over these arcs.
 double uncovered_share(std::span<const Vec3> centres, double radius);
 
 }  // namespace rovernet

@@ -10,7 +10,7 @@
 
 namespace rovernet {
 
-/// Variant of DSR: the text of RFC 4728, or what ns-2.35 makes of it (docs/routing.md).
+/// Variant of DSR: the text of RFC 4728, or the implementation in ns-2.35 (docs/routing.md).
 enum class DsrProfile { rfc, ns2 };
 
 template <>
@@ -19,23 +19,25 @@ struct EnumNames<DsrProfile> {
 };
 
 /// Dynamic source routing of messages to one robot (RFC 4728). A node without a route floods a
-/// request, which collects the nodes that it passes; the target answers with that list, or a node
-/// that knows the rest of the way. Every message carries its whole route, so that nodes on the way
-/// need no tables. A node whose next hop is gone tells the message's source, and sends the message
-/// along another route if it knows one (salvaging).
+/// request, which collects the nodes on its path. The target answers with the collected path; so
+/// does a node that knows a route to the target, with this route appended. Every message carries
+/// its whole route, so that nodes on the way need no tables. A node that cannot reach the next hop
+/// reports the broken link to the message's source, and sends the message along another route if
+/// the node knows one (salvaging).
 ///
-/// Nodes keep the routes that they see in packets. A route has sixteen nodes at most. Messages to
+/// Nodes store the routes that they see in packets. A route has sixteen nodes at most. Messages to
 /// everyone go over one hop. A robot that was switched off starts again without routes.
 struct Dsr {
     static constexpr std::string_view name = "dsr";
 
-    /// Variant.
+    /// Variant of DSR.
     DsrProfile profile = DsrProfile::rfc;
-    /// Whether nodes learn from packets for others that they overhear, and report shorter routes.
+    /// Whether nodes overhear packets for other nodes, learn routes from these packets, and report
+    /// shorter routes.
     bool promiscuous = true;
-    /// How often a message may be sent along another route on its way; 0: never.
+    /// Number of times that nodes on the way may send a message along another route; 0: never.
     int salvage = 15;
-    /// Packets that may wait at a node for routes, for 30 s each.
+    /// Largest number of packets that wait at a node for routes, each for at most 30 s.
     int buffer = 64;
     /// Longest random delay before a request is forwarded, or answered by its target [ns].
     Duration jitter = std::chrono::milliseconds{10};

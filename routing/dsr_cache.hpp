@@ -12,31 +12,32 @@
 
 namespace rovernet::dsr {
 
-/// Routes that a node knows, each from the node itself: a path cache (RFC 4728, 4.1). Every
-/// beginning of a route is a route, too. Routes have no timeout: they end as a link of theirs is
-/// reported to be broken, or as others need their room.
+/// Path cache of a node (RFC 4728, 4.1): routes that begin at the node. Every beginning of a stored
+/// route is also a route. Routes have no timeout: a route ends if one of its links is reported as
+/// broken, or is removed if it is the oldest one and the cache is full.
 class Cache {
   public:
-    /// How a route was learnt: from the answer to the node's own request, or by forwarding or
-    /// overhearing packets of others.
+    /// Origin of a route: the answer to the node's own request (own), or forwarded or overheard
+    /// packets of other nodes (others).
     enum class Origin { own, others };
     struct Known {
         Path path;
         Time since;
     };
 
-    /// Adds a route of at least one hop, unless it is known.
+    /// Adds a route of at least one hop, unless the cache contains the route.
     void add(const Path& path, Origin origin, Time now);
-    /// Removes a link: routes end before it.
+    /// Removes a broken link: each route that contains the link is cut off at node `from`.
     void remove_link(NodeId from, NodeId to);
-    /// Shortest route to a node, the first one that was learnt among equals; none if there is none.
+    /// Shortest route to `destination`, of equal ones the first in own(), then in others(); empty
+    /// if no route is known.
     std::optional<Path> find(NodeId destination) const;
-    /// Routes that are stored.
+    /// Stored routes of Origin::own, and of Origin::others; oldest first.
     std::span<const Known> own() const { return own_; }
     std::span<const Known> others() const { return others_; }
 
   private:
-    // Routes of both origins, oldest first, as in ns-2: at most 30 and 64.
+    // Stored routes of each Origin, oldest first; at most 30 and 64, as in ns-2.
     std::vector<Known> own_, others_;
 };
 

@@ -14,14 +14,14 @@
 #include <string_view>
 
 // Control packets of DSR in the formats of RFC 4728, section 6, big-endian: the DSR Options header,
-// which follows the IP header. An address is the id of a node. Ends of routes that the options do
-// not have are the ends of the packet: Message::origin and Message::to.
+// which follows the IP header. An address is the id of a node. If an option leaves out an end of
+// its route, this end is the origin or the destination of the packet: Message::origin, Message::to.
 
 namespace rovernet::dsr {
 
 /// IP protocol number of the packets (RFC 4728, section 11).
 inline constexpr std::uint8_t ip_protocol = 48;
-/// Kinds of packets: the type in ns-2 traces, and the name.
+/// Kinds of DSR packets, see Message::kind: type in ns-2 traces, and name.
 inline constexpr std::string_view request_kind = "DSR REQUEST", reply_kind = "DSR REPLY",
                                   error_kind = "DSR ERROR";
 /// Size of an IP header, and of the fixed part of the DSR Options header (6.1) [bytes].
@@ -35,23 +35,25 @@ constexpr std::uint32_t route_option(std::size_t addresses) {
 struct Request {
     std::uint16_t id = 0;
     NodeId target;
-    /// Originator, which the option does not have, and the nodes that passed the request on.
+    /// Path of the request so far: originator, which the option itself does not contain, and the
+    /// nodes that forwarded the request.
     Path path;
 };
 /// Route Reply option (6.3).
 struct Reply {
-    /// Node that asked, which the option does not have, and the route to its target.
+    /// Route that answers the request: from the originator, which the option itself does not
+    /// contain, to the target.
     Path path;
 };
 /// Route Error option of type NODE_UNREACHABLE (6.4).
 struct Error {
-    /// Node that could not reach its next hop, and the one that is told.
+    /// Node that could not reach its next hop, and node to which the error is reported.
     NodeId from, to;
     NodeId unreachable;
-    /// How often the lost packet had been salvaged.
+    /// Number of times that the lost packet had been salvaged (sent along another route).
     std::uint8_t salvage = 0;
 };
-/// Options of a packet.
+/// Options of a DSR packet; each is empty if the packet does not contain the option.
 struct Packet {
     std::optional<Request> request = std::nullopt;
     std::optional<Reply> reply = std::nullopt;
@@ -60,19 +62,19 @@ struct Packet {
     std::optional<Path> route = std::nullopt;
 };
 
-/// Bytes of the DSR Options header.
+/// Bytes of the DSR Options header with the options of a packet.
 std::string to_bytes(const Packet& packet);
-/// Packet of a message; empty if its bytes are none.
+/// Packet that the payload of a message contains; without options if the payload is no DSR packet.
 Packet packet_of(const Message& message);
 
-/// Bytes of a packet as they are on the air: with IP addresses in place of the ids of nodes, and
-/// the segments left at that hop.
-/// @param address  IPv4 address of a node, in host order
+/// Bytes of a packet as transmitted in `frame`: with IP addresses in place of the ids of nodes, and
+/// with the segments left at the frame's hop.
+/// @param address  IPv4 address of a node, in host byte order
 std::string on_air(std::string_view bytes, const Frame& frame,
                    const std::function<std::uint32_t(NodeId)>& address);
 
-/// Appends the content of a packet to `text`, as ns-2 writes it. The number of the request that a
-/// reply answers is 0, as RFC 4728 has none.
+/// Appends the content of a packet to `text`, as ns-2 writes it. For a reply, the number of the
+/// answered request is written as 0, because a reply of RFC 4728 does not contain the number.
 void describe(const Message& message, PacketStyle style, std::string& text);
 
 }  // namespace rovernet::dsr

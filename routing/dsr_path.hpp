@@ -13,7 +13,7 @@
 
 namespace rovernet::dsr {
 
-/// Nodes of a route, with both ends. Sixteen at most, as in ns-2 and ns-3.
+/// Path of a route: its nodes in order, with both ends; at most sixteen, as in ns-2 and ns-3.
 class Path {
   public:
     static constexpr std::size_t longest = 16;
@@ -41,17 +41,17 @@ class Path {
     const NodeId* begin() const { return nodes_.data(); }
     const NodeId* end() const { return nodes_.data() + size_; }
 
-    /// Place of a node; size() if it is not in the path.
+    /// Index of a node in the path, from 0; size() if the node is not in the path.
     std::size_t place(NodeId node) const {
         return static_cast<std::size_t>(std::find(begin(), end(), node) - begin());
     }
     bool has(NodeId node) const { return place(node) < size(); }
     bool starts_with(const Path& other) const {
-        // The last node differs most often.
+        // The last node is compared first, because it differs most often.
         return other.size_ <= size_ && nodes_[other.size_ - 1U] == other.back() &&
                std::equal(other.begin(), other.end(), begin());
     }
-    /// The first `size` nodes, and the nodes from place `from` on.
+    /// Path of the first `size` nodes; and path of the nodes from index `from` on (index from 0).
     Path first(std::size_t size) const { return Path(std::span(begin(), size)); }
     Path from(std::size_t from) const { return Path(std::span(begin() + from, end())); }
     Path reversed() const {

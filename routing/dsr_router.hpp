@@ -19,10 +19,11 @@
 
 namespace rovernet {
 
-/// Routing protocol of a Dsr that does not overhear. Numbers in comments are sections of RFC 4728.
+/// Routing protocol with the parameters of a Dsr, without overhearing (see PromiscuousDsrRouter).
+/// Numbers in comments are sections of RFC 4728.
 ///
-/// A message's source route is a header of its frames; a control packet has its route among its
-/// bytes. The place of a frame on its route follows from the hops that it has made.
+/// The source route of a message is a header of its frames (Frame::header); a control packet has
+/// its route among its bytes. The position of a frame on its route follows from Frame::hops.
 class DsrRouter {
   public:
     static constexpr bool routes_unicasts = true;
@@ -49,32 +50,33 @@ class DsrRouter {
     /// Source route of a message's frames.
     struct Header {
         dsr::Path path;
-        /// How often the message changed its route on its way.
+        /// Number of times that the message was sent along another route on its way (salvaged).
         std::uint8_t salvage = 0;
         /// Frame::hops of the frame that the first node of the path sends.
         Hops first_hops = 1;
-        /// Whether nodes read the route; always, but for the flow state of ns-2.
+        /// Whether nodes that receive the frame can read the route: false only with profile ns2,
+        /// after the first three messages of a flow (flow state), unless salvaged.
         bool is_read = true;
     };
     /// Source route of a frame of a message.
     const Header& header(const Frame& frame) const { return headers_[frame.header - 1]; }
     /// Number of pairs (source, destination) that lost messages because the route between them has
-    /// more than sixteen nodes, and the notice that says so.
+    /// more than sixteen nodes; and notice to the user about these pairs, empty if there are none.
     std::size_t pairs_too_far() const;
     std::string notice() const;
 
   private:
-    /// Search for a route, for packets that wait. The entry remains until a route is found, so that
-    /// requests become rarer (4.3).
+    /// Search for a route to a target, for packets that wait. The entry remains until a route is
+    /// found, so that the waits between requests grow (4.3).
     struct Search {
         NodeId target;
-        /// Requests that were sent, of which the first one goes no farther than the neighbours.
+        /// Number of requests sent; the first request reaches only the neighbours (TTL 1).
         int requests = 0;
-        /// End of the wait for an answer.
+        /// Time at which the wait for a reply ends.
         Time until = start_of_run;
     };
-    /// Gratuitous reply that was sent (4.4): because a packet of `source` was overheard from
-    /// `sender`.
+    /// Gratuitous reply that was sent (4.4) because the node overheard a packet of `source` from
+    /// `sender`; not sent again before `until`.
     struct Shortening {
         NodeId source, sender;
         Time until;
@@ -90,18 +92,18 @@ class DsrRouter {
         SendBuffer buffer;
         std::vector<Search> searches;
         std::vector<Shortening> shortenings;
-        /// Last broken link that was reported to the node, for its next request.
+        /// Last broken link reported to the node, which its next request reports to other nodes.
         std::optional<dsr::Error> error;
         Time error_time = start_of_run;
         std::uint16_t request = 0;
-        std::vector<Flow> flows;  ///< with profile ns2
-        /// Time of the next timer; none if none is set.
+        std::vector<Flow> flows;  ///< one for each destination; only with profile ns2
+        /// Time of the next timer event; empty if no timer is set.
         std::optional<Time> timer;
     };
-    /// Place on a route at which a packet is.
+    /// Position of a packet on its route.
     struct Way {
         const dsr::Path& path;
-        std::size_t sender;  ///< place of the node that sent the frame
+        std::size_t sender;  ///< index in `path` of the node that sent the frame
     };
 
     Node& node(NodeId id);
@@ -122,7 +124,7 @@ class DsrRouter {
     unsigned salvage_of(const QueuedFrame& queued) const;
     void send_otherwise(LinkLayer& link, NodeId at, const QueuedFrame& queued);
 
-    // Routes: how they are learnt, sought and told (dsr_search.cpp).
+    // Routes: learning, searches and replies (dsr_search.cpp).
     void learn(NodeId at, NodeId sender, const dsr::Path& path, dsr::Cache::Origin origin,
                Time now);
     void shorten(LinkLayer& link, NodeId sender, Way way, const Reception& reception);
@@ -145,16 +147,18 @@ class DsrRouter {
 
     Dsr dsr_;
     std::vector<Node> nodes_;
-    // Source routes in use; header n of a frame is entry n - 1.
+    // Source routes of frames; number n in Frame::header is entry n - 1.
     std::vector<Header> headers_;
     std::vector<std::uint32_t> free_headers_;
-    // Messages that have arrived at their destination, by slot: a salvaged copy may come, too.
+    // Flag of each message that has arrived at its destination, by slot: a salvaged copy may arrive
+    // later.
     std::vector<bool> arrived_;
-    // Pairs between which a request found no room in its list, and whether messages were lost.
+    // Pairs (originator, target) of requests whose path reached sixteen nodes before the target;
+    // true if the pair has lost messages.
     std::map<std::pair<NodeId, NodeId>, bool> too_far_;
 };
 
-/// DsrRouter that overhears.
+/// DsrRouter that also receives packets for other nodes (overhearing), see Dsr::promiscuous.
 struct PromiscuousDsrRouter : DsrRouter {
     static constexpr bool overhears = true;
     using DsrRouter::DsrRouter;

@@ -20,11 +20,11 @@ struct EnumNames<Duplicates> {
 /// A receiver decrements the TTL and forwards the copy if the result is > 0, after 1 us + U(0,
 /// jitter).
 ///
-/// "suppress": each node forwards a message once; with `upgrade`, a later copy with a higher TTL
-/// raises the TTL of the waiting copy, or replaces the copy not forwarded, so that a long path
-/// heard first does not shorten the flood. "forward": every copy is forwarded, also by its source,
-/// and only the TTL limits it: the rule of the 2007 thesis (docs/worlds.md), whose load grows with
-/// the number of walks in the network.
+/// "suppress": each node forwards a message once. With `upgrade`, a later copy with a higher TTL
+/// raises the TTL of the waiting copy, or is forwarded if the first copy was not, so that a long
+/// path heard first does not shorten the flood. "forward": every copy is forwarded, also by its
+/// source, and only the TTL limits the flood. This is the rule of the 2007 thesis (docs/worlds.md),
+/// whose load grows with the number of walks in the network.
 struct Flood {
     static constexpr std::string_view name = "flood";
 
@@ -32,7 +32,7 @@ struct Flood {
     Duplicates duplicates = Duplicates::suppress;
     bool upgrade = true;  ///< a later copy's higher TTL raises the waiting copy's TTL
     Duration jitter = std::chrono::milliseconds{10};  ///< longest random forwarding delay [ns]
-    bool ttl_in_payload = false;  ///< the first byte of a payload is its TTL; 0 counts as 1
+    bool ttl_in_payload = false;  ///< first byte of a payload: the message's TTL; 0 counts as 1
 
     static constexpr auto fields() {
         return describe(

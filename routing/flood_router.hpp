@@ -10,8 +10,9 @@
 
 namespace rovernet {
 
-/// Routing protocol of a Flood. For each message in use it stores a bit per node, and four bytes
-/// more if copies after the first one may be forwarded or raise a TTL.
+/// Routing protocol with the parameters of a Flood. For each message in use the protocol stores a
+/// bit per node, and four more bytes per node if copies after the first one may be forwarded or
+/// raise a TTL.
 class FloodRouter {
   public:
     /// @throws std::invalid_argument if a parameter is out of its range
@@ -33,11 +34,12 @@ class FloodRouter {
         bool is(State state) const {
             return state == waiting ? value_ >= waiting : value_ == state;
         }
-        /// Handle of the copy that waits to be forwarded, or has been; only in the state `waiting`.
+        /// Handle of the copy that waits to be forwarded, or was forwarded; only in the state
+        /// `waiting`.
         SendHandle copy() const { return value_ - waiting; }
 
       private:
-        std::uint32_t value_;  // a State; from `waiting` on with the copy's handle added
+        std::uint32_t value_;  // State; for a waiting copy `waiting` plus the copy's handle
     };
 
     /// State of one message in use, at all nodes.
@@ -59,7 +61,7 @@ class FloodRouter {
         Knowledge& operator[](NodeId node) { return of_nodes_[node.index()]; }
 
       private:
-        // One bit for each node, so that the bits of a million nodes fit into a cache.
+        // Bit of each node: the node is settled. The bits of a million nodes fit into a cache.
         std::vector<std::uint64_t> settled_;
         std::vector<Knowledge> of_nodes_;
     };
@@ -79,8 +81,8 @@ class FloodRouter {
     SendHandle forward(LinkLayer& link, const Frame& frame, const Reception& reception);
 
     Flood flood_;
-    std::vector<Known> known_;  // states by message
-    Sieve<Reception*> news_;    // copies of one frame that are no duplicates; memory for reuse
+    std::vector<Known> known_;  // state of each message in use, by message
+    Sieve<Reception*> news_;    // receptions of a frame, no duplicates; kept to reuse its memory
 };
 
 }  // namespace rovernet

@@ -9,8 +9,8 @@
 
 namespace rovernet {
 
-/// Receptions in the order in which a protocol serves them: by time, and nodes that receive at the
-/// same time by their keys, so that their ids have no effect.
+/// Receptions in the order in which a routing protocol serves them: by time, then by the keys of
+/// their nodes, so that the ids of nodes have no effect.
 inline std::vector<Reception*> in_order(const LinkLayer& link, std::span<Reception> receptions) {
     std::vector<Reception*> ordered;
     for (Reception& each : receptions) ordered.push_back(&each);

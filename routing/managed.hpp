@@ -10,24 +10,25 @@
 
 namespace rovernet {
 
-/// Managed flood of Meshtastic, for messages to everyone: each relay waits for a random number of
-/// slots, the fewer the weaker it received the message, and holds back if another one relays the
-/// message first.
+/// Managed flood of Meshtastic, for messages to everyone. Each relay waits for a random number of
+/// slots: the weaker the received message, the fewer slots. A relay does not forward the message if
+/// it first hears another relay do so.
 ///
-/// Roles (Robot::role): "client", or none; "router" relays early and does not hold back;
-/// "router_late" relays after all others in place of holding back; "mute" never relays. Messages to
-/// one robot go over one hop, and a node sends its own messages at once. docs/routing.md has the
-/// rules M1 to M6, and what is left out.
+/// Roles (Robot::role): "client", the default; "router" relays early, even if another relay was
+/// first; "router_late" relays after all other relays if another relay was first; "mute" never
+/// relays. Messages to one robot go over one hop. A node sends its own messages immediately.
+/// docs/routing.md lists the rules M1 to M6, and the parts of Meshtastic that are left out.
 struct Managed {
     static constexpr std::string_view name = "managed";
-    /// Roles of nodes.
+    /// Roles that a node may have, see Robot::role.
     static constexpr std::array<std::string_view, 4> roles{"client", "router", "router_late",
                                                            "mute"};
 
     /// Number of times that a message may be relayed, 1 ... 7. Frame::ttl of a copy is its hop
     /// limit + 1.
     int hop_limit = 3;
-    /// Duration of a slot [ns]: that of 802.11. LoRa has longer ones: 28 ms for LONG_FAST.
+    /// Duration of a slot [ns]; default: 20 us, the slot of IEEE 802.11. LoRa has longer slots: 28
+    /// ms for LONG_FAST.
     Duration slot = std::chrono::microseconds{20};
 
     static constexpr auto fields() {

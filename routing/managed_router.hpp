@@ -9,9 +9,9 @@
 
 namespace rovernet {
 
-/// Routing protocol of a Managed. For each message in use it stores eight bytes per node. Rules M1
-/// to M6 in comments are those of docs/routing.md; a copy is queued while it waits for its send
-/// time, and no more once it is in the queue of the MAC.
+/// Routing protocol with the parameters of a Managed. For each message in use it stores eight bytes
+/// per node. M1 to M6 in comments are rules of docs/routing.md. A copy is called queued while it
+/// waits for its send time, but not later, in the queue of the MAC.
 class ManagedRouter {
   public:
     static constexpr bool wants_levels = true;
@@ -25,13 +25,13 @@ class ManagedRouter {
     void on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions);
     void forget(MessageId message);
 
-    /// Exponent CW of the contention window of a copy received with this ratio to the noise: -20 to
-    /// 10 dB map to 3 to 8 in whole numbers (M2).
+    /// Exponent CW of the contention window for a copy received with the signal to noise ratio
+    /// `snr`: -20 ... 10 dB map to the whole numbers 3 ... 8 (M2).
     static int contention_window(Db snr);
 
   private:
-    /// State of a message at a node: not heard; its own; heard, and nothing queued; a copy queued;
-    /// a copy queued in the late window.
+    /// Stage of a message at a node. unheard: not heard yet. own: sent by the node itself. idle:
+    /// heard, no copy queued. queued: a copy is queued. late: a copy is queued in the late window.
     enum class Stage : std::uint8_t { unheard, own, idle, queued, late };
     struct State {
         SendHandle copy = 0;
@@ -39,7 +39,8 @@ class ManagedRouter {
         /// CW of the queued copy, and number of copies that were queued so far.
         std::uint8_t window = 0, copies = 0;
     };
-    /// Reaction to a copy.
+    /// Reaction of a node to a copy: none, cancel its queued copy, move its queued copy to the late
+    /// window, or relay the copy.
     enum class Act { ignore, cancel, move, relay };
 
     std::vector<State>& states(const LinkLayer& link, MessageId message);
@@ -51,8 +52,8 @@ class ManagedRouter {
                State& mine);
 
     Managed settings_;
-    std::vector<std::vector<State>> states_;  // by message, then by node
-    std::vector<Reception*> relays_, moves_;  // of one frame, memory for reuse
+    std::vector<std::vector<State>> states_;  // state of each message at each node
+    std::vector<Reception*> relays_, moves_;  // receptions of a frame with Act::relay, Act::move
 };
 
 }  // namespace rovernet

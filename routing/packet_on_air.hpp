@@ -10,19 +10,20 @@
 
 namespace rovernet {
 
-/// Control packet of a routing protocol as it is on the air, for captures: what follows the IP
+/// Control packet of a routing protocol as transmitted, for packet captures: the part after the IP
 /// header.
 struct PacketOnAir {
     /// Protocol number in the IP header: 17 for UDP.
     std::uint8_t ip_protocol = 17;
-    /// UDP port of source and destination; none with another IP protocol.
+    /// UDP port of source and destination; not used with another IP protocol than UDP.
     std::uint16_t port = 0;
-    /// Bytes after the UDP header, or after the IP header.
+    /// Bytes after the UDP header; with another IP protocol, bytes after the IP header.
     std::string bytes;
 };
 
-/// Control packet as it is on the air in `frame`; none if its protocol has no format of its own.
-/// @param address  IPv4 address of a node, in host order
+/// Control packet `message` as transmitted in `frame`; empty if the packet's routing protocol has
+/// no packet format.
+/// @param address  IPv4 address of a node, in host byte order
 std::optional<PacketOnAir> packet_on_air(const Message& message, const Frame& frame,
                                          const std::function<std::uint32_t(NodeId)>& address);
 

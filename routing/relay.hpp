@@ -9,11 +9,12 @@
 #include <algorithm>
 #include <span>
 
-// What all floods share: the copy that a relay sends, and the order of relays.
+// Functions that all flooding protocols share: the copy that a relay sends, and the order of
+// relays.
 
 namespace rovernet {
 
-/// Frame as forwarded by a node that received it.
+/// Frame as forwarded by `node`, which has received `frame`.
 inline QueuedFrame passed_on(const LinkLayer& link, const Frame& frame, NodeId node) {
     return {{.message = frame.message,
              .sender = node,
@@ -23,9 +24,9 @@ inline QueuedFrame passed_on(const LinkLayer& link, const Frame& frame, NodeId n
             frame.sender};
 }
 
-/// Sorts receptions of a frame by time, then by the keys of their nodes. Frames of one time are
-/// sent in the order in which they were passed to the link layer: with this order ids of nodes have
-/// no effect.
+/// Sorts receptions of a frame by time, then by the keys of their nodes. Frames with the same send
+/// time are sent in the order in which they were passed to the link layer; after this sort, the ids
+/// of nodes have no effect on the order.
 inline void sort_by_keys(const LinkLayer& link, std::span<Reception*> receptions) {
     if (receptions.size() < 2) return;
     std::sort(receptions.begin(), receptions.end(), [&](const auto* a, const auto* b) {

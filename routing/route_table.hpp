@@ -18,39 +18,41 @@ struct Route {
     NodeId next_hop = everyone;
     /// Sequence number of the destination, if `has_number`.
     std::uint32_t number = 0;
-    /// Hops to the destination; of a broken route as they were.
+    /// Number of hops to the destination; of a broken route, the number before the route broke.
     Hops hops = 0;
     bool has_number = false;
     /// Whether packets may be sent along the route, until `until`.
     bool is_valid = false;
-    /// End of the lifetime of a valid route; of a broken one the time at which it is deleted.
+    /// Time at which a valid route expires, or at which a broken route is deleted.
     Time until = start_of_run;
     /// Time at which the route was learnt.
     Time since = start_of_run;
 };
 
-/// Routing table of a node, with the neighbours that use each route (precursors). Lifetimes end
-/// without timers: an entry is brought up to date when it is looked at. A valid route whose
-/// lifetime is over becomes a broken one with the next sequence number (RFC 3561, 6.1), and a
-/// broken one is deleted after `delete_period`.
+/// Routing table of a node, with the neighbours that use each route (precursors). Routes expire
+/// without timers: an entry is updated when it is accessed. A valid route that has expired becomes
+/// a broken route with the next sequence number (RFC 3561, 6.1); a broken route is deleted after
+/// `delete_period`.
 class RouteTable {
   public:
-    /// Entry for a destination, up to date; null if there is none. Valid until the next add().
+    /// Entry for a destination, updated to `now`; null if there is none. The pointer is valid until
+    /// the next call of find(), add() or for_each().
     Route* find(NodeId destination, Time now, Duration delete_period);
-    /// Entry for a destination, up to date; a new one if there was none.
+    /// Entry for a destination, updated to `now`; a new entry if there was none. See find().
     Route& add(NodeId destination, Time now, Duration delete_period);
-    /// Calls visit(route) for each entry, up to date, in the order of destinations.
+    /// Calls visit(route) for each entry, updated to `now`, in the order of destinations.
     template <class Visit>
     void for_each(Time now, Duration delete_period, Visit visit) {
         clean(now, delete_period);
         for (Route& route : routes_) visit(route);
     }
-    /// Entries as they are stored, in the order of destinations; expired ones are among them.
+    /// Entries as stored, in the order of destinations, including expired routes not yet updated.
     std::span<const Route> stored() const { return routes_; }
 
-    /// Adds a neighbour that uses the route to a destination, if there is an entry for it.
+    /// Adds a neighbour that uses the route to a destination, if the table has an entry for this
+    /// route.
     void add_precursor(NodeId destination, NodeId neighbour);
-    /// Neighbours that use the route to a destination, in order, each once.
+    /// Neighbours that use the route to a destination, each once, in the order of ids.
     std::vector<NodeId> precursors(NodeId destination) const;
     void clear_precursors(NodeId destination);
     void clear() { routes_.clear(), precursors_.clear(); }
@@ -60,7 +62,8 @@ class RouteTable {
         NodeId destination, neighbour;
         friend auto operator<=>(const Precursor&, const Precursor&) = default;
     };
-    /// Ends a lifetime that is over. @return whether the entry remains
+    /// Updates an entry to `now`: an expired valid route becomes a broken route.
+    /// @return whether the entry remains; false if its broken route has expired, too
     static bool is_kept(Route& route, Time now, Duration delete_period);
     void clean(Time now, Duration delete_period);
     std::vector<Route>::iterator place(NodeId destination) {
@@ -68,7 +71,8 @@ class RouteTable {
                                 [](const Route& r, NodeId node) { return r.destination < node; });
     }
 
-    // In the order of destinations, and of neighbours.
+    // Routes in the order of destinations; precursors in the order of destinations, then
+    // neighbours.
     std::vector<Route> routes_;
     std::vector<Precursor> precursors_;
 };

@@ -11,12 +11,13 @@
 
 namespace rovernet {
 
-/// Numbers of the packets that a node has received, by originator: the highest number and which of
-/// the 64 below it. Each originator numbers its packets upwards. Numbers of an originator are
-/// forgotten if none came for a time, so that it may start again.
+/// Numbers of the packets that a node has received, by originator: the highest number, and which of
+/// the 64 numbers below the highest. Each originator numbers its packets upwards. The numbers of an
+/// originator are forgotten after a time without packets, so that the originator may start again.
 class SeenIds {
   public:
-    /// Notes a number. Numbers more than 64 below the highest one count as seen.
+    /// Stores the number of a received packet. Numbers more than 64 below the originator's highest
+    /// number count as seen.
     /// @param memory  time [ns] after which the numbers of a silent originator are forgotten
     /// @return whether the number is new
     bool note(NodeId originator, std::uint32_t id, Time now, Duration memory) {
@@ -44,7 +45,8 @@ class SeenIds {
         known.below |= bit(back);
         return true;
     }
-    /// Notes a number of 16 bits, which wraps around: it is within 32768 of the highest one.
+    /// Stores a 16-bit number, which wraps around, as note(): `id` stands for the number nearest to
+    /// the originator's highest number, within 32768.
     bool note16(NodeId originator, std::uint16_t id, Time now, Duration memory) {
         const auto known = std::find_if(
             of_.begin(), of_.end(), [&](const Of& each) { return each.originator == originator; });
@@ -64,7 +66,7 @@ class SeenIds {
     };
     static std::uint64_t bit(std::uint32_t back) { return std::uint64_t{1} << (back - 1); }
 
-    // Originators in the order of their ids.
+    // Numbers of each originator, in the order of the originators' ids.
     std::vector<Of> of_;
 };
 

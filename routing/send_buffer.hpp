@@ -14,23 +14,25 @@
 
 namespace rovernet {
 
-/// Packets of a node that wait for a route, oldest first. The protocol holds a reference to each.
+/// Packets of a node that wait for a route, oldest first. The routing protocol holds a reference to
+/// the message of each packet.
 class SendBuffer {
   public:
     /// Time after which a packet is dropped, in AODV (ns-2) and DSR (RFC 4728, SendBufferTimeout).
     static constexpr Duration longest_wait = std::chrono::seconds{30};
 
-    /// Packet that waits.
+    /// Packet that waits for a route.
     struct Packet {
         NodeId destination;
-        /// Frame as the node received it, or would receive it from its own application.
+        /// Frame that the node sends once it has a route; the next hop is set then.
         QueuedFrame queued;
-        /// Time at which it is dropped.
+        /// Time at which the packet is dropped.
         Time until;
     };
 
-    /// Adds a packet. @param most  number of packets for which there is room, at least 1
-    /// @return oldest packet, which had to leave; none if there was room
+    /// Adds a packet. If the buffer is full, removes the oldest packet.
+    /// @param most  capacity of the buffer [packets], at least 1
+    /// @return removed packet; empty if there was space
     std::optional<Packet> add(const Packet& packet, std::size_t most) {
         std::optional<Packet> oldest;
         if (packets_.size() >= most) {
@@ -44,18 +46,18 @@ class SendBuffer {
         return std::any_of(packets_.begin(), packets_.end(),
                            [&](const Packet& each) { return each.destination == destination; });
     }
-    /// Removes the packets to a destination. @return them, oldest first
+    /// Removes the packets to a destination. @return removed packets, oldest first
     std::vector<Packet> take(NodeId destination) {
         return take_if([&](const Packet& each) { return each.destination == destination; });
     }
-    /// Removes the packets whose time has come. @return them, oldest first
+    /// Removes the packets that are to be dropped by `now`. @return removed packets, oldest first
     std::vector<Packet> take_expired(Time now) {
         return take_if([&](const Packet& each) { return each.until <= now; });
     }
     std::vector<Packet> take_all() {
         return take_if([](const Packet&) { return true; });
     }
-    /// Earliest time at which a packet is dropped; none if the buffer is empty.
+    /// Earliest time at which a packet is dropped; empty if the buffer has no packets.
     std::optional<Time> first_end() const {
         if (packets_.empty()) return std::nullopt;
         return std::min_element(packets_.begin(), packets_.end(),

@@ -11,7 +11,7 @@
 
 namespace rovernet {
 
-/// Rule by which a node does not forward a message, see Suppression.
+/// Rule by which a node suppresses a message (does not forward it), see Suppression.
 enum class SuppressionScheme { counter, probability, distance, location, cluster };
 
 template <>
@@ -20,33 +20,36 @@ struct EnumNames<SuppressionScheme> {
                                                                "location", "cluster"};
 };
 
-/// Flooding in which nodes do not forward a message if that would reach few new nodes. A node that
-/// hears a message for the first time waits for 1 us + U(0, delay), and forwards the message once
-/// unless its scheme suppresses that meanwhile:
+/// Flooding in which a node does not forward a message if forwarding would reach few new nodes. A
+/// node that hears a message for the first time waits for 1 us + U(0, delay). The node then
+/// forwards the message once, unless the scheme's condition to suppress the message was met
+/// meanwhile:
 ///
-/// - "counter": C copies were heard, the first one included.
+/// - "counter": the node heard C copies, the first one included.
 /// - "probability": with probability 1 - P, drawn at the first copy.
 /// - "distance": one of the senders heard is nearer than D.
-/// - "location": the discs of `range` around the senders heard leave less than the share A of the
-///   node's own disc uncovered.
-/// - "cluster": it is neither the head of a cluster nor a gateway between clusters, which nodes
-///   agree on by HELLO packets (ClusterRouter).
+/// - "location": the discs of radius `range` around the senders heard leave less than the share A
+///   of the node's own disc uncovered.
+/// - "cluster": the node is neither the head of a cluster nor a gateway between clusters, which
+///   nodes agree on by HELLO packets (ClusterRouter).
 ///
-/// The delay should be many times a frame's time on air, as only a copy that waits for its send
-/// time can be suppressed, not one in the queue of the MAC. Messages to one robot go over one hop.
-/// Source: S.-Y. Ni, Y.-C. Tseng, Y.-S. Chen, J.-P. Sheu, The broadcast storm problem in a mobile
-/// ad hoc network, MobiCom 1999, section 3.
+/// The delay should be many times a frame's time on air, because only a copy that waits for its
+/// send time can be suppressed, not a copy in the queue of the MAC. Messages to one robot go over
+/// one hop. Source: S.-Y. Ni, Y.-C. Tseng, Y.-S. Chen, J.-P. Sheu, The broadcast storm problem in a
+/// mobile ad hoc network, MobiCom 1999, section 3.
 struct Suppression {
     static constexpr std::string_view name = "suppression";
 
     SuppressionScheme scheme = SuppressionScheme::counter;
-    /// C [copies], 3 if not given; P [-], 0.7; D [m], 40; or A [-], 0.05: see `scheme`.
+    /// Threshold of the scheme: C [copies], default 3; P [-], default 0.7; D [m], default 40; or A
+    /// [-], default 0.05. Not used by "cluster".
     std::optional<double> threshold = std::nullopt;
-    /// Radius of the discs of "location" [m], which has no default: the range of the radios.
+    /// Radius of the discs of scheme "location" [m]: the range of the radios; no default.
     std::optional<Meters> range = std::nullopt;
-    /// Time between HELLO packets of a node with "cluster" [ns].
+    /// Mean time between HELLO packets of a node [ns], for scheme "cluster".
     Duration hello = std::chrono::seconds{1};
-    /// Longest assessment delay [ns].
+    /// Longest random delay [ns] before a node forwards a message, in which it hears further
+    /// copies.
     Duration delay = std::chrono::milliseconds{100};
     int ttl = 255;  ///< initial TTL of a message [hops], 1 ... 65535
 

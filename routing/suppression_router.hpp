@@ -10,13 +10,14 @@
 
 namespace rovernet {
 
-/// Routing protocol of a Suppression, except for scheme "cluster" (ClusterRouter). For each message
-/// in use it stores a bit per node; except for scheme "probability", four bytes more, and eight
-/// bytes per node that waits or waited; for "location" also the place of each sender that such a
-/// node heard.
+/// Routing protocol with the parameters of a Suppression, except for scheme "cluster"
+/// (ClusterRouter). Memory for each message in use: a bit per node; except for scheme
+/// "probability", four more bytes per node, and twelve bytes per node that waits or waited; for
+/// "location" also the position of each sender that such a node heard.
 ///
-/// All schemes are monotone: further copies only add reasons not to forward. So a waiting copy is
-/// cancelled at the copy that decides, in place of at the end of the delay.
+/// All schemes are monotone: further copies only add reasons not to forward. A waiting copy is
+/// therefore cancelled when a received copy meets the scheme's condition, not at the end of the
+/// delay.
 class SuppressionRouter {
   public:
     /// @throws std::invalid_argument if a parameter is out of its range, or of its scheme's range
@@ -28,7 +29,7 @@ class SuppressionRouter {
     void forget(MessageId message);
 
   private:
-    /// Frame that nodes hear, and where its sender is, if places_matter().
+    /// Frame that nodes hear, and position of its sender [m]; the latter only if places_matter().
     struct Heard {
         const Frame& frame;
         Vec3 from;
@@ -36,12 +37,14 @@ class SuppressionRouter {
     /// Wait of a node for the send time of its copy.
     struct Wait {
         SendHandle copy = 0;
-        /// Copies heard so far.
+        /// Number of copies that the node has heard so far, for "counter".
         std::uint32_t copies = 0;
-        /// Number of the last sender heard in Known::senders, from 1, for "location".
+        /// Last sender that the node heard, for "location": index in Known::senders + 1; 0 for
+        /// none.
         std::uint32_t last_sender = 0;
     };
-    /// Sender that a node heard, and the one that it heard before, or 0.
+    /// Sender that a node heard: its position [m], and the node's previous sender, as index in
+    /// Known::senders + 1; 0 for none.
     struct Sender {
         Vec3 at;
         std::uint32_t before;
@@ -60,9 +63,9 @@ class SuppressionRouter {
             decided[node.index() / 64] |= std::uint64_t{1} << node.index() % 64;
         }
 
-        // Bit of each node for which further copies change nothing.
+        // Bit of each node: set if further copies of the message have no effect at the node.
         std::vector<std::uint64_t> decided{};
-        // Number of each node's entry in `waits`, from 1; 0 for a node that has heard nothing.
+        // Index + 1 of each node's entry in `waits`; 0 for a node without an entry.
         std::vector<std::uint32_t> wait_of{};
         std::vector<Wait> waits{};
         std::vector<Sender> senders{};
@@ -75,9 +78,9 @@ class SuppressionRouter {
         return known_[i];
     }
     void make_room(std::size_t message, std::size_t nodes);
-    /// Whether copies after the first one matter.
+    /// Whether copies after the first one can suppress the forwarding of a message.
     bool waits_matter() const { return settings_.scheme != SuppressionScheme::probability; }
-    /// Whether a node knows where the senders are that it hears.
+    /// Whether the scheme uses the positions of the senders that a node hears.
     bool places_matter() const {
         return settings_.scheme == SuppressionScheme::distance ||
                settings_.scheme == SuppressionScheme::location;
@@ -89,9 +92,9 @@ class SuppressionRouter {
 
     Suppression settings_;
     double threshold_;
-    std::vector<Known> known_;   // states by message
-    Sieve<Reception*> news_;     // copies of one frame that may matter; memory for reuse
-    std::vector<Vec3> senders_;  // senders around a node, memory for reuse
+    std::vector<Known> known_;   // state of each message in use, by message
+    Sieve<Reception*> news_;     // receptions of a frame that may have an effect; kept for reuse
+    std::vector<Vec3> senders_;  // positions of senders relative to a node [m]; kept for reuse
 };
 
 }  // namespace rovernet
