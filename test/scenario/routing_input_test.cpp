@@ -2,6 +2,7 @@
 // Mistakes in what a scenario says about routing: errors and notices with their place, what is
 // wrong, and a suggestion.
 #include "experiment/run.hpp"
+#include "experiment/session.hpp"
 #include "network/network.hpp"
 #include "scenario/scenario_file.hpp"
 #include "test/scene/temporary_folder.hpp"
@@ -132,7 +133,7 @@ TEST_CASE("routing input: a route of more than sixteen robots is a notice at the
         const TemporaryFolder folder;
         const Scenario scenario = load_scenario(folder.write("s.toml", text), {});
         ScenarioRun run(scenario);
-        run.session().run();
+        run.session().step(start_of_run + scenario.scenario.duration);
         return run.finish().network->routing_notice();
     };
     CHECK(notice_with(16).empty());
