@@ -12,17 +12,19 @@ namespace rovernet {
 /// Builder of start positions and movements of a scenario's robots, checked against the map.
 class MotionBuilder {
   public:
-    /// Number of one of a robot's movements: 0 for the movement at the start, other numbers for the
-    /// movements of the robot's reactions. Each number has a separate random stream.
+    /// Number of a movement of a robot: 0 for the movement at the start, other numbers for the
+    /// movements that the robot's reactions start. Each number has a separate random stream.
     using Plan = std::uint64_t;
     static constexpr Plan from_the_start = 0;
 
-    /// Makes a builder. Scenario and network must outlive it.
+    /// Makes a builder. `network` and `scenario` must outlive the builder.
     MotionBuilder(Network& network, const Scenario& scenario);
 
-    /// Start position of the robot [m]. @throws InputError if the robot does not fit there
+    /// Start position of the robot [m]. @throws InputError if the robot does not fit at this
+    /// position
     Vec3 start(const RobotTable& table, const std::string& name);
-    /// Movement of the robot that begins at `from`. @throws InputError if no path reaches a goal
+    /// Movement of the robot, starting at the position `from`. @throws InputError if no path
+    /// reaches a goal
     Movement movement(const MoveTable& move, const RobotTable& robot, const std::string& name,
                       Vec3 from, Plan plan);
 

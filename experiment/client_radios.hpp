@@ -19,18 +19,18 @@ namespace rovernet {
 
 /// Radios of robots, used by clients (external programs) of a Session. A client sends messages from
 /// robots, and gets the messages that these robots receive. Several clients may share the radio of
-/// a robot. Then each client gets every message.
+/// a robot. Then each of these clients gets every message that the robot receives.
 ///
 /// Messages are queued for each client until heard() fetches them. A client that never fetches must
-/// call set_hearing(), or its queue fills the memory. A robot for which no client hears messages
-/// costs the network no computing time.
+/// call set_hearing(), or its queue fills the memory. A robot whose messages are queued for no
+/// client costs the network no computing time.
 class ClientRadios {
   public:
     /// @param network  must outlive this object
     explicit ClientRadios(Network& network) : network_(network) {}
     /// Stops all clients from receiving messages.
     ~ClientRadios();
-    ClientRadios(const ClientRadios&) = delete;  // callbacks of the network refer to it
+    ClientRadios(const ClientRadios&) = delete;  // callbacks of the network refer to this object
     ClientRadios& operator=(const ClientRadios&) = delete;
 
     /// Adds a client, which gets the messages that `robots` receive from now on.
@@ -38,9 +38,10 @@ class ClientRadios {
     /// @param robots  robots whose radios the client uses, each listed once; may be empty
     /// @param hears   whether messages are queued for the client, as set_hearing()
     void join(ClientId client, const std::vector<NodeId>& robots, bool hears);
-    /// Removes a client and its queued messages. Does nothing if it has not joined.
+    /// Removes a client and its queued messages. Does nothing if the client has not joined.
     void leave(ClientId client);
-    /// Whether a client uses the radio of a robot: has joined with this robot in its list.
+    /// Whether a client uses the radio of a robot. True if the robot was in the list `robots` when
+    /// the client joined.
     bool has(ClientId client, NodeId robot) const;
 
     /// Sends a message from a robot, on behalf of any client. This function does not check whether
@@ -50,8 +51,8 @@ class ClientRadios {
     /// protocol
     std::optional<std::uint64_t> send(NodeId robot, const SendCommand& command);
 
-    /// Fetches the messages that were queued for a client since its last call, in order of time,
-    /// and at the same time in order of the receiving robots.
+    /// Fetches the messages that were queued for a client since the last call for this client,
+    /// sorted by time, then by receiving robot.
     /// @throws std::out_of_range if the client has not joined
     std::vector<HeardMessage> heard(ClientId client);
     /// Sets whether messages are queued for a client until heard() fetches them. If `hears` is
@@ -60,7 +61,8 @@ class ClientRadios {
     void set_hearing(ClientId client, bool hears);
 
   private:
-    /// Client: the robots whose radios it uses, and the messages queued for it.
+    /// Client of this class: robots whose radios the client uses, and messages queued for the
+    /// client.
     struct Client {
         std::vector<NodeId> robots;
         std::vector<HeardMessage> heard = {};

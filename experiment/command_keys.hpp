@@ -39,7 +39,7 @@ constexpr std::size_t number_of_keys() {
     return std::max<std::size_t>(keys, 1);
 }
 
-/// Keys of commands, one command after the other.
+/// Array of the keys of several command types, in the order of the template arguments.
 template <class... Commands>
 constexpr auto keys_of() {
     std::array<std::string_view, (number_of_keys<Commands>() + ...)> keys{};
@@ -53,8 +53,8 @@ constexpr auto keys_of() {
     return keys;
 }
 
-/// Command with default values. A height and a heading have the current values of the robot as
-/// defaults.
+/// Command whose fields have their default values. The defaults of a height and of a heading are
+/// the current values of the robot.
 template <class Command>
 Command command_at(const Network& network, NodeId robot) {
     Command command{};

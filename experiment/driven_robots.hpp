@@ -15,16 +15,17 @@
 
 namespace rovernet {
 
-/// Robots of a network that external commands steer, and the state of these commands.
+/// Robots of a network that external commands steer, and the state of each robot's last command.
 class DrivenRobots {
   public:
     explicit DrivenRobots(Network& network);
     DrivenRobots(const DrivenRobots&) = delete;
     DrivenRobots& operator=(const DrivenRobots&) = delete;
 
-    // Actions of the robot commands, called by their carry_out().
+    // Actions of the robot commands, called by the function carry_out() of each command.
 
-    /// Makes a robot drive ahead and turn. @param timeout  time until it stops [ns]; none: no limit
+    /// Makes a robot drive ahead and turn. @param timeout  time until the robot stops [ns]; none:
+    /// no limit
     void drive(NodeId robot, MetersPerSecond speed, RadiansPerSecond turn_rate,
                std::optional<Duration> timeout);
     /// Lets a robot drive to a point, around the walls.
@@ -37,15 +38,17 @@ class DrivenRobots {
     /// Gives a robot any movement, which replaces its last command.
     void move(NodeId robot, Movement movement);
 
-    /// Whether the robot is commanded to drive ahead but stands still, blocked (by a wall, say).
+    /// Whether the robot stands still although its command is to drive ahead, since an obstacle
+    /// (such as a wall) blocks the robot.
     bool is_stalled(NodeId robot) const;
-    /// Whether the robot is commanded to a goal that no path reaches, so that it stands still.
+    /// Whether the robot stands still since no path reaches the goal of its command.
     bool has_no_way(NodeId robot) const;
-    /// Velocity of a robot: of its drive command, or else of its current leg (piece of movement).
+    /// Velocity of a robot in its own frame. While a drive command is active, this is the velocity
+    /// of the drive; otherwise that of the current leg (piece of movement).
     Twist twist(NodeId robot) const;
 
   private:
-    /// Drive command (velocity) of a robot.
+    /// Drive command of a robot, with its end.
     struct Driving {
         Time until;
         double speed;  // commanded speed [m/s]

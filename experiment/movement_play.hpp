@@ -9,9 +9,9 @@
 
 namespace rovernet {
 
-/// Moves robots along the trajectories of a movement file, from now on. A robot that appears later
-/// in the file is off until then.
-/// @param nodes  node of each robot of file.robots(), in that order
+/// Moves robots along the trajectories of a movement file, from now on. A robot whose trajectory
+/// starts later is switched off until its trajectory starts.
+/// @param nodes  node of each robot of file.robots(), in the order of file.robots()
 void play(Network& network, MovementFile file, std::vector<NodeId> nodes);
 
 }  // namespace rovernet

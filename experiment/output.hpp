@@ -15,10 +15,10 @@ struct OutputFile {
 };
 
 /// Writes files, each completely or not at all, see PartFile. The files get their final names when
-/// all of them are written.
+/// all files are written.
 /// @throws RunError if a file cannot be written
 void write_files(const std::vector<OutputFile>& files);
-/// Writes one file, completely or not at all. @throws RunError if it cannot be written
+/// Writes one file, completely or not at all. @throws RunError if the file cannot be written
 void write_file(const std::string& path, std::string_view bytes);
 
 /// Function that writes the next piece of a text.

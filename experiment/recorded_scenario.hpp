@@ -13,8 +13,8 @@ namespace rovernet {
 
 /// Scenario in the form in which a recorded trace stores it.
 struct RecordedScenario {
-    /// Scenario as TOML, with every default. An attached file is named by its path as attachment,
-    /// such as map/office.yaml. Other paths are relative to the folder of the trace.
+    /// Scenario as TOML text, with every default. An attached file is named by its path as
+    /// attachment, such as map/office.yaml. Other paths are relative to the folder of the trace.
     std::string text;
     /// Attached files: the map with its picture and the movement file, unless they are larger than
     /// 64 MB. Files of a Stage world are not attached.
@@ -24,8 +24,8 @@ struct RecordedScenario {
 /// @param folder  folder of the trace
 RecordedScenario recorded_scenario(const Scenario& scenario, const std::string& folder);
 
-/// Scenario of a recorded trace, unpacked with its attached files into a temporary folder. This
-/// object must outlive the runs of the scenario.
+/// Scenario of a recorded trace. The scenario and its attached files are unpacked into a temporary
+/// folder. This object must outlive the runs of the scenario.
 class ReplayedScenario {
   public:
     /// @param path  path of the trace, for errors, and to find files that are not attached
@@ -46,13 +46,14 @@ class ReplayedScenario {
         std::string path;
     };
 
-    /// Path of a file that the scenario names: relative to the temporary folder if the file is
-    /// attached, otherwise the absolute path of a file beside the trace.
+    /// Path of a file that the scenario names. If the file is attached to the trace, the path is
+    /// relative to the temporary folder. Otherwise the path is absolute, of a file beside the
+    /// trace.
     std::string find_file(const RecordedRun& run, const std::string& name) const;
 
     std::string trace_;  // path of the trace
-    Folder folder_;      // folder of the attached files
-    std::string file_;   // path of the scenario file in the folder
+    Folder folder_;      // temporary folder of the attached files
+    std::string file_;   // path of the scenario file in folder_
 };
 
 /// Checks that the robots listed in a trace are the robots of its scenario, in the same order,

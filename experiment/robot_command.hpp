@@ -14,7 +14,8 @@
 #include <string_view>
 #include <variant>
 
-// Commands from external programs to robots. A session executes them; an input log stores them.
+// Commands from external programs to robots. A Session executes commands; an input log stores
+// commands.
 //
 // The fields() of a command define its keys and their ranges in the lock-step protocol, in the log
 // of inputs, in ROS messages and in Python. Positions and payloads must be given. Other fields have
@@ -27,7 +28,7 @@ inline constexpr Range drive_speeds{.low = -1000, .high = 1000, .text = "from -1
 inline constexpr Range drive_turns{.low = -1000, .high = 1000, .text = "from -1000 to 1000 rad/s"};
 inline constexpr Range drive_times{.low = 0, .low_included = false, .text = "> 0 s"};
 
-/// Command to drive ahead and turn (see the movement Driven) until the next command.
+/// Command to drive ahead and turn until the next command, see the movement Driven.
 struct DriveCommand {
     static constexpr std::string_view name = "drive";
 
@@ -88,15 +89,16 @@ struct PlaceCommand {
 
 inline constexpr Range message_sizes{.low = 0, .high = longest_message, .text = "65507 at most"};
 
-/// Command to send a message, as Network::send.
+/// Command to send a message, see Network::send.
 struct SendCommand {
     static constexpr std::string_view name = "send";
 
     std::optional<NodeId> to = {};  ///< destination; none: everyone
-    std::uint16_t port = 0;         ///< port: selects a program of the receiver
+    std::uint16_t port = 0;         ///< destination port, which selects a program at the receiver
     std::string payload = {};
     std::optional<std::uint32_t> size = {};  ///< size on air [bytes]; none: length of the payload
-    bool one_hop = false;                    ///< true: over one hop, without the routing protocol
+    bool one_hop = false;                    ///< true: the message goes over one hop, without the
+                                             ///< routing protocol
 
     static constexpr auto fields() {
         return describe(field("to", &SendCommand::to, "destination"),
@@ -113,7 +115,7 @@ using RobotCommand =
 
 /// Checks the fields of a command against their ranges.
 /// @param robot  name of the robot, for the error
-/// @throws std::invalid_argument naming field, robot, range and value
+/// @throws std::invalid_argument that names field, robot, range and value
 void check(const RobotCommand& command, std::string_view robot);
 
 inline constexpr Duration shortest_step{
@@ -134,15 +136,15 @@ using ClientId = std::uint32_t;
 
 /// Message that a client's robot received.
 struct HeardMessage {
-    Time time;    ///< delivery to the robot, 1 us after the frame was received
+    Time time;    ///< time of delivery to the robot [ns], 1 us after the end of reception
     NodeId at;    ///< robot that received the message
     NodeId from;  ///< robot that sent the message (its origin)
-    int hops;     ///< number of hops that the message took, from 1
+    int hops;     ///< number of hops from the origin to the robot `at`, from 1
     std::string payload;
     NodeId last_hop = {};           ///< transmitter of the frame that brought the message
     std::optional<Dbm> level = {};  ///< received level of the message's frame [dBm]; none if the
                                     ///< frame was on air before the first client joined
-    std::uint16_t port = 0;         ///< port given by the sending client; 0: none
+    std::uint16_t port = 0;         ///< destination port given by the sending client; 0: none
     bool is_for_everyone = true;    ///< true: a broadcast; false: a unicast to the robot `at`
     friend bool operator==(const HeardMessage&, const HeardMessage&) = default;
 };

@@ -33,15 +33,16 @@ struct TraceFile;
 
 struct RunOptions {
     std::optional<std::string> folder;  ///< folder for the results of the run; none: run_folder()
-    std::optional<double> speed;        ///< simulated time over real time [-]; none: unpaced
+    std::optional<double> speed;        ///< ratio of simulated time to real time [-]; none: as fast
+                                        ///< as possible
     /// Callback, called repeatedly with the finished share, 0 ... 1; returning false stops the run.
     std::function<bool(double)> progress = {};
-    /// Function that runs the session for external programs, instead of Session::run(). It may end
-    /// the run early. It returns false if the run was stopped.
+    /// Function that runs the session in place of Session::run(), to serve external programs. The
+    /// function may end the run early. It returns false if the run was stopped.
     std::function<bool(ScenarioRun&)> drive = {};
 };
 
-/// Exception: the run was stopped by the user. Files of the run are removed.
+/// Exception thrown when the user stops a run. The files of the run are removed.
 class Interrupted : public std::exception {
   public:
     const char* what() const noexcept override { return "interrupted"; }
@@ -59,20 +60,21 @@ struct RunResult {
     Duration warmup{0};  ///< warm-up of the run, which is not measured [ns]
     /// Simulated duration of the run [ns]; shorter than the scenario's duration if it ended early.
     Duration simulated{0};
-    std::uint64_t searches = 0;  ///< number of path searches by kept planners; without them 0
-    std::optional<Db> interference_left_out;  ///< bound on the effect of neglected interference
+    std::uint64_t searches = 0;  ///< number of path searches by cached planners (KeptPlanners); 0
+                                 ///< without a cache
+    std::optional<Db> interference_left_out;  ///< bound on the SINR error by neglected frames [dB]
     double wall_s = 0;                        ///< duration of the run in real time [s]
     std::string started;                      ///< start of the run in real time, UTC, ISO 8601
     std::shared_ptr<const Timeline> timeline;
     std::shared_ptr<const Network> network;  ///< network at the end of the run
 
-    /// Duration of the measurement [ns]: the run without its warm-up.
+    /// Duration of the measured part of the run [ns]: the run without its warm-up.
     Duration measured() const { return std::max(simulated - warmup, Duration{0}); }
 };
 
 /// Choice of the results that a run collects, in addition to the sinks that its caller adds.
 enum class Observed {
-    everything,    ///< metrics without warm-up, topology if [metrics] has it, fingerprint, timeline
+    everything,    ///< metrics (no warm-up), requested topology, fingerprint, timeline
     measurements,  ///< everything except the timeline
     metrics,       ///< metrics of the network only, including the warm-up
     nothing        ///< no results, not even metrics
@@ -91,17 +93,19 @@ class ScenarioRun {
     /// Makes the network of the run.
     /// @throws InputError for errors found with the map, such as a robot in a wall
     /// @param scenario  must outlive the run
-    /// @param kept      store of path planners, shared by runs in one scene; may be null
-    /// @param router    makes the routing protocol in place of the scenario's, for each network
+    /// @param kept      cache of path planners, shared by runs in one scene; may be null
+    /// @param router    makes the routing protocol of each network, in place of the scenario's
+    ///                  protocol; may be empty
     explicit ScenarioRun(const Scenario& scenario, KeptPlanners* kept = nullptr,
                          Observed observed = Observed::everything,
                          const std::function<Router()>& router = {});
     ~ScenarioRun();
-    ScenarioRun(const ScenarioRun&) = delete;  // sinks refer to it
+    ScenarioRun(const ScenarioRun&) = delete;  // sinks refer to this object
     ScenarioRun& operator=(const ScenarioRun&) = delete;
 
-    /// Sets the folder of the results, and opens the traces of the scenario there. Must be called
-    /// before the session's first step. @throws RunError if the folder or a trace cannot be written
+    /// Sets the folder of the results, and opens the traces of the scenario in this folder. Must be
+    /// called before the session's first step. @throws RunError if the folder or a trace cannot be
+    /// written
     void write_to(const std::string& folder);
     Session& session() { return *session_; }
     /// Fingerprint (hash) of the run's records so far.
@@ -118,10 +122,10 @@ class ScenarioRun {
 
     const Scenario& scenario_;
     std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
-    RunResult result_;  // result as far as it is known
+    RunResult result_;  // result of the run so far
     std::unique_ptr<Session> session_;
-    std::shared_ptr<Planners> planners_;        // kept path planners; null: the network has its own
-    std::uint64_t searched_ = 0;                // path searches of planners_ before the run
+    std::shared_ptr<Planners> planners_;        // cached path planners; null: no cache
+    std::uint64_t searched_ = 0;                // number of path searches before the run
     std::shared_ptr<Fingerprint> fingerprint_;  // sink of the fingerprint; null: not observed
     std::shared_ptr<Timeline> timeline_;        // sink of the timeline; null: not observed
     std::shared_ptr<Topology> topology_;        // sink of the topology; null: not measured
@@ -132,7 +136,7 @@ class ScenarioRun {
 /// run, each completely or not at all.
 /// @throws InputError, RunError, Interrupted
 RunResult run_scenario(const Scenario& scenario, const RunOptions& options);
-/// Runs the scenario of a file, overridden by `settings` (values by path, as for --set).
+/// Runs the scenario of a file, overridden by `settings` (values by path, as in the option --set).
 RunResult run_scenario(const ScenarioFile& file, const Table& settings, const RunOptions& options);
 
 }  // namespace rovernet

@@ -34,7 +34,8 @@ class Timeline {
         std::string text;  ///< event as a text: "hears \"F\" from A over 2 hops"
     };
 
-    /// Makes an empty timeline. The network must outlive it, since it has the robots' names.
+    /// Makes an empty timeline. The network, which has the robots' names, must outlive the
+    /// timeline.
     explicit Timeline(const Network& network) : network_(&network) {}
 
     KindMask kinds() const {
@@ -43,17 +44,17 @@ class Timeline {
     }
     void on(const Record& record, const RecordContext& context);
 
-    /// Largest number of entries of the timeline. A run with more events is better examined by a
-    /// trace.
+    /// Largest number of entries of the timeline. Traces are better suited for runs with more
+    /// events.
     static constexpr std::size_t most = 10'000;
 
     std::size_t size() const { return entries_.size(); }
-    /// Number of entries beyond the limit `most`, which are dropped.
+    /// Number of entries that were dropped, since the timeline already had `most` entries.
     std::uint64_t left_out() const { return left_out_; }
     /// Entry number i of the timeline, in order of time, from 0.
     Happening operator[](std::size_t i) const;
-    /// Appends to `out` the entry number i as a JSON object, i from 0. Lines of the object after
-    /// its first line are indented by 4 blanks.
+    /// Appends to `out` the entry number i (from 0) as a JSON object. All lines of the object
+    /// except its first line are indented by 4 blanks.
     void append_json(std::size_t i, std::string& out) const;
 
   private:
@@ -61,17 +62,18 @@ class Timeline {
     struct Entry {
         Time time;
         NodeId node;
-        std::uint32_t about;  // text or position of the event: index into words_ or places_
+        std::uint32_t about;  // text or position of the event, as an index into words_ or places_
         Event event;
         Hops hops;
     };
     static_assert(sizeof(Entry) == 24);
-    /// Text that a robot sends, in one or several messages.
+    /// Text that a robot sends as payload, in one or several messages, with the robot.
     struct Words {
         NodeId origin;
         std::string payload;
     };
-    /// Set of pairs (text, robot): a hash table with open addressing, at most two thirds full.
+    /// Set of pairs (text, robot), implemented as a hash table with open addressing, at most two
+    /// thirds full.
     class Pairs {
       public:
         /// Adds a pair. @return false if the set already has it

@@ -14,7 +14,7 @@ namespace rovernet {
 struct TraceFile {
     std::string path;
     Sink sink;  ///< sink that writes the file
-    /// Function that gives the file its final name; called when the sink has finished.
+    /// Function that renames the file to its final name; called when the sink has finished.
     /// @throws RunError if the file cannot be renamed
     std::function<void()> give_name;
 };

@@ -8,11 +8,12 @@
 
 namespace rovernet {
 
-/// Version of the library, such as "0.1.0".
+/// Version of this library, such as "0.1.0".
 std::string_view version();
 
 /// Version and commit of the code that computes results, such as "0.1.0 (4f1c...)". If the sources
-/// differ from the commit, or the commit is unknown, XXH64 of the running program is appended.
+/// differ from the commit, or the commit is unknown, the XXH64 hash of the running program is
+/// appended.
 const std::string& code_version();
 
 /// Table of build information: version, commit, dirty (true if the sources differ from the commit),

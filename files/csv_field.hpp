@@ -5,7 +5,7 @@
 
 namespace rovernet {
 
-/// Text as a field of a CSV line: in quotes if it contains a comma, a quote or a line break.
+/// Text converted to a field of a CSV line. A text with a comma, a quote or a line break is quoted.
 /// Source: RFC 4180, section 2.
 inline std::string csv_field(const std::string& text) {
     if (text.find_first_of(",\"\r\n") == std::string::npos) return text;

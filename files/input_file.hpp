@@ -24,7 +24,8 @@ InputKind input_kind(const std::string& path);
 /// file".
 std::string_view fault_of(InputKind kind);
 
-/// Whether no file-system object can be reached at a path, as its InputKind states.
+/// Whether a path of this kind leads to no file-system object: the object does not exist, or the
+/// path cannot be followed.
 constexpr bool is_no_path(InputKind kind) {
     return kind == InputKind::nothing || kind == InputKind::loop || kind == InputKind::closed;
 }
@@ -32,7 +33,8 @@ constexpr bool is_no_path(InputKind kind) {
 /// File or stream that is open for reading; the destructor closes it.
 class InputFile {
   public:
-    /// Opens the path. For a FIFO it waits up to 5 s until a program opens it for writing.
+    /// Opens the path. If the path is a FIFO, waits up to 5 s until a program opens the FIFO for
+    /// writing.
     /// @throws InputError if the path cannot be read
     explicit InputFile(const std::string& path);
     ~InputFile();
@@ -40,7 +42,7 @@ class InputFile {
 
     /// Returns the file descriptor, which the caller then owns.
     int release();
-    /// Reads bytes; fewer than `most` only at the end. @throws InputError if reading fails
+    /// Reads `most` bytes, or fewer at the end of the file. @throws InputError if reading fails
     std::string read(std::size_t most);
 
   private:
@@ -51,13 +53,13 @@ class InputFile {
     int file_ = -1;
 };
 
-/// File name, without folders, of the path `name`, if no file exists at `name` but a file of that
-/// file name exists in `folder`; otherwise "". So an error can distinguish a wrong folder (of a
-/// different machine, or `~`, which only a shell expands) from a missing file. Backslashes also
-/// separate folders.
+/// File name (last part) of the path `name` if no file exists at `name`, but `folder` contains a
+/// file with this file name; otherwise "". An error message can then report a wrong folder (of a
+/// different machine, or `~`, which only a shell expands) instead of a missing file. Backslashes
+/// also separate folders.
 std::string named_beside(const std::string& folder, const std::string& name);
 
-/// Checks a path. @throws InputError unless it is a regular file
+/// Checks that a path is a regular file. @throws InputError if it is not
 void need_file(const std::string& path);
 
 }  // namespace rovernet

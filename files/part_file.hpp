@@ -9,13 +9,13 @@ namespace rovernet {
 /// Output file that gets its name only when it is complete.
 ///
 /// Until then the file is NAME.N.part in the same folder. Every process uses its own number N, so
-/// that processes can write NAME at the same time; the last one to finish wins. The destructor
-/// removes an incomplete file. A killed process leaves its incomplete file behind; the next writer
-/// of NAME removes that file.
+/// that processes can write NAME at the same time. NAME is then the file of the process that
+/// finishes last. The destructor removes an incomplete file. A killed process leaves its incomplete
+/// file behind; the next writer of NAME removes that file.
 class PartFile {
   public:
-    /// Action on the incomplete file NAME.N.part when a write fails: remove it, or keep it for
-    /// programs that can read incomplete files; the error then names the file.
+    /// Action on the incomplete file NAME.N.part when a write fails: remove the file, or keep the
+    /// file for programs that can read incomplete files. The error message names a kept file.
     enum class Failed { is_removed, is_kept };
     /// Action on incomplete files NAME.N.part left by killed processes: remove them, or keep them
     /// for programs that can read incomplete files.
@@ -30,7 +30,7 @@ class PartFile {
 
     /// Appends bytes. @throws RunError (disk full, for example); see Failed
     void write(std::string_view bytes);
-    /// Closes the file; give_name() then cannot fail for lack of space.
+    /// Closes the file. After this call, give_name() cannot fail for lack of disk space.
     /// @throws RunError as for write()
     void close();
     /// Closes the file and renames it to its final name, replacing any file there.
@@ -55,8 +55,9 @@ void remove_orphans(const std::string& path);
 /// Whether `name` has the form WHOLE.N.part, an incomplete version of the file `whole`.
 bool is_part_of(std::string_view whole, std::string_view name);
 
-/// Lock of a folder, for naming several files without files of another process between them. Other
-/// processes that ask for the lock wait. The lock has no effect if the file system has no locks.
+/// Lock of a folder, under which a process gives several files their names, so that files of two
+/// processes are never mixed. Other processes that ask for the lock wait. The lock has no effect if
+/// the file system has no locks.
 class FolderLock {
   public:
     explicit FolderLock(const std::string& folder);

@@ -23,19 +23,19 @@ namespace rovernet {
 /// @param begin  first 512 bytes of the file, or all of it
 std::string_view foreign_kind(std::string_view begin);
 
-/// Bytes of a text file, read in portions, so that memory does not grow with the file. gzip and
-/// zstd files are unpacked. A UTF-8 byte order mark is skipped. Files of other packers, UTF-16 text
-/// and binary files are refused.
+/// Reader of the bytes of a text file in portions, so that memory does not grow with the file. gzip
+/// and zstd files are unpacked. A UTF-8 byte order mark is skipped. Files of other packers, UTF-16
+/// text and binary files are refused.
 class TextSource {
   public:
     /// Number of times that the source is read: a pipe can be read only once.
     enum class Reads { once, twice };
 
-    /// @throws InputError if `path` is not a readable file; later calls also throw, if it is
-    ///         damaged
+    /// @throws InputError if `path` is not a readable file; later calls throw an InputError if the
+    ///         file is damaged
     explicit TextSource(const std::string& path, Reads reads = Reads::twice);
-    /// Text that is generated piece by piece, and read once.
-    /// @param name  name of the source, for errors
+    /// Constructor for a text that is generated piece by piece, and can be read only once.
+    /// @param name  name of the source, for error messages
     /// @param next  returns the next piece, valid until the next call; empty at the end
     TextSource(std::string name, std::function<std::string_view()> next)
         : name_(std::move(name)), next_(std::move(next)) {}
@@ -51,9 +51,9 @@ class TextSource {
     }
     /// Consumes the first n bytes of window(); n <= window().size().
     void take(std::size_t n) { begin_ += n; }
-    /// Number of bytes consumed since the start.
+    /// Number of bytes consumed since the start of the text.
     std::uint64_t taken() const { return before_buffer_ + begin_; }
-    /// Returns to the start; only for a file, not for generated text.
+    /// Returns to the start of the file. Not allowed for generated text.
     void rewind();
 
     const std::string& name() const { return name_; }
@@ -76,7 +76,7 @@ class TextSource {
         std::vector<char> bytes;
         std::size_t begin = 0;
         std::size_t end = 0;
-        bool in_frame = false;  ///< true inside a zstd frame: the file must not end here
+        bool in_frame = false;  ///< true inside a zstd frame; it is an error if the file ends here
     };
     std::string name_;
     std::function<std::string_view()> next_;  ///< generates the text; empty if file_ is the source
@@ -92,7 +92,7 @@ class TextSource {
 /// Reader of the lines of a text file.
 class TextLines {
   public:
-    static constexpr std::size_t longest = 64 * 1024;  ///< length of the longest line [bytes]
+    static constexpr std::size_t longest = 64 * 1024;  ///< largest allowed length of a line [bytes]
 
     explicit TextLines(TextSource source)
         : source_(std::move(source)), where_{.source = source_.name(), .line = 0, .column = 1} {}

@@ -23,18 +23,17 @@ inline constexpr double largest_coordinate = 1e9;  ///< largest |coordinate| in 
 inline constexpr double fastest = 1e9;             ///< largest speed in a movement file [m/s]
 inline constexpr double latest = 9e9;              ///< latest time in a movement file [s]
 
-/// First `longest` bytes of a text, for a message: "?" for each byte that is not printable ASCII;
-/// "..." is appended to a longer text.
+/// First `longest` bytes of a text, for a message. Each byte that is not printable ASCII becomes
+/// "?". If the text is longer, "..." is appended.
 std::string printable(std::string_view text, std::size_t longest);
 
-/// Error "found WORD, expected EXPECTED", with the word's column in the line.
-/// @throws InputError, always
+/// Throws the InputError "found WORD, expected EXPECTED", with the word's column in the line.
 [[noreturn]] void fail_at(Location line, Word word, std::string_view expected);
 
 /// Number in a word. @throws InputError unless the whole word is a finite decimal number
 double any_number(Word word, const Location& line, std::string_view expected);
 
-// Value `v` of the word `word`, checked against its limits.
+// Functions that check a value `v`, which was read from the word `word`, against the limits above.
 /// Checks and returns the coordinate `v`, read from `word`.
 /// @throws InputError unless |v| <= largest_coordinate [m]
 double coordinate(double v, Word word, const Location& line);

@@ -13,8 +13,8 @@
 #include <string_view>
 
 // Log of the inputs (commands) of a live run, for replay: inputs.jsonl in the run's folder. One
-// JSON object per line. The first line has format, version, scenario (digest and text) and seed,
-// the last line end time and fingerprint. Commands have the keys of the lock-step protocol:
+// JSON object per line. The first line has format, version, scenario (digest and text) and seed.
+// The last line has end time and fingerprint. Commands have the keys of the lock-step protocol:
 //
 //     {"format":2,"version":"0.1.0","scenario":"8c5d...","seed":1,"toml":"[scenario]\nname = ..."}
 //     {"t_ns":100000000,"n":1,"client":"A","robot":"A","do":{"v":0.5,"w":0.1,"timeout":"0.5 s"}}
@@ -47,8 +47,8 @@ class InputLog {
     /// @param folder  folder of the run
     /// @throws RunError if a file cannot be written
     InputLog(const std::string& folder, const Scenario& scenario);
-    /// Without a call of finish(): keeps the part file and scenario.toml if inputs were added and
-    /// discard() was not called; otherwise removes both files.
+    /// Has no effect after finish(). Otherwise the part file and scenario.toml are kept if inputs
+    /// were added and discard() was not called, and else removed.
     ~InputLog();
     InputLog(const InputLog&) = delete;
     InputLog& operator=(const InputLog&) = delete;
@@ -57,7 +57,7 @@ class InputLog {
     void add(const Input& input, const Network& network);
     /// Writes inputs older than 1 s to the part file; must be called repeatedly. @throws RunError
     void keep_up();
-    /// Makes the destructor remove the part file and scenario.toml, since the run starts again.
+    /// Makes the destructor remove the part file and scenario.toml. Called if the run starts again.
     void discard();
     /// Writes the last line of the log, and gives the file its final name. @throws RunError
     void finish(Duration simulated, std::string_view fingerprint);

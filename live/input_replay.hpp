@@ -18,20 +18,23 @@ struct InputReplay {
 
     std::string log;                  ///< path of the input log
     std::vector<std::string> others;  ///< incomplete logs (part files) beside the log
-    std::optional<int> torn;  ///< line number of an incomplete last line of the log; none: complete
+    /// Line number of the last line of the log if that line is incomplete; none: it is complete.
+    std::optional<int> torn;
     /// True: scenario.toml is missing, or differs from the scenario of the run.
     bool is_other_scenario = false;
-    bool has_own_scenario = false;  ///< true: the scenario text in the log was used instead
+    bool has_own_scenario = false;  ///< true: the scenario is the text in the log, not the file
 };
 
-/// Whether the path is an input log, an incomplete input log (part file), or a folder with either.
+/// Whether the path is an input log, an incomplete input log (part file), or a folder that contains
+/// such a file.
 bool has_input_log(const std::string& path);
 
-/// Runs a scenario again with the inputs of an input log, unpaced. The scenario is the file
-/// scenario.toml beside the log, or the text in the log if that file is missing or differs.
+/// Runs a scenario again with the inputs of an input log, as fast as possible. The scenario is the
+/// file scenario.toml beside the log, or the text in the log if that file is missing or differs.
 /// @param path      input log or part file; or a folder, with its log or else its newest part file
 /// @param progress  called with the finished share, 0 ... 1; returning false stops the replay
-/// @throws InputError for an invalid line of the log; RunError; Interrupted by `progress`
+/// @throws InputError for an invalid line of the log; RunError; Interrupted if `progress` returns
+///         false
 InputReplay replay_inputs(const std::string& path, const std::function<bool(double)>& progress);
 
 }  // namespace rovernet

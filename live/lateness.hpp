@@ -8,11 +8,11 @@
 
 namespace rovernet {
 
-/// Delays of a paced run behind the clock: at each simulated time that a front (protocol server)
-/// requested, and at each late poll of clients. External programs see this delay as an additional
-/// delay of the radio.
+/// Delays of a paced run behind the clock. They are measured at each simulated time that a front
+/// (protocol server) requested, and at each late poll of clients. External programs see this delay
+/// as an additional delay of the radio.
 struct Lateness {
-    static constexpr Duration much{1'000'000};  ///< 1 ms: a longer delay counts as `late`
+    static constexpr Duration much{1'000'000};  ///< 1 ms: delay above which a delay is `late`
 
     Duration most{0};         ///< largest delay of the run behind the clock, in real time
     std::uint64_t times = 0;  ///< number of delays: one per requested time, one per late poll
@@ -29,7 +29,7 @@ struct Lateness {
         if (behind > much) return add(behind);
         most = std::max(most, behind);
     }
-    /// Share of measured delays above `much` [-].
+    /// Share of the measured delays that exceed `much` (1 ms) [-].
     double share() const {
         return times == 0 ? 0 : static_cast<double>(late) / static_cast<double>(times);
     }

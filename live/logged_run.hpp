@@ -13,7 +13,7 @@ namespace rovernet {
 
 class InputLog;
 
-/// Result of a finished live run, whose files are written.
+/// Result of a finished live run, whose result files are complete.
 struct LiveResult {
     RunResult run;
     Scenario scenario;  ///< scenario that was run: a controller may have changed the seed
@@ -26,8 +26,8 @@ struct StopRules {
     std::function<bool()> go_on = [] {
         return true;
     };  ///< function called repeatedly during the run; returning false ends the run
-    /// Called with true when the run starts to write files, and with false while a network is set
-    /// up. The setup may take minutes, does not call `go_on`, and leaves no files if the process is
+    /// Called with false before the network is set up, and with true before the run writes files.
+    /// The setup may take minutes, does not call `go_on`, and leaves no files if the process is
     /// killed meanwhile.
     std::function<void(bool)> writes = [](bool) {};
 };

@@ -74,9 +74,9 @@ struct PacedOptions {
 
 /// Runs a scenario whose robots are commanded by clients of fronts (protocol servers). Simulated
 /// time follows the clock, or advances as fast as the fronts permit. The run ends at the end of the
-/// scenario, unless a front's holds_end() delays it; earlier if a front is done or `stop` ends it.
-/// Then results and input log are written. The clock only determines the simulated time at which an
-/// input is accepted. The clock pauses while a front's limit() blocks the run.
+/// scenario, unless a front's holds_end() delays the end. The run ends earlier if a front is done
+/// or `stop` ends the run. Then results and input log are written. The clock only determines the
+/// simulated time of an input. The clock pauses while a front's limit() blocks the run.
 /// @throws InputError, RunError, Interrupted; std::invalid_argument for an overlong Unix path
 LiveResult run_paced(Scenario scenario, const PacedOptions& options);
 

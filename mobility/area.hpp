@@ -22,7 +22,7 @@ struct EnumNames<StartPlace> {
     static constexpr std::array<std::string_view, 2> values = {"uniform", "here"};
 };
 
-/// Axis-parallel rectangle in which a robot moves; its height is not limited.
+/// Axis-parallel rectangle in which a robot moves; heights are not limited.
 struct Area {
     Vec3 lower;  ///< lower-left corner [m]
     Vec3 upper;  ///< upper-right corner [m], beyond `lower` in x and y
@@ -30,8 +30,8 @@ struct Area {
     /// @param corners  lower-left and upper-right corner [m], limited to the map's box if there is
     ///                 a map; empty: the map's box
     /// @param model    name of the model, for errors
-    /// @throws std::invalid_argument for corners without an area between, or no corners without a
-    ///         map
+    /// @throws std::invalid_argument if the corners enclose no area, or if there are neither
+    ///         corners nor a map
     Area(const std::vector<Vec3>& corners, const Scene& scene, std::string_view model);
 
     bool contains(Vec3 p) const {
@@ -44,25 +44,27 @@ struct Area {
     double to_border(Vec3 p) const;
     /// Point of the area nearest to `p`.
     Vec3 clamped(Vec3 p) const;
-    /// Point where the ray from `p`, inside the area, along `direction`, a horizontal unit vector,
-    /// crosses the area's border, exactly.
+    /// Point at which a ray crosses the area's border. The ray starts at `p`, inside the area, and
+    /// has the direction `direction`, a horizontal unit vector. The point lies exactly on the
+    /// border.
     Vec3 exit(Vec3 p, Vec3 direction) const;
 
-    /// Uniform random position in the area where the mover's body fits; if there is a map, only on
-    /// the map. The height is the mover's. Empty if 10,000 draws find no such position.
+    /// Uniform random position in the area at which the mover's body touches no obstacle. If there
+    /// is a map, the position is on the map. Its height is that of the mover. Empty if 10,000 draws
+    /// find no such position.
     std::optional<Vec3> free_place(const Mover& mover, Draws& draws) const;
-    /// Start position of a movement: random, see free_place(), for StartPlace::uniform at the start
-    /// of the run; otherwise the mover's position.
+    /// Start position of a movement. For StartPlace::uniform at the start of the run, the result is
+    /// a random position, see free_place(). Otherwise it is the mover's position.
     /// @throws std::invalid_argument if the mover's position is used but outside the area
     std::optional<Vec3> first_place(const Mover& mover, StartPlace start, Draws& draws,
                                     std::string_view model) const;
 };
 
-/// Shortest leg (piece of movement) [m]. A robot that can only move less stands still at an
-/// obstacle or a border.
+/// Length of the shortest leg (piece of movement) [m]. A robot that cannot move so far before an
+/// obstacle or a border stands still.
 inline constexpr double least_leg = 1e-6;
 
-/// Fraction of a path [-] that a robot can move, found by bisection.
+/// Fraction [-] of a path along which a robot can move before an obstacle, found by bisection.
 /// @param open  open(f): whether the robot can move along the first fraction f of the path
 /// @param off   fraction of the path that has the length least_leg
 /// @return 1 for the whole path; otherwise the free fraction minus `off`; 0 if less than `off` is
@@ -76,14 +78,15 @@ double free_share(Open open, double off) {
         const double middle = 0.5 * (good + bad);
         (open(middle) ? good : bad) = middle;
     }
-    // The stop keeps a distance to the limit, where rounding would decide whether the next leg may
-    // begin.
+    // The stop keeps a distance from the obstacle. At the obstacle, rounding would decide whether
+    // the next leg may begin.
     good -= off;
     return good >= off && open(good) ? good : 0;
 }
 
-/// End of the longest free straight path of the mover towards `to`: `to`, or a micrometre before an
-/// obstacle or the map's border; the mover's position if the mover cannot move by least_leg.
+/// End of the longest free straight path of the mover towards `to`. The result is `to`, or a
+/// position a micrometre before an obstacle or the map's border. If the mover cannot move by
+/// least_leg, the result is the mover's position.
 Vec3 straight_stop(const Mover& mover, Vec3 to);
 
 /// Unit vector at `angle` [rad], counter-clockwise from the x axis.

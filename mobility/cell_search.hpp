@@ -17,7 +17,8 @@ namespace rovernet {
 
 /// Length [m] of the shortest path between two points along the axes and diagonals of map cells.
 ///
-/// All lengths of the search use this norm, which is an exact lower bound on an empty map.
+/// CellSearch measures all lengths by this norm. The norm is a lower bound for the length of a path
+/// around obstacles, and exact without obstacles.
 struct CellNorm {
     double width, height, diagonal;  ///< sides and diagonal of a cell [m]
 
@@ -44,14 +45,15 @@ struct PathEnd {
     std::vector<Access> ways;  ///< connections to the centres of cells nearby
 };
 
-/// Search for shortest paths over the cells of a map by A*, best first to within half a cell.
+/// Search for shortest paths over the cells of a map by A*. Cells are visited in ascending order of
+/// their estimates, to within half a cell.
 ///
 /// Open cells are stored in buckets by their estimate: the length so far plus the lower bound of
-/// the rest. A cell for which a shorter path is found is put into a bucket again; the search ends
-/// when no bucket is left that could shorten the path found. Among paths of equal length (except
-/// for rounding) a cell keeps the one whose previous cell is nearest to the straight line between
-/// the ends. Boost's astar_search takes four times as many instructions: it allocates its arrays
-/// for each search and keeps its heap fully ordered.
+/// the rest. A cell for which a shorter path is found is put into a bucket again. The search ends
+/// when no cell in any bucket could shorten the path found. Among paths of equal length (except for
+/// rounding) a cell keeps the one whose previous cell is nearest to the straight line between the
+/// ends. Boost's astar_search takes four times as many instructions: it allocates its arrays for
+/// each search and keeps its heap fully ordered.
 ///
 /// Sources: P. E. Hart, N. J. Nilsson, B. Raphael, A Formal Basis for the Heuristic Determination
 /// of Minimum Cost Paths, IEEE SSC-4 (1968); R. B. Dial, Algorithm 360, Comm. ACM 12 (1969).
@@ -72,7 +74,7 @@ class CellSearch {
     struct Reached {
         double so_far = infinity;  // length from the start [m]
         int before = -1;           // previous cell of the path; -1: the start
-        float aside = 0;           // distance of `before` from the straight line, see aside()
+        float aside = 0;           // distance of `before` from the straight line start-goal
     };
     /// Cell in the open list of A*; obsolete if a shorter path to the cell was found since.
     struct Open {

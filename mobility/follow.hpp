@@ -12,10 +12,10 @@ namespace rovernet {
 /// follower reads the leader's position and moves along the path to this position, around the
 /// walls, until the remaining path is `distance` long.
 ///
-/// The follower spreads the path over the interval, with at most `speed`, and stands while the
-/// leader is nearer. Behind a leader with constant speed v < `speed` on a straight line, the
-/// distance at each update is `distance` + v `every`. If there is no path, the follower stands
-/// until the next update. Its height is constant.
+/// The follower chooses its speed, at most `speed`, so that the movement takes the whole interval.
+/// It stands while the path to the leader is shorter than `distance`. Behind a leader with constant
+/// speed v < `speed` on a straight line, the distance at each update is `distance` + v `every`. If
+/// there is no path, the follower stands until the next update. Its height is constant.
 struct Follow {
     static constexpr std::string_view name = "follow";
     static constexpr AtDoors at_doors = AtDoors::looks;

@@ -22,8 +22,9 @@ struct EnumNames<WallSide> {
 /// straight ahead until it finds a wall.
 ///
 /// After each `stride` the robot measures again and moves along the wall that is nearest then,
-/// corrected by the distance error. There is no error at a straight wall; around a convex corner
-/// the robot moves on chords, at most stride^2 / (8 (keep + radius)) off the circle.
+/// corrected by the distance error. There is no error at a straight wall. Around a convex corner
+/// the robot moves on short straight lines, at most stride^2 / (8 R) [m] off the circle around the
+/// corner with radius R: `keep` plus the radius of its body.
 ///
 /// The model needs a map. Robots do not detect each other.
 struct FollowWall {

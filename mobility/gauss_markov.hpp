@@ -11,12 +11,12 @@
 
 namespace rovernet {
 
-/// Gauss-Markov mobility model: every `step` speed and direction are drawn, correlated with the
-/// previous ones:
-///   s' = a s + (1 - a) mean_speed + sqrt(1 - a^2) speed_sigma w,   w normal; direction alike.
+/// Gauss-Markov mobility model: after every `step`, a speed s' is drawn that is correlated with the
+/// previous speed s by a = `memory`, with a standard normal draw w. The same rule holds for angles:
+///   s' = a s + (1 - a) mean_speed + sqrt(1 - a^2) speed_sigma w
 ///
 /// The speed is normally distributed with mean_speed and speed_sigma at all times, and its
-/// autocorrelation over k steps is a^k; at a speed below 0 the robot moves in the opposite
+/// autocorrelation over k steps is a^k. At a speed below 0 the robot moves in the opposite
 /// direction. Within a tenth of the area's shorter side from a border, the mean direction points to
 /// the middle of the area, until the next border. A leg that would cross a border or a wall ends
 /// there (a micrometre before a wall), and a new step begins: at a border towards the middle, at a

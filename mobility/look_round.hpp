@@ -37,8 +37,9 @@ class LookRound {
         const double beam = std::round((direction - heading_) / step);
         return ways_[static_cast<std::size_t>(std::fmod(beam + 4 * beams, beams))];
     }
-    /// Beam with the smallest distance between straight ahead and straight behind, on the left or
-    /// on the right; empty if all distances are at least the range finder's range.
+    /// Index of the beam that measures the smallest distance on one side of the robot, left or
+    /// right, from straight ahead to straight behind. Empty if all distances are at least the range
+    /// finder's range.
     std::optional<std::size_t> nearest(bool on_the_left) const {
         std::size_t least = 0;
         for (std::size_t i = 1; i <= beams / 2; ++i) {

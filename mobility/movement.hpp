@@ -21,12 +21,12 @@ class Legs;
 class Planners;
 class Scene;
 
-/// Valid turn rates [rad/s] of robots that turn in place: half a turn ends long before the range of
-/// the simulation's clock (292 years).
+/// Valid turn rates [rad/s] of robots that turn in place. At the lowest rate, half a turn ends long
+/// before the end of the simulation's clock (292 years).
 inline constexpr Range turn_rates{.low = 1e-8, .text = ">= 1e-8 rad/s"};
 
-/// Valid ranges of step times and rests of movements [s]; the clock of the simulation (292 years)
-/// is long enough for many of them.
+/// Valid ranges [s] of the time steps (step_length) and the rests (rest_length) of movement models.
+/// The simulation's clock (292 years) has room for several of the longest steps.
 inline constexpr Range step_length{
     .low = 1e-6, .high = 9e8, .text = "from 1 us to 9e8 s (28 years)"};
 inline constexpr Range rest_length{.low = 0, .high = 9e8, .text = "from 0 s to 9e8 s (28 years)"};
@@ -48,7 +48,7 @@ struct Mover {
     /// Current scene, with closed doors; null: the scene of the planners.
     const Scene* scene_now = nullptr;
 
-    /// Current storey of the robot; the whole scene if it has only one storey.
+    /// Scene of the robot's current storey; the whole scene if it has only one storey.
     const Scene& scene() const;
     /// Key of the robot's random draw number `index` in this movement.
     Key key(std::uint64_t index) const {
@@ -69,19 +69,20 @@ struct Blocked {
 
 using Step = std::variant<Leg, AtRest, Blocked>;
 
-/// Movement model: a generator of legs (pieces of movement), called when a leg has ended; there are
-/// no ticks. A leg starts at mover.now at mover.position and lasts at least a nanosecond. Only the
-/// first leg of a run may start elsewhere: the robot then starts there.
+/// Movement model: a generator of legs (pieces of movement). It is called whenever a leg has ended,
+/// not at fixed time steps. A leg starts at mover.now at mover.position and lasts at least a
+/// nanosecond. Only the first leg of a run may start at another position, the robot's start
+/// position.
 /// Example: examples/own_movement.cpp.
 template <class T>
 concept MovementModel = std::copy_constructible<T> && requires(T model, Mover& mover) {
     { model.next_leg(mover) } -> std::same_as<Step>;
 };
 
-/// Straight leg from the mover's position to `to` at `speed` > 0 [m/s], at most its top speed.
+/// Straight leg from the mover's position to `to` at `speed` > 0 [m/s], at most mover.top_speed.
 Leg straight_leg(const Mover& mover, Vec3 to, MetersPerSecond speed);
 /// Straight leg from the mover's position to `to`, which the mover reaches at `arrival` >
-/// mover.now, or later if its top speed is too low.
+/// mover.now, or later if mover.top_speed is too low.
 Leg straight_leg(const Mover& mover, Vec3 to, Time arrival);
 
 /// Endless leg (piece of movement) at rest at the mover's position.
@@ -95,8 +96,8 @@ struct Fixed {
     Step next_leg(Mover& mover) { return standing_leg(mover); }
 };
 
-/// Action of a movement model when a door closes in the path of its leg. A model sets it by a
-/// member `at_doors`; the default is `waits`.
+/// Reaction of a moving robot to a door that closes in the path of its leg. A movement model sets
+/// the reaction by a static member `at_doors`; the default is `waits`.
 enum class AtDoors {
     waits,   ///< the robot stops at the door, and continues the leg once the door opens
     looks,   ///< the robot stops at the door, and the model is asked for another leg

@@ -13,8 +13,8 @@ namespace rovernet {
 
 /// Patrol: endless movement from place to place in a cycle, around the walls if there are any.
 ///
-/// If there is no path to a place, the movement ends with Blocked. If all places are equal, it ends
-/// with AtRest.
+/// If there is no path to a place, the movement ends with Blocked. If all places are equal, the
+/// movement ends with AtRest.
 struct Patrol {
     static constexpr std::string_view name = "patrol";
 

@@ -17,13 +17,13 @@ namespace rovernet {
 
 /// Path planner around walls, for round robots of one radius.
 ///
-/// A* over the cells whose centres are at least the radius away from every obstacle (8 neighbours,
-/// no corner is cut), then shortened by lines of sight. Start and goal are connected to nearby
-/// cells by passable straight lines, so they may lie where no cell centre is free. The path is near
-/// the shortest one, but not the shortest: its corners are about a cell away from the walls. Every
-/// part of a path is Scene::passable. A path depends only on its two ends, not on earlier calls:
-/// see CellSearch for ties. Recent paths are cached, so paths between places of a list are searched
-/// once.
+/// A path is found by A* over the cells whose centres are at least the radius away from every
+/// obstacle (8 neighbours, no corner is cut). The path is then shortened along lines of sight.
+/// Start and goal are connected to nearby cells by passable straight lines, so they may lie where
+/// no cell centre is free. The path is near the shortest one, but not the shortest: its corners are
+/// about a cell away from the walls. Every part of a path is Scene::passable. A path depends only
+/// on its two ends, not on earlier calls: see CellSearch for ties. Recent paths are cached, so
+/// paths between places of a list are searched once.
 class Planner {
   public:
     /// Computes the cells in which the robot may stand, once. The scene must outlive the planner.
@@ -59,7 +59,8 @@ class Planner {
     std::map<Question, std::optional<std::vector<Vec3>>> known_;  // cached paths around obstacles
 };
 
-/// Corners of the path [m] of a robot with `radius`, see Planner; use a Planner for many paths.
+/// Corners [m] of the path from `from` to `to` around the walls, for a robot with `radius`, see
+/// Planner::shortest_path. For many paths, use one Planner.
 std::optional<std::vector<Vec3>> shortest_path(const Scene& scene, Vec3 from, Vec3 to,
                                                Meters radius);
 

@@ -14,7 +14,7 @@ namespace rovernet {
 Vec3 foreseen(const Mover& mover, NodeId leader, Time t, std::string_view model);
 
 /// Shortens `leg`, the mover's next leg (piece of movement from its position), so that it ends at
-/// `end` > mover.now. A leg that ends before is returned unchanged.
+/// `end` > mover.now. A leg that ends before `end` is returned unchanged.
 Leg cut_short(const Mover& mover, const Leg& leg, Time end);
 
 /// Leg at rest at the mover's position for one nanosecond: a wait at the start of a run until all

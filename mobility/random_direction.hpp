@@ -26,11 +26,12 @@ struct EnumNames<BorderTurn> {
 /// Random direction mobility model: the robot moves in a random direction to the border of the area
 /// or a wall, at a uniform random speed between min_speed and max_speed, rests, and repeats.
 ///
-/// With border_turn = cosine, an open field, no pause and min_speed > 0 it is stationary from a
-/// uniform start: the density of positions is uniform at all times; for this the first speed is
-/// drawn with density 1/v. With border_turn = uniform, the rule of the source, the density is
-/// higher along the borders. The robot stops a micrometre before a wall and leaves it at a uniform
-/// angle. Speeds above the robot's top speed are not drawn.
+/// The model is stationary from a uniform start if border_turn = cosine, the field is open, there
+/// is no pause, and min_speed > 0: the density of positions is then uniform at all times. For this
+/// purpose the first speed v is drawn with a density proportional to 1/v. With border_turn =
+/// uniform, the rule of the source, the density of positions is higher along the borders. The robot
+/// stops a micrometre before a wall and leaves it at a uniform angle. Speeds above the robot's top
+/// speed are not drawn.
 /// Source: E. Royer, P. Melliar-Smith, L. Moser, An analysis of the optimum node density for ad hoc
 /// mobile networks, ICC 2001.
 struct RandomDirection {

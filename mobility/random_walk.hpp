@@ -12,12 +12,12 @@ namespace rovernet {
 
 struct SpeedRange;
 
-/// Random walk mobility model: every `step` a uniform random direction and a uniform random speed
-/// between min_speed and max_speed; the borders of the area reflect.
+/// Random walk mobility model. After every `step` the robot draws a uniform random direction and a
+/// uniform random speed between min_speed and max_speed. The borders of the area reflect the robot.
 ///
-/// On an open field, from a uniform start, positions are uniformly distributed at all times, and
-/// speeds as drawn. At a wall or the map's border the step ends a micrometre before it, and the
-/// next step begins. Speeds above the robot's top speed are not drawn.
+/// On an open field, from a uniform start, positions and speeds are uniformly distributed at all
+/// times. At a wall or the map's border the step ends a micrometre before it, and the next step
+/// begins. Speeds above the robot's top speed are not drawn.
 /// Source: T. Camp, J. Boleng, V. Davies, A survey of mobility models for ad hoc network research,
 /// Wireless Communications and Mobile Computing 2(5), 2002, section 2.1.
 struct RandomWalk {

@@ -35,10 +35,10 @@ struct EnumNames<StartState> {
 /// above the robot's top speed are not drawn.
 ///
 /// Stationary start: a trip is drawn like any other, accepted with probability proportional to the
-/// mean duration of trip and rest, and started at a uniform random time within it; while the robot
-/// moves, its speed has density 1/v. Exact on an open field. On a map, a path longer than twice the
-/// area's diagonal counts as that long. A stationary start needs min_speed > 0, because the slowest
-/// trips would last for ever.
+/// mean duration of trip and rest, and started at a uniform random time within it. While the robot
+/// moves, the density of its speed v is proportional to 1/v. The start is exactly stationary on an
+/// open field. On a map, a path longer than twice the area's diagonal counts as twice the diagonal.
+/// A stationary start needs min_speed > 0, because the slowest trips would last for ever.
 /// Sources: D. Johnson, D. Maltz, Dynamic source routing in ad hoc wireless networks, 1996; W.
 /// Navidi, T. Camp, Stationary distributions for the random waypoint mobility model, IEEE TMC 3(1),
 /// 2004; J. Yoon, M. Liu, B. Noble, Random waypoint considered harmful, INFOCOM 2003.

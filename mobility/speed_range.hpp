@@ -18,10 +18,11 @@ struct SpeedRange {
 
     /// Speed of a trip [m/s], for u uniform in (0, 1): uniformly distributed.
     double of_a_trip(double u) const { return low + u * (high - low); }
-    /// Speed at a random time [m/s], for u uniform in (0, 1) and low > 0: of density 1/v, because
-    /// slow trips last longer. Its mean is (high - low) / ln(high / low).
+    /// Speed v at a random time [m/s], for u uniform in (0, 1) and low > 0. Its density is
+    /// proportional to 1/v, because slow trips last longer. The mean of v is (high - low) / ln(high
+    /// / low).
     double at_a_moment(double u) const;
-    /// Mean of 1/v over the trips [s/m]: ln(high / low) / (high - low); low > 0.
+    /// Mean of 1 / speed over the trips [s/m]: ln(high / low) / (high - low), for low > 0.
     double mean_slowness() const;
 };
 

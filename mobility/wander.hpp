@@ -50,7 +50,7 @@ struct Wander {
   private:
     /// Angle [rad] by which the robot turns in place to its next direction, counter-clockwise.
     double turn(const Mover& mover);
-    // Beam with the largest distance; a random one among equals.
+    // Index of the beam that measures the largest distance; a random one among equals.
     std::size_t farthest(const LookRound& look, const Mover& mover);
 };
 

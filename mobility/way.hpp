@@ -9,8 +9,8 @@
 
 namespace rovernet {
 
-/// Planned path around walls, followed corner by corner. The object has the size of a pointer while
-/// the robot moves to the last corner.
+/// Planned path around walls, followed corner by corner. A Way has the size of a pointer, and uses
+/// no further memory while the robot moves to the last corner.
 class Way {
   public:
     Way() = default;

@@ -9,7 +9,7 @@
 
 namespace rovernet {
 
-/// Position and the time of arrival at it.
+/// Position at which a robot arrives at a given time.
 struct TimedPoint {
     Time time;
     Vec3 position;  ///< position [m]
@@ -34,7 +34,7 @@ struct Waypoints {
 
     /// State of the robot in this movement, for the model only.
     struct Progress {
-        std::size_t places = 0;  // number of places of both lists started so far
+        std::size_t places = 0;  // number of places of `timed` and `path` headed for so far
         Way way = {};            // path to the last started place
     } progress = {};
 };

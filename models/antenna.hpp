@@ -11,7 +11,7 @@
 namespace rovernet {
 
 /// Shape of an antenna pattern: gain [dB] relative to the strongest direction, at the angle phi
-/// from that direction, in the horizontal plane. Height differences do not change it.
+/// from that direction, in the horizontal plane. Height differences do not change the gain.
 ///
 /// - isotropic: 0 dB everywhere
 /// - cosine: 10 n log10((1 + cos phi) / 2), limited to -front_to_back from below; n is chosen so

@@ -44,8 +44,8 @@ struct PreambleDetection {
     std::optional<Db> threshold = std::nullopt;
 };
 
-/// Frame as transmitted. Interference stores the Emission while the frame may overlap with others.
-/// The judge of the reception model stores its own data of the frame at the index `flight`.
+/// Frame as transmitted. Interference stores the Emission while the frame may overlap with other
+/// frames. The judge of the reception model stores its own data of the frame at the index `flight`.
 struct Emission {
     /// Begin and end of the frame at its sender.
     Time begin, end;
@@ -75,12 +75,12 @@ enum class Lock : std::uint8_t {
     missed,
 };
 
-/// Frame at a node that senses it, for access models. Channel makes one for each such node when the
-/// frame starts.
+/// Frame at a node that senses it, for access models. When a frame starts, Channel makes a Sensing
+/// for each node that senses the frame.
 struct Sensing {
     NodeId node;
     /// True if the signal is strong enough to be decoded. The access model is then also notified at
-    /// the end of the frame whether it was received.
+    /// the end of the frame whether the node received the frame.
     bool decodable;
     /// Modulation and coding of the frame.
     Coding coding{};
@@ -88,32 +88,34 @@ struct Sensing {
     Time begin, end;
 };
 
-/// Frame as it arrives at one node: the input of a reception model's judge. Its times include the
+/// Frame as it arrives at one node: the input of a reception model's judge. The times include the
 /// propagation delay to the node.
 struct Arrival {
     /// Begin and end of the frame at this node.
     Time begin;
     Time end;
-    /// Received power [dBm]; NaN until it is computed.
+    /// Received power [dBm]; NaN until the power is computed.
     double level_dbm;
     /// Squared distance [m^2] from the sender's antenna when the frame began; NaN unless it was
     /// computed.
     double squared_distance;
     /// Node that transmits the frame.
     NodeId from;
-    /// True if the node itself transmits the frame. The node cannot receive other frames meanwhile.
+    /// True if the node of this Arrival is itself the sender of the frame. The node cannot receive
+    /// other frames during its own frame.
     bool own = false;
     /// Modulation and coding of the frame.
     Coding coding{};
-    /// Lock state for the model "sinr"; null if the node cannot decode the frame.
+    /// Lock state of the receiver for this frame, for the model "sinr"; null if the node cannot
+    /// decode the frame.
     Lock* lock = nullptr;
 
     /// Whether this frame and `other` overlap in time at the node; adjacent frames do not overlap.
     bool overlaps(const Arrival& other) const { return begin < other.end && other.begin < end; }
 };
 
-/// Arrival of a node's own frame at the node itself: infinitely strong, because no frame can be
-/// received during it.
+/// Arrival of a node's own frame at the node itself: infinitely strong, because a node receives no
+/// other frame during its own frame.
 constexpr Arrival own_frame(NodeId node, Time begin, Time end) {
     return {.begin = begin,
             .end = end,

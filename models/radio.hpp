@@ -19,7 +19,7 @@
 
 namespace rovernet {
 
-/// Gate of a radio: restriction of the radios with which a radio can have links.
+/// Rule (gate) that restricts the radios with which a radio can have links.
 enum class Gate {
     /// Links only within a network: same essid ("any" matches all), channel and frequency.
     network,
@@ -87,7 +87,7 @@ struct Radio {
 
     /// Name of the radio's network (essid); "any" matches all.
     std::string essid = "any";
-    /// Channel number that both ends must share; 0 if not used.
+    /// Channel number, which both ends of a link must share; 0 if not used.
     int channel = 0;
     /// Gate of the radio: links only with radios of its own network, or with any radio.
     Gate gate = Gate::network;
@@ -112,7 +112,7 @@ struct Radio {
     friend bool operator==(const Radio&, const Radio&) = default;
 
     /// Parameters in scenario files. Labels and addresses are included: tables and pictures show
-    /// them, links do not depend on them.
+    /// labels and addresses, but links do not depend on them.
     static constexpr auto fields() {
         return describe(
             field("power", &Radio::power, "transmitter output power"),
@@ -157,7 +157,8 @@ struct Radio {
 };
 
 /// Noise floor of a receiver [dBm]: thermal noise at 290 K in its bandwidth, plus its noise figure:
-/// -173.975 dBm + 10 log10(B / 1 Hz) + NF. With the defaults of a radio it is -93.55 dBm.
+/// -173.975 dBm + 10 log10(B / 1 Hz) + NF. With the defaults of a radio the noise floor is -93.55
+/// dBm.
 ///
 /// Source: k T_0 with the CODATA 2018 value of k.
 Dbm noise_floor(Hertz bandwidth, Db noise_figure);

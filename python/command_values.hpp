@@ -14,7 +14,8 @@
 #include <type_traits>
 #include <utility>
 
-// Commands to robots from Python keywords, by the fields of each command.
+// Conversion of Python keyword arguments to robot commands. The function fields() of a command
+// lists its keywords.
 
 namespace rovernet::python {
 
@@ -86,7 +87,8 @@ std::optional<RobotCommand> command_if(SessionObject& session, NodeId robot,
     return command;
 }
 
-/// Robot command from Python keyword arguments, which are the keys of the lock-step protocol.
+/// Robot command from Python keyword arguments. The keywords are the command's keys in the
+/// lock-step protocol, and determine the type of the command.
 template <class... Commands>
 RobotCommand command_of(std::tuple<std::type_identity<Commands>...> /*commands*/,
                         SessionObject& session, NodeId robot, const py::kwargs& given) {

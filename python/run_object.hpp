@@ -17,7 +17,8 @@
 
 namespace rovernet::python {
 
-/// Sink (observer of a run) that stores records of the kinds named in `kinds`; null without names.
+/// Sink (observer of a run) that stores records of the kinds with the names `kinds`; null if
+/// `kinds` is empty.
 inline std::shared_ptr<RowSink> rows_of(const std::vector<std::string>& kinds) {
     KindMask mask = 0;
     for (const std::string& kind : kinds) mask |= record_named(kind);

@@ -107,7 +107,8 @@ inline py::array_t<double> twist(SessionObject& session) {
     return all;
 }
 
-/// View of the array of the session's poses; the view keeps the session alive.
+/// NumPy array of the robots' poses (x [m], y [m], heading [rad]), as a view that keeps the session
+/// alive.
 inline py::array pose(const py::object& self) {
     auto& session = self.cast<SessionObject&>();
     const std::span<const double> poses = session.run().poses();

@@ -29,7 +29,7 @@ struct HeardObject {
     }
 };
 
-/// Sink that calls a Python function with each record of a kind.
+/// Sink that calls a Python function with each record of one kind.
 class RecordCallback {
   public:
     RecordCallback(KindMask kind, py::object function, Interruption& interruption)
@@ -86,7 +86,8 @@ class SessionObject {
         interruption_.raise();
     }
     py::list step() {
-        // Number of events per slice: small, since one event may reach thousands of robots.
+        // Number of events between two checks for an interruption: small, since one event may reach
+        // thousands of robots.
         constexpr std::uint64_t events_a_slice = 256;
         const Working working(*this);
         {
@@ -110,7 +111,8 @@ class SessionObject {
         interruption_.raise();
         return {std::move(scenario), std::move(result), kept_, true};
     }
-    /// Calls `function` with each record of a kind from now on; None stops these calls.
+    /// Calls the Python function `function` with each record of the kind `name` from now on. If
+    /// `function` is None, the calls for this kind end.
     void on_record(const std::string& name, const py::object& function) {
         const Working working(*this);
         Network& network = run_.session().network();

@@ -26,7 +26,7 @@ namespace rovernet {
 
 /// [[scene.door]]: a piece of wall that is present only while the door is closed. See Door.
 struct DoorTable {
-    /// Name of the door in messages; none: messages use its number.
+    /// Name of the door in messages to the user; none: messages show the door's number.
     std::optional<std::string> name = {};
     /// End points of the door's centre line [m].
     Vec3 from, to;
@@ -53,7 +53,7 @@ struct DoorTable {
 /// Reads [[scene.door]]; does not check doors against the map.
 /// @throws InputError at the first mistake
 std::vector<DoorTable> read_doors(const Value& value);
-/// Tables [[scene.door]] from which read_doors() reads the same doors.
+/// Converts doors to tables [[scene.door]]: the inverse of read_doors().
 Array doors_document(const std::vector<DoorTable>& doors);
 
 }  // namespace rovernet

@@ -32,7 +32,8 @@ namespace rovernet {
 struct CeilingTable {
     /// Loss of a signal that crosses the ceiling [dB]; none: `itu` or the model determines it.
     std::optional<Db> per_crossing;
-    /// ITU-R P.2040 material and thickness [m] of the ceiling, whose loss is that of such a slab.
+    /// Material of ITU-R P.2040, and thickness [m]. The ceiling has the loss of a slab of this
+    /// material and thickness.
     std::optional<ItuMaterial> itu;
     std::optional<Meters> thickness;
 
@@ -68,7 +69,7 @@ struct FloorTable {
 /// Reads [[scene.floor]]; does not load the maps.
 /// @throws InputError at the first mistake
 std::vector<FloorTable> read_floors(const Value& value);
-/// Tables [[scene.floor]] from which read_floors() reads the same floors.
+/// Converts floors to tables [[scene.floor]]: the inverse of read_floors().
 Array floors_document(const std::vector<FloorTable>& floors);
 
 /// Checks the size of a picture used as a map: it must be a width and a height [m], both > 0.

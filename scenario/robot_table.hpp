@@ -85,12 +85,12 @@ struct ReactionTable {
     std::optional<int> hops = {};
     /// Time of the reaction since the start of the run [ns]. Used by on_time.
     Duration time{0};
-    /// True if the robot reacts to the first such event only. Not used by on_time, which happens
-    /// once.
+    /// True if the robot reacts only to the first event of the trigger; false: to all events. Not
+    /// used by on_time, which happens once.
     bool once = true;
     /// Movement that the robot starts as its reaction; none: the robot starts no movement.
     std::optional<MoveTable> move = {};
-    /// Payload of the message that the robot sends as its reaction; none: it sends no message.
+    /// Payload of the message that the robot sends as its reaction; none: no message is sent.
     std::optional<std::string> send = {};
     /// Destination of the message that the robot sends: a robot's name, or "sender"; none:
     /// everyone.
@@ -136,8 +136,8 @@ struct RobotTable {
     std::optional<MetersPerSecond> top_speed;
     /// Rate at which the robot turns in place before it drives [rad/s]; none: turns take no time.
     std::optional<RadiansPerSecond> turn_rate;
-    /// Role in the routing protocol; none: the protocol's default. Protocols without roles ignore
-    /// it.
+    /// Role in the routing protocol; none: the protocol's default role. Protocols without roles
+    /// ignore the role.
     std::optional<std::string> role;
     /// Radio of the robot: [radio], overridden by the keys of the robot's `radio` table.
     Radio radio;
@@ -147,7 +147,7 @@ struct RobotTable {
     std::optional<PropagationTable> propagation;
     /// True if the robot's `propagation` names a model; then [propagation] is ignored.
     bool own_model = false;
-    /// Movement of the robot; by default it stays where it is.
+    /// Movement of the robot; by default the robot stays at its start position.
     MoveTable move;
     /// Range finders of the robot; external programs read their distances (`rovernet live`).
     std::vector<Scanner> scan;
@@ -159,7 +159,7 @@ struct RobotTable {
     /// position.
     Location where, at_where, radio_where, propagation_where, on_where, off_where;
 
-    /// Name of the i-th of `count` robots, i from 0.
+    /// Name of the i-th robot of this [[robot]] table, i from 0.
     std::string name_of(int i) const { return count ? name + std::to_string(i) : name; }
 };
 
@@ -171,8 +171,8 @@ struct Scenario;
 /// @throws InputError at the first mistake
 RobotTable read_robot(const Value& value, const Scenario& scenario, bool needs_place);
 
-/// Table from which read_robot() reads the same robot; values equal to the scenario's defaults are
-/// omitted.
+/// Converts a robot to a table [[robot]]: the inverse of read_robot(). Values equal to the
+/// scenario's defaults are omitted.
 Table robot_document(const RobotTable& robot, const Scenario& scenario);
 
 }  // namespace rovernet

@@ -113,7 +113,7 @@ struct Scenario {
     Fading fading;
     ReceptionTable reception;
     AccessTable access;
-    /// Address resolution, keys of [access] beside those of the model.
+    /// Settings of address resolution (ARP): keys of [access] that belong to no access model.
     ArpSettings arp;
     /// File position of the key basic_rates of [access], or of the table [access] without this key.
     Location access_where;
@@ -142,7 +142,7 @@ struct Scenario {
 /// @throws InputError at the first mistake
 Scenario read_scenario(const Value& document, const std::string& file, bool needs_robots = true);
 
-/// Document of a scenario with every default, from which read_scenario() reads the same scenario.
+/// Converts a scenario to a document with every default: the inverse of read_scenario().
 Table to_document(const Scenario& scenario);
 
 }  // namespace rovernet

@@ -14,14 +14,16 @@ struct WorldFile;
 
 /// Options of the command line that change a scenario file.
 struct ScenarioOptions {
-    /// Assignments "path=value", see set_option(): --set.
+    /// Values of the option --set: assignments "path=value", see set_option().
     std::vector<std::string> set = {};
-    /// Folders in which includes and bitmaps of a Stage world are searched, relative to the current
-    /// folder: --world-path.
+    /// Values of the option --world-path: folders in which includes and bitmaps of a Stage world
+    /// are searched, relative to the current folder.
     std::vector<std::string> world_path = {};
-    /// Replacements "OLD=NEW": NEW is read wherever the Stage world names the bitmap OLD: --bitmap.
+    /// Values of the option --bitmap: replacements "OLD=NEW". The file NEW is read wherever the
+    /// Stage world names the bitmap OLD.
     std::vector<std::string> bitmaps = {};
-    /// True if a missing include or bitmap of a Stage world is a notice, not an error: --lenient.
+    /// Option --lenient. True: a missing include or bitmap of a Stage world causes only a notice.
+    /// False: it causes an error.
     bool lenient = false;
     /// True if a scenario without robots is an error. False for pictures of a map, which need no
     /// robots.
@@ -29,8 +31,8 @@ struct ScenarioOptions {
 };
 
 /// Input file of a scenario, overridden by options of the command line. The file is a scenario
-/// file, a Stage world (NAME.world) or a movement file. It is read once. A study makes a Scenario
-/// from a ScenarioFile for each combination of varied values.
+/// file, a Stage world (NAME.world) or a movement file. The file is read once. A study makes a
+/// Scenario from a ScenarioFile for each combination of varied values.
 /// Example: examples/parameters.cpp.
 class ScenarioFile {
   public:

@@ -44,7 +44,8 @@ struct MaterialTable {
     std::optional<Db> per_crossing;
     /// Loss per length of path inside a wall [dB/m].
     std::optional<DbPerMeter> per_metre;
-    /// ITU-R P.2040 material, and thickness [m]: each wall has the loss of such a slab.
+    /// Material of ITU-R P.2040, and thickness [m]. Each wall has the loss of a slab of this
+    /// material and thickness.
     std::optional<ItuMaterial> itu;
     std::optional<Meters> thickness;
     /// Height of walls of this material [m]; none: the key wall_height of [scene].
@@ -86,8 +87,9 @@ struct SceneTable {
     /// Path of a Stage world file, given instead of a map. The robots of the world are added to the
     /// robots of the scenario file.
     std::optional<std::string> world;
-    /// Options of reading the Stage world: further folders to search for includes and bitmaps;
-    /// replacements of bitmaps, "OLD=NEW"; whether a missing file is a notice instead of an error.
+    /// Options for reading the Stage world. `world_path`: further folders in which includes and
+    /// bitmaps are searched. `bitmaps`: replacements of bitmaps, "OLD=NEW". `lenient`: whether a
+    /// missing file is a notice instead of an error.
     std::optional<std::vector<std::string>> world_path;
     std::optional<std::vector<std::string>> bitmaps;
     bool lenient = false;
@@ -130,7 +132,8 @@ struct SceneTable {
 /// Reads [scene]; does not load the map.
 /// @throws InputError at the first mistake
 SceneTable read_scene(const Value& value);
-/// Table from which read_scene() reads the same scene, with every default but `lenient`.
+/// Converts a scene to a table [scene], with every default except `lenient`: the inverse of
+/// read_scene().
 Table scene_document(const SceneTable& scene);
 
 /// Options for reading the Stage world of the scene, from keys of [scene].
@@ -161,8 +164,8 @@ std::vector<Door> doors_of(const SceneTable& scene);
 std::vector<SceneChange> load_doors(const SceneTable& scene,
                                     const std::shared_ptr<const Scene>& open);
 
-/// Rejects a scene with doors, for commands that examine links in a fixed scene.
-/// @param who  command or method, for the message
+/// Checks that a scene has no doors. Used by commands that examine links in a fixed scene.
+/// @param who  name of the command or method, for the error message
 /// @throws InputError at the first door
 void refuse_doors(const SceneTable& scene, std::string_view who);
 

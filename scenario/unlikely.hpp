@@ -21,8 +21,8 @@ namespace rovernet {
 /// nothing
 void note_unlikely(Scenario& scenario);
 
-/// Adds notices about robots that start off the map, or in a wall of a Stage world. On a map a
-/// start in a wall is no notice but an error, when the network is built.
+/// Adds notices about robots that start off the map, or in a wall of a Stage world. A start in a
+/// wall of a map is an error, which is reported when the network is built.
 /// @param scene  scene of the scenario; null: an open field
 void note_places(Scenario& scenario, const Scene* scene);
 
@@ -49,8 +49,8 @@ void note_thick_walls(Scenario& scenario, const Scene* scene);
 /// since the study does not change the models of these robots.
 void note_own_models(Scenario& scenario);
 
-/// Rejects the propagation model disc for commands that compare received power levels, since disc
-/// has no levels.
+/// Checks that the propagation model is not disc. Used by commands that compare received power
+/// levels, since disc gives no levels.
 /// @param who  name of the command or method, for the error message
 /// @throws InputError if the model is disc
 void refuse_disc(const Propagation& model, const Location& where, std::string_view who);

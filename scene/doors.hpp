@@ -30,8 +30,8 @@ struct Door {
     Meters thickness{0.05};
     /// Material of the closed door.
     Material material = {};
-    /// Times since the start of the run [ns] at which the door closes and opens; it is open at
-    /// first. No time may be in both lists.
+    /// Times since the start of the run [ns] at which the door closes and opens. The door is open
+    /// at first. No time may be in both lists.
     std::vector<Duration> closes = {}, opens = {};
 
     /// Whether the door is closed at time `t`. At the time of a change the new state is valid.

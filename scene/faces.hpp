@@ -24,7 +24,7 @@ struct Face {
     Vec3 from, to;
     /// Unit normal of the face: a horizontal vector that points out of the wall.
     Vec3 normal;
-    /// Length of the face [m]; 0 if the two adjacent faces meet before it, so that nothing is left.
+    /// Length of the face [m]; 0 if the lines of the two adjacent faces cut off the whole face.
     double length = 0;
     /// Largest distance between the wall's outline as drawn on the map and the straight line of the
     /// face [m]; 0 if the outline follows the grid.

@@ -36,8 +36,8 @@ class MapFrame {
     }
 
     /// Point of the map, in units of cells, for a point in the world [m]. A coordinate within
-    /// cell_tolerance of a grid line is moved onto the line, so that decimals such as 0.15 m in
-    /// cells of 0.05 m are exact.
+    /// cell_tolerance of a grid line is moved onto the line, so that a coordinate such as 0.15 m
+    /// with cells of 0.05 m is exactly 3 cells.
     CellPoint to_cells(Vec3 p) const {
         const double x = p.x - origin_.x;
         const double y = p.y - origin_.y;

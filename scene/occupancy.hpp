@@ -64,8 +64,8 @@ OccupancyGrid read_ros_map(const std::string& yaml_path);
 /// Map made of an image without a YAML file. `width` and `height` of the map [m] must be > 0. The
 /// lower-left corner is at (0, 0).
 ///
-/// A pixel is a wall if the mean of red, green and blue is below one half. Otherwise it is free. A
-/// fully transparent pixel is free, too.
+/// A pixel is a wall if the mean of red, green and blue is below one half. Otherwise the pixel is
+/// free. A fully transparent pixel is free, too.
 /// @throws InputError as read_image(); std::invalid_argument if a size is not positive and finite
 OccupancyGrid image_map(const std::string& path, Meters width, Meters height);
 

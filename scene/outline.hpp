@@ -13,7 +13,7 @@
 namespace rovernet {
 
 /// Straight piece of an outline along a grid line, from one grid point to another. The wall is on
-/// the left of its direction.
+/// the left of the piece's direction.
 struct OutlineEdge {
     /// Ends of the piece in units of cells: (u0, v0) to (u1, v1); u counts columns, v rows.
     int u0, v0, u1, v1;
@@ -35,7 +35,7 @@ using MaterialAt = std::function<int(int column, int row)>;
 /// begins at its lowest, then leftmost point. Outlines are in the order of these points.
 std::vector<Outline> outlines(int columns, int rows, const MaterialAt& material);
 
-/// Straight line fitted to consecutive edges of an outline.
+/// Straight line fitted to consecutive edges of the outline of a wall.
 struct OutlineSide {
     /// Edges of the outline to which the line is fitted: [first, first + count), modulo the number
     /// of edges.

@@ -19,8 +19,8 @@ struct CellRectangle {
 
 /// Kind of cells to cover with rectangles.
 enum class Solid {
-    walls,     ///< occupied cells: they attenuate radio
-    obstacles  ///< occupied and unknown cells: they block robots
+    walls,     ///< occupied cells, which attenuate radio
+    obstacles  ///< occupied and unknown cells, which block robots
 };
 
 /// Covers the solid cells exactly with disjoint rectangles.

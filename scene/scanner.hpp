@@ -21,7 +21,7 @@ struct ScannerPose {
 /// frame of `outer`.
 ScannerPose operator*(const ScannerPose& outer, const ScannerPose& inner);
 
-/// Range finder mounted on a robot. It is a fan of beams from one point of the robot, or a ring: a
+/// Range finder mounted on a robot. The beams form a fan from one point of the robot, or a ring: a
 /// set of single beams, such as sonars, each with a direction and a position:
 ///
 ///   scan = [{ kind = "laser", at = ["0.1 m", "0 m"], beams = 181 },
@@ -53,7 +53,7 @@ struct Scanner {
     void measure(const Scene& scene, const ScannerPose& robot, std::span<const RoundBody> bodies,
                  std::span<double> out) const;
 
-    /// Parameters in addition to those of `finder`.
+    /// Parameters of a scanner, in addition to the parameters of `finder`.
     static constexpr auto fields() {
         return describe(field("name", &Scanner::name, "name that programs find it by"),
                         field("at", &Scanner::at, "place on the robot"),

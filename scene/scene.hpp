@@ -92,12 +92,11 @@ class Scene {
 
     /// Walls that the segment a-b passes through, in order from a, each wall once.
     ///
-    /// A slanting wall is drawn in steps, and a segment may leave and enter it at each step.
-    /// Crossings between which the segment leaves and re-enters by one face (see Faces) belong to
-    /// one wall. A segment that enters and leaves by the same face only touches the wall and does
-    /// not pass through it. Crossings on both sides of the interior of a wall drawn as an outline
-    /// (see HollowWalls) belong to one wall, too. Any other gap, however narrow, separates two
-    /// walls.
+    /// A slanting wall is drawn as a staircase, so a segment may leave and re-enter one wall. Two
+    /// successive crossings belong to one wall if the segment leaves and re-enters by the same face
+    /// (see Faces), or if the gap between them is the interior of a wall drawn as an outline (see
+    /// HollowWalls). Any other gap, however narrow, separates two walls. A segment that enters and
+    /// leaves a wall by the same face only touches this wall and does not pass through it.
     std::vector<Wall> walls(Vec3 a, Vec3 b) const;
     /// Whether the segment a-b passes through at least one wall, see walls().
     bool passes_wall(Vec3 a, Vec3 b) const;
@@ -136,7 +135,8 @@ class Scene {
     bool occupied(Vec3 p) const;
     /// Whether the point lies within the maps, edges included; true everywhere on an open field.
     bool inside_map(Vec3 p) const;
-    /// Distance from p to the nearest obstacle [m]: 0 in or at an obstacle, infinity without any.
+    /// Distance from p to the nearest obstacle [m]: 0 in or at an obstacle, infinity without
+    /// obstacles.
     double clearance(Vec3 p) const;
     /// Whether a disc of the given radius [m] can move straight from a to b; touching an obstacle
     /// is allowed.
@@ -154,8 +154,8 @@ class Scene {
     Vec3 upper_right() const { return upper_right_; }
     /// Walls as rectangles, disjoint on each map.
     std::vector<WallRectangle> wall_rectangles() const;
-    /// Maps from which the same walls can be built: the map itself, if there is one. For several
-    /// maps: one for each map and material, with the walls only.
+    /// Maps from which the walls of this scene can be built. A scene of one map returns this map. A
+    /// scene of several maps returns one for each map and material, with the walls only.
     std::vector<OccupancyGrid> maps() const;
     /// Scene with the walls of `other` for radio and the obstacles of this scene for robots.
     Scene with_walls_of(const Scene& other) const;
@@ -173,7 +173,8 @@ class Scene {
     void add_storey(std::vector<OccupancyGrid> maps);
     void add_map(const OccupancyGrid& grid, double bottom, double top);
     void bound(const OccupancyGrid& grid, const MapFrame& frame);
-    // Walls of the scene if they are of one material, on one map, and at all heights; else null.
+    // Layer of all walls of the scene, if all are of one material, on one map and at all heights;
+    // else null.
     const WallLayer* only_layer() const;
     void merged_crossings(Vec3 a, Vec3 b, std::vector<Crossing>& out) const;
     template <class RateOf>

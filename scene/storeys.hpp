@@ -11,7 +11,8 @@
 
 namespace rovernet {
 
-/// Storey height [m] of scenes in which floors are not counted by a storey height: infinity.
+/// Value of a storey height [m] that is not given: infinity. With this value a propagation model
+/// counts no floors between antennas.
 inline constexpr Meters no_storeys{std::numeric_limits<double>::infinity()};
 
 /// Storeys of a scene, from the lowest: heights of their floors, and the ceilings between them.

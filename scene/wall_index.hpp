@@ -50,7 +50,7 @@ class WallIndex {
     double solid_length(CellPoint a, CellPoint b, double length, double enough) const;
     /// Whether the point lies in a solid cell; a cell includes its left and lower edges only.
     bool holds(CellPoint p) const;
-    /// Whether every cell that contains or touches the point is solid.
+    /// Whether all map cells that contain the point, or whose border it lies on, are solid (walls).
     bool surrounds(CellPoint p) const;
 
   private:

@@ -22,7 +22,7 @@ struct WallLayer {
     MapFrame frame;
     std::vector<CellRectangle> rectangles;   ///< walls, disjoint, as made by solid_rectangles()
     std::shared_ptr<const WallIndex> walls;  ///< spatial index of the rectangles
-    std::shared_ptr<const WallThickness> thickness = {};  ///< thickness of the layer's walls
+    std::shared_ptr<const WallThickness> thickness = {};  ///< drawn thickness of the walls, by cell
     std::shared_ptr<const HollowWalls> hollows = {};      ///< hollow walls of the map
     std::shared_ptr<const Faces> faces = {};              ///< faces of all walls of the storey
     std::size_t material = 0;                             ///< index into Scene::materials()

@@ -15,11 +15,11 @@ namespace rovernet {
 /// Thickness of the walls of one material on one map. The interior of a wall that is drawn as an
 /// outline is included.
 ///
-/// The thickness at a cell is the shortest chord through the wall along rows, columns or diagonals
-/// of the map. For an oblique wall it is the mean of neighbouring chords whose lengths differ by at
-/// most one cell, times the sine of their angle to the wall. So the steps of the outline have no
-/// effect. A table with 4 bytes per cell is made on first use (temporarily 12 more). Several
-/// threads may call the functions concurrently.
+/// The thickness at a cell is the length of the shortest straight line through the wall (chord)
+/// along rows, columns or diagonals of the map. For an oblique wall it is the mean length of
+/// neighbouring chords whose lengths differ by at most one cell, times the sine of their angle to
+/// the wall. So the steps of the outline have no effect. A table with 4 bytes per cell is made on
+/// first use (temporarily 12 more). Several threads may call the functions concurrently.
 class WallThickness {
   public:
     /// @param walls    spatial index of the walls; not null

@@ -27,7 +27,7 @@ class Chunks {
   public:
     Chunks() = default;
     Chunks(Chunks&&) = default;
-    /// Copy of the list and of each value; nothing is shared.
+    /// Copy constructor: copies every value, so that the two lists share no memory.
     Chunks(const Chunks& other) : size_(other.size_) {
         for (const auto& chunk : other.chunks_) chunks_.push_back(std::make_unique<Chunk>(*chunk));
     }

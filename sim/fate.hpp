@@ -12,7 +12,7 @@
 
 namespace rovernet {
 
-/// Fate of a copy of a frame at one receiver at which it was strong enough to be decoded.
+/// Fate of a copy of a frame at one receiver at which the copy was strong enough to be decoded.
 ///
 /// The reception model sets `garbled`, `collided` and `busy`; the sender's success rate also sets
 /// `garbled`. The network sets `off`, `duplicate` for a frame that its sender repeated, and
@@ -37,8 +37,8 @@ enum class Fate : std::uint8_t {
     arrived,
 };
 
-/// Whether a frame with this fate was decoded, forwarded or not. Without a branch, because it is
-/// called for every reception.
+/// Whether a frame with this fate was decoded, no matter whether it is forwarded. The function has
+/// no branch, because it is called for every reception.
 constexpr bool is_decoded(Fate fate) {
     constexpr auto bit = [](Fate f) { return 1U << static_cast<unsigned>(f); };
     constexpr unsigned decoded =
@@ -46,7 +46,7 @@ constexpr bool is_decoded(Fate fate) {
     return (decoded >> static_cast<unsigned>(fate) & 1) != 0;
 }
 
-/// Reception of one transmission at one receiver that could decode it without interference.
+/// Reception of one transmission at one receiver that could decode the frame without interference.
 /// Medium::find_receivers sets node and time when the frame starts, whatever moves later; reception
 /// model and routing protocol set the other fields when the frame ends.
 struct Reception {
@@ -68,7 +68,7 @@ struct Reception {
     }
 };
 
-/// Reason for the loss of a copy outside a reception. Sinks read it in Dropped.
+/// Reason for the loss of a copy outside a reception. Sinks read the reason in Dropped.
 ///
 /// The access model sets `queue_full`, `retries` and `end`; the network sets `off`, `unheard`,
 /// `cut_off` and `held`. A routing protocol passes one of the reasons from `no_route` on, or a code
@@ -90,7 +90,7 @@ enum class DropReason : std::uint8_t {
     held,
     /// The routing protocol knows no route to the destination.
     no_route,
-    /// The packet came back to a node that had sent it.
+    /// The packet came back to a node that had already sent it.
     loop,
     /// The route broke, and the protocol does not repair it.
     broken,
@@ -100,7 +100,7 @@ enum class DropReason : std::uint8_t {
     timeout,
     /// The packet was sent on an alternative route (salvaged) too often.
     salvaged,
-    /// Reason of a protocol outside this list; Dropped::own_code names it.
+    /// Reason that a routing protocol defines itself; Dropped::own_code is its code.
     own,
     /// The address of the next hop was not resolved (ARP).
     unresolved,
@@ -118,7 +118,8 @@ struct LossReason {
 
 // Table of all reasons. The switch has no default: an enumerator without a line does not compile.
 
-/// Loss reason of a reception with this fate; empty for a copy that is delivered or forwarded.
+/// Code and layer of the loss of a copy with this fate; empty for a copy that is delivered or
+/// forwarded.
 constexpr LossReason reason_of(Fate fate) {
     switch (fate) {
         case Fate::waiting:
@@ -132,7 +133,8 @@ constexpr LossReason reason_of(Fate fate) {
     }
     return {};
 }
-/// Loss reason of a copy that waited at a node. Reasons with the same code differ in their layer.
+/// Code and layer of the loss of a copy outside a reception. Reasons with the same code differ in
+/// their layer.
 constexpr LossReason reason_of(DropReason reason) {
     switch (reason) {
         case DropReason::off: return {"SLP", "RTR"};

@@ -30,8 +30,8 @@
 
 namespace rovernet {
 
-/// Value of a parameter without a default: NaN until the user sets it. check_fields() reports it as
-/// an error.
+/// Value of a parameter without a default: NaN until the user sets it. check_fields() reports such
+/// a value as an error.
 inline constexpr double unset = std::numeric_limits<double>::quiet_NaN();
 
 /// Description of one public parameter of a struct, as listed by fields().
@@ -46,10 +46,10 @@ struct Field {
     Range range;
     /// Meaning, for help and documentation: a phrase without a full stop.
     std::string_view meaning;
-    /// Way in which a fit determines the parameter.
+    /// Way in which a fit to measured losses (calibration) determines the parameter.
     Fit fit = {};
 
-    /// Description of the same parameter, which a fit determines in this way, see Fit::Way.
+    /// Copy of this description with Fit::way as named by the function, and Fit::base = `base`.
     ///
     ///   field("exponent", &LogDistance::exponent, positive, "path loss exponent").linear(2)
     constexpr Field linear(double base) const { return with({Fit::Way::linear, base}); }
@@ -80,7 +80,8 @@ constexpr Field<Struct, T> field(std::string_view name, T Struct::*member,
     return {name, member, any, meaning, {}};
 }
 
-/// Fields of a struct, in order. Not a std::tuple, which takes several times as long to compile.
+/// List of the fields of a struct, in order. A std::tuple instead would take several times as long
+/// to compile.
 template <class Numbers, class... Fields>
 struct FieldList;
 template <std::size_t number, class Field>

@@ -112,7 +112,7 @@ class Legs {
         double turning;
     };
 
-    // Stores a leg in a place without a moving part.
+    // Stores a leg in `place` and, if the leg is not at rest, in one of the two lists of motions.
     void put(Place& place, const Leg& leg);
     // Stores the part of a leg that is not at rest. @return value of Place::motion for it
     std::uint32_t take_motion(const Leg& leg);

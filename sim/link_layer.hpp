@@ -72,16 +72,17 @@ class LinkLayer {
     virtual const Message& message(MessageId) const = 0;
     /// Whether the node's radio is on.
     virtual bool is_on(NodeId) const = 0;
-    /// Key of the node, for random draws and for orderings; unlike its id it does not depend on
-    /// other nodes.
+    /// Key of the node, for random draws and for orderings; unlike the id, the key does not depend
+    /// on other nodes.
     virtual std::uint64_t key(NodeId) const = 0;
     /// Current position of the node [m].
     virtual Vec3 position(NodeId) const = 0;
     /// Role of the node in the protocol, Robot::role; empty if none was given.
     virtual std::string_view role(NodeId) const = 0;
 
-    /// Makes a control packet of the protocol, with one reference, the caller's: release() it when
-    /// it is no longer needed. Applications do not receive it, and it has no Sent record.
+    /// Makes a control packet of the protocol, with one reference, the caller's: release() the
+    /// message when it is no longer needed. Applications do not receive a control packet, and it
+    /// has no Sent record.
     /// @param to       destination of the packet; `everyone` for a broadcast
     /// @param kind     name of the packet's kind in records, a literal: "rreq"
     /// @param bytes    size on air [bytes]
@@ -119,8 +120,8 @@ class LinkLayer {
     /// Received power [dBm] of a reception passed to on_receive, only during that call; for
     /// protocols with `wants_levels`.
     virtual Dbm level(const Reception&) const = 0;
-    /// Ratio of a reception's power to the noise floor of its receiver [dB]; may be called only
-    /// when level() may.
+    /// Ratio of a reception's power to the noise floor of its receiver [dB]. The conditions of
+    /// level() apply: only during on_receive, for protocols with `wants_levels`.
     virtual Db snr(const Reception&) const = 0;
 
     /// Calls the router's on_timer(node, tag) at `at`; in reaction to a reception at least
@@ -135,8 +136,8 @@ class LinkLayer {
     virtual void release(MessageId) = 0;
     /// Adds a reference to the message and to the header of a frame that the router stores.
     virtual void hold(const Frame&) = 0;
-    /// Removes the references that hold(frame) added. After the last one to a header the router's
-    /// forget_header() is called.
+    /// Removes the references that hold(frame) added. After the last reference to a header is
+    /// removed, the router's forget_header() is called.
     virtual void release(const Frame&) = 0;
     /// Uniform draw in (0, 1), keyed by the run, the purpose, the node, the message and `index`.
     virtual double draw(Purpose, NodeId, MessageId, std::uint64_t index) const = 0;

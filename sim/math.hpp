@@ -14,8 +14,8 @@ namespace rovernet::math {
 /// Natural logarithm; error below 1 ulp. log2 and log10 are as accurate, and exact if the result is
 /// an integer (log2(8), log10(1000)).
 ///
-/// 0 gives -infinity, negative arguments and NaN give NaN, infinity gives infinity; subnormal
-/// arguments are as accurate as others.
+/// 0 gives -infinity, negative arguments and NaN give NaN, infinity gives infinity. Subnormal
+/// arguments are as accurate as normal ones.
 double log(double x);
 /// Logarithm to base 2; see log() for accuracy and special values.
 double log2(double x);

@@ -36,7 +36,7 @@ struct Message {
     /// Key for random draws about this message, made of its origin's key and `number`: messages of
     /// other nodes do not change its draws.
     std::uint64_t key = 0;
-    /// Size [bytes] on air, without the bytes that the access model adds.
+    /// Size of the message on air [bytes], without the header that the access model adds.
     std::uint32_t size = 0;
     /// Time at which the message was created.
     Time created = start_of_run;
@@ -49,17 +49,18 @@ struct Message {
     /// Protocol and kind of a routing protocol's control packet, a literal: "AODV REQUEST"; empty
     /// for a message of an application.
     std::string_view kind = {};
-    /// True if the routing protocol forwards the message to its destination; false if it is sent
-    /// over one hop without the protocol.
+    /// True if the routing protocol forwards the message to its destination; false if the message
+    /// is sent over one hop without the protocol.
     bool is_routed = false;
 
     /// Protocol of a control packet, the first word of its kind: its type in ns-2 traces.
     std::string_view protocol() const { return kind.substr(0, kind.find(' ')); }
-    /// Whether it is a packet of the link layer, below routing: "ARP REQUEST" or "ARP REPLY".
+    /// Whether the message is a packet of the link layer, below routing: "ARP REQUEST" or "ARP
+    /// REPLY".
     bool is_link_packet() const { return kind.starts_with("ARP "); }
-    /// Whether it is a control packet of the routing protocol.
+    /// Whether the message is a control packet of the routing protocol.
     bool is_routing_packet() const { return !kind.empty() && !is_link_packet(); }
-    /// Whether the routing protocol brings the message to one node.
+    /// Whether the message is a unicast of an application that the routing protocol forwards.
     bool is_routed_unicast() const { return kind.empty() && is_routed && to != everyone; }
 };
 
@@ -79,7 +80,7 @@ struct Frame {
     std::uint64_t path = 0;
     /// Hops that this copy may still travel, including this one.
     Hops ttl = 0;
-    /// Hops that the copy has travelled when it is received.
+    /// Hops that the copy has travelled at the end of this hop, including this one.
     Hops hops = 0;
     /// Receiver of this hop; `everyone` for a broadcast.
     NodeId next_hop = everyone;
@@ -100,8 +101,8 @@ struct QueuedFrame {
     /// sends before messages of applications.
     bool is_control = false;
 
-    /// Frame as its sender received it, before the changes of forwarding; the frame itself if the
-    /// sender is the message's origin.
+    /// Frame as the sender received it from the previous hop, before the sender changed it for
+    /// forwarding; `frame` if the sender is the message's origin.
     Frame as_received() const {
         Frame received = frame;
         if (!heard_from) return received;
@@ -175,7 +176,7 @@ class MessageTable {
     }
     /// Number of messages in use.
     std::size_t size() const { return slots_.size() - free_.size(); }
-    /// Bound on ids: the index of every MessageId so far is below it.
+    /// Upper bound on ids: the index of every MessageId so far is below this number.
     std::size_t capacity() const { return slots_.size(); }
 
   private:

@@ -38,11 +38,11 @@ struct Fit {
         constant,   ///< the parameter is a linear term of the loss, equal for all links
         searched,   ///< the loss is linear only near the best value, which is searched for
         decisions,  ///< range of links: the value with the fewest wrong up/down decisions
-        spread      ///< standard deviation of the measured losses about those of the model
+        spread      ///< standard deviation of the measured losses about the losses of the model
     };
     Way way = Way::none;
-    /// Value of the parameter, in the unit of number_in(), near which the loss is linear: at this
-    /// value no loss is clipped at 0.
+    /// Value of the parameter, in the unit of number_in(), near which the loss is linear in the
+    /// parameter: at this value no loss is clipped at 0.
     double base = 0;
 };
 

@@ -32,9 +32,11 @@ enum class Purpose : std::uint16_t {
     backoff = 8,
     /// Loss of a frame by its error rate. a = key of the robot pair, b = number of the frame.
     bit_errors = 9,
-    /// Sender of a message in a flow from any robot. a = key of the flow's name.
+    /// Choice of the sender of a message, for a flow whose messages may start at any robot. a = key
+    /// of the flow's name.
     traffic_source = 10,
-    /// Delays and choices of a protocol without own purposes. a = robot key, b = message key.
+    /// Delays and choices of a routing protocol that has no purposes of its own. a = robot key, b =
+    /// message key.
     routing_jitter = 11,
     /// Time at which links are sampled for a fit [fraction of the duration].
     sample_time = 15,
@@ -73,11 +75,11 @@ struct Key {
     std::uint64_t index = 0;
 };
 
-/// Random bits (64): Philox4x32-10 over the counter (a, b), under a key mixed from the other
-/// fields.
+/// Random number of 64 bits: output of the generator Philox4x32-10 for the counter (a, b), with a
+/// cipher key that is mixed from the other fields of `key`.
 ///
-/// Two keys that differ only in a and b, or in only one field, never share a Philox block; any
-/// other two keys share one with probability 2^-64.
+/// Two keys that differ only in a and b, or in only one field, never share an output block of
+/// Philox. Any other two keys share a block with probability 2^-64.
 std::uint64_t bits(const Key& key);
 
 /// Uniform draw in the open interval (0, 1): a midpoint (i + 1/2) 2^-52, never 0 or 1; u and 1 - u

@@ -40,8 +40,8 @@ struct Sent {
     MessageId message;
     /// Largest number of hops that the message may travel.
     Hops ttl;
-    /// Robots that the message concerns, including the sender: all robots that exist now; 2 for a
-    /// unicast.
+    /// Number of robots that the message concerns, including the sender: 2 for a unicast; all
+    /// robots that exist now for a broadcast.
     std::uint32_t robots;
     /// Number of robots that a chain of links connects to the sender now, without the sender: the
     /// most that any protocol could reach if no robot moved. Set only if a sink requests it (see
@@ -81,7 +81,7 @@ struct Transmitted {
 /// after the protocol has set the fate of each copy, before applications react.
 struct Received {
     Frame frame;
-    /// Receptions in order of time, then of node; all are later than those of earlier records.
+    /// Receptions in order of time, then of node; all are later than in earlier records.
     std::span<const Reception> receptions;
     /// Time [ns] that a unicast under csma reserves after its end, for the acknowledgement.
     Duration reserved{0};
@@ -170,8 +170,8 @@ struct AirSent {
     }
 };
 
-/// Record that a control frame ends at its destination, if that is on. Other stations that overhear
-/// the frame have no record.
+/// Record that a control frame ends at its destination, if the destination is on. Other stations
+/// that overhear the frame have no record.
 struct ControlReceived {
     AirFrame air;
     /// Reception at the destination; its fate is `waiting` if the frame was decoded, otherwise the
@@ -197,7 +197,7 @@ using Record = decltype(variant_of(RecordKinds{}));
 struct RecordContext {
     /// Current legs of all robots.
     const Legs& legs;
-    /// Messages in use, including those of the record.
+    /// Messages in use, including the messages that the record refers to.
     const MessageTable& messages;
     /// Routing protocol, which describes its control packets; null without one, and for records
     /// that were read from a file.

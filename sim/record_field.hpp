@@ -40,9 +40,11 @@ inline constexpr FieldUse not_recorded = 2;
 inline constexpr FieldUse not_visited = 4 | not_hashed | not_recorded;
 /// Field of type NodeId whose value may be `everyone`.
 inline constexpr FieldUse or_everyone = 8;
-/// Field of type MessageId: fingerprints contain the message's origin and size besides its uid.
+/// Field of type MessageId: fingerprints contain the message's origin and size in addition to its
+/// uid.
 inline constexpr FieldUse with_origin = 16;
-/// Field that recorded traces contain from format `format` on; for older traces it has its default.
+/// Field that recorded traces contain from format `format` on. If a trace is older, the field has
+/// its default value.
 constexpr FieldUse since(unsigned format) { return format << 8; }
 /// First format of recorded traces that contains a field with this use, see since().
 constexpr unsigned first_format(FieldUse use) { return use >> 8; }

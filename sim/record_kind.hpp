@@ -5,7 +5,7 @@
 #include <type_traits>
 
 // Kinds of records, one bit each. A sink returns once which kinds it wants; if no sink wants a
-// kind, emitting it costs only the test of a bit.
+// kind, emitting a record of this kind costs only the test of a bit.
 //
 //     KindMask kinds() const { return kind_of<Received>() | kind_levels; }
 //
@@ -71,7 +71,7 @@ inline constexpr KindMask kind_cheap_reachable = 1U << 30;
 inline constexpr KindMask kind_levels = 1U << 29;
 /// Request of a sink: fill Sent::shortest, by a search of the network for each unicast.
 inline constexpr KindMask kind_shortest = 1U << 28;
-/// All kinds of records, without requests.
+/// Mask of all kinds of records: bits 0 to 27 are set, and bits 28 to 31, the requests, are not.
 inline constexpr KindMask kind_all = 0x0fffffff;
 
 }  // namespace rovernet

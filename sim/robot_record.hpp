@@ -14,9 +14,9 @@
 
 namespace rovernet {
 
-/// Record that a node starts a new leg, which gives its position from `time` on. The first leg
-/// starts with the run, or when the robot is added. A robot that is switched off or on, or put to
-/// another place, also starts a leg.
+/// Record that a node starts a new leg, which gives the node's position from `time` on. The first
+/// leg starts with the run, or when the robot is added. A robot that is switched off or on, or put
+/// to another place, also starts a leg.
 struct Moved {
     Time time;
     NodeId node;
@@ -30,8 +30,8 @@ struct Moved {
     }
 };
 
-/// Record that a node has reached the end of its movement, and rests until it gets a new one.
-/// Motion emits the record when the movement model returns AtRest.
+/// Record that a node has reached the end of its movement, and rests until the node gets a new
+/// movement. Motion emits the record when the movement model returns AtRest.
 struct Arrived {
     Time time;
     NodeId node;

@@ -13,7 +13,7 @@
 
 namespace rovernet {
 
-/// Routing protocol of any type, stored by value. Network::route takes one; calls of optional
+/// Routing protocol of any type, stored by value. Network::route takes a Router; calls of optional
 /// functions that the protocol does not have do nothing.
 ///
 /// A Router has a table of functions, so protocols need no base class; one virtual call handles all
@@ -31,8 +31,8 @@ class Router {
 
     /// Traits of the routing protocol.
     const RouterTraits& traits() const { return traits_; }
-    /// Optional functions of the protocol: whether it has on_sent, and on_start. The network skips
-    /// the work for missing functions.
+    /// Whether the protocol has the optional function on_sent (hears_of_results) or on_start
+    /// (hears_of_starts). The network skips the work for a missing function.
     bool hears_of_results() const { return hears_of_results_; }
     bool hears_of_starts() const { return hears_of_starts_; }
     /// Whether the protocol has routing tables to show.
@@ -65,8 +65,8 @@ class Router {
     Hops initial_ttl(const Message& m) const { return self_->initial_ttl(m); }
 
   private:
-    // Whether the protocol has on_sent; a protocol that contains another one decides by
-    // hears_of_results().
+    // Whether the protocol has on_sent. A protocol that contains another protocol states this by
+    // its function hears_of_results().
     template <class T>
     static bool hears_of_results_of(const T& protocol) {
         if constexpr (requires { protocol.hears_of_results(); }) return protocol.hears_of_results();

@@ -92,7 +92,7 @@ template <class T>
 concept KeepsMessages = requires(const T router, MessageId message) {
     { router.keeps(message) } -> std::convertible_to<bool>;
 };
-/// Style of a packet's content in ns-2 traces: of the old format, or of the new one.
+/// Style of a packet's content in ns-2 traces: that of the old or of the new trace format.
 enum class PacketStyle {
     /// "[0x2 1 1 [3 0] [0 4]] (REQUEST)"
     brackets,
@@ -127,17 +127,20 @@ concept HasOwnTtls = requires(const T router, const Message& message) {
 struct RouteState {
     NodeId destination;
     NodeId next_hop;
-    /// Hops to the destination; of a broken route as they were.
+    /// Number of hops to the destination; for a broken route, the number before the break.
     Hops hops = 0;
-    /// Sequence number of the destination; none if the protocol has none, or it is unknown.
+    /// Sequence number of the destination; none if the protocol has no sequence numbers, or if the
+    /// number is unknown.
     std::optional<std::uint32_t> number = std::nullopt;
     /// Whether messages may be sent along the route; false for a broken route.
     bool is_valid = true;
     /// Time at which the route was learnt.
     Time since = start_of_run;
-    /// Time at which the route, or the memory of a broken one, ends; none if it has no end.
+    /// Time at which the route expires, or a broken route is forgotten; none if there is no such
+    /// time.
     std::optional<Time> until = std::nullopt;
-    /// Nodes of the route after its first one, where the protocol knows all of them.
+    /// Nodes of the route after its first node, up to the destination; empty if the protocol does
+    /// not know them.
     std::vector<NodeId> path = {};
 };
 /// Protocol that shows the routing table of a node at `now`, in the order of destinations.
@@ -146,7 +149,7 @@ concept HasRoutes = requires(const T router, NodeId node, Time now) {
     { router.routes(node, now) } -> std::convertible_to<std::vector<RouteState>>;
 };
 /// Protocol with a notice to the user at the end of a run: a limit of the protocol that mattered.
-/// Empty: there is nothing to say.
+/// An empty text means no notice.
 template <class T>
 concept HasNotice = requires(const T router) {
     { router.notice() } -> std::convertible_to<std::string>;

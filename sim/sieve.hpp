@@ -19,7 +19,8 @@ namespace rovernet {
 ///   use(odd.kept());
 ///
 /// Reuse a Sieve for its memory, which grows to the largest number of kept values and is never
-/// freed. The medium finds receivers with a Sieve, a flood the copies not received before.
+/// freed. The medium finds receivers with a Sieve; a flood finds the copies that were not received
+/// before.
 ///
 /// @tparam T  default-constructible and copyable, small
 template <class T>

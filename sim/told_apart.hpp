@@ -6,8 +6,8 @@
 namespace rovernet {
 
 /// Text of a decimal number, for a message that compares the number with a limit. The number is
-/// rounded to `decimals` places, or to more if rounding would put it on the other side of the
-/// limit.
+/// rounded to `decimals` places, or to more if rounding would put the number on the other side of
+/// the limit.
 ///
 ///   told_apart(0.0996, 0.1, 3) == "0.0996";  // not 0.100, which is not below 0.1
 ///

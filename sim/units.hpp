@@ -20,7 +20,7 @@ template <class Unit>
 struct Quantity {
     double value = 0;
 
-    /// Comparison, sum and difference of quantities of one kind; multiple; ratio.
+    /// Comparison, sum, difference and ratio of quantities of one kind; product with a number.
     friend constexpr auto operator<=>(Quantity, Quantity) = default;
     friend constexpr Quantity operator+(Quantity a, Quantity b) { return {a.value + b.value}; }
     friend constexpr Quantity operator-(Quantity a, Quantity b) { return {a.value - b.value}; }

@@ -11,21 +11,22 @@
 
 namespace rovernet {
 
-/// Row of the results table: the points of a study that have equal values of the group_by keys.
+/// Row of the results table: all points of a study with equal values of the keys by which results
+/// are grouped (group_by).
 struct Row {
-    Table settings;  ///< value of each group_by key, by the path of the key
-    /// Point numbers of the row, one for each of Rows::combinations; none: the study excludes the
+    Table settings;  ///< value of each key by which the row groups points, by the path of the key
+    /// Number of the row's point for each of Rows::combinations; none: the study excludes the
     /// combination.
     std::vector<std::optional<std::uint32_t>> points;
 };
 
 /// Rows of the results table, and the keys that vary within a row.
 struct Rows {
-    std::vector<std::string> averaged;  ///< varied keys of the study, averaged over in each row
-    /// Varied keys outside of group_by that have a single value within each row, but not the same
-    /// value in all rows.
+    std::vector<std::string> averaged;  ///< varied keys over which each row is averaged
+    /// Varied keys outside of group_by that have one value within each row, but different values in
+    /// different rows.
     std::vector<std::string> along;
-    /// Combinations of values of the keys in `averaged`, in order of first use.
+    /// Combinations of values of the keys in `averaged`, in the order of their first points.
     std::vector<Table> combinations;
     std::vector<Row> list;  ///< rows, in the order of their first points in the study
 };
@@ -38,12 +39,12 @@ struct Gaps {
     std::uint64_t failed = 0;
     std::uint64_t undefined = 0;  ///< number of finished runs in which the metric is undefined
     std::uint64_t missing = 0;    ///< number of runs that were not made yet
-    /// Text that lists the numbers of runs, except zeros: "2 failed, 1 undefined, 3 missing".
+    /// Text that lists the nonzero counts: "2 failed, 1 undefined, 3 missing".
     std::string text() const;
 };
 
-/// Values of one metric, by point number and, in each list, by replication; none: the run has no
-/// value.
+/// Values of one metric by point number. Each list has one value for each replication; none: the
+/// run has no value.
 using ValuesOfPoints = std::map<std::uint32_t, std::vector<std::optional<double>>>;
 
 ValuesOfPoints values_of_points(const Store& store, const std::string& metric);
@@ -54,9 +55,10 @@ class Cells {
   public:
     Cells(const Rows& rows, const Inventory& inventory, ValuesOfPoints values);
 
-    /// Means of one row of the results table, by replication number. Each is the mean over the
-    /// row's cells (combinations of values) in that replication, with equal weights. If `common`,
-    /// only cells for which every row has a value are included. @param row  index of the row
+    /// Means of one row of the results table, by replication number. Each mean is over the row's
+    /// cells (combinations of averaged values) in that replication, with equal weights. If
+    /// `common`, only cells for which every row has a value are included. @param row  index of the
+    /// row
     std::map<std::uint32_t, double> means(std::size_t row, bool common) const;
 
     Gaps gaps(std::size_t row) const;
@@ -64,8 +66,8 @@ class Cells {
     std::uint64_t count() const;   ///< number of cells of one row: combinations times replications
     std::uint64_t common() const;  ///< number of cells for which every row has a value
 
-    /// Text with one line for each row that lacks a value which some other row has; empty if all
-    /// rows have values in the same cells.
+    /// Text that lists, line by line, the rows that lack a value which some other row has; empty if
+    /// all rows have values in the same cells.
     std::string unbalanced() const;
 
   private:

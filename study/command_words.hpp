@@ -16,7 +16,7 @@ std::string shell_word(const std::string& word);
 /// Command line for a POSIX shell that consists of `words`, each quoted if necessary.
 std::string shell_command(std::span<const std::string> words);
 
-/// Command-line words that express scenario options: {"--set", "radio.power=15 dBm"}.
+/// Command-line words that set scenario options, such as {"--set", "radio.power=15 dBm"}.
 std::vector<std::string> option_words(const ScenarioOptions& options);
 
 }  // namespace rovernet

@@ -13,8 +13,8 @@ namespace rovernet {
 struct DayRow {
     std::string radio;  ///< name of the radio settings
     PlayedDay day;
-    /// Difference of deliveries to the row StoredReplay::first; none for that row and for the row
-    /// of the run as recorded.
+    /// Difference of deliveries between the row StoredReplay::first and this row. None for the row
+    /// `first` itself and for the row of the recorded run.
     std::optional<DeliveryChange> change;
 };
 
@@ -26,8 +26,8 @@ struct StoredReplay {
     std::vector<DayRow> rows;
 };
 
-/// Writes the rows of a replay into a study's store, which `results` and `plot` can read: a point
-/// with the key "radio" and one run for each row. Metrics are those of every run; rows with a
+/// Writes the rows of a replay into a study's store, which `results` and `plot` can read. Each row
+/// becomes a point with the key "radio" and one run. Each run has the usual metrics; rows with a
 /// change also have "gained", "lost", "gained.at.ROBOT" and "lost.at.ROBOT" [deliveries]. The store
 /// may already have rows of the same command. A stored row with the same name stays unchanged.
 /// @throws InputError if the store belongs to a different command or version; RunError if the

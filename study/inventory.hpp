@@ -14,7 +14,7 @@ namespace rovernet {
 /// State of one run in a study's store: not in the store, failed or finished.
 enum class RunState { missing, failed, finished };
 
-/// States of a study's runs, by point number and, in each list, by replication. A list includes all
+/// States of a study's runs, by point number. Each list has one state for each replication: all
 /// replications that the study requests, and further replications in the store.
 using Inventory = std::map<std::uint32_t, std::vector<RunState>>;
 
@@ -38,8 +38,8 @@ Inventory inventory_of(const Store& store);
 
 RunCounts counts_of(const Inventory& inventory);
 
-/// Text on a study's missing and failed runs: "unfinished: 40 of 120 runs are missing; 3 failed",
-/// or only one of these parts; empty if all runs finished.
+/// Text on a study's missing and failed runs, such as "unfinished: 40 of 120 runs are missing; 3
+/// failed", or one of these two parts; empty if all runs finished.
 std::string incompleteness(const RunCounts& counts);
 
 }  // namespace rovernet

@@ -16,8 +16,8 @@ struct Location;
 struct MetricValues;
 struct Scenario;
 
-/// Metric of a run. An undefined metric has no value, such as the latency if no message was
-/// delivered.
+/// Name and value of a metric of a run. An undefined metric has no value, such as the latency if no
+/// message was delivered.
 struct MetricValue {
     std::string name;
     std::optional<double> value;
@@ -35,9 +35,9 @@ struct Measurement {
     double cpu_s = 0, wall_s = 0;  ///< CPU time and real time of the run on this machine [s]
     std::string started;           ///< start of the run in real time, UTC, ISO 8601
     std::string host;
-    std::uint64_t searches = 0;  ///< number of path searches not answered by the cache; not stored
+    std::uint64_t searches = 0;  ///< number of path searches without a cached path; not stored
 
-    /// Members except the metrics, in the order in which to_text() writes them.
+    /// Members except the metrics, in the order in which to_text() writes the members.
     static constexpr auto fields() {
         using M = Measurement;
         return describe(field("fingerprint", &M::fingerprint, "of the run"),
@@ -59,7 +59,7 @@ const std::vector<std::string>& metric_names();
 std::vector<std::string> metric_names(const Scenario& scenario);
 
 /// Checks that runs of the scenario have a metric with this name. @throws InputError at `where` if
-/// not
+/// there is no such metric
 void check_metric(const std::string& name, const Scenario& scenario, const Location& where);
 
 /// Runs a scenario and returns its metrics and costs, without writing files.
@@ -68,8 +68,8 @@ void check_metric(const std::string& name, const Scenario& scenario, const Locat
 /// @throws InputError, RunError
 Measurement measure(const Scenario& scenario, KeptPlanners& kept);
 
-/// Conversion of a measurement to a text, and of the text to a measurement, to send measurements
-/// between processes.
+/// Conversion of a measurement to a text, and of a text to a measurement. The text is used to send
+/// measurements between processes.
 std::string to_text(const Measurement& measurement);
 Measurement measurement_of(std::string_view text);
 

@@ -9,13 +9,14 @@
 
 namespace rovernet {
 
-/// Copies runs of points that both stores have, if the run is missing in `to`, or if it failed in
-/// `to` and finished in `from`.
+/// Copies runs of points that both stores have. A run is copied if it is missing in `to`, or if it
+/// failed in `to` and finished in `from`.
 /// @param below  copies only replications below this number
 void copy_runs(const Store& from, Store& to,
                std::uint32_t below = std::numeric_limits<std::uint32_t>::max());
 
-/// Copies runs from the store at `path` (of the same study) that are missing or failed in `store`.
+/// Copies runs that are missing or failed in `store` from the store at `path`, which must be of the
+/// same study.
 /// @throws InputError if the file is no store, or belongs to a different version or study
 void merge(Store& store, const std::string& path);
 

@@ -16,14 +16,15 @@ class OnlyReading {
     OnlyReading(const OnlyReading&) = delete;
     OnlyReading& operator=(const OnlyReading&) = delete;
 
-    bool denied() const { return denied_; }  ///< whether a statement tried more than to read
+    /// Whether an SQL statement was denied, since it would do more than read.
+    bool denied() const { return denied_; }
 
   private:
     sqlite3* database_;
     bool denied_ = false;
 };
 
-/// Checks that an SQL text is a single statement. @throws std::invalid_argument
+/// Checks that an SQL text is a single statement. @throws std::invalid_argument if it is not
 void need_one_statement(sqlite3* database, const std::string& sql);
 
 }  // namespace rovernet

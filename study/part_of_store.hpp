@@ -10,20 +10,21 @@
 
 namespace rovernet {
 
-/// Whether a study covers only a part of the store at `path`: study and store share a point, and
-/// the store has further points or more replications. False if the file does not exist, or if its
-/// runs are of a different code version.
+/// Whether a study covers only a part of the store at `path`. True if study and store share a
+/// point, and the store has further points or more replications. False if the file does not exist,
+/// or if its runs are of a different code version.
 bool takes_part_of(const std::string& path, const Study& study);
 
-/// Number of replications in a store, at the points of a study, if the store has more replications
-/// than the study. None otherwise, or if the study has a `precision`.
+/// Number of replications in a store, at the points of a study, if it is larger than the number in
+/// the study. None otherwise, or if the study has a `precision`.
 std::optional<std::uint32_t> more_replications(const Store& store, const Study& study);
 
 /// Copies the runs that the study requests from the store `whole` into the store `part`.
 void take_part(const Store& whole, const Study& study, Store& part);
 
 /// Adds the points and runs of the store `part` to the store `whole`. If only one of the two stores
-/// varies a key, points of the other store get the value that the key has at a common point.
+/// varies a key, points of the other store get the value that this key has at a point common to
+/// both stores.
 void give_back(const Store& part, Store& whole);
 
 }  // namespace rovernet

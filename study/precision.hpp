@@ -11,7 +11,7 @@
 
 namespace rovernet {
 
-/// Name of a study's main metric: the first one in [study] metrics, or else delivery_ratio.
+/// Name of a study's main metric: the first metric in [study] metrics, or else delivery_ratio.
 std::string first_metric(const StudyTable& study);
 
 /// Precision reached at a point of a study: half-width of the confidence interval of the study's
@@ -27,13 +27,14 @@ struct ReachedPrecision {
 ///
 /// For a metric with two bounds, the default is the betting interval. It is valid after any number
 /// of replications, so that a point needs no more runs once its interval is narrow enough.
-/// Student's t interval is not: values that are close by chance would end a point too early. By t,
-/// at least 10 values are needed, and equal values never suffice.
+/// Student's t interval is valid only for a fixed number of replications: values that are close by
+/// chance would end a point too early. With t, at least 10 values are needed, and equal values
+/// never suffice.
 /// @param values  in the order of the replications
 ReachedPrecision reached_precision(const StudyTable& study, std::span<const double> values);
 
-/// Estimated number of replications that a point needs for [study] precision. The result is `made`
-/// if the precision is reached or not given. Otherwise the result is that of
+/// Estimated number of replications that a point needs for [study] precision. If the precision is
+/// reached or not given, the result is `made`. Otherwise the result is that of
 /// replications_for_width(), limited to between 17/16 and 2 times `made` (estimates from few values
 /// are rough) and to max_replications.
 /// @param made  number of replications so far, >= 1, with these values

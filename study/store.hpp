@@ -13,7 +13,7 @@
 
 namespace rovernet {
 
-/// Point of a study (combination of values of the varied keys), as stored.
+/// Point of a study (one combination of values of the varied keys), as stored.
 struct StoredPoint {
     std::uint32_t number;  ///< index of the point in the study, from 0
     std::string id;        ///< id of the point, see Study
@@ -23,9 +23,9 @@ struct StoredPoint {
 /// Run of a study, finished or failed, as stored.
 struct StoredRun {
     std::string id;       ///< id of the run, see run_id()
-    std::uint32_t point;  ///< number of the run's point
+    std::uint32_t point;  ///< number of the point to which the run belongs
     std::uint32_t replication;
-    std::string error;        ///< error message of a failed run; empty: finished
+    std::string error;        ///< error message of a failed run; empty: the run finished
     Measurement measurement;  ///< metrics, times and host; a failed run has no metrics
 };
 
@@ -66,13 +66,13 @@ class Store {
 
     /// Points of the study in the order of their numbers.
     std::vector<StoredPoint> points() const;
-    /// Sets the points of the study: adds new points, and renumbers known ones. Every point of the
-    /// store must be included.
+    /// Sets the points of the study: adds new points, and renumbers stored points. `points` must
+    /// include every stored point.
     void set_points(const std::vector<StoredPoint>& points);
 
     /// Runs of the study in order of point and replication, without their metrics.
     std::vector<StoredRun> runs() const;
-    /// Stores a run of the study; replaces a failed run of the same id.
+    /// Stores a run of the study. If a failed run with the same id exists, it is replaced.
     void record(const StoredRun& run);
 
     /// Names of the metrics of stored runs, in the order of first occurrence.
@@ -86,8 +86,8 @@ class Store {
     void for_each_value(
         const std::function<void(const StoredValue&, const std::string& metric)>& visit) const;
 
-    /// Executes an SQL query; calls `row` with the column names, then with each row. NULL is an
-    /// empty text.
+    /// Executes an SQL query. Calls `row` first with the column names, then with each result row.
+    /// NULL is passed as an empty text.
     /// @throws std::invalid_argument with SQLite's message if the query is invalid or would write
     void query(const std::string& sql,
                const std::function<void(const std::vector<std::string>&)>& row) const;

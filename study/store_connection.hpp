@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-// Opening the file of a store, depending on its file system. See docs/slurm.md.
+// Opening the SQLite file of a store. The method depends on the file system, see docs/slurm.md:
 //
 //   local, with locks and shared mappings         journal WAL: readers work while a process writes
 //   shared by hosts, or no shared mappings        rollback journal: readers wait for a moment
@@ -27,7 +27,7 @@ struct StoreConnection {
     /// reading meanwhile; SQLite::Exception
     static StoreConnection to_read(const std::string& path);
 
-    /// Temporary folder with a copy of the store, removed by the destructor.
+    /// Temporary folder with a copy of the store's file, removed by the destructor.
     struct Copy {
         explicit Copy(const std::string& path);
         ~Copy();

@@ -26,7 +26,7 @@ class StoredRow {
     StoredRow(const std::string& path, const SQLite::Statement& statement, int keys)
         : path_(path), statement_(statement), keys_(keys) {}
 
-    /// Value in a column of the row.
+    /// Value in a column of this row.
     /// @throws InputError by refuse() if the value has a wrong type or is out of range
     std::string text(int column) const;
     std::uint32_t number(int column) const;                 ///< whole number, 0 ... 999,999
@@ -34,8 +34,8 @@ class StoredRow {
     std::optional<double> optional_real(int column) const;  ///< finite number; none: NULL
     Value document(int column) const;                       ///< value parsed from a JSON text
 
-    /// Throws an InputError that reports a damaged store: table, row, column, found and expected
-    /// value.
+    /// Throws an InputError that reports a damaged store. The message names table, row, column, and
+    /// the found and the expected value.
     [[noreturn]] void refuse(int column, const std::string& found,
                              const std::string& expected) const;
 
@@ -45,7 +45,7 @@ class StoredRow {
     int keys_;
 };
 
-/// Error that reports a damaged store, with a remedy for the user.
+/// Error that reports a damaged store. The message suggests a remedy to the user.
 /// @param what  found and expected content
 InputError damaged_store(const std::string& path, const std::string& what);
 

@@ -15,35 +15,35 @@
 
 namespace rovernet {
 
-/// Part of a study's runs, for one of several machines: the runs with indices `number * size` to
-/// `(number + 1) * size - 1`, in the order of run_states().
+/// Part of a study's runs, for one of several machines. It contains the runs with indices `number *
+/// size` to `(number + 1) * size - 1`, in the order of run_states().
 struct Shard {
     std::uint64_t number, size;
 };
 
-/// Progress of a sweep.
+/// Progress of a sweep (execution of all missing runs of a study).
 struct SweepProgress {
     std::uint64_t before = 0;    ///< number of runs that earlier sweeps finished
     std::uint64_t finished = 0;  ///< number of runs finished in this sweep
     std::uint64_t failed = 0;    ///< number of runs failed in this sweep
-    std::uint64_t left = 0;      ///< number of planned runs to make; `precision` may add more
-    std::uint64_t searches = 0;  ///< number of path searches made by workers
+    std::uint64_t left = 0;      ///< number of planned runs that remain; `precision` may add more
+    std::uint64_t searches = 0;  ///< number of path searches made by the worker processes
 };
 
-/// Request to stop a sweep: do not stop; stop after the running tasks have ended; kill the running
-/// tasks and stop immediately.
+/// Request to stop a sweep. no: do not stop. when_idle: stop after the running tasks have ended.
+/// at_once: kill the running tasks and stop immediately.
 enum class Stop { no, when_idle, at_once };
 
 struct SweepOptions {
     std::size_t workers = 2;  ///< number of worker processes, > 0
     WorkerLimits limits = {};
-    bool fail_fast = false;  ///< start no new runs after a run has failed
+    bool fail_fast = false;  ///< true: no new run is started after a run has failed
     /// True: in a scene with walls, one worker makes all runs of a replication, so that paths are
-    /// searched once for points with the same robots and positions. False: idle workers help with
-    /// any replication.
+    /// searched only once for points with the same robots and positions. False: any worker makes
+    /// any run.
     bool replication_on_one_worker = false;
     std::optional<Shard> shard = {};
-    /// Number of replications of each point, by point number; replaces [study] replications and
+    /// Number of replications of each point, by point number, in place of [study] replications and
     /// precision. None: as in [study].
     std::optional<std::vector<std::uint32_t>> replications = {};
     std::set<std::string> elsewhere = {};  ///< ids of runs to skip, since another store has them
@@ -53,22 +53,23 @@ struct SweepOptions {
     std::function<void(const SweepProgress&)> progress = [](const SweepProgress&) {};
 };
 
-/// Point that did not reach the study's `precision` within max_replications.
+/// Point of a study that did not reach the required `precision` within max_replications.
 struct ImprecisePoint {
     std::uint32_t point = 0;
     std::size_t values = 0;            ///< number of replications in which the metric has a value
-    std::optional<double> half_width;  ///< half-width of the metric's interval, if it exists
+    std::optional<double> half_width;  ///< half-width of the confidence interval, if it exists
 };
 
 struct SweepResult {
     SweepProgress progress;
     bool stopped = false;                   ///< true: the sweep was stopped early
     std::optional<StoredRun> failure;       ///< first run that failed; none: no run failed
-    std::vector<ImprecisePoint> imprecise;  ///< points that miss the precision; empty if stopped
+    std::vector<ImprecisePoint> imprecise;  ///< points that did not reach the precision; empty if
+                                            ///< stopped
 };
 
 /// Opens or creates the store of a study. @throws InputError if the store has runs of a different
-/// version, or points outside the study; RunError if the store cannot be written
+/// version, or points that the study does not have; RunError if the store cannot be written
 Store open_store(const std::string& path, Study& study);
 
 /// Ids of the finished runs in a store.

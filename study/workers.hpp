@@ -17,7 +17,7 @@ struct WorkerLimits {
     std::optional<std::uint64_t> memory;  ///< limit of address space [bytes]; none: no limit
 };
 
-/// End of a worker's task.
+/// End of a task of a worker process: kind of end, and result or reason.
 struct TaskEnd {
     enum Kind {
         done,    ///< task completed; `text` is the result
@@ -29,12 +29,13 @@ struct TaskEnd {
     std::string text;
 };
 
-/// Worker processes. Each takes one task at a time over a socket and returns a result.
+/// Worker processes. Each worker takes one task at a time over a socket and returns the task's
+/// result.
 ///
-/// A task that crashes, exceeds its time or runs out of memory affects no other task: its process
-/// is replaced. Workers are forked: `work` sees the state at the start of the worker, and only its
-/// result is returned. Workers are killed when this process ends for any reason. This process must
-/// have a single thread.
+/// A task that crashes, exceeds its time or runs out of memory affects no other task; the worker's
+/// process is replaced. Workers are forked: the function `work` sees the state of this process at
+/// the start of the worker, and only its result is returned. Workers are killed when this process
+/// ends for any reason. This process must have a single thread.
 class Workers {
   public:
     using Work = std::function<std::string(std::uint64_t task)>;
@@ -52,7 +53,7 @@ class Workers {
     std::size_t busy() const;
     /// Gives a task to an idle worker. @throws RunError if the worker's process cannot be started
     void begin(std::size_t worker, std::uint64_t task);
-    /// Waits up to `seconds` for a task to end, and returns the end of that task; none if no task
+    /// Waits up to `seconds` for a task to end, and returns the end of that task. None if no task
     /// ends in this time, or if a signal interrupts the wait.
     std::optional<TaskEnd> wait(double seconds);
 
@@ -61,7 +62,7 @@ class Workers {
         pid_t pid = 0;    // process id; 0: not running
         int socket = -1;  // socket that sends tasks and receives results
         int words = -1;   // file with the process's standard error
-        std::string got;  // received part of the task's result
+        std::string got;  // part of the task's result that was received so far
         std::optional<std::uint64_t> task;
         double deadline = 0;  // latest end of the task [s], by the steady clock
     };

@@ -5,7 +5,8 @@
 
 namespace rovernet {
 
-/// File descriptor, closed by the destructor; below 0 if the file cannot be opened.
+/// File descriptor, closed by the destructor. The descriptor is below 0 if the file cannot be
+/// opened.
 class FileNumber {
   public:
     /// @param flags  flags of open(2)
@@ -35,26 +36,27 @@ class WriteLock {
     WriteLock(const WriteLock&) = delete;
     WriteLock& operator=(const WriteLock&) = delete;
 
-    /// Whether the lock is a flock, not a lock file.
+    /// Whether the lock is a flock on the store's file. False: the lock is a file PATH.lock.
     bool is_whole() const { return owner_ == 0; }
 
   private:
     std::string path_;
     FileNumber file_;
-    // Process that created PATH.lock; 0: no lock file.
+    // Id of the process that created the lock file PATH.lock; 0: no lock file.
     int owner_ = 0;
 };
 
 /// Whether the file system of an existing file supports range locks, which SQLite needs. It is an
-/// error if this process has the file open in SQLite, since the call would release SQLite's locks.
+/// error if this process has the file open in SQLite, since this function would release SQLite's
+/// locks.
 bool has_range_locks(const std::string& path);
 
-/// Whether the file is on a known type of network or cluster file system, which several hosts may
-/// share.
+/// Whether the file is on a known type of network or cluster file system, so that several hosts may
+/// share the file.
 bool is_shared_by_hosts(const std::string& path);
 
 /// Checks that no process writes to the file of a store, for readers that SQLite's locks do not
-/// protect. @throws RunError if a process writes to the file, or if that cannot be determined
+/// protect. @throws RunError if a process writes to the file, or if the check is impossible
 void need_no_writer(const std::string& path);
 
 }  // namespace rovernet

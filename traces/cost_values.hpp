@@ -8,26 +8,26 @@
 
 namespace rovernet {
 
-/// Ways of messages to one robot that a routing protocol has brought: sums over the deliveries, all
-/// whole numbers.
+/// Sums over the routed unicasts of a run or flow: messages to one robot that a routing protocol
+/// forwards. All sums are whole numbers.
 struct RoutedSums {
-    std::uint64_t transmissions = 0;  ///< frames of the messages, one for each hop
-    std::uint64_t deliveries = 0;     ///< messages delivered
-    std::uint64_t waited_ns = 0;      ///< time in routers [ns]: before the source's and each hop's
-                                      ///< frame was passed to the MAC
-    std::uint64_t delay_ns = 0;       ///< latency [ns], waiting included
-    std::uint64_t hops = 0;           ///< hops of the deliveries whose `shortest` is known
-    std::uint64_t shortest = 0;       ///< hops of the shortest paths when these were sent
+    std::uint64_t transmissions = 0;  ///< transmissions of routed unicasts, one for each hop
+    std::uint64_t deliveries = 0;     ///< number of delivered routed unicasts
+    std::uint64_t waited_ns = 0;      ///< time of delivered messages in routers [ns], until their
+                                      ///< frames were passed to the MAC, at source and each hop
+    std::uint64_t delay_ns = 0;       ///< latency of deliveries [ns], including time in routers
+    std::uint64_t hops = 0;           ///< hops of the deliveries with a known shortest path
+    std::uint64_t shortest = 0;       ///< hops of the shortest paths for the deliveries of `hops`
     friend bool operator==(const RoutedSums&, const RoutedSums&) = default;
 };
 
-/// Ways of routed messages, as summary.json has them for the run and for each flow.
+/// Metrics of routed unicasts (messages to one robot that a routing protocol forwards), as
+/// summary.json has them for the run and for each flow.
 struct RoutedMetrics {
-    std::uint64_t data = 0;  ///< frames of messages to one robot, one for each hop
-    std::optional<double>
-        path_stretch;                  ///< hops over the shortest path [-]; empty if not asked for
-    std::optional<double> waiting;     ///< mean time in routers of a delivery [s]
-    std::optional<double> travelling;  ///< mean remaining latency of a delivery [s]
+    std::uint64_t data = 0;              ///< transmissions of routed unicasts, one for each hop
+    std::optional<double> path_stretch;  ///< hops over shortest-path hops [-]; empty: not measured
+    std::optional<double> waiting;       ///< mean time in routers of a delivered message [s]
+    std::optional<double> travelling;    ///< mean latency without the time in routers [s]
 
     static constexpr auto fields() {
         using R = RoutedMetrics;
@@ -48,12 +48,13 @@ RoutedMetrics metrics_of(const RoutedSums& sums);
 struct RoutingValues {
     std::uint64_t packets = 0;         ///< control packets that the protocol sent
     std::uint64_t bytes = 0;           ///< size of the control packets, above the MAC [bytes]
-    std::optional<double> load;        ///< packets for each delivery [-]; empty without deliveries
+    std::optional<double> load;        ///< control packets per delivery [-]; empty: no delivery
     std::optional<double> load_bytes;  ///< control bytes for each delivered byte [-]
-    /// Control packets by the last word of their kind: "AODV REQUEST" is a request. A packet of
-    /// another kind is in none of the four.
+    /// Numbers of control packets by the last word of their kind: "AODV REQUEST" is a request. A
+    /// packet of any other kind is not counted here.
     std::uint64_t requests = 0, replies = 0, errors = 0, hellos = 0;
-    std::uint64_t broken = 0;  ///< links that broke under a routed message or a control packet
+    /// Number of link breaks, each detected when a routed message or a control packet failed.
+    std::uint64_t broken = 0;
 
     static constexpr auto fields() {
         using R = RoutingValues;
@@ -74,7 +75,7 @@ struct RoutingValues {
 /// frames of the access model.
 struct AirtimeValues {
     double total = 0;                ///< sum of the frames' airtimes [s]
-    std::optional<double> per_byte;  ///< total for each byte delivered [us]; empty without bytes
+    std::optional<double> per_byte;  ///< airtime per delivered byte [us]; empty: nothing delivered
 
     static constexpr auto fields() {
         using A = AirtimeValues;

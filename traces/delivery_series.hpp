@@ -23,7 +23,7 @@ class DeliverySeries {
     std::vector<double> delivered() const;
 
   private:
-    /// Message of a slot of the MessageTable, as of the last Sent record of the slot. Control
+    /// Message in a slot of the MessageTable, taken from the slot's last Sent record. Control
     /// packets of a routing protocol have no Sent record.
     struct Known {
         std::uint64_t uid = ~std::uint64_t{0};

@@ -10,7 +10,7 @@
 
 namespace rovernet {
 
-/// Fingerprint of a run: a hash of its behaviour. Any difference in the behaviour changes it.
+/// Fingerprint of a run: a hash of its behaviour. Any difference in the behaviour changes the hash.
 ///
 /// XXH64 (seed 0) of all records: for each record its kind (the bit number of kind_of, one byte)
 /// and its integers in little endian:

@@ -40,7 +40,7 @@ struct LatencyValues {
 };
 
 /// Codes of all reasons for which a copy is lost or not forwarded, without repetition: the order of
-/// MetricValues::drops. DUP is first, other reasons follow in the order of sim/fate.hpp.
+/// MetricValues::drops. DUP (duplicate) is first; further reasons are ordered as in sim/fate.hpp.
 inline constexpr auto loss_codes = [] {
     struct Codes {
         std::array<std::string_view, 24> of{};
@@ -59,14 +59,14 @@ inline constexpr auto loss_codes = [] {
     return codes;
 }();
 
-/// Copies lost or not forwarded, by the codes of the reasons in sim/fate.hpp.
+/// Numbers of copies lost or not forwarded, by the codes of the reasons in sim/fate.hpp.
 using DropCounts = std::array<DropCount, loss_codes.count>;
 
 /// Metrics of a part of the traffic, as summary.json has them for each flow and each robot.
 struct PartMetrics {
-    std::uint64_t messages = 0;            ///< messages sent in the flow, or for the robot
+    std::uint64_t messages = 0;            ///< messages sent in the flow, or to the robot
     std::uint64_t deliveries = 0;          ///< first copies of a message at a robot
-    std::optional<double> delivery_ratio;  ///< delivery ratio [-]; empty: none expected
+    std::optional<double> delivery_ratio;  ///< delivery ratio [-]; empty: no delivery expected
     std::optional<double> throughput_bps;  ///< throughput [bit/s]; empty if the run takes no time
     std::optional<double> latency_mean_s;  ///< mean latency [s]; empty without deliveries
 
@@ -83,15 +83,15 @@ struct PartMetrics {
 /// Values of a part of the traffic: the messages of one flow, or the messages for one robot.
 /// Example: examples/flows.cpp.
 struct PartValues {
-    std::uint64_t messages = 0;    ///< messages sent in the flow, or for the robot
-    std::uint64_t expected = 0;    ///< deliveries, if every message reached all its destinations
+    std::uint64_t messages = 0;    ///< messages sent in the flow, or to the robot
+    std::uint64_t expected = 0;    ///< deliveries if every message reached all its destinations
     std::uint64_t deliveries = 0;  ///< first copies of a message at a robot
     std::uint64_t bytes = 0;       ///< size of the delivered messages [bytes]
     std::uint64_t delay_ns = 0;    ///< sum of the deliveries' latencies [ns]
-    RoutedSums routed = {};        ///< ways of the flow's routed unicasts
-    /// Copies of routed unicasts that were lost, by index in loss_codes; empty if none was.
+    RoutedSums routed = {};        ///< sums over the flow's routed unicasts
+    /// Numbers of lost copies of routed unicasts, by index in loss_codes; empty without losses.
     std::vector<std::uint64_t> drops = {};
-    std::optional<double> delivery_ratio() const;  ///< delivery ratio [-]; empty: none expected
+    std::optional<double> delivery_ratio() const;  ///< delivery ratio [-]; empty if `expected` is 0
     std::optional<double> latency_mean() const;    ///< mean latency [s]; empty without deliveries
     /// Metrics of the part of the traffic. @param measured  duration of the measurement
     PartMetrics metrics(Duration measured) const;
@@ -100,12 +100,12 @@ struct PartValues {
 
 /// Parts of the traffic that Metrics measure in addition to the totals.
 struct MetricParts {
-    /// Whether `reach` is measured, by a search of the network for every message; empty: only while
-    /// the search is cheap.
+    /// Whether the metric reach (deliveries over connected robots) is measured, by a search of the
+    /// network for every message; empty: only while the search is cheap.
     std::optional<bool> reach = {};
     bool flows = false;         ///< true: measure the messages of each flow, see Message::flow
     bool robots = false;        ///< true: measure the messages for each robot
-    bool path_stretch = false;  ///< true: measure path_stretch, by a search for every unicast
+    bool path_stretch = false;  ///< true: measure hops over shortest path, by a search per unicast
 };
 
 /// Metrics of a run, or of a trace read back. All are computed from integers, whose sums are exact.
@@ -120,34 +120,34 @@ struct MetricValues {
     std::uint64_t deliveries = 0;     ///< first copies of a message at a robot, for its application
     std::uint64_t delivered_bytes = 0;  ///< size of the messages delivered [bytes]
 
-    /// Number of messages of which no frame had ended when the run ended: no robot could have
-    /// received them. They are counted in `messages` and drops.END, not in delivery_ratio, reach.
+    /// Number of messages of which no frame had ended when the run ended: no robot could receive
+    /// these. They count in `messages` and drops.END, but not in delivery_ratio and reach.
     std::uint64_t cut_off = 0;
 
-    /// Copies lost or not forwarded, by the codes of the reasons in sim/fate.hpp.
+    /// Numbers of copies lost or not forwarded, by the codes of the reasons in sim/fate.hpp.
     DropCounts drops = [] {
         DropCounts none;
         for (std::size_t i = 0; i < none.size(); ++i) none[i].reason = loss_codes.of[i];
         return none;
     }();
 
-    /// Packet delivery ratio with all other robots as destinations, without duplicates: deliveries
-    /// / sum over messages of (robots when it was sent - 1; 1 for a unicast) [-]; empty if that sum
-    /// is 0. Messages that were cut off are not included. Source: for unicasts, J. Broch et al.,
-    /// MobiCom 1998.
+    /// Packet delivery ratio r / e [-]: r is the number of deliveries, without duplicates; e is the
+    /// sum over messages of their destinations: all other robots when the message was sent, or 1
+    /// for a unicast. Empty if e is 0. Messages cut off by the end of the run are not included.
+    /// Source: for unicasts, J. Broch et al., MobiCom 1998.
     std::optional<double> delivery_ratio;
 
     /// Reachability RE = r / e [-]: r is the number of deliveries; e is the sum over messages of
-    /// the robots that a chain of links connected to the sender when it was sent (for a unicast
-    /// only its destination counts). It can exceed 1, because robots that move or forward late may
-    /// reach further robots. Empty if e is 0 or was not measured for every message. Source: S.-Y.
-    /// Ni et al., The broadcast storm problem, MobiCom 1999.
+    /// the robots that a chain of links connected to the sender when it sent the message (for a
+    /// unicast only the destination counts). RE can exceed 1, because robots that move or forward
+    /// late may reach further robots. Empty if e is 0 or was not measured for every message.
+    /// Source: S.-Y. Ni et al., The broadcast storm problem, MobiCom 1999.
     std::optional<double> reach;
-    bool reach_known = true;  ///< true if `reachable` was measured for every message
+    bool reach_known = true;  ///< true if connected robots were counted for every message
 
     /// Saved rebroadcasts SRB = (r - t) / r [-]: r is the number of deliveries; t is the number of
     /// different (message, robot) pairs in which the robot, other than the message's origin,
-    /// transmitted it. Empty without deliveries. Source: S.-Y. Ni et al., as above.
+    /// transmitted it. Empty without deliveries. Source: S.-Y. Ni et al., MobiCom 1999.
     std::optional<double> saved_rebroadcasts;
 
     std::optional<LatencyValues> latency;  ///< latency of the deliveries; empty without deliveries
@@ -159,7 +159,7 @@ struct MetricValues {
     /// Cost of the routing protocol; empty if it sent no control packets and no message to one
     /// robot.
     std::optional<RoutingValues> routing;
-    std::optional<RoutedMetrics> routed;  ///< ways of routed unicasts; empty as `routing`
+    std::optional<RoutedMetrics> routed;  ///< metrics of routed unicasts; empty if `routing` is
 
     std::vector<PartValues> flows;   ///< values of each flow, at index flow - 1, if measured
     std::vector<PartValues> robots;  ///< values of each robot, by its id, if measured
@@ -185,7 +185,7 @@ struct MetricValues {
     friend bool operator==(const MetricValues&, const MetricValues&) = default;
 };
 
-/// Use of the air by frames with this sum of airtimes [ns], of a run with these metrics.
+/// Airtime values of a run. @param total  sum of the airtimes of all frames [ns]
 inline AirtimeValues airtime_values(Duration total, const MetricValues& metrics) {
     AirtimeValues values{.total = seconds(total), .per_byte = std::nullopt};
     const auto bytes = static_cast<double>(metrics.delivered_bytes);

@@ -33,7 +33,8 @@ class Metrics {
     }
     void on(const Record& record, const RecordContext& context);
 
-    /// Metrics so far. Sorts the latencies: for the end of a run, not for every record.
+    /// Metrics of the records so far. The call sorts all latencies, and is meant for the end of a
+    /// run.
     MetricValues values() const;
 
   private:
@@ -45,8 +46,8 @@ class Metrics {
         std::uint32_t others = 0;                ///< number of the message's destinations
         std::optional<std::uint32_t> reachable;  ///< Sent::reachable of the message
         std::optional<std::uint32_t> shortest;   ///< Sent::shortest of the message
-        Time since = start_of_run;  ///< time since which a routed unicast is at its last robot
-        Duration waited{0};         ///< time in routers so far [ns]
+        Time since = start_of_run;  ///< arrival time of a routed unicast at its last robot so far
+        Duration waited{0};         ///< time of the message in routers so far [ns]
     };
     /// Number of occurrences of each fate or drop reason.
     template <class Reason, Reason last>
@@ -85,12 +86,12 @@ class Metrics {
     MetricValues totals_;  ///< totals of the run; only the counters are used
     Counts<Fate, last_fate> fates_;
     Counts<DropReason, last_drop_reason> drops_;
-    std::uint64_t others_ = 0;      ///< sum over messages of (robots - 1)
-    std::uint64_t reachable_ = 0;   ///< sum of the messages' `reachable`
-    std::uint64_t reached_ = 0;     ///< deliveries of messages with `reachable`
+    std::uint64_t others_ = 0;      ///< sum over messages of the number of destinations
+    std::uint64_t reachable_ = 0;   ///< sum over messages of Sent::reachable
+    std::uint64_t reached_ = 0;     ///< deliveries of messages with a known Sent::reachable
     std::uint64_t forwarders_ = 0;  ///< number of pairs of a message and a robot that forwarded it
     RoutingValues routing_;         ///< counts of the routing protocol
-    RoutedSums routed_;             ///< ways of routed unicasts
+    RoutedSums routed_;             ///< sums over routed unicasts
     std::uint64_t bytes_ = 0;       ///< size of the messages delivered [bytes]
     std::vector<Duration> delays_;  ///< latencies of the deliveries, unsorted
     std::vector<std::uint64_t> hops_;   // deliveries by number of hops

@@ -17,12 +17,12 @@
 //   Fate, DropReason  reason: the code of the loss, of up to four letters; empty: none
 //   number, bool, quantity  NAME
 //
-// and for a part, such as a Frame, those of its fields.
+// A part of a record, such as a Frame, has the cells of its fields.
 
 namespace rovernet {
 
 /// Columns of the table of a kind of record, in their order, as words "NAME" or "NAME=CELL"; empty:
-/// all cells of the record. A kind of record needs a specialization only if columns differ from it.
+/// all cells of the record. Only a kind of record with other columns needs a specialization.
 template <class R>
 inline constexpr std::string_view row_columns = "";
 template <>

@@ -12,12 +12,12 @@
 #include <span>
 #include <type_traits>
 
-// Visits of the fields of a record, and of its values of one type, whatever its kind.
+// Functions that visit the fields of a record of any kind, or its values of one type.
 
 namespace rovernet {
 
-/// Calls visit(time, index) for each time at which a record happens: once, or for each of its
-/// receptions.
+/// Calls visit(time, index) for each time of a record: for the time of each reception if the record
+/// has receptions, otherwise once, with index 0.
 template <class R, class Visit>
 void for_each_time(const R& record, const Visit& visit) {
     if constexpr (requires { record.receptions; }) {
@@ -50,8 +50,8 @@ concept Quantitative = requires(T quantity) {
     { quantity.value } -> std::same_as<double&>;
 };
 
-/// Calls visit(field) for each field of a record or a part that a recorded trace contains, apart
-/// from the time of the record.
+/// Calls visit(field) for each field of a record, or of a part of a record, that a recorded trace
+/// stores in the record's bytes: all recorded fields except the time of the record.
 template <class Part, class Visit>
 constexpr void for_each_recorded(const Visit& visit) {
     for_each_field_of<Part>([&]<class Field>(const Field& f) {
@@ -61,7 +61,8 @@ constexpr void for_each_recorded(const Visit& visit) {
     });
 }
 
-/// Whether a `Whole` is a `T` or may contain a `T`; for pruning a search at compile time.
+/// Whether the type `Whole` is `T`, or may contain values of type `T`; for pruning a search at
+/// compile time.
 template <class T, class Whole>
 consteval bool may_have() {
     if constexpr (std::same_as<T, Whole>) {

@@ -35,7 +35,7 @@ class RowSink {
     struct Table {
         std::span<const RowColumn> columns;
         std::span<const std::byte> bytes;
-        std::size_t row_size;  ///< size of a row [bytes]
+        std::size_t row_size;  ///< size of a row in `bytes` [bytes]
         std::size_t size() const { return bytes.size() / row_size; }
     };
 

@@ -22,11 +22,12 @@ struct TopologyValues {
     /// Number of connected components of the robots that are on [-]: mean of samples, one at the
     /// beginning and one each second.
     std::optional<double> components_mean;
-    std::optional<double> speed_mean;  ///< mean speed [m/s] over time and all robots, with rests
-    /// Link lifetime [s]: time from the start to the end of a link, mean over the links for which
-    /// both were observed. Source: F. Bai et al., IMPORTANT, INFOCOM 2003 (link duration).
+    std::optional<double> speed_mean;  ///< mean speed [m/s] over time, with rests, and all robots
+    /// Mean link lifetime [s]: time from the start to the end of a link, averaged over the links
+    /// whose start and end were observed. Source: F. Bai et al., IMPORTANT, INFOCOM 2003 (link
+    /// duration).
     std::optional<double> link_lifetime_mean;
-    std::uint64_t links_ended = 0;  ///< number of links in link_lifetime_mean
+    std::uint64_t links_ended = 0;  ///< number of links over which link_lifetime_mean is averaged
 
     static constexpr auto fields() {
         using T = TopologyValues;
@@ -38,11 +39,12 @@ struct TopologyValues {
     }
 };
 
-/// Sink that measures the topology from the records of links, legs and switches. It costs a search
-/// for every link's changes (see kind_links), and about 50 bytes for every link that is up.
+/// Sink that measures the topology from the records of links, of legs, and of robots switched on
+/// and off. Cost: a search for the times of all link changes (see kind_links), and about 50 bytes
+/// for every link that is up.
 class Topology {
   public:
-    /// @param begin  start of the measurement
+    /// @param begin  simulated time at which the measurement starts
     explicit Topology(Time begin) : begin_(begin), now_(begin), next_sample_(begin) {}
 
     KindMask kinds() const { return kind_links | kind_of<Moved>() | kind_of<Switched>(); }
@@ -68,7 +70,7 @@ class Topology {
     std::vector<Robot> robots_;
     std::size_t there_ = 0, on_ = 0;
     std::map<std::pair<NodeId, NodeId>, Time> up_;  // start times of links that are up
-    double link_s_ = 0, on_s_ = 0, robot_s_ = 0;    // [s] sums over links, robots on, all robots
+    double link_s_ = 0, on_s_ = 0, robot_s_ = 0;    // [s] sums of times: links up, robots on, all
     double way_ = 0;                                // [m] sum of all robots' path lengths
     std::uint64_t samples_ = 0, components_ = 0;
     double lifetime_ = 0;  // [s] sum of lifetimes

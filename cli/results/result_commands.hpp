@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-/// Commands on stored results: results, plot, explain.
+/// Commands that read the stored results of studies: results, plot, explain.
 namespace rovernet::cli {
 
 struct ResultsArguments {

@@ -19,7 +19,8 @@ inline constexpr std::array front_options = {
     &rosbridge_option,
 };
 
-/// Values of the options for fronts (protocol servers): the address of each front, or none.
+/// Values of the options that start fronts (protocol servers): for each front the listening
+/// address; none if its option is not given.
 struct FrontArguments {
     std::array<std::optional<std::string>, front_options.size()> addresses;
 

@@ -36,8 +36,8 @@ struct Reach {
     /// Address of a server that requires a token if other machines can reach it, read from a text.
     /// @throws CommandEnd if the text is no address
     Address with_token(const std::string& text) const;
-    /// Address of a server without access control, read from a text: a loopback address, unless
-    /// --insecure is given.
+    /// Address of a server without access control, read from a text. It is an error if other
+    /// machines can reach the address, unless --insecure is given.
     Address without_token(const std::string& text) const;
 };
 
@@ -45,7 +45,7 @@ struct Reach {
 /// results are written. While the network is set up, a signal ends the process immediately.
 class ServingStop {
   public:
-    /// Rules for stopping a run on signals; valid as long as this object.
+    /// Rules for stopping a run on signals; valid as long as this object exists.
     StopRules rules();
 
   private:
@@ -55,7 +55,7 @@ class ServingStop {
 /// Output channel on which a run announces addresses and tokens.
 enum class Announced {
     by_output,  ///< standard output, where programs can read them
-    by_notice,  ///< standard error, like all notices, since standard output contains one document
+    by_notice,  ///< standard error, as for notices; used if the standard output is a JSON document
 };
 /// Function that prints messages of a run. Announcements (server addresses and tokens, which a
 /// waiting program may read) go to the given channel, all other messages to standard error.

@@ -34,7 +34,7 @@ void routes(const RoutesArguments& arguments);
 
 struct SceneArguments : FileArguments {
     std::string at = "0 s";
-    std::optional<std::string> size;  ///< size of a picture as a map, WIDTHxHEIGHT in metres
+    std::optional<std::string> size;  ///< size of a picture used as a map: WIDTHxHEIGHT in metres
     bool json = false;
 };
 void scene(const SceneArguments& arguments);
@@ -48,7 +48,7 @@ void where(const WhereArguments& arguments);
 struct DrawArguments : FileArguments {
     std::string at = "0 s";
     std::optional<std::string> coverage, receiver;
-    std::vector<std::string> route;  ///< robots between which the route is drawn: none, or two
+    std::vector<std::string> route;  ///< source and destination of the drawn route; empty: no route
     bool search = false;
     bool links = false;
     bool trails = false;

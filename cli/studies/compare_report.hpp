@@ -12,12 +12,12 @@ namespace rovernet::cli {
 /// Form in which results are printed.
 enum class ReportForm { text, csv, json };
 
-/// Prints comparisons of the same models or values, one for each metric. As JSON, one comparison is
-/// a document of its own, and several are a list.
+/// Prints comparisons of the same models or values, one for each metric. As JSON, a single
+/// comparison is printed as an object; several comparisons are printed as an object with a list.
 void print_comparisons(const std::vector<Comparison>& all, ReportForm form);
 
-/// Writes the picture of a comparison: of protocols the delivery ratio over the airtime for each
-/// byte delivered; else the metric, and errors over costs.
+/// Writes the picture of a comparison. For protocols the picture shows the delivery ratio over the
+/// airtime for each delivered byte. For models it shows the metric, and the errors over the costs.
 /// @param store  store of the compared runs
 void write_comparison(const std::string& file, const Comparison& comparison, const Store& store);
 

@@ -7,8 +7,8 @@
 
 namespace rovernet::cli {
 
-/// Options that override a study's scenario file, including options that override its [study], such
-/// as the number of replications.
+/// Options that override a study's scenario file, including options for keys of its table [study],
+/// such as the number of replications.
 ScenarioOptions study_options(const StudyArguments& arguments);
 
 /// Whether finished runs are kept or lost when a study is interrupted.
@@ -16,15 +16,17 @@ enum class Finished { is_kept, is_lost };
 
 /// Runs a study with worker processes, and shows its progress. Ctrl-C stops the study. If finished
 /// runs are kept, the current runs are completed first.
-/// @param options  selection of the runs to make; its other members are set from `arguments`
+/// @param options  only the selection of runs is used; all other members are set from `arguments`
 SweepResult run_study(const StudyArguments& arguments, Study& study, Store& store,
                       SweepOptions options = {}, Finished finished = Finished::is_kept);
 
-/// Checks that a study was completed. @throws CommandEnd if it was interrupted, or some runs failed
+/// Checks that a study was completed. @throws CommandEnd if the study was interrupted, or if runs
+/// failed
 void check_end(const StudyArguments& arguments, const Store& store, const SweepResult& result);
 
 /// Checks that every point of a study (combination of varied values) has reached the precision that
-/// the study requires. @throws CommandEnd, naming the points and their precision, if not
+/// the study requires. @throws CommandEnd if points have not; the message names these points and
+/// their precision
 void check_precision(const Study& study, const SweepResult& result);
 
 }  // namespace rovernet::cli

@@ -77,7 +77,7 @@ class Command {
     void needs_command() const;
     /// Hides the command in --help, man page and completion.
     void hide() const;
-    /// Adds lines under "Examples" in --help and in the man page.
+    /// Adds lines to the section "Examples" of the command's --help text and man page.
     void add_examples(std::initializer_list<const char*> lines) const;
 
     /// Texts of an option, for --help, the man page and completion.

@@ -10,7 +10,8 @@
 #include <string>
 
 /// Types and functions shared by all commands. A command prints its result to standard output, and
-/// throws errors. The commands of a family and their arguments are in FAMILY_commands.hpp.
+/// throws errors. The commands of each family (run, scene, result, trace, tool) and their arguments
+/// are in FAMILY_commands.hpp.
 namespace rovernet::cli {
 
 /// Exit codes of commands.
@@ -34,8 +35,8 @@ class CommandEnd : public std::runtime_error {
     ExitCode code_;
 };
 
-/// Argument FILE of a command (a scenario, a Stage world or a movement file), and the options that
-/// override the content of FILE.
+/// Values of a command's argument FILE (a scenario, a Stage world or a movement file), and of the
+/// options that override the content of FILE.
 struct FileArguments {
     std::string file;
     std::optional<std::uint64_t> seed, replication;
@@ -46,10 +47,10 @@ ScenarioOptions options_of(const FileArguments& arguments);
 /// Reads the scenario of FILE, and prints its notices.
 Scenario scenario_of(const FileArguments& arguments);
 
-/// Simulated time of the option --at; prints a notice if it is after the end of the run.
+/// Simulated time of the option --at; prints a notice if the time is after the end of the run.
 Time time_in(const Scenario& scenario, const std::string& at);
-/// Simulated time of the option --at, of a command that shows what traffic leads to.
-/// @throws InputError if it is after the end of the run
+/// Simulated time of the option --at, for a command that shows effects of traffic, such as routes.
+/// @throws InputError if the time is after the end of the run
 Time time_within(const Scenario& scenario, const std::string& at);
 
 }  // namespace rovernet::cli

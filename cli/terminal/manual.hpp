@@ -5,7 +5,7 @@
 
 #include <string>
 
-/// Texts generated from the declared commands.
+/// Texts generated from the declarations of all commands: shell completion and man page.
 namespace rovernet::cli {
 
 /// Completion script for a shell: bash, zsh or fish.

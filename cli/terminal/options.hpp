@@ -10,8 +10,9 @@
 #include <string>
 #include <utility>
 
-/// Declarations of commands, one file for each family: name, options and --help text. The functions
-/// that execute commands are in FAMILY_commands.hpp.
+/// Declarations of commands: name, options and --help text. Each family of commands (run, scene,
+/// result, trace, tool) is declared in FAMILY_options.cpp. The functions that execute commands are
+/// in FAMILY_commands.hpp.
 namespace rovernet::cli {
 
 /// Adds --quiet and --verbose, which every command has.
@@ -38,10 +39,10 @@ struct ManualArguments {
 void print_completion(const ManualArguments& arguments);
 void print_man_page(const ManualArguments& arguments);
 
-/// Adds the argument FILE and the options that override it, except --replication, which is for
-/// commands of a single run.
+/// Adds the argument FILE, and the options that override its content except --replication, which is
+/// for commands of a single run.
 void add_study_file(Command command, FileArguments& arguments, const char* what);
-/// Adds the argument FILE and all options that override it, including --replication.
+/// Adds the argument FILE, and all options that override its content, including --replication.
 void add_file(Command command, FileArguments& arguments, const char* what);
 void add_json(Command command, bool& json);
 /// Adds the option --interval, the method of confidence intervals of means: t, betting or star.
@@ -50,11 +51,12 @@ void add_interval(Command command, std::optional<std::string>& interval);
 constexpr const char* any_file =
     "scenario (.toml; - for standard input), Stage world (.world) or movement file";
 
-/// Checks of an option's value, a number. The error message names the found and the expected value.
+/// Check that an option's value is a number in a range. The error message names the found and the
+/// expected value.
 Check above_zero();
 Check not_negative();
 Check below_90_degrees();
-/// Check that an option's value is a whole number from 0 to 2^63 - 1, as in a file.
+/// Check that an option's value is a whole number from 0 to 2^63 - 1, as in a scenario file.
 Check whole_number();
 
 /// Adds the commands run, live, emulate, in, sweep, compare, advise, fit, probe, locate.

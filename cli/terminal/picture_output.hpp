@@ -10,8 +10,8 @@ namespace rovernet::cli {
 /// @throws InputError unless the name ends in .svg, .png or .pdf
 void check_picture_name(const std::string& out);
 
-/// Writes a picture, given as SVG, in the format of the ending of the file name `out`. The file is
-/// written completely or not at all.
+/// Writes a picture, given as SVG, in the format that the ending of the file name `out` determines.
+/// The file is written completely or not at all.
 /// @throws RunError
 void write_picture(const std::string& out, const std::string& svg);
 

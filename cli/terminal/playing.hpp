@@ -10,13 +10,13 @@
 
 namespace rovernet::cli {
 
-/// Progress display for simulating a scenario until a time, see Waiting.
+/// Progress display while a command simulates a scenario until a given time, see Waiting.
 class Playing {
   public:
     Playing(const std::string& file, Time until)
         : until_(until), waiting_(fmt::format("playing {} until {:g} s", file, seconds(until))) {}
 
-    /// Callback that updates the display; valid as long as this object.
+    /// Callback that updates the display; valid as long as this object exists.
     TellTime tell() {
         return [this](Time now) {
             if (until_ > start_of_run) waiting_.tell(seconds(now) / seconds(until_));

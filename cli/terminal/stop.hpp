@@ -7,13 +7,13 @@
 
 namespace rovernet::cli {
 
-/// Installs handlers by which Ctrl-C (SIGINT), SIGTERM and SIGHUP immediately end the process, with
-/// exit code 130, and the programs that it has started. If SIGHUP was ignored before (by nohup,
-/// say), it is still ignored.
+/// Installs handlers by which Ctrl-C (SIGINT), SIGTERM and SIGHUP immediately end the programs that
+/// this process has started, and the process with exit code 130. If SIGHUP was ignored before (by
+/// nohup, say), it is still ignored.
 void end_on_signals();
 
-/// Guard that defers stop signals (Ctrl-C, SIGTERM) during its lifetime: they are only counted, so
-/// that a command can finish or clean up. The fifth signal ends the process nevertheless.
+/// Guard that defers stop signals (Ctrl-C, SIGTERM) during its lifetime: signals are only counted,
+/// so that a command can finish or clean up. The fifth signal ends the process nevertheless.
 class HeldStop {
   public:
     HeldStop();

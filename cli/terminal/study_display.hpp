@@ -8,8 +8,8 @@
 
 namespace rovernet::cli {
 
-/// Progress display of a sweep on standard error. On a terminal it is one line that is updated.
-/// Otherwise a new line is printed every 10 s.
+/// Progress display of a sweep on standard error. On a terminal the display is one line that is
+/// updated. Otherwise a new line is printed every 10 s.
 class SweepDisplay {
   public:
     SweepDisplay();

@@ -12,7 +12,7 @@ class TextTable {
     using Line = std::vector<std::string>;
 
     explicit TextTable(Line head) : lines_{std::move(head)} {}
-    /// Adds a row. @throws std::invalid_argument if its number of cells differs from the head
+    /// Adds a row. @throws std::invalid_argument if row and head differ in their number of cells
     void add(Line line);
     /// Text of the table: one line for each row, without trailing blanks.
     std::string text() const;

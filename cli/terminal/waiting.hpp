@@ -8,8 +8,8 @@
 namespace rovernet::cli {
 
 /// Progress display of one step of a command, on a terminal, for steps longer than 1 s. If tell()
-/// is called, it shows the finished share and the remaining time. With --verbose the duration of
-/// the step is printed at its end. Only one display may exist at a time.
+/// is called, the display shows the finished share and the remaining time. With --verbose the
+/// duration of the step is printed at its end. Only one display may exist at a time.
 class Waiting {
   public:
     /// @param what  description of the step, such as "reading office.toml"

@@ -12,7 +12,7 @@ namespace rovernet::cli {
 /// @throws InputError if a file of ns-2 text has no valid line
 void tell_refused(const std::string& file, const Ns2Counts& counts);
 /// Prints notices on standard error about the broken or missing parts of a recorded trace.
-/// @param damage  sentences about these parts
+/// @param damage  one sentence for each broken or missing part
 void tell_damage(const std::string& file, const std::vector<std::string>& damage);
 
 }  // namespace rovernet::cli

@@ -11,8 +11,8 @@ namespace rovernet {
 struct Capture {
     /// Number of packets in the capture.
     std::uint64_t packets = 0;
-    /// Number of transmissions and receptions that the capture lacks, since broken parts of the
-    /// trace contain the start of the frame or the description of the robot.
+    /// Number of transmissions and receptions that the capture lacks. Their frame starts or robot
+    /// descriptions are in broken parts of the trace.
     std::uint64_t left_out = 0;
     /// Broken or missing parts of the trace, as sentences.
     std::vector<std::string> damage;

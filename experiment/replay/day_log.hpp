@@ -16,41 +16,42 @@
 
 namespace rovernet {
 
-/// Outcome of a recorded run ("day"), as recorded or as simulated again with other radio models.
+/// Outcome of a recorded run ("day"): the recorded outcome, or the outcome of a new simulation of
+/// the same movements and messages with other radio models.
 struct PlayedDay {
     MetricValues metrics;              ///< metrics without the warm-up of the recorded run
     std::vector<Delivery> deliveries;  ///< all deliveries, in order of time
 };
 
-/// Actions of robots in a recorded run: movements, messages sent, switching on and off.
+/// Actions of robots in a recorded run: movements, sent messages, and switching on and off.
 struct DayLog {
     /// Message sent by a robot's application.
     struct Said {
         Time time;
         Message message;
     };
-    /// Reception of a frame of robot `from` by robot `to`.
+    /// Reception of a frame: robot `to` received the frame that robot `from` transmitted.
     struct Heard {
         Time time;
         NodeId from, to;
     };
-    /// Robot that was switched on or off.
+    /// Switching of a robot on (`on` is true) or off.
     struct Turned {
         Time time;
         NodeId node;
         bool on;
     };
 
-    /// Legs (pieces of movement) of each robot, by NodeId; empty if the trace has none.
+    /// Legs (pieces of movement) of each robot, by NodeId; empty if the trace has no legs.
     std::vector<std::vector<Leg>> legs;
     std::vector<Said> said;            ///< messages sent by applications, in order of time
     std::vector<Turned> turned;        ///< switchings of robots on or off, in order of time
     std::vector<Heard> heard;          ///< frame receptions, in order of time; ns-2 traces only
-    PlayedDay recorded;                ///< outcome of the run as recorded
+    PlayedDay recorded;                ///< recorded outcome of the run
     std::vector<std::string> notices;  ///< sentences about broken or missing parts of the trace
 };
 
-/// Sink that adds movements, sent messages and switching of robots to a DayLog.
+/// Sink that adds robot movements, sent messages and switching of robots to a DayLog.
 struct DayLogSink {
     DayLog& log;
 
@@ -69,7 +70,8 @@ struct DayLogSink {
     void take(const Moved& moved) {
         if (moved.node.index() >= log.legs.size()) log.legs.resize(moved.node.index() + 1);
         std::vector<Leg>& legs = log.legs[moved.node.index()];
-        // Two legs may start at the same time: the later record replaces the earlier one.
+        // Two records may have legs with the same start. Then the later record replaces the earlier
+        // one.
         if (!legs.empty() && legs.back().start == moved.leg.start) legs.pop_back();
         legs.push_back(moved.leg);
     }

@@ -13,7 +13,7 @@
 namespace rovernet {
 
 /// Delivery of an application's message to a robot. A message has the same origin and number in
-/// every run of a scenario, so that deliveries of two runs can be compared.
+/// every run of a scenario, so that the deliveries in two runs can be compared.
 struct Delivery {
     NodeId origin;
     std::uint32_t number;  ///< number of the message among the messages of its origin, from 0

@@ -21,7 +21,7 @@ namespace rovernet {
 
 /// Outcome of a frame at a robot other than its sender.
 enum class Outcome : std::uint8_t {
-    received,       ///< frame received, the first one with this message
+    received,       ///< frame received, the first one with this message at the robot
     duplicate,      ///< frame received, but the robot already had the message
     too_weak,       ///< frame lost: its level is below the robot's sensitivity
     off,            ///< frame lost: the robot was switched off
@@ -30,7 +30,7 @@ enum class Outcome : std::uint8_t {
     collided,       ///< frame lost in a collision with other frames on air
     busy,           ///< frame lost: the robot was sending
     garbled,        ///< frame lost by bit errors
-    not_told,       ///< outcome unknown: strong enough, but the trace lacks the end of the frame
+    not_told,       ///< outcome unknown: frame strong enough, but the trace lacks its end
 };
 /// Names of the outcomes in reports, in the order of the enumeration.
 inline constexpr std::array<std::string_view, 10> names_of_outcome{
@@ -40,7 +40,7 @@ constexpr std::string_view name_of(Outcome outcome) {
     return names_of_outcome[static_cast<std::size_t>(outcome)];
 }
 
-/// Frame that overlapped the examined frame in time, at the robot that is examined.
+/// Frame that overlapped the examined frame in time, at the robot whose receptions are examined.
 struct OverlappingFrame {
     NodeId from;            ///< sender of the frame; may be the robot itself
     std::string_view kind;  ///< kind of frame, see AirFrame::kind
@@ -58,15 +58,15 @@ struct FrameAtRobot {
     std::size_t walls = 0;
     double wall_m = 0;  ///< length of the direct path inside walls [m]
     double distance_m = 0;
-    /// Range of the propagation model disc, which gives no levels, so that level and margin are
-    /// meaningless; none: another model.
+    /// Range [m] of the propagation model, if the model is disc. This model gives no levels, so
+    /// that `level` and `margin` are meaningless. None: another model.
     std::optional<Meters> range = {};
     Outcome outcome = Outcome::not_told;
     std::vector<OverlappingFrame> others;  ///< overlapping frames at the robot, strongest first
 };
 
-/// All frames of a message at one robot, without the robot's own frames, in the order of their
-/// starts.
+/// All frames of a message that other robots sent, as they arrived at one robot, in the order of
+/// their starts.
 struct MessageAtRobot {
     std::string robot;  ///< name of the robot
     bool is_origin = false;
@@ -84,7 +84,7 @@ struct MessageAtRobot {
 /// no such robot
 MessageAtRobot message_at_robot(const std::string& path, std::uint64_t uid, NodeId robot);
 
-/// Explanation, in one sentence, why the robot has the message or not:
+/// Sentence that explains why the robot received the message or did not receive it. Example:
 ///
 ///   E never was within reach: the strongest of 7 frames came 12.3 dB below its sensitivity,
 ///   through 2 walls.

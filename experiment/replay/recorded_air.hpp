@@ -28,9 +28,9 @@ struct RecordedFrame {
     std::uint32_t bytes = 0;
     /// Bit rate of the frame's payload [bit/s].
     BitRate rate;
-    /// Start and end of the frame at the sender.
+    /// Start and end of the frame at the sender [ns].
     Time begin, end;
-    /// Number of records in the trace before the record of the frame's transmission.
+    /// Number of records that precede the record of the frame's transmission in the trace.
     std::uint64_t record = 0;
 };
 
@@ -59,11 +59,11 @@ class RecordedAir {
     /// Processes the next record of the trace. Every record must be given, in order.
     void take(const Record& record, const RecordContext& context);
 
-    /// Frames that are on air at the time of the last record or ended in the 10 ms before, in the
+    /// Frames that are on air at the time of the last record, or ended at most 10 ms before, in the
     /// order of their starts.
     const std::deque<RecordedFrame>& frames() const { return frames_; }
-    /// Transmitted frame to which a reception belongs. Must be called when the record of the
-    /// reception is processed.
+    /// Transmitted frame to which a reception belongs. Must be called when take() has processed the
+    /// record of the reception, and no later record.
     /// @param uid  uid of the message; 0 for a frame that is no data frame
     /// @return null if the record of the frame's start is missing
     const RecordedFrame* frame_of(const AirFrame& air, std::uint64_t uid,
@@ -77,14 +77,15 @@ class RecordedAir {
 
     /// Number of robots of the scenario.
     std::size_t robots() const { return names_.size(); }
-    /// Medium with the radios of all robots, which are on or off as at the last record.
+    /// Medium with the radios of all robots. A radio is on or off as after the last record.
     const Medium& medium() const { return medium_; }
     /// Scene of the run with all doors open.
     const Scene& scene() const { return *scene_; }
     const std::vector<std::string>& names() const { return names_; }
 
   private:
-    /// Piece of a robot's movement (leg), and the number of the record from which on it is valid.
+    /// Leg (piece of movement) of a robot, and number of the first record for which the leg is
+    /// valid.
     struct Placed {
         std::uint64_t record;
         Leg leg;
@@ -97,7 +98,7 @@ class RecordedAir {
     BitRate rate_of(const AirFrame& air) const;
     Pose pose(NodeId node, const RecordedFrame& frame) const;
     Duration delay(const RecordedFrame& frame, NodeId to) const;
-    // Path loss of a frame [dB].
+    // Path loss of a frame [dB], from the position `here` to the position `there`.
     Db loss(const RecordedFrame& frame, NodeId to, Vec3 here, Vec3 there) const;
 
     std::vector<std::string> names_;
@@ -110,7 +111,8 @@ class RecordedAir {
     std::unique_ptr<const Fades> fades_;
     std::uint64_t records_ = 0;
     std::deque<RecordedFrame> frames_;
-    // Legs of each node in order of time, from the leg at the start of the first frame of frames_.
+    // Legs (pieces of movement) of each node in order of time, from the leg that is valid at the
+    // start of the first frame of frames_.
     std::vector<std::deque<Placed>> legs_;
 };
 

@@ -14,19 +14,22 @@
 
 namespace rovernet {
 
-/// Difference between the deliveries of two runs of the same messages, counted by receiving robot.
+/// Difference between the deliveries in two runs of the same messages, counted by receiving robot.
 struct DeliveryChange {
-    std::vector<std::uint64_t> gained, lost;  ///< number of deliveries by receiver (NodeId)
+    /// Number of deliveries in only the second (gained) or only the first run (lost), by receiver
+    /// (NodeId).
+    std::vector<std::uint64_t> gained, lost;
 
     std::uint64_t all_gained() const;
     std::uint64_t all_lost() const;
 };
-/// Difference between the deliveries of two runs. @param robots  number of robots
+/// Difference between the deliveries in two runs. @param robots  number of robots
 DeliveryChange change_of(const PlayedDay& before, const PlayedDay& after, std::size_t robots);
 
 /// Recorded run (movements and messages) that can be simulated again with other radio models.
-/// Robots move, send and are switched on and off as recorded. They do not react to the messages of
-/// the new simulation. To simulate reactions, run the scenario with other settings instead.
+/// Robots move, send and are switched on and off as recorded. They do not react to messages that
+/// they receive in the new simulation. To simulate reactions, run the scenario with other settings
+/// instead.
 ///
 ///     const RecordedDay day("runs/rescue-s7/trace.mcap");
 ///     const PlayedDay other = day.play({"propagation.model=friis"});
@@ -47,11 +50,11 @@ class RecordedDay {
     const std::vector<std::string>& robots() const { return run_.robots; }
     /// Sentences about broken or missing parts of the trace.
     const std::vector<std::string>& notices() const { return log_.notices; }
-    /// Outcome of the run as recorded: metrics and deliveries.
+    /// Recorded outcome of the run: metrics and deliveries.
     const PlayedDay& recorded() const { return log_.recorded; }
     /// Simulates the recorded movements and messages with the radio models of the scenario,
-    /// overridden by assignments "path=value". A routing protocol that only supports messages to
-    /// everyone floods messages for one robot, too. They are delivered only at that robot.
+    /// overridden by assignments "path=value". If the routing protocol only supports broadcasts, a
+    /// message for one robot is flooded to all robots, but is delivered only at its destination.
     /// @param progress  called with the finished share, 0 ... 1; returning false stops the
     /// simulation
     /// @throws InputError, RunError, Interrupted

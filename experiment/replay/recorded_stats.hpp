@@ -11,8 +11,8 @@ namespace rovernet {
 
 /// Statistics of a recorded trace.
 struct RecordedStats {
-    /// Statistics: counts of ns-2 lines, including MAC lines, and the metrics and drops of the run.
-    /// Only metrics and drops exclude the warm-up.
+    /// Statistics: counts of ns-2 lines (including MAC lines), metrics, and drops of the run.
+    /// Metrics and drops exclude the warm-up; counts of lines include it.
     TraceStats stats;
     /// Number of receptions in the whole file, including duplicates and the warm-up.
     std::uint64_t receptions = 0;
@@ -22,14 +22,14 @@ struct RecordedStats {
 };
 
 /// Computes statistics from the records of a trace. The result equals ns2_stats() on the ns-2 text
-/// of the run, but the text is only made if some record has no valid line.
+/// of the run. This text is generated only if some record has no valid ns-2 line.
 /// @throws InputError as read_ns2_trace() and recorded_metrics()
 RecordedStats recorded_stats(const std::string& path,
                              Ns2Strictness strictness = Ns2Strictness::tolerant,
                              TraceRows rows = TraceRows::none);
 
-/// Computes statistics from the ns-2 text of a recorded trace: slow; used by tests as the reference
-/// for recorded_stats().
+/// Computes statistics from the ns-2 text of a recorded trace. This slow function is the reference
+/// for recorded_stats() in tests.
 RecordedStats recorded_stats_of_text(const std::string& path, Ns2Strictness strictness,
                                      TraceRows rows);
 

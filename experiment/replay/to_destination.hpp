@@ -11,9 +11,9 @@
 
 namespace rovernet {
 
-/// Adapter by which a flooding protocol carries messages for one robot. All robots receive and
-/// forward such a message. Only the destination delivers it to its application.
-/// @tparam wants_level  RouterTraits::wants_levels of the protocol
+/// Adapter that lets a flooding protocol carry messages for one robot. All robots receive and
+/// forward such a message. Only the destination delivers the message to its application.
+/// @tparam wants_level  RouterTraits::wants_levels of the protocol: whether it uses received levels
 template <bool wants_level>
 class ToDestination {
   public:

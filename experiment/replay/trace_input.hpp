@@ -11,8 +11,8 @@
 
 namespace rovernet {
 
-/// Trace of either kind as ns-2 text: an ns-2 trace file, or a recorded trace, whose text is
-/// generated during reading. So every reader of ns-2 traces can also read recorded traces.
+/// Trace as ns-2 text. The file is an ns-2 trace, or a recorded trace, whose text is generated
+/// during reading. So every reader of ns-2 traces can also read recorded traces.
 ///
 ///     TraceInput trace("runs/rescue-s7/trace.mcap", {.format = Ns2Format::old_format});
 ///     const TraceStats stats = ns2_stats(trace.text());
@@ -22,8 +22,8 @@ class TraceInput {
     /// Options of the ns-2 lines that are generated from a recorded trace.
     struct Lines {
         Ns2Format format = Ns2Format::new_format;
-        /// Choice whether MAC lines are generated; none: by the key mac of [trace] in the scenario
-        /// of the trace.
+        /// Choice whether lines of the MAC layer are generated; none: as the key mac of [trace] in
+        /// the scenario of the trace selects.
         std::optional<MacTrace> mac = {};
     };
 
@@ -31,9 +31,10 @@ class TraceInput {
     TraceInput(const std::string& path, Lines lines);
 
     bool is_recorded() const { return recorded_ != nullptr; }
-    /// Text of the trace; can be read once. @throws InputError if the file cannot be read
+    /// Text of the trace. The text can be read only once. @throws InputError if the file cannot be
+    /// read
     Ns2Source text() const;
-    /// Names of the robots, by number; recorded traces only.
+    /// Names of the robots, by robot number; only for recorded traces.
     const std::vector<std::string>& robots() const;
     /// Sentences about broken or missing parts of a recorded trace, as far as it was read; empty if
     /// no part is broken or missing.

@@ -16,8 +16,9 @@ struct TracePlay {
     std::function<bool()> goes_on;
 };
 
-/// Plays a trace: shows its events one after the other, paced by the clock, from the first event.
-/// @param speed  trace time over real time [-], > 0
+/// Plays a trace. Its events are shown one after the other, paced by the clock, from the first
+/// event.
+/// @param speed  ratio of trace time to real time [-], > 0
 /// @return false if the callback `goes_on` stopped the playback
 /// @throws InputError as Ns2File
 bool play_trace(Ns2Source source, double speed, const TracePlay& play);

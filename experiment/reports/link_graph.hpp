@@ -11,9 +11,10 @@ namespace rovernet {
 /// Topology of a network: the graph of bidirectional links.
 struct LinkGraph {
     std::vector<std::size_t> parts;  ///< number of each robot's connected component, from 0
-    std::vector<std::size_t> cut;  ///< articulation points: robots without which a component would
-                                   ///< split, in ascending order
-    int diameter = 0;              ///< longest shortest path between connected robots [hops]
+    /// Articulation points: robots without which a connected component would split, in ascending
+    /// order.
+    std::vector<std::size_t> cut;
+    int diameter = 0;  ///< longest shortest path between connected robots [hops]
 };
 
 /// Computes the topology of a network of `robots` robots.

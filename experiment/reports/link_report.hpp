@@ -26,23 +26,24 @@ struct LinkReport {
     std::vector<std::string> materials;  ///< name of the material of each wall on the link
     std::vector<Db> wall_losses;         ///< loss of each wall [dB], included in the path loss
     double wall_m;
-    /// Number of ceilings between the antennas, in a scene with several storeys.
+    /// Number of ceilings between the two antennas, in a scene with several storeys.
     std::size_t ceilings;
     Db ceiling_loss;  ///< loss of all ceilings on the link [dB], included in the path loss
-    /// Number of floors between the two antennas whose loss the propagation model gives.
+    /// Number of floors between the two antennas that the propagation model counts. Ceilings that
+    /// have a loss of their own are not included.
     std::size_t floors;
-    Db floor_loss;  ///< loss of the floors counted in `floors` [dB], included in the path loss
+    Db floor_loss;  ///< loss of the counted floors [dB], included in the path loss
     Radio sender, receiver;
-    Db path_loss;                 ///< total path loss of the link, including walls and shadowing
-    std::optional<Db> shadowing;  ///< shadowing, included in the path loss; none: no shadowing
-    Db sender_pattern, receiver_pattern;  ///< pattern gain of each antenna towards the peer, <= 0
+    Db path_loss;                 ///< total path loss [dB], including walls and shadowing
+    std::optional<Db> shadowing;  ///< shadowing [dB], included in the path loss; none: no shadowing
+    Db sender_pattern, receiver_pattern;  ///< antenna gain towards the peer [dB], <= 0
     Dbm received;
     Db margin;
     bool up;               ///< true if the received level suffices and both robots are on
-    std::string why_down;  ///< reason why the link is down: "B is off"; empty if it is up
+    std::string why_down;  ///< reason why the link is down: "B is off"; empty if the link is up
     std::optional<Rays::Paths> rays;  ///< propagation paths (rays), if the model is `rays`
-    /// Range of the propagation model disc, which gives no levels, so that the values in dB are
-    /// meaningless; none: another model.
+    /// Range [m] of the propagation model, if the model is disc. This model gives no levels, so
+    /// that all values in dB are meaningless. None: another model.
     std::optional<Meters> range;
 };
 

@@ -29,8 +29,8 @@ struct LinkTable {
         int quality;  ///< quality of the link, 0 ... 100, see link_quality()
         Dbm level;    ///< received power of the neighbour's signal at this device [dBm]
         Dbm noise;    ///< noise power at this device [dBm]
-        /// Range of the neighbour's propagation model [m] and distance of the neighbour [m], if the
-        /// model is disc, which gives no levels; none: another model.
+        /// Range [m] of the neighbour's propagation model, and distance [m] of the neighbour, if
+        /// the model is disc, which gives no levels. None: another model.
         std::optional<Meters> range = {}, distance = {};
     };
     Device device;
@@ -38,10 +38,10 @@ struct LinkTable {
 };
 
 /// Wireless devices of all robots of a network. Missing addresses are generated: ip 10.0.0.1 and
-/// mac 02:00:00:00:00:01 for the first robot, and so on. Addresses that the scenario gives to any
-/// robot are not generated.
+/// mac 02:00:00:00:00:01 for the first robot, and so on. Generated addresses differ from all
+/// addresses that the scenario gives.
 std::vector<Device> devices(const Network& network);
-/// Wireless devices of the stations of a Medium, with generated addresses where none is given.
+/// Wireless devices of the stations of a Medium, with generated addresses where the radio has none.
 /// @param names  names of the stations
 std::vector<Device> devices(const Medium& medium, const std::vector<std::string>& names);
 /// Wireless devices of a scenario's [[robot]]s, in the order of the robots. No network is built.
@@ -55,8 +55,8 @@ void for_each_link_table(const Network& network, const std::optional<std::string
 /// Link table as a document: {"robot", ..., "links": [...]}.
 Table link_table_document(const LinkTable& table);
 
-/// Runs the scenario and writes every time at which a link comes up or goes down, as CSV:
-/// time_s,from,to,event.
+/// Runs the scenario and writes every time at which a link comes up or goes down, as CSV with the
+/// columns time_s,from,to,event.
 void write_link_history(const Scenario& scenario,
                         const std::function<void(std::string_view)>& write,
                         const TellTime& tell = {});

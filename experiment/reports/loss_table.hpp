@@ -25,14 +25,15 @@ struct LossAntennas {
 /// @param parameters  texts "name=value"; parameters that are not given have the model's defaults
 /// @param distances   horizontal distances [m]
 /// @param wall        length of the path inside walls [m]
-/// @throws InputError with the name of the wrong option instead of a file
+/// @throws InputError that names the wrong option in place of a file
 std::vector<LossRow> loss_table(const std::string& model,
                                 const std::vector<std::string>& parameters, Hertz frequency,
                                 const std::vector<Meters>& distances, LossAntennas heights,
                                 Meters wall);
 
-/// Quantity from the command line: text with a unit, or a bare number in SI units.
-/// @throws InputError with `option` instead of a file
+/// Conversion of the text of a command-line option to a quantity. The text is a number with a unit,
+/// or a bare number in SI units.
+/// @throws InputError that names `option` in place of a file
 Hertz option_frequency(const std::string& option, const std::string& text);
 Meters option_length(const std::string& option, const std::string& text);
 Duration option_time(const std::string& option, const std::string& text);

@@ -18,13 +18,13 @@ bool somebody_reacts(const Scenario& scenario);
 /// reactions, the copy has no traffic; otherwise it has all traffic.
 Scenario without_idle_traffic(const Scenario& scenario);
 
-/// Network of the scenario, run until the time `at` with all of its traffic: routing tables have
-/// their states at that time, too.
+/// Network of the scenario after a run until the time `at` with all traffic of the scenario, so
+/// that routing tables have their states at that time, too.
 std::unique_ptr<Network> network_with_traffic_at(const Scenario& scenario, Time at,
                                                  const TellTime& tell = {});
 
-/// Network of the scenario, run until the time `at` with without_idle_traffic(): robots and links
-/// have their states at that time.
+/// Network of the scenario after a run until the time `at` with without_idle_traffic(). Robots and
+/// links have their states at that time.
 std::unique_ptr<Network> network_at(const Scenario& scenario, Time at, const TellTime& tell = {});
 
 }  // namespace rovernet

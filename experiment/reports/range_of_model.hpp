@@ -9,8 +9,8 @@
 
 namespace rovernet {
 
-/// Range [m] of the model disc, which has no levels: its links are reported by distance and range,
-/// not in decibels. None for any other model.
+/// Range [m] of a propagation model, if the model is disc; none for any other model. Since disc
+/// gives no levels, reports describe its links by distance and range, not in decibels.
 inline std::optional<Meters> range_of(const Propagation& model) {
     const Shadowed* shadowed = model.as<Shadowed>();
     const Disc* disc = (shadowed ? shadowed->base() : model).as<Disc>();

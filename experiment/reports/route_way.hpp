@@ -9,28 +9,30 @@
 
 namespace rovernet {
 
-/// Way that messages from one robot to another take now, by the robots' routing tables.
+/// Path that messages from one robot to another robot take now, according to the robots' routing
+/// tables.
 struct RouteWay {
-    /// Hop of the way, by a route of `from`.
+    /// Hop of the path, according to the routing table of the robot `from`.
     struct Hop {
         NodeId from, to;
-        Duration age;  ///< time since `from` learnt its route [ns]
-        bool is_up;    ///< whether `to` hears `from` now
+        Duration age;  ///< time since the robot `from` learnt the route [ns]
+        bool is_up;    ///< true: the link is up, so that the robot `to` receives frames of `from`
     };
     NodeId from, to;
     std::vector<Hop> hops;
-    /// Robot at which the way breaks off: it has no route, or is not heard by its next hop; none if
-    /// the way leads to its end.
+    /// Robot at which the path breaks off: the robot has no valid route, its next hop does not
+    /// receive its frames, or its route is a loop. None: the path reaches the destination.
     std::optional<NodeId> broken_at;
-    std::string reason;  ///< why the way breaks off: "it has no route to B"; empty if it does not
+    std::string reason;  ///< reason, such as "it has no route to B"; empty if the path does not
+                         ///< break off
 };
 
-/// Follows the routes from `from` to `to` through the tables of the robots, hop by hop, or along
-/// the path that the first robot knows. Hops after a link that is down are part of the way, too.
+/// Follows the routing tables of the robots from `from` to `to`, hop by hop, or along the path that
+/// the first robot knows. Hops after a link that is down are part of the result, too.
 RouteWay route_way(const Network& network, NodeId from, NodeId to);
 
-/// Way as a sentence: "route from A to B: A > r3 > B, 2 hops, learnt up to 2.3 s ago", or "route
-/// from A to B breaks off at r3: it has no route to B (A > r3)".
+/// Path as a sentence, such as "route from A to B: A > r3 > B, 2 hops, learnt up to 2.3 s ago", or
+/// "route from A to B breaks off at r3: it has no route to B (A > r3)".
 std::string route_way_text(const Network& network, const RouteWay& way);
 
 }  // namespace rovernet

@@ -22,7 +22,7 @@ void append_doors_and_stairs(Table& report, const Scenario& scenario, const Scen
 struct Stairs {
     Vec3 foot, head;  ///< lower and upper end [m]
 };
-/// Stairs in the paths of a scenario's robots, each once.
+/// Stairs that the paths of a scenario's robots use. Stairs used by several paths are listed once.
 std::vector<Stairs> stairs_of(const Scenario& scenario, const Storeys& storeys);
 
 /// Appends to a report the robots of a network in their current state, their radios, and the

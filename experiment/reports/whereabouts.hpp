@@ -13,7 +13,7 @@
 
 namespace rovernet {
 
-/// Positions of all robots at a time.
+/// Positions, velocities and headings of all robots at one time.
 struct Whereabouts {
     struct Row {
         std::string name;
@@ -26,15 +26,16 @@ struct Whereabouts {
     std::vector<Row> robots;
 };
 
-/// Runs the scenario and reports positions at all `times`; results are in the order of `times`.
+/// Runs the scenario and returns the positions of all robots at each of the `times`, in the order
+/// of `times`.
 std::vector<Whereabouts> whereabouts(const Scenario& scenario, const std::vector<Time>& times,
                                      const TellTime& tell = {});
 
 /// Runs the scenario and returns the pieces of movement (legs) of every robot.
 std::vector<Track> tracks(const Scenario& scenario, const TellTime& tell = {});
 
-/// Movement files with the movements of a scenario's robots: NAME.movements and NAME.params for
-/// BonnMotion, NAME.tcl or NAME.ns_movements for ns-2. The ending of `path` selects the format.
+/// Movement files with the movements of a scenario's robots. The ending of `path` selects the
+/// format: NAME.movements and NAME.params for BonnMotion, NAME.tcl or NAME.ns_movements for ns-2.
 /// @throws std::invalid_argument for any other ending of `path`
 std::vector<OutputFile> movement_files(const Scenario& scenario, const std::string& path,
                                        const TellTime& tell = {});

@@ -64,10 +64,10 @@ inline boost::asio::local::stream_protocol::acceptor listen_on_path(boost::asio:
     }
 }
 
-/// Enables TCP keep-alive: after 30 s of silence the peer is probed three times within 30 s, and
-/// without a reply the connection is closed.
+/// Enables TCP keep-alive: after 30 s of silence the peer is probed three times, at intervals of
+/// 10 s. If the peer does not reply, the connection is closed.
 inline void keep_alive(int socket) {
-    const int on = 1, silence = 30, interval = 10, times = 3;  // times in [s]
+    const int on = 1, silence = 30, interval = 10, times = 3;  // [s] except times
     setsockopt(socket, SOL_SOCKET, SO_KEEPALIVE, &on, sizeof on);
     setsockopt(socket, IPPROTO_TCP, TCP_KEEPIDLE, &silence, sizeof silence);
     setsockopt(socket, IPPROTO_TCP, TCP_KEEPINTVL, &interval, sizeof interval);
@@ -81,7 +81,7 @@ inline void acknowledge_at_once(int socket) {
     setsockopt(socket, IPPROTO_TCP, TCP_QUICKACK, &on, sizeof on);
 }
 
-/// Accepts connections as long as the acceptor exists, and passes each to `take`.
+/// Accepts connections as long as the acceptor exists. Calls take(socket) for each connection.
 template <class Acceptor, class Take>
 void accept_all(Acceptor& acceptor, Take take) {
     namespace asio = boost::asio;

@@ -8,7 +8,7 @@ namespace rovernet {
 
 /// Address of this machine on which a server listens.
 struct Address {
-    std::string host;  ///< numeric address: "127.0.0.1", "::1", "0.0.0.0"
+    std::string host;  ///< numeric IP address: "127.0.0.1", "::1", "0.0.0.0"
     std::uint16_t port = 0;
 
     /// Text of the address: "127.0.0.1:7007", "[::1]:7007".
@@ -19,7 +19,7 @@ struct Address {
 
 /// Reads a loopback address, which only this machine can reach: "127.0.0.1:7007", "localhost:0",
 /// "[::1]:7007".
-/// @throws std::invalid_argument for any other address, where anybody could connect
+/// @throws std::invalid_argument for an address that other machines can reach, or for other text
 Address read_loopback(const std::string& text);
 
 /// Reads the host of an address, loopback or not: "0.0.0.0", "192.168.1.5", "[::]".

@@ -13,19 +13,18 @@ namespace rovernet {
 struct WebRequest {
     std::string_view target;  ///< request target: "/?token=0123..."
     std::string_view host;    ///< header Host: "127.0.0.1:9090"
-    /// Header Origin: site of the web page; none from a program that is no browser.
+    /// Header Origin: site of the web page; none if the client is no browser.
     std::optional<std::string_view> origin = {};
 };
 
 /// Access rule for WebSockets at an address of this machine. If other machines can reach the
 /// address, clients need the token, which is printed when the server starts. At a loopback address,
-/// any program may connect, and some web pages:
+/// any program may connect, but a web page only if it comes from this server or has the token.
 ///
-/// A browser opens WebSockets for pages of any site, and sends the page's origin. So the page must
-/// come from this server, or know the token. A page from a file has the origin "null", like pages
-/// that hide their origin. The name in `Host` must belong to this machine. Otherwise a foreign name
-/// that resolves to this machine would make foreign pages look like pages of this server (DNS
-/// rebinding).
+/// Reason: a browser opens WebSockets for pages of any site, and sends the page's origin. A page
+/// from a file has the origin "null", like pages that hide their origin. The name in `Host` must
+/// belong to this machine. Otherwise a foreign name that resolves to this machine would make
+/// foreign pages look like pages of this server (DNS rebinding).
 class Admission {
   public:
     Admission(Address address, std::string token);

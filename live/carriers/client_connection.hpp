@@ -37,7 +37,7 @@ struct ClientConnection {
         return first != input.npos && input[first] != '{';
     }
     RequestError not_json_error() const {
-        constexpr std::size_t shown = 16;  // [bytes]
+        constexpr std::size_t shown = 16;  // size of the input shown in the message [bytes]
         std::string found = input.substr(0, std::min(input.find_first_of("\r\n"), shown));
         const auto is_odd = [](char c) { return c < ' ' || c > '~'; };
         std::replace_if(found.begin(), found.end(), is_odd, '?');
@@ -50,13 +50,14 @@ struct ClientConnection {
     const Listeners::Streams& streams;
     Clock::time_point since = Clock::now();
     InputRate rate = {};
-    Clock::time_point closes_at = Clock::time_point::max();  ///< deadline for sending queued data
+    /// Time at which the connection is closed, even if queued data is not sent yet.
+    Clock::time_point closes_at = Clock::time_point::max();
     std::string input, sending, queued;
     std::size_t messages = 0;  ///< number of queued messages to the client
     std::size_t searched = 0;  ///< number of bytes of `input` already searched for an end of line
     bool has_sent = false;     ///< whether the client has sent a complete line or message
     bool is_reading = false, is_writing = false;
-    bool is_answered = true;  ///< whether the last line of the client was answered
+    bool is_answered = true;  ///< whether the client's last line was answered
     bool has_ended = false;   ///< whether the client has closed its sending side
     bool is_closing = false;  ///< whether the connection is to be closed once all data is sent
 };

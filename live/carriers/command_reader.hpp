@@ -21,7 +21,7 @@
 #include <utility>
 #include <variant>
 
-// Reading of robot commands from JSON, by the description of a command in its fields().
+// Reader of robot commands from JSON. The function fields() of a command lists its keys.
 
 namespace rovernet {
 
@@ -35,8 +35,9 @@ class CommandReader {
 
     /// Reads the fields of a robot command into `command`. The height of a place and the heading
     /// keep their previous values if the JSON object does not give them.
-    /// @param in       JSON object of the command, for errors
-    /// @param keys     keys of the command's first fields, for errors; other fields are not read
+    /// @param in       JSON object of the command, for error messages
+    /// @param keys     keys of the command's first fields, for error messages; other fields are
+    ///                 not read
     /// @param members  JSON value of each key; none if the object lacks the key
     template <class Command>
     void read(Command& command, const JsonElement& in, std::span<const std::string_view> keys,
@@ -93,13 +94,14 @@ class CommandReader {
     static void check_true(const JsonElement& element, std::string_view key);
 };
 
-/// Range of a list of keys: the keys that belong to one robot command.
+/// Range of indices in a list of keys: the keys of one robot command.
 struct KeyPart {
     std::size_t first, size;
 };
-/// Index of the part of `keys` (robot command) of which a JSON object has keys; none if the object
-/// has no key of any part.
-/// @throws RequestError if the object has keys of several parts
+/// Index in `parts` of the robot command whose keys a JSON object has; none if the object has no
+/// key of any command.
+/// @param parts  for each robot command, the range of its keys in `keys`
+/// @throws RequestError if the object has keys of several commands
 std::optional<std::size_t> find_given(const JsonElement& object,
                                       std::span<const std::string_view> keys,
                                       std::span<const CommandReader::Member> members,

@@ -18,7 +18,7 @@ namespace rovernet {
 
 /// Listening address at which a client connected.
 struct ListenerId {
-    std::size_t number;  ///< index of the address among the front's addresses, from 0
+    std::size_t number;  ///< index among the addresses of the Front (protocol server), from 0
     std::uint16_t port;
 };
 
@@ -30,8 +30,8 @@ struct ListenerId {
 /// PacketPort is a connection, which has the robot's number and exists from the start.
 ///
 /// A front may request by new_seed() that the run starts again. The front then keeps its
-/// connections, and begin() is called again. Every other front is replaced by a new front, and its
-/// connections are closed.
+/// connections, and begin() is called again. All other fronts of the run are replaced by new
+/// fronts, and their connections are closed.
 class Front {
   public:
     /// Number of a client's connection, unique in the run.
@@ -46,7 +46,7 @@ class Front {
         std::function<void(Connection which)> close;
         /// Sends one binary message to a client; for protocols with text and binary messages.
         std::function<void(Connection to, std::string_view message)> send_binary = {};
-        /// Fingerprint of the run so far.
+        /// Returns the fingerprint (hash of all records) of the run so far.
         std::function<std::string()> fingerprint = {};
     };
 
@@ -77,7 +77,7 @@ class Front {
     virtual bool holds_end() const { return false; }
     /// Seed with which the run must start again; none: the run continues.
     virtual std::optional<std::uint64_t> new_seed() const { return std::nullopt; }
-    /// Called once the results are written; messages to clients are still sent.
+    /// Called once the results are written. Messages that the front sends now still reach clients.
     /// @param metrics  metrics of the run, as in summary.json
     virtual void ended(std::string_view /*fingerprint*/, const Table& /*metrics*/) {}
     /// Error that ended the run, such as a lost client; empty: no error.

@@ -8,8 +8,8 @@
 namespace rovernet {
 
 /// Rate limit for the input of one client in a paced run: 5,000 messages and 16 MiB per second,
-/// with bursts of one second. Beyond the limit the client is not read for a while, so that TCP flow
-/// control slows it down.
+/// with bursts of one second. Beyond the limit the client's input is not read for a while, so that
+/// TCP flow control slows the client down.
 class InputRate {
   public:
     using Clock = std::chrono::steady_clock;
@@ -28,7 +28,7 @@ class InputRate {
     static constexpr std::chrono::microseconds time_a_message{200};
     static constexpr std::chrono::nanoseconds time_a_byte{60};  // 16 MiB in 1.007 s
 
-    // Times at which all input would have arrived at the limiting rate.
+    // Times at which the input so far would have arrived at the limits of messages and of bytes.
     Clock::time_point messages_paid_{}, bytes_paid_{};
 };
 

@@ -35,7 +35,7 @@ class JsonParser {
 struct JsonPath {
     const JsonPath* above = nullptr;
     std::string_view key = {};
-    std::size_t index = 0;  ///< index in a list, if `key` is empty
+    std::size_t index = 0;  ///< index of the element in a list, from 0, if `key` is empty
 
     std::string text() const;
 };
@@ -51,7 +51,8 @@ struct JsonElement {
     /// Throws RequestError "bad_type" for this element. @param what  expected type
     [[noreturn]] void expected(std::string_view what) const;
 
-    /// Element as a number. @throws RequestError "bad_type" for any other type, "out_of_range"
+    /// Number of the element. @throws RequestError "bad_type" for any other type, "out_of_range"
+    /// if the number is outside the range
     double number(const Range& range) const;
     std::uint64_t whole_number(std::uint64_t lowest, std::uint64_t highest) const;
     bool truth() const;
@@ -65,7 +66,7 @@ struct JsonElement {
 inline constexpr std::size_t most_items = 100'000;  ///< largest length of a JSON list
 
 /// Calls use(element) for each item of a JSON list.
-/// @throws RequestError "bad_type", "too_many"
+/// @throws RequestError "bad_type" if `list` is no list, "too_many" above `most_items`
 template <class Use>
 void for_each_item(const JsonElement& list, Use use) {
     const simdjson::dom::array items = list.array();
@@ -86,7 +87,7 @@ void for_each_item(const JsonElement& list, Use use) {
                                    std::string_view example);
 [[noreturn]] void fail_repeated_key(const JsonPath& object, std::string_view key);
 
-/// Values of a JSON object for the allowed keys, in the order of `keys`.
+/// Values of a JSON object for the allowed `keys`, in their order; none for a missing key.
 /// @throws RequestError "bad_type" if the element is no object, "unknown_key", "repeated_key"
 template <std::size_t N>
 std::array<std::optional<JsonElement>, N> members(const JsonElement& element,
@@ -102,7 +103,8 @@ std::array<std::optional<JsonElement>, N> members(const JsonElement& element,
     return found;
 }
 
-/// Value of a required key of the JSON object `in`. @throws RequestError "missing_key"
+/// Returns `member`, the value of the required `key` of the JSON object `in`.
+/// @throws RequestError "missing_key" if `member` is empty
 inline const JsonElement& needed(const std::optional<JsonElement>& member, const JsonElement& in,
                                  std::string_view key, std::string_view example) {
     if (!member) fail_missing_key(in.path, key, example);

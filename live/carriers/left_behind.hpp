@@ -19,8 +19,8 @@ inline constexpr std::chrono::milliseconds before_kill{1000};
 /// @param leaders  process ids of the groups; a leader may have ended, but must not be reaped yet
 void end_groups(std::span<const pid_t> leaders);
 
-/// Registration of a process group, for the lifetime of this object: clear_away() ends all
-/// registered groups. At most 1,024 groups are registered.
+/// Registration of a process group, which lasts as long as this object. clear_away() ends all
+/// registered groups. At most 1,024 groups can be registered.
 class NotedGroup {
   public:
     explicit NotedGroup(pid_t leader);
@@ -32,8 +32,8 @@ class NotedGroup {
     std::size_t place_;
 };
 
-/// Registration of a file, for the lifetime of this object: clear_away() removes all registered
-/// files, and the destructor removes its file. At most 16 files are registered.
+/// Registration of a file, which lasts as long as this object. The destructor removes the file, and
+/// clear_away() removes all registered files. At most 16 files can be registered.
 class NotedFile {
   public:
     explicit NotedFile(std::string path);
@@ -46,8 +46,8 @@ class NotedFile {
     std::size_t place_;
 };
 
-/// Ends the process groups and removes the files that this process has registered; in a forked
-/// process none are registered. Safe in a signal handler, before _exit().
+/// Ends the process groups and removes the files that this process has registered. A forked process
+/// starts with no registered groups and files. Safe in a signal handler, before _exit().
 void clear_away();
 
 }  // namespace rovernet

@@ -27,10 +27,10 @@ namespace rovernet {
 /// a client that sends without reading does not fill the memory, and lines may be sent ahead. A
 /// byte stream is read as it arrives, and messages to its client may be sent at any time.
 ///
-/// A client whose first line is no JSON object gets an error and is disconnected, after its first
-/// byte if possible, and no line of the client is executed. Reason: any web page can make a browser
-/// send an HTTP request to this machine, with arbitrary lines in its body. An HTTP request begins
-/// with a word, never with a brace (RFC 9110, 9.1).
+/// If a client's first line is no JSON object, the client gets an error and is disconnected, after
+/// its first byte if possible. No line of this client is executed. Reason: any web page can make a
+/// browser send an HTTP request to this machine, with arbitrary lines in its body. An HTTP request
+/// begins with a word, never with a brace (RFC 9110, 9.1).
 ///
 /// | limit                               | value           | beyond it                 |
 /// |-------------------------------------|-----------------|---------------------------|
@@ -48,7 +48,7 @@ namespace rovernet {
 class Listeners {
   public:
     using Connection = std::uint32_t;
-    /// Handlers of connections, which carry bytes or lines. They may call send() and close().
+    /// Handlers of connections that carry bytes or lines. The handlers may call send() and close().
     struct Streams {
         std::function<void(Connection opened)> opened = [](auto) {};
         /// Handles received bytes, or a line without its end. @return number of messages that are
@@ -58,12 +58,13 @@ class Listeners {
         std::function<void(Connection gone)> closed = [](auto) {};
         /// Whether the input rate of clients is limited, see InputRate; only for byte streams.
         bool has_rate = true;
-        /// Last message to a client of a byte stream that is disconnected because it does not read.
-        /// `lost`: number of messages to the client that are dropped.
+        /// Function for the last message to a client of a byte stream that is disconnected because
+        /// it does not read. `lost`: number of messages to the client that are dropped.
         std::function<std::string(std::size_t lost)> closing_message = [](auto) {
             return std::string();
         };
-        /// Line that reports to a client why it is disconnected; none: connections carry bytes.
+        /// Function for the line that reports to a client why it is disconnected; empty: the
+        /// connections carry bytes, not lines.
         std::function<std::string(const RequestError& why)> line_error = {};
     };
 
@@ -79,11 +80,11 @@ class Listeners {
     /// Listens on an address for clients. May be called for several addresses. Access is not
     /// restricted.
     /// @param address  port 0: any free port
-    /// @return the address with the port
+    /// @return listening address with the actual port
     /// @throws RunError if the address is in use, or not an address of this machine
     Address listen(const Address& address, Streams streams);
     /// Listens on a Unix socket, accessible to this user only. A stale socket file is replaced.
-    /// @throws RunError
+    /// @throws RunError if the path cannot be used
     void listen_unix(const std::string& path, Streams streams);
 
     /// Calls `readable` whenever a descriptor has data to read, until `readable` returns false.
@@ -91,7 +92,8 @@ class Listeners {
     void watch(int descriptor, std::function<bool()> readable);
 
     /// Sends a message to a client. If the connection carries lines, the message is a line without
-    /// its end, which answers the client's last line. To a byte stream it is sent unchanged.
+    /// its end, which answers the client's last line. To a byte stream the message is sent
+    /// unchanged.
     void send(Connection to, std::string_view message);
     /// Closes a connection once all data is sent. The handler `closed` is called later, not by this
     /// call.

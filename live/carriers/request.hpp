@@ -23,12 +23,13 @@ namespace rovernet {
 
 class Network;
 
-/// Error in a request line. The session is unchanged, and the controller may send a corrected line.
+/// Error in a request line of a controller. The session is unchanged, and the controller may send a
+/// corrected line.
 class RequestError : public std::runtime_error {
   public:
     /// @param code     error code for programs: "unknown_robot"
     /// @param at       path of the wrong element in the line: "do.C.v"; empty: the whole line
-    /// @param message  text: what was found and what was expected
+    /// @param message  text with the found and the expected value
     RequestError(const char* code, std::string at, const std::string& message)
         : std::runtime_error(message), code_(code), at_(std::move(at)) {}
     const char* code() const { return code_; }
@@ -50,7 +51,8 @@ struct HelloRequest {
     std::optional<std::uint64_t> seed = {};
 };
 
-/// Request "step": commands that take effect now, then a step of simulated time.
+/// Request "step" of a controller: robot commands that take effect now, then a step of simulated
+/// time.
 struct StepRequest {
     /// Number chosen by the controller, greater than in the previous request.
     std::uint64_t number = 0;
@@ -68,11 +70,11 @@ struct ByeRequest {};
 
 using Request = std::variant<HelloRequest, StepRequest, ResetRequest, ByeRequest>;
 
-/// Reader of request lines that reuses its memory. A line is checked completely before any command
-/// is made.
+/// Reader of request lines that reuses its memory. A line is checked completely before any of its
+/// commands is returned.
 ///
-/// Limits: 32 nesting levels, 100,000 robots or messages, names of 64 bytes, messages of 65,535
-/// bytes, 1,000 m/s and 1,000 rad/s.
+/// Limits of a line: 32 nesting levels, 100,000 robots or messages, names of 64 bytes, messages of
+/// 65,535 bytes, 1,000 m/s and 1,000 rad/s.
 class RequestReader {
   public:
     RequestReader();
@@ -84,7 +86,7 @@ class RequestReader {
     /// @param own      robots of the controller, in ascending order; empty before its "hello"
     /// @throws RequestError
     Request read(std::string_view line, const Network& network, std::span<const NodeId> own);
-    /// Number "n" of the last line that was read, if it has one; for error lines.
+    /// Value of the key "n" of the last request line, for error answers; none: the key is missing.
     std::optional<std::uint64_t> number() const { return number_; }
 
   private:

@@ -17,7 +17,7 @@ struct WebPage {
     std::string type;  ///< media type: "text/html; charset=utf-8"
     std::string text;
 };
-/// Web pages by path, such as "/". No other path exists, and no file is read.
+/// Web pages by path, such as "/". The server serves no other path, and reads no file.
 using WebPages = std::map<std::string, WebPage, std::less<>>;
 
 /// Server for WebSocket clients (RFC 6455), including browsers. Connections carry whole messages.
@@ -47,11 +47,13 @@ class WebSockets {
     /// Timeouts after which clients are disconnected.
     struct Timeouts {
         std::chrono::milliseconds request = std::chrono::seconds(10);
-        /// Largest silence of a client; a ping is sent after half of it.
+        /// Largest silence of a client, after which the connection is closed. A ping is sent after
+        /// half of this time.
         std::chrono::milliseconds silence = std::chrono::seconds(30);
     };
 
-    /// @param listeners  its wait() also runs this server; must outlive this object
+    /// @param listeners  owner of the event loop: Listeners::wait() also runs this server; must
+    ///                   outlive this object
     explicit WebSockets(Listeners& listeners) : WebSockets(listeners, Timeouts{}) {}
     WebSockets(Listeners& listeners, Timeouts timeouts);
     ~WebSockets();
@@ -61,7 +63,7 @@ class WebSockets {
     /// Listens for clients. @param users  handlers, called once for each complete message
     /// @param address  address of this machine; port 0: any free port
     /// @param pages    pages for GET and HEAD
-    /// @return the address with the port
+    /// @return listening address with the actual port
     /// @throws RunError if the address is in use, or not an address of this machine
     Address listen(const Address& address, Listeners::Streams users, WebPages pages = {});
     /// Sentence for the user with the token that clients of the address `own` need.

@@ -13,7 +13,7 @@ struct DescriptorMessage {
     std::string text = {};
 };
 
-/// Sends a message over a Unix socket. @return whether it was sent
+/// Sends a message over a Unix socket. @return whether the message was sent
 bool send_descriptor(int socket, const DescriptorMessage& message);
 /// Receives a message from a Unix socket; none if the peer has closed the socket.
 std::optional<DescriptorMessage> receive_descriptor(int socket);

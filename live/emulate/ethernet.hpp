@@ -10,7 +10,7 @@
 
 namespace rovernet {
 
-/// Hardware address (MAC) as the bytes of a frame.
+/// Hardware (MAC) address, converted from text to the bytes in an Ethernet frame.
 /// @param text  "02:00:00:00:00:01"
 /// @return 6 bytes; none if the text is no unicast address
 std::optional<std::string> mac_bytes(std::string_view text);
@@ -19,9 +19,9 @@ std::optional<std::string> mac_bytes(std::string_view text);
 /// type), then the payload. Frames are transported unchanged; the size on air excludes the 14
 /// bytes.
 ///
-/// A broadcast or multicast address means everyone in range. The address of a robot means a
-/// unicast, which the access model "csma" acknowledges and retries. A robot gets frames to its own
-/// address and to broadcast and multicast addresses, from any sender.
+/// A frame to a broadcast or multicast address is sent to everyone in range. A frame to the address
+/// of a robot is a unicast, which the access model "csma" acknowledges and retries. A robot gets
+/// frames to its own address and to broadcast and multicast addresses, from any sender.
 class EthernetFormat : public PacketFormat {
   public:
     void begin(const Network& network) override;

@@ -15,7 +15,7 @@ struct ProgramEnd {
 };
 
 /// Runs a program in the network of a robot, and waits for its end. Signals to this process are
-/// forwarded; signals from the terminal reach the program directly.
+/// forwarded to the program. Signals from the terminal reach the program directly.
 ///
 /// When the run ends for any reason, this process ends the program and its descendants, since they
 /// have no network any more (end_processes). The keeper, the process that owns the networks of the
@@ -25,8 +25,8 @@ struct ProgramEnd {
 /// @throws RunError if the program cannot be started
 ProgramEnd run_inside(const RobotNetwork& network, const std::vector<std::string>& words);
 
-/// Ends this process as a program with the given waitpid() status ended: with the same exit code,
-/// or by the same signal.
+/// Ends this process with the exit code, or by the signal, of another program that has ended.
+/// @param status  status of that program, from waitpid()
 [[noreturn]] void end_like(int status);
 
 }  // namespace rovernet

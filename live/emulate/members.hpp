@@ -14,7 +14,7 @@ class NamespaceSet {
   public:
     /// @param descriptor  open file descriptor of a namespace
     void add(int descriptor);
-    /// Processes in the namespaces, as far as visible to this process; without this process.
+    /// All other processes in the namespaces, as far as they are visible to this process.
     std::vector<pid_t> members() const;
 
   private:

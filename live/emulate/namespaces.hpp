@@ -21,11 +21,11 @@ namespace rovernet {
 class Namespaces {
   public:
     /// @param folder  folder of the run's results, by which programs find the run
-    /// @param go_on   called now and then; returning false stops the setup
-    /// @throws RunError if namespaces or devices cannot be made; Interrupted
+    /// @param go_on   called repeatedly during the setup; returning false stops the setup
+    /// @throws RunError if namespaces or devices cannot be made; Interrupted by `go_on`
     Namespaces(std::vector<RobotDevice> robots, const std::string& folder,
                const std::function<bool()>& go_on);
-    /// Ends the programs in the namespaces, and waits for them.
+    /// Ends the programs in the namespaces, and waits for their end.
     ~Namespaces();
     Namespaces(const Namespaces&) = delete;
     Namespaces& operator=(const Namespaces&) = delete;

@@ -9,7 +9,7 @@
 namespace rovernet {
 
 /// Listener for a robot's namespace: the abstract Unix socket "rovernet/PID/ROBOT", where PID is
-/// the process of the run. The socket has no file, and vanishes with its process.
+/// the process id of the run. The socket has no file, and vanishes with its process.
 ///
 /// Any user may bind any such name. So client and server both check the user of the peer
 /// (user_behind). If the name is taken, the listener is at "rovernet/PID.NUMBER/ROBOT".
@@ -34,8 +34,8 @@ int open_listener(pid_t run, const std::string& robot);
 /// Listeners of robots of all runs on this machine, of any user.
 std::vector<RobotListener> all_listeners();
 
-/// User of the peer process of a socket, from the kernel: the client of an accepted socket, the
-/// server of a connected one.
+/// User of the peer process of a socket, from the kernel: user of the client if the socket was
+/// accepted, user of the server if the socket has connected to it.
 std::optional<uid_t> user_behind(int socket);
 
 /// Name of a user for messages: "alice (1000)".

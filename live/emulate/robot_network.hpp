@@ -29,8 +29,8 @@ class OwnDescriptor {
 struct WantedRun {
     std::optional<pid_t> process = {};
     std::optional<std::string> folder = {};  ///< folder of the run's results
-    /// User whose runs are trusted; none: the user of this process. The provider of a network can
-    /// read and change all packets of programs in it.
+    /// User whose runs are trusted; none: the user of this process. The owner of a run can read and
+    /// change all packets of programs in the run's networks.
     std::optional<uid_t> user = {};
 };
 
@@ -40,14 +40,14 @@ struct RobotNetwork {
     pid_t run;
     std::string folder;        ///< folder of the run's results
     OwnDescriptor space;       ///< file descriptor of the network namespace
-    OwnDescriptor connection;  ///< connection to the run: at its end a message arrives, or the
-                               ///< connection breaks
+    OwnDescriptor connection;  ///< connection to the run: at the end of the run a message arrives,
+                               ///< or the connection breaks
 };
 
 /// Connects to a robot's listener, and gets the robot's network namespace. Listeners of untrusted
 /// users are ignored.
-/// @throws std::invalid_argument if no run or several runs have such a robot; the message lists the
-///     candidates
+/// @throws std::invalid_argument if no run or several runs have a robot with this name; the message
+///     lists the candidates
 /// @throws RunError if the run ends in the meantime
 RobotNetwork find_network(const std::string& robot, const WantedRun& wanted);
 

@@ -26,11 +26,12 @@ struct RobotDevice {
 /// @throws RunError
 int make_tap(const RobotDevice& device);
 
-/// TAP device of a robot: reads the frames that its programs send, and writes the frames that the
-/// robot receives.
+/// TAP device of a robot: reads the frames that the robot's programs send, and writes the frames
+/// that the robot receives.
 class TapPort : public PacketPort {
   public:
-    /// @param namespaces  robots' network namespaces, from which the device of `robot` is taken
+    /// @param namespaces  network namespaces of all robots, with their TAP devices
+    /// @param robot       index of the robot among the namespaces, from 0
     TapPort(std::shared_ptr<Namespaces> namespaces, std::size_t robot);
     ~TapPort() override;
     TapPort(const TapPort&) = delete;
@@ -42,7 +43,7 @@ class TapPort : public PacketPort {
     void write(std::string_view frame) override;
 
   private:
-    std::shared_ptr<Namespaces> namespaces_;  // namespaces that contain the device
+    std::shared_ptr<Namespaces> namespaces_;  // network namespaces of all robots
     std::size_t robot_;
     int descriptor_;
 };

@@ -74,7 +74,7 @@ class AnswerWriter {
 /// Answer "error": a line of a controller was rejected. @param number  `n` of that line
 std::string error_line(const RequestError& fault, std::optional<std::uint64_t> number);
 /// Answer "end": the last line to a controller.
-/// @param reason   bye, done, stopped, lost or patience
+/// @param reason   reason of the end: bye, done, stopped, lost (a controller) or patience (timeout)
 /// @param metrics  metrics of the run, as in summary.json
 std::string end_line(std::string_view reason, std::string_view fingerprint, const Table& metrics);
 

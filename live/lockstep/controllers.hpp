@@ -19,13 +19,13 @@ struct Controller {
     /// Number of the connection that carries the controller's lines, unique in the run.
     using Connection = std::uint32_t;
     enum class State {
-        owes,         ///< the controller's next request is missing: time stands still
+        owes,         ///< the controller's next request is missing, so that time stands still
         waits,        ///< the controller waits for the answer to its step
         wants_reset,  ///< the controller has requested a reset of the run
         leaves,       ///< the controller has sent "bye"
     };
 
-    /// @param from   none: a controller in this process
+    /// @param from   connection of the controller; none: a controller in this process
     /// @param hello  request whose robots must not belong to any other controller
     Controller(std::optional<Connection> from, HelloRequest hello);
 
@@ -41,7 +41,7 @@ struct Controller {
     ClientId client = 0;      ///< id of the controller as a client of the session
     State state = State::owes;
     Time step_end = start_of_run;  ///< end of the step that the controller requested
-    StepRequest step = {};         ///< last step request, without executed commands
+    StepRequest step = {};         ///< last step request, with commands not executed yet
     bool has_stepped = false;
     std::optional<std::uint64_t> reset_seed = {};
     std::vector<SentMessage> sent = {};  ///< messages sent in the controller's last step
@@ -76,7 +76,7 @@ class Controllers {
 
     /// Names of controllers whose next request is missing.
     std::vector<std::string> owing() const;
-    /// Whether there are controllers, and each of them has sent its next request.
+    /// Whether at least one controller exists, and all controllers have sent their next requests.
     bool have_all_asked() const;
     /// Earliest end of the steps that controllers requested; `never` if no controller waits.
     Time next_end() const;

@@ -29,11 +29,11 @@ enum class OnLoss {
 
 /// Lock-step protocol: simulated time advances only when every controller has requested a step.
 ///
-/// A controller owns robots and chooses its length of step. Its request is answered when the
-/// simulation has reached the end of its step. Once every controller has sent its request, all
+/// A controller owns robots and chooses its length of step. A controller's request is answered when
+/// the simulation has reached the end of its step. Once every controller has sent its request, all
 /// commands are executed in the order of robots, and simulated time advances to the earliest end of
-/// a step. So results depend neither on the order of arrival nor on the computing time of
-/// controllers. A message that arrives during a step takes effect at the end of the step.
+/// a step. So results depend neither on the order in which requests arrive nor on the controllers'
+/// computing time. A message that arrives during a step takes effect at the end of the step.
 class Lockstep : public Front {
   public:
     struct Settings {
@@ -41,7 +41,7 @@ class Lockstep : public Front {
         OnLoss on_loss = OnLoss::end;
         /// Timeout for a request of a controller, in real time; none: no timeout.
         std::optional<std::chrono::nanoseconds> patience = {};
-        /// Number of started programs, if no other program can connect; none: others can connect.
+        /// Number of started programs if only these can connect; none: other programs can connect.
         std::optional<std::size_t> programs = {};
         /// Called with notices for the user, such as awaited controllers.
         std::function<void(std::string_view)> say = [](std::string_view) {};
@@ -49,7 +49,7 @@ class Lockstep : public Front {
 
     Lockstep(Settings settings, Carrier carrier);
 
-    /// Starts a run. If the run starts again, connected controllers get the answer "welcome".
+    /// Starts a run. After a restart of the run, connected controllers get the answer "welcome".
     void begin(Session& session, const Scenario& scenario) override;
     void opened(Connection, ListenerId) override {}
     /// Handles a line of a controller, without its end. Errors are sent to the controller.
@@ -100,7 +100,7 @@ class Lockstep : public Front {
     RequestReader reader_;
     Controllers controllers_;
     std::vector<Connection> leaving_;  // connections that sent "bye" and wait for the last line
-    std::deque<std::function<void()>> after_step_;  // handlers of lines and losses during a step
+    std::deque<std::function<void()>> after_step_;  // calls deferred to the end of the step
     std::optional<Time> step_end_;                  // end of the current step; none: between steps
     bool has_started_ = false;
     bool is_over_ = false;

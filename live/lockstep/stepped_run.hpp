@@ -22,7 +22,8 @@
 namespace rovernet {
 
 /// Run of a scenario whose robots are driven step by step by a program in this process, which is
-/// its only controller. Equal commands give the same run as by the lock-step protocol (Lockstep).
+/// its only controller. A program that sends the same commands by the lock-step protocol (Lockstep)
+/// gets the same run.
 ///
 ///   SteppedRun run(scenario, {.step = 100ms});
 ///   while (!run.is_done()) {
@@ -49,7 +50,8 @@ class SteppedRun {
     };
 
     /// Starts the run.
-    /// @throws std::invalid_argument for a wrong setting; InputError, RunError as ScenarioRun
+    /// @throws std::invalid_argument for a wrong setting; InputError, RunError as the constructor
+    /// of ScenarioRun
     SteppedRun(Scenario scenario, Settings settings);
     ~SteppedRun();
 
@@ -69,7 +71,7 @@ class SteppedRun {
 
     /// Executes the commands of this step, and runs for one step or to the end of the scenario.
     /// @param most_events  events processed between two calls of `go_on`
-    /// @param go_on        called now and then; returning false interrupts the step
+    /// @param go_on        called repeatedly during the step; returning false interrupts the step
     /// @return whether the step was completed
     /// @throws RunError if the scenario has ended; InputError, RunError as Session::step()
     bool step(std::uint64_t most_events, const std::function<bool()>& go_on);

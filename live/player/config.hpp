@@ -21,10 +21,11 @@ namespace rovernet {
 ///
 /// The comdriver is the driver of the 2007 thesis that added radio to Stage (docs/worlds.md): it
 /// sends messages by radio, and the first byte of a message is the time-to-live. Its mapping gives
-/// the port of the robot with an IP address. Other drivers of a Player server are not supported; a
-/// notice names them.
+/// the Player port of the robot with each IP address. Other drivers of a Player server are not
+/// supported; a notice names them.
 struct PlayerConfig {
-    /// Entry of a comdriver's mapping: a robot's IP address and port.
+    /// Entry of the key `mapping` of a comdriver (radio driver): a robot's IP address and its
+    /// Player port.
     struct Mapped {
         std::string ip;
         std::uint16_t port = 6665;
@@ -42,21 +43,23 @@ struct PlayerConfig {
         std::uint32_t index = 0;
         Location where = {};
         std::optional<Comdriver> comdriver = {};
-        std::optional<std::uint32_t> relay = {};  ///< index of the relay (`opaque` device)
+        std::optional<std::uint32_t> relay = {};  ///< index of the robot's relay (`opaque` device)
     };
 
     std::string world;  ///< path of the world file, absolute or relative to the working directory
     std::vector<Robot> robots;
     std::vector<std::string> notices = {};  ///< notices to the user, "file:line: text"
 
-    /// Whether a robot has a comdriver, so that messages begin with a time-to-live byte.
+    /// Whether a robot has a comdriver (radio driver), so that radio messages begin with a
+    /// time-to-live byte.
     bool has_comdriver() const;
 };
 
 /// Reads a Player configuration file. @throws InputError with file, line and column
 PlayerConfig read_player_config(const std::string& path);
 
-/// Notices about comdriver mappings that contradict the robots of the file and their addresses.
+/// Notices about mappings of comdrivers (radio drivers) from IP addresses to Player ports that
+/// contradict the robots of the file and their addresses.
 /// @param ips  IP address of each robot, in the order of the file; "" if it has none
 std::vector<std::string> mapping_notices(const PlayerConfig& config,
                                          const std::vector<std::string>& ips);

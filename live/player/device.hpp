@@ -30,8 +30,8 @@ class PlayerDevice {
     virtual Duration period() const { return player_tick; }
     /// Whether every data message must be delivered; otherwise clients get the newest one only.
     virtual bool has_events() const { return false; }
-    /// Payloads of data messages (subtype 1) at the current time: one, or one for each event since
-    /// the last call. Called while there are subscribers.
+    /// Payloads of data messages (subtype 1) at the current time: one payload, or one for each
+    /// event since the last call. Called only while the device has subscribers.
     virtual std::vector<std::string> data() = 0;
     /// Payload of the answer to a request; none: the request is refused.
     virtual std::optional<std::string> answer(std::uint32_t subtype, XdrReader payload) = 0;

@@ -20,11 +20,12 @@ namespace rovernet {
 /// Address at which clients find the Player devices of one robot.
 struct PlayerPlace {
     std::string robot;
-    std::size_t listener = 0;  ///< index of the listening address of the Player server
+    std::size_t listener = 0;  ///< index among the Player server's listening addresses, from 0
     /// Index of the robot's devices at its listening address; for range finders see PlayerDevices.
     std::uint32_t index = 0;
-    std::optional<std::uint32_t> relay = {};  ///< index of the relay (`opaque`); none: 2 `index`
-    /// Index of the robot's radio (`opaque`); none: 2 `index` + 1.
+    /// Index of the robot's relay device (`opaque`); none: 2 * `index`.
+    std::optional<std::uint32_t> relay = {};
+    /// Index of the robot's radio device (`opaque`); none: 2 * `index` + 1.
     std::optional<std::uint32_t> radio = {};
     bool has_ttl = false;  ///< true: the first byte of the robot's radio messages is the TTL
 };
@@ -42,7 +43,7 @@ struct PlacedDevice {
 /// `position2d`, `wifi`, its range finders, and `opaque` twice (relay and radio).
 ///
 /// Laser j of the robot with index k is `laser:(n k + j)`, where n is the largest number of lasers
-/// of a robot at that address. Sonars and rangers are numbered alike.
+/// of a robot at that address. Sonars and rangers are numbered by the same rule.
 class PlayerDevices {
   public:
     /// @throws std::invalid_argument if a robot does not exist
@@ -51,7 +52,7 @@ class PlayerDevices {
     /// All Player devices, in an order that is the same in each run.
     std::list<PlacedDevice>& all() { return devices_; }
     const std::list<PlacedDevice>& all() const { return devices_; }
-    /// Player device with this address; null if there is none.
+    /// Player device with this address; null if no device has the address.
     PlacedDevice* find(std::size_t listener, PlayerAddress address);
 
   private:

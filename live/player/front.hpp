@@ -20,15 +20,16 @@ struct PlayerSettings {
     /// True for lock-step: simulated time advances by 100 ms once all clients in PULL mode have
     /// requested data. The run ends when the last client has left.
     bool is_lockstep = false;
-    std::size_t wait_for = 1;  ///< lock-step: number of PULL clients before time starts
+    /// Number of clients in PULL mode that must connect before simulated time starts, in lock-step.
+    std::size_t wait_for = 1;
 };
 
 /// Player server, for programs written for Player and Stage. docs/live.md lists the supported
 /// messages.
 ///
 /// A client in PULL mode requests data and is answered at the next multiple of 100 ms: data of each
-/// subscribed device, then SYNCH. If there is no data, the request stays open. Clients in PUSH mode
-/// get every message immediately.
+/// subscribed device, then SYNCH. If no device has data, the request stays open until a device has
+/// data. Clients in PUSH mode get every message immediately.
 class PlayerFront : public Front {
   public:
     PlayerFront(PlayerSettings settings, Carrier carrier);
@@ -46,7 +47,8 @@ class PlayerFront : public Front {
 
   private:
     struct Client;
-    /// Command of a client; in lock-step it is executed when all clients have requested data.
+    /// Deferred command of a client. In lock-step, commands are executed once all clients have
+    /// requested data.
     struct Deferred {
         PlacedDevice* device;
         Connection from;

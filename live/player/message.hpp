@@ -14,7 +14,7 @@
 
 namespace rovernet {
 
-/// Interface (kind) of a Player device. Messages may contain further values.
+/// Interface (kind) of a Player device. Messages of clients may contain values outside this list.
 enum class PlayerInterface : std::uint32_t {
     player = 1,
     position2d = 4,
@@ -31,7 +31,7 @@ enum class PlayerType : std::uint32_t { data = 1, command, request, ack, sync, n
 /// Address of a device at one port of the server, as used in messages.
 struct PlayerAddress {
     PlayerInterface interface;
-    std::uint32_t index;  ///< index among the port's devices with that interface
+    std::uint32_t index;  ///< index among the devices of this interface at the port
 
     friend bool operator==(PlayerAddress, PlayerAddress) = default;
 };
@@ -45,12 +45,13 @@ struct PlayerMessage {
     std::string payload = {};
 };
 
-/// Reads the address of a device, which follows the server's host and port in a payload;
-/// put_address() writes them. @throws MalformedMessage
+/// Reads the server's host and port, which are ignored, and then the address of a device from a
+/// payload. put_address() writes all of these. @throws MalformedMessage
 PlayerAddress read_address(XdrReader& payload);
 XdrWriter& put_address(XdrWriter& out, PlayerAddress device, std::uint16_t port);
 
-/// Banner: first bytes to a client. Clients read them in one call and ignore their content.
+/// Banner: first bytes that the server sends to a client. Clients read the banner in one call and
+/// ignore its content.
 std::string player_banner();
 
 /// Bytes of a message: header and payload.
@@ -63,7 +64,7 @@ std::string player_round_end();
 /// Encoded message to a client that does not read fast enough. @param lost  number of lost messages
 std::string player_overflow(std::size_t lost);
 
-/// Parser of the byte stream of a client into messages.
+/// Parser that splits the byte stream of a Player client into messages.
 class PlayerStream {
   public:
     /// Longest payload of a message [bytes].

@@ -18,7 +18,7 @@ class PlayerRelay : public PlayerDevice {
     void unsubscribed() override { data(); }
 
   private:
-    // Largest number of messages stored until the next data message.
+    // Largest number of messages that the relay stores between two calls of data().
     static constexpr std::size_t most = 1'024;
     static constexpr std::size_t most_bytes = std::size_t{3}
                                               << 20U;  // largest size of stored messages [bytes]

@@ -14,7 +14,7 @@ struct Pose2d {
     double heading = 0;   ///< heading [rad], counter-clockwise from the x axis
 };
 
-/// Robot state shared by its Player devices: its driver and its odometry.
+/// State of a robot that its Player devices share: the control of the robot, and its odometry.
 class PlayerRobot {
   public:
     PlayerRobot(Session& session, NodeId robot);
@@ -23,7 +23,7 @@ class PlayerRobot {
     Session& session() const { return session_; }
     double radius() const { return radius_; }  ///< radius of the robot [m]
 
-    /// Executes a command for the robot, unless a program of a different protocol drives it.
+    /// Executes a command for the robot, unless a program of a different protocol drives the robot.
     void carry_out(const RobotCommand& command);
     /// Stops the robot, after the last client that drove it has left.
     void release();
@@ -35,8 +35,8 @@ class PlayerRobot {
 
     /// Pose of the robot in the world.
     Pose2d pose() const;
-    /// Pose of the robot by odometry, without errors: relative to the pose at the start of the run,
-    /// or as set by set_odometry().
+    /// Pose of the robot by odometry, without errors: relative to the robot's pose at the start of
+    /// the run, or to the origin that set_odometry() has set.
     Pose2d odometry() const;
     void set_odometry(const Pose2d& now);
 

@@ -14,7 +14,7 @@
 
 namespace rovernet {
 
-/// Exception: invalid message of a Player client.
+/// Exception for an invalid message of a Player client.
 class MalformedMessage : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
@@ -56,7 +56,8 @@ class XdrReader {
     double f64();
     /// Next 8-byte number, which must lie between -`most` and `most`. @throws MalformedMessage
     double f64_within(double most);
-    /// Next array of bytes. @throws MalformedMessage, also if the two counts before it differ
+    /// Next array of bytes. @throws MalformedMessage if bytes are missing, or if the two counts
+    /// before the array differ
     std::string_view bytes();
     /// Next text, without its terminating zero. @throws MalformedMessage
     std::string_view text();

@@ -19,8 +19,8 @@ class RosApi {
   private:
     enum class Direction { in, out, both };
 
-    /// Writes a list of topic names under `key`: topics of one direction (in: clients publish), and
-    /// of message type `type`; an empty type matches all topics.
+    /// Writes a list of topic names under `key`: topics of the given direction (in: clients
+    /// publish; out: clients subscribe) and message type. An empty type matches all topics.
     void write_topics(RosWriter& out, std::string_view key, Direction direction,
                       std::string_view type = {}) const;
     void write_types(RosWriter& out) const;

@@ -22,7 +22,7 @@ class RosClock {
   public:
     using Connection = Front::Connection;
 
-    /// Client's call of a step of simulated time, answered when the step has ended.
+    /// Request of a ROS client for a step of simulated time, answered when the step has ended.
     struct Step {
         Connection client;
         RosOperation call;
@@ -34,14 +34,14 @@ class RosClock {
     /// Starts a step: simulated time advances until the latest end of all steps, then stops.
     void begin(Step step);
     /// Pauses simulated time now, on behalf of a client.
-    /// @return calls of steps that end early because of this, the oldest first
+    /// @return calls of steps that end early because of the pause, the oldest first
     std::vector<Step> pause(Connection client, Time now);
     /// Lets simulated time continue, even if several clients block it.
-    /// @return calls of steps that end early because of this, the oldest first
+    /// @return calls of steps that end early because time continues, the oldest first
     std::vector<Step> unpause();
-    /// Handles a client that has left. Its steps continue, since other clients may wait for the
-    /// steps' end; its calls are dropped.
-    /// @return calls of steps that end early, the oldest first, if time continues; none otherwise
+    /// Handles a client that has left. The client's calls are dropped. Its steps continue, since
+    /// other clients may wait for the steps' end. Time continues if no other client blocks it.
+    /// @return calls of steps that end early if time continues, the oldest first; otherwise empty
     std::vector<Step> left(Connection client);
     /// Ends the steps whose end is reached at time `now`.
     /// @return calls of the ended steps, the oldest first

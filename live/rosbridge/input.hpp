@@ -9,7 +9,8 @@
 #include <utility>
 
 // Conversion of messages of ROS clients into commands of a session. Missing members are 0, as in
-// ROS, except in a pose. Limits: 1,000 m/s and 1,000 rad/s, 1e9 m, data of 65,535 bytes.
+// ROS, except in a pose. Limits: speeds of 1,000 m/s and 1,000 rad/s, coordinates of 1e9 m, data of
+// 65,535 bytes.
 
 namespace rovernet {
 

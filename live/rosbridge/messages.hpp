@@ -24,7 +24,7 @@ class RosMessages {
     /// Interval between messages of a topic; 0 if the topic is not periodic.
     Duration period(const RosTopic& topic) const;
     /// Writes the message of a topic for the current time. @param topic  topic to which clients
-    /// subscribe; not radio/received, whose messages the other overload writes
+    /// subscribe, except radio/received: see write(RosWriter&, const HeardMessage&)
     void write(RosWriter& out, const RosTopic& topic) const;
     /// Writes a radio message that a robot received, as ROS type rovernet_msgs/Received.
     void write(RosWriter& out, const HeardMessage& heard) const;

@@ -16,7 +16,7 @@
 
 namespace rovernet {
 
-/// Encoding of the messages of a topic to one client.
+/// Encoding in which one client gets the messages of a topic: text (JSON) or binary (CBOR).
 enum class RosEncoding { json, cbor };
 
 /// Delivery options of one client's subscription to a topic.
@@ -28,7 +28,7 @@ struct RosDelivery {
 
 struct RosSubscribe {
     std::string topic;               ///< topic name as the client wrote it
-    std::optional<RosTopic> source;  ///< topic; none: unknown, so that no message is ever published
+    std::optional<RosTopic> source;  ///< topic with the name `topic`; none: no topic has the name
     RosDelivery delivery;
 };
 /// Request to remove the subscription with the request's id, or all subscriptions to the topic if

@@ -12,8 +12,8 @@
 
 namespace rovernet {
 
-/// Robots shared by all ROS clients: any ROS client may command any robot, and get its received
-/// messages.
+/// Robots shared by all ROS clients: any ROS client may command any robot, and get the messages
+/// that the robot has received.
 class RosRobots {
   public:
     explicit RosRobots(Session& session) : session_(session) {}
@@ -22,7 +22,7 @@ class RosRobots {
     /// have control already.
     /// @throws RequestError "taken" if a program that uses another protocol drives the robot
     void take(NodeId robot);
-    /// Whether ROS clients control a robot, whose received messages must be fetched regularly.
+    /// Whether ROS clients control at least one robot. If so, heard() must be called regularly.
     bool any() const { return !clients_.empty(); }
 
     /// Executes a ROS client's command. @return uid of the sent message; none: no message was sent

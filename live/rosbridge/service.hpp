@@ -37,13 +37,13 @@ enum class RosServiceKind {
     time,
 };
 
-/// ROS service of the world, or ROS service that each robot has.
+/// Type of a ROS service: a service of the world, or a service that each robot has.
 struct RosServiceType {
     RosServiceKind kind;
     /// Name of the service without the leading "/"; for a robot's service without the robot's name.
     std::string_view name;
     std::string_view type;
-    std::string_view argument = {};  ///< name of the only argument, a text; empty: no argument
+    std::string_view argument = {};  ///< name of the text argument; empty: no text argument
     bool is_of_robot = false;
 };
 
@@ -74,7 +74,7 @@ inline constexpr std::array<RosServiceType, 20> ros_services = {{
     {RosServiceKind::time, "rosapi/get_time", "rosapi_msgs/GetTime"},
 }};
 
-/// ROS service that a client has named.
+/// ROS service that a client's request names.
 struct RosService {
     const RosServiceType* type;
     NodeId robot = {};  ///< robot that has the service; unused for a service of the world

@@ -15,9 +15,10 @@
 namespace rovernet {
 
 /// Messages of one topic to one ROS client, for all subscriptions of the client to the topic. The
-/// smallest interval and queue length of the subscriptions apply, and one encoding. Messages that
-/// come too early are queued, at most the newest 256 KiB, and sent when the interval has passed in
-/// simulated time, so that every replay sends the same messages.
+/// smallest interval and queue length of the subscriptions apply; the encoding is CBOR if any
+/// subscription requests it. Messages that come too early are queued, at most the newest 256 KiB,
+/// and sent when the interval has passed in simulated time. So every replay sends the same
+/// messages.
 class RosStream {
   public:
     using Emit = std::function<void(std::string_view message)>;
@@ -36,9 +37,9 @@ class RosStream {
     /// Sending time of the next queued message; `never` if no message is queued.
     Time next() const { return held_.empty() ? never : free_from_; }
 
-    /// Topic of the messages; none: unknown, so that no message is ever published.
+    /// Topic of the messages; none: no topic has the name, so that no message is ever sent.
     std::optional<RosTopic> source = {};
-    Time due = never;  ///< simulated time of the topic's next message; `never`: none
+    Time due = never;  ///< simulated time of the topic's next message; `never`: no next message
 
   private:
     std::string release();

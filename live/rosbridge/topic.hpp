@@ -32,15 +32,16 @@ enum class RosTopicKind {
     send,
 };
 
-/// ROS topic of the world, or ROS topic that each robot has.
+/// Type of a ROS topic: a topic of the world, or a topic that each robot has.
 struct RosTopicType {
     RosTopicKind kind;
     /// Name of the topic without the leading "/"; for a robot's topic without the robot's name.
     std::string_view name;
     std::string_view type;  ///< message type of the topic
     bool is_of_robot = true;
-    bool is_input = false;  ///< true: clients publish to the topic
-    /// Interval between messages; 0: one message on subscription, or one for each event.
+    bool is_input = false;  ///< true: clients publish to the topic; false: clients subscribe to it
+    /// Interval between messages of the topic; 0: one message on subscription, or one for each
+    /// event.
     Duration period = {};
 };
 
@@ -62,7 +63,7 @@ inline constexpr std::array<RosTopicType, 11> ros_topics = {{
 /// Message type that the topic cmd_vel accepts besides geometry_msgs/Twist.
 inline constexpr std::string_view stamped_velocity = "geometry_msgs/TwistStamped";
 
-/// ROS topic that a client has named.
+/// ROS topic that a client's request names.
 struct RosTopic {
     const RosTopicType* type;
     NodeId robot = {};        ///< robot that has the topic; unused for a topic of the world
@@ -71,13 +72,14 @@ struct RosTopic {
     RosTopicKind kind() const { return type->kind; }
 };
 
-/// Whether a topic has this message type; "pkg/msg/Type" equals "pkg/Type".
+/// Whether a topic has this message type. "pkg/msg/Type" means the same type as "pkg/Type".
 bool is_type_of(const RosTopicType& topic, std::string_view type);
 /// Message type converted to the form "pkg/Type".
 std::string plain_type(std::string_view type);
 /// Name of a topic or service without a leading "/", which is optional in ROS names.
 std::string_view plain_name(std::string_view name);
-/// Robot in a topic name of the form ROBOT/`rest`; none if there is no such robot.
+/// Robot in a topic name of the form ROBOT/`rest`; none if the name has another form or no robot
+/// has the name ROBOT.
 std::optional<NodeId> robot_before(std::string_view name, std::string_view rest,
                                    const Network& network);
 

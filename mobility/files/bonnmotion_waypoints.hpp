@@ -17,7 +17,8 @@ namespace rovernet {
 /// Numbers of a BonnMotion file, read one by one.
 class BonnMotionNumbers {
   public:
-    static constexpr std::uint64_t longest_line = 16U << 20;  ///< [bytes]: about 500,000 positions
+    /// Largest length of a line [bytes]; enough for about 500,000 positions.
+    static constexpr std::uint64_t longest_line = 16U << 20;
     enum class Item { number, end_of_line, end_of_file };
 
     explicit BonnMotionNumbers(TextSource source)
@@ -54,7 +55,8 @@ class BonnMotionNumbers {
     Word word_;
 };
 
-/// Columns of each waypoint in a line: time, x, y, perhaps z, perhaps a status.
+/// Columns of a waypoint in a line of a BonnMotion file: time, x, y, then z if `z` is true, then a
+/// status if `status` is true.
 struct PlaceColumns {
     bool z = false;
     bool status = false;

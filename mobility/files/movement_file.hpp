@@ -29,14 +29,14 @@ struct MovementCommand {
     Time arrival = {};  ///< time of arrival, after `time`, for `reach`
 };
 
-/// End of the longest run, 1e9 s; a file that continues after it can only be played in part.
+/// Latest possible end of a run: 1e9 s. A movement file that continues after this time can only be
+/// played in part.
 inline constexpr Time last_of_run = start_of_run + Duration{1'000'000'000'000'000'000};
 
 /// Robot named in a movement file.
 struct FileRobot {
-    std::string
-        name;  ///< "n0" for node_(0) of ns-2 and for the first line of BonnMotion; for SUMO the id
-    Vec3 start;  ///< first position of the robot [m]
+    std::string name;  ///< name: "n0" for node_(0) of ns-2 or line 1 of BonnMotion; for SUMO the id
+    Vec3 start;        ///< first position of the robot [m]
     Time appears = start_of_run;
 };
 

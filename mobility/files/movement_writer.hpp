@@ -20,9 +20,9 @@ struct Track {
 
 /// Text of an ns-2 movement file with the tracks until `end`, in the order of time; node_(i) is
 /// track i. ns-2 replays the file to within 1 cm, in the plane; z is constant. Each leg ends at its
-/// real end, even if the next leg interrupted it, so a rest needs no line. A jump is a stop and
-/// scheduled positions. ns-2 refuses targets with x or y <= 0 or beyond its field; comments at the
-/// start give the field that the tracks need.
+/// real end, even if the next leg interrupted it, so a rest needs no line. A jump is written as a
+/// stop and scheduled positions. ns-2 refuses targets with x or y <= 0 or beyond its field;
+/// comments at the start give the field that the tracks need.
 /// @throws std::invalid_argument if a track has no leg, or if `end` is never and a track never
 ///         stops
 std::string setdest_text(std::span<const Track> tracks, Time end);

@@ -13,7 +13,7 @@ namespace rovernet {
 /// A scheduled `set X_` (Y_, Z_) moves the node to that coordinate immediately and ends its motion.
 ///
 /// A file whose scheduled lines are in order of time is streamed; unscheduled positions may be
-/// anywhere in it.
+/// anywhere in the file.
 /// @throws InputError
 std::unique_ptr<MovementFile::Reader> read_setdest(TextSource source, MovementSyntax syntax);
 

@@ -13,8 +13,8 @@
 namespace rovernet {
 
 /// Streaming parser for the tags of an XML file with elements and attributes, without text between
-/// them. Memory does not grow with the file. Comments and processing instructions are skipped; a
-/// document type and CDATA are errors. UTF-8 or ASCII.
+/// the tags. Memory does not grow with the file. Comments and processing instructions are skipped;
+/// a document type and CDATA are errors. UTF-8 or ASCII.
 class XmlTags {
   public:
     enum class Kind { open, close, end_of_file };
@@ -22,8 +22,8 @@ class XmlTags {
     explicit XmlTags(TextSource source)
         : source_(std::move(source)), where_{.source = source_.name(), .line = 1, .column = 1} {}
 
-    /// Reads the next tag; an empty element `<a/>` gives two. name() and value() refer to this tag,
-    /// until the next call.
+    /// Reads the next tag; an empty element `<a/>` gives two tags, open and close. name() and
+    /// value() refer to this tag, until the next call.
     /// @throws InputError if the file is not well-formed, a tag is longer than 64 KiB or has more
     ///         than 64 attributes, or elements are nested deeper than 64
     Kind next();
@@ -61,8 +61,8 @@ class XmlTags {
     [[noreturn]] void fail(std::string_view found, std::string_view expected);
 
     TextSource source_;
-    int line_ = 1;                  ///< number of the line at the window's first byte
-    std::uint64_t line_start_ = 0;  ///< number of bytes of the file before this line
+    int line_ = 1;                  ///< number of the line at the first byte of the window
+    std::uint64_t line_start_ = 0;  ///< number of bytes of the file before line `line_`
     std::size_t length_ = 0;        ///< length of the last tag, at the start of the window [bytes]
 
     Location where_;

@@ -36,8 +36,8 @@ class Scene;
 ///   samples, and more where the loss bends near the budget: an interval between passages is halved
 ///   until the losses at its ends and middle differ from the budget by more than 16 times the
 ///   amount that a parabola through them could add in between.
-/// - unknown: a sample every `min_dwell`, then as for walls; from the 65536th sample on the step
-///   doubles every 65536 samples, so that every search ends.
+/// - unknown: a sample every `min_dwell`; a change between two samples is located as for walls. The
+///   step doubles every 65536 samples, so that every search ends.
 ///
 /// @param walls  walls of the medium's scene; may be empty unless the sender's model depends on
 ///               walls
@@ -46,7 +46,8 @@ std::optional<Time> next_link_change(const Medium& medium, const Legs& legs,
                                      const WallPassages& walls, NodeId from, NodeId to, Time after,
                                      Time until, const LinkSearch& search);
 
-/// Result of a search for a link change: its time, or the time up to which there is none.
+/// Result of a search for a link change: time of the change, or time up to which the link does not
+/// change.
 struct LinkOutlook {
     /// Time of the next change; empty if none was found up to `until`.
     std::optional<Time> change;
@@ -54,16 +55,17 @@ struct LinkOutlook {
     Time until;
 };
 
-/// Search as next_link_change(), limited to `most_looks` samples for a propagation model of unknown
-/// shape. A search that is continued from LinkOutlook::until samples the same times as a single
-/// search.
-/// @param most_looks  >= 1
+/// Search like next_link_change(), limited to `most_looks` samples for a propagation model of
+/// unknown shape. A search that is continued from LinkOutlook::until samples the same times as a
+/// single search.
+/// @param most_looks  largest number of samples, >= 1
 LinkOutlook look_ahead(const Medium& medium, const Legs& legs, const WallPassages& walls,
                        NodeId from, NodeId to, Time after, Time until, const LinkSearch& search,
                        std::int64_t most_looks);
 
-/// Search as next_link_change() with WallPassages; this overload makes the WallPassages of `scene`
-/// itself if the model needs them. For many searches, pass one WallPassages instead.
+/// Time of the first link change, see next_link_change() with WallPassages. This overload makes the
+/// WallPassages of `scene` itself if the model needs it. For many searches, pass one WallPassages
+/// instead.
 std::optional<Time> next_link_change(const Medium& medium, const Legs& legs, const Scene& scene,
                                      NodeId from, NodeId to, Time after, Time until,
                                      const LinkSearch& search);

@@ -18,12 +18,13 @@ struct Passage {
     double leave;
 };
 
-/// Interval in which |r + v t| < R, for relative position r [m] and velocity v [m/s]; empty if this
-/// is never or always true, or if the path only touches the sphere of radius R [m].
+/// Interval of times t [s] at which a moving point is within a range: |r + v t| < R, with the
+/// point's position r [m] at t = 0, its velocity v [m/s] and the range R [m]. Empty if the point is
+/// never or always within the range, or if its path only touches the sphere of radius R.
 ///
-/// The ends are roots of a quadratic, computed without cancellation: the discriminant and the
+/// The ends are roots of a quadratic, computed without cancellation. The discriminant and the
 /// constant term are summed in double-double precision, and the smaller root is computed from the
-/// product of the roots. Lengths and speeds may have any size. Empty if a number is not finite.
+/// product of the roots. Lengths and speeds may have any size. Empty if an argument is not finite.
 std::optional<Passage> range_crossing(Vec3 r, Vec3 v, double R);
 
 }  // namespace rovernet

@@ -32,7 +32,8 @@ struct StraightMotion {
 /// top. Bottoms of walls on upper floors and ceilings are handled like tops. The times for corners
 /// and edges of tops are roots of quadratics.
 ///
-/// Built once for a scene; n rectangles take O(n log n) time and about 150 bytes each.
+/// A WallPassages is built once for a scene; n wall rectangles take O(n log n) time and about 150
+/// bytes each.
 class WallPassages {
   public:
     /// Empty set, for a scene without walls.
@@ -40,7 +41,7 @@ class WallPassages {
     /// @param scene  scene with the walls; must outlive the WallPassages
     explicit WallPassages(const Scene& scene);
 
-    /// Whether there are no walls and no ceilings.
+    /// Whether the scene has neither walls nor ceilings.
     bool empty() const { return corners_.empty() && levels_.empty(); }
 
     /// Appends the times [s] in (0, duration) at which the line of sight from `a` to `b` may start
@@ -56,7 +57,7 @@ class WallPassages {
         /// Corners of the wall's top or bottom, at its height [m].
         std::array<Vec3, 4> corners;
     };
-    // Moving line of sight, for one call of times().
+    // Moving line of sight between two antennas, for one call of times().
     struct Sight;
 
     // Collects the corners of the walls, and the points where edges of overlapping walls meet.

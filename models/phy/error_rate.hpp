@@ -47,12 +47,12 @@ std::span<const BitRate> modulated_rates();
 /// are OFDM; empty for other rates.
 std::optional<Modulation> modulation_of(BitRate rate);
 
-/// Bit error probability in white Gaussian noise, 0 ... 0.5; relative error of the computation
-/// below 1e-10.
+/// Bit error probability at the SINR S in white Gaussian noise, 0 ... 0.5; relative error of the
+/// computation below 1e-10.
 ///
-/// The result is limited to 0.5, the error of a guess: the equations of DSSS 2 and OFDM exceed 0.5
-/// at low S, where they are not valid. Bits are independent and have the same S: no fading within a
-/// frame.
+/// The result is limited to 0.5, the error probability of a guess: the equations of DSSS 2 and OFDM
+/// exceed 0.5 at low S, where they are not valid. Bits are independent and have the same S: no
+/// fading within a frame.
 /// DSSS 1: e^(-22 S) / 2. J. G. Proakis, Digital Communications, 4th ed., eq. 5.2-69.
 /// DSSS 2: (sqrt 2 + 1) / sqrt(8 pi sqrt 2 x) e^(-(2 - sqrt 2) x) with x = 11 S. G. Ferrari and
 ///   G. E. Corazza, Electronics Letters 40(20), 2004, eq. 8.
@@ -74,7 +74,7 @@ std::optional<Modulation> modulation_of(BitRate rate);
 double bit_error_rate(Modulation modulation, double sinr);
 
 /// Natural logarithm of the probability that a bit is right, log(0.5) ... 0. Values can be summed
-/// over bits and over chunks of different sinr; they are accurate for error rates below 1e-16.
+/// over bits and over chunks of different sinr; they are accurate even for error rates below 1e-16.
 double log_success(Modulation modulation, double sinr);
 
 /// Smallest signal to noise ratio [dB] at which success() is 1 for any number of bits up to 2^35.

@@ -73,8 +73,8 @@ concept HasPreambleDetection = requires(const T& phy, Coding coding) {
     { phy.preamble_detection(coding) } -> std::same_as<PreambleDetection>;
 };
 
-/// Physical layer of any type, stored by value and shared between copies. Access::phy returns one;
-/// the medium, the channel and the judges of receptions use it.
+/// Physical layer of any type, stored by value and shared between copies. Access::phy returns a
+/// Phy; the medium, the channel and the judges of receptions use it.
 class Phy {
   public:
     /// Stores a physical layer of any type.

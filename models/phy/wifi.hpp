@@ -25,7 +25,7 @@ enum class WifiStandard {
     b,
     /// 802.11a: OFDM, 6-54 Mb/s.
     a,
-    /// 802.11g without 802.11b stations: ERP-OFDM with the short slot.
+    /// 802.11g without 802.11b stations: ERP-OFDM with the short slot time.
     g,
 };
 /// Names of the values of [access] standard in scenario files.
@@ -42,7 +42,8 @@ struct WifiTiming {
     Duration sifs;
     /// Interframe space [ns] before channel access: aSIFSTime + 2 aSlotTime; 802.11-2020, 10.3.7.
     Duration difs;
-    /// Time [ns] from the arrival of energy until the station senses it.
+    /// Time [ns] from the arrival of a signal until the station senses that the medium is busy
+    /// (CCA).
     Duration cca_time;
     /// Time [ns] from the decision to send to the start of transmission: aRxTxTurnaroundTime.
     Duration turnaround;
@@ -61,11 +62,11 @@ struct WifiTiming {
 constexpr WifiTiming timing_of(WifiStandard standard) {
     using namespace std::chrono_literals;
     switch (standard) {
-        case WifiStandard::b:  // 15.3.3 and 16.3.3: DSSS PHY characteristics
+        case WifiStandard::b:  // 802.11-2020, 15.3.3 and 16.3.3: DSSS PHY characteristics
             return {20us, 10us, 50us, 13us, 5us, 192us, 31, 1023, {1e6}};
-        case WifiStandard::a:  // 17.4.4: OFDM PHY characteristics, 20 MHz
+        case WifiStandard::a:  // 802.11-2020, 17.4.4: OFDM PHY characteristics, 20 MHz
             return {9us, 16us, 34us, 5us, 2us, 20us, 15, 1023, {6e6}};
-        case WifiStandard::g:  // 18.4.4: ERP characteristics, short slot
+        case WifiStandard::g:  // 802.11-2020, 18.4.4: ERP characteristics, short slot
             return {9us, 10us, 28us, 5us, 2us, 20us, 15, 1023, {6e6}};
     }
     return {};
@@ -85,8 +86,8 @@ std::span<const BitRate> rates_of(WifiStandard standard);
 
 /// Time on air [ns] of a frame: its preamble, then `bytes` bytes at `rate`. For 802.11b in whole
 /// microseconds, the unit of the length field (802.11-2020, 15.2.3.5, 16.2.3.5); for OFDM in whole
-/// symbols of 4 us, with service and tail bits (17.4.3), plus 6 us of signal extension for 802.11g
-/// (18.5.3).
+/// symbols of 4 us, with service and tail bits (802.11-2020, 17.4.3), plus 6 us of signal extension
+/// for 802.11g (802.11-2020, 18.5.3).
 ///
 ///   1500 bytes   802.11b, 11 Mb/s, 192 us of preamble   1283 us
 ///                802.11a, 54 Mb/s, 20 us of preamble     244 us
@@ -100,8 +101,8 @@ Duration wifi_airtime(WifiStandard standard, Duration preamble, BitRate rate, st
 struct Wifi {
     static constexpr std::string_view name = "wifi";
 
-    /// Standard that determines airtimes by wifi_airtime(); empty: preamble plus bits / rate,
-    /// rounded to the nearest nanosecond.
+    /// Standard that determines airtimes by wifi_airtime(); empty: the airtime is the preamble plus
+    /// bits / rate, rounded to the nearest nanosecond.
     std::optional<WifiStandard> framing = std::nullopt;
 
     static constexpr auto fields() {

@@ -23,7 +23,8 @@ struct FloorsBetween {
 
 /// Counter of the floors crossed by a batch's links. In a scene of several storeys the floors are
 /// its ceilings, whose losses are computed once. In other scenes there is a floor every
-/// `floor_height`, if given, with the loss of the propagation model; at most 1000 are counted.
+/// `floor_height`, if given, with the loss of the propagation model; at most 1000 floors are
+/// counted.
 class FloorCounter {
   public:
     /// @param links  batch of links; must outlive the FloorCounter
@@ -62,7 +63,8 @@ class FloorCounter {
     }
 
     const LinkBatch& links_;
-    // Contribution of each ceiling, from the lowest; empty if the scene has one storey.
+    // Contribution of each ceiling to the floors of a link, from the lowest ceiling on; empty if
+    // the scene has one storey.
     std::vector<FloorsBetween> ceilings_;
 };
 

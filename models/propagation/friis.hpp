@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <numbers>
 
-// Free space, the reference of all other models.
+// Propagation in free space: the path loss without obstacles and reflections.
 
 namespace rovernet {
 
@@ -15,8 +15,8 @@ namespace rovernet {
 ///
 ///   20 log10(4 pi d f / c)
 ///
-/// The loss is negative below d = c / (4 pi f), where the formula is not valid. Other models use it
-/// for their loss at a reference distance.
+/// The loss is negative below d = c / (4 pi f), where the formula is not valid. Other propagation
+/// models use free_space_db() for their loss at a reference distance.
 ///
 /// Source: H. T. Friis, A note on a simple transmission formula, Proc. IRE 34(5), 1946.
 inline double free_space_db(double d, Hertz f) {

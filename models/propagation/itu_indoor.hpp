@@ -17,7 +17,7 @@ struct EnumNames<Environment> {
                                                                "commercial"};
 };
 
-/// Indoor path loss [dB] by ITU-R P.1238; below 1 m it is fixed at its value at 1 m:
+/// Indoor path loss [dB] by ITU-R P.1238; below 1 m the loss is fixed at its value at 1 m:
 ///
 ///   L(d) = 20 log10 f + N log10 d + Lf(n) - 28      (f in MHz, d in m, n floors crossed)
 ///
@@ -25,8 +25,8 @@ struct EnumNames<Environment> {
 /// most 1.5). The floor loss Lf is a table value in the same way, with Lf(0) = 0; without an
 /// environment there is no floor loss, as in the 2007 thesis (docs/worlds.md). For more floors than
 /// the table has, the value of its last floor is used. N includes the walls: do not add them. In a
-/// scene of several storeys, n counts the ceilings without a loss of their material; the losses of
-/// other ceilings are added, unless `floors` is given or there is no environment.
+/// scene of several storeys, n counts the ceilings whose material has no loss. The losses of other
+/// ceilings are added, unless `floors` is given or there is no environment.
 ///
 /// Site-general, from 900 MHz to 100 GHz: a median over buildings with a standard deviation of 8-12
 /// dB, not a prediction for a single building. With N = 30 at 2450 MHz `rovernet loss itu_indoor`
@@ -76,10 +76,10 @@ struct ItuIndoor {
 };
 
 /// Path loss [dB] by the formula of ITU-R P.1238, with given N and floor loss Lf [dB]; distances
-/// below 1 m count as 1 m. Raytrace2007 uses it for its loss without walls.
+/// below 1 m count as 1 m. Raytrace2007 uses itu_indoor_db() for its loss without walls.
 double itu_indoor_db(double d, Hertz f, double N, double Lf);
 
-/// Distance [m] at which itu_indoor_db() without floors is `loss`; 0 if it is always larger.
+/// Distance [m] at which itu_indoor_db() without floors is `loss`; 0 if the loss is always larger.
 Meters itu_indoor_reach(Db loss, Hertz f, double N);
 
 }  // namespace rovernet

@@ -16,7 +16,8 @@ struct EnumNames<Site> {
     static constexpr std::array<std::string_view, 3> values = {"office", "corridor", "industrial"};
 };
 
-/// Line of sight between two antennas: whether no wall obstructs it.
+/// Setting of the line of sight between antennas: determined by the map, always clear (yes), or
+/// always obstructed (no).
 enum class LineOfSight {
     /// Determined by the scene's walls; always clear on an open field.
     map,
@@ -29,8 +30,8 @@ struct EnumNames<LineOfSight> {
     static constexpr std::array<std::string_view, 3> values = {"map", "yes", "no"};
 };
 
-/// Site-general indoor path loss [dB] by ITU-R P.1238-11, the median; below 1 m it is fixed at its
-/// value at 1 m; never negative:
+/// Site-general indoor path loss [dB] by ITU-R P.1238-11, the median. The loss is never negative.
+/// Below 1 m it is fixed at its value at 1 m:
 ///
 ///   L(d) = 10 a log10 d + b + 10 g log10 f      (f in GHz, d in m)
 ///

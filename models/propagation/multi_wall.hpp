@@ -7,11 +7,12 @@
 
 namespace rovernet {
 
-/// Multi-wall path loss [dB], for d >= 1 m; below 1 m it is fixed at its value at 1 m; never
-/// negative:
+/// Multi-wall path loss [dB], for d >= 1 m. The loss is never negative. Below 1 m it is fixed at
+/// its value at 1 m:
 ///
 ///   L = L0 + 10 n log10 d + sum over the walls crossed + Lf k^((k + 2) / (k + 1) - b),
-/// with L0 = free space at 1 m + excess, and k floors between the antennas.
+/// with L0 = free space at 1 m + `excess`, n = `exponent`, Lf = `floor_loss`, b = `floor_saving`,
+/// and k floors between the antennas.
 ///
 /// The loss of a wall is that of its material. A wall whose material has no loss of its own has the
 /// loss `light_wall` or `heavy_wall`: the wall is light if its drawn thickness at the middle of the

@@ -65,9 +65,11 @@ class Propagation {
     }
     /// Whether reach() depends on antenna heights, see BoundedByHeight.
     bool is_bounded_by_height() const { return self_->is_bounded_by_height(); }
-    /// Checks a frequency. @throws std::invalid_argument if the model cannot work with it
+    /// Checks a frequency. @throws std::invalid_argument if the propagation model cannot work with
+    /// the frequency
     void check_frequency(Hertz frequency) const { self_->check_frequency(frequency); }
-    /// Checks a scene. @throws std::invalid_argument if the model cannot work in it
+    /// Checks a scene. @throws std::invalid_argument if the propagation model cannot work in the
+    /// scene
     void check_scene(const Scene& scene) const { self_->check_scene(scene); }
     /// Shape of the loss when the ends of a link move.
     LossShape shape() const { return self_->shape(); }
@@ -78,9 +80,9 @@ class Propagation {
     }
     /// Whether the loss has a random part for each pair of nodes.
     bool is_random() const { return self_->is_random(); }
-    /// Model without its random part; the same model if it has none.
+    /// Propagation model without its random part; the same model if it has none.
     Propagation median() const { return is_random() ? self_->median() : *this; }
-    /// Model as type T; null if it is of another type.
+    /// Propagation model as type T; null if the model is of another type.
     template <class T>
     const T* as() const {
         const auto* holder = dynamic_cast<const Holder<T>*>(self_.get());

@@ -33,7 +33,7 @@ namespace rovernet {
 ///   L(d, x) = max(0, median(d) + sigma clamp(x, -5, 5)),
 ///   median(d) = L0 + S log10(max(d / d0, 1)).
 struct ShadowedLoss {
-    /// Number of standard deviations at which draws are cut [-].
+    /// Number of standard deviations to which shadowing draws are clamped [-].
     static constexpr double cut_sigmas = 5;
 
     /// Loss at the reference distance, L0 [dB].
@@ -132,8 +132,8 @@ enum class LossShape {
     by_pair,
     /// Non-decreasing function of the distance while both antennas keep their heights.
     by_heights,
-    /// Function of the distance plus the losses of walls: it jumps where the line of sight passes a
-    /// wall's corner, and is smooth elsewhere.
+    /// Function of the distance plus the losses of walls: the loss jumps where the line of sight
+    /// passes a wall's corner, and is smooth elsewhere.
     by_walls,
     /// Any function of the positions.
     unknown,
@@ -158,21 +158,22 @@ concept ShadowedModel = requires(const T& model, Hertz frequency) {
 };
 
 /// Model with a random part for each pair of nodes; median() returns the model without the random
-/// part (an equal model if nothing is random). Pictures of coverage show the median, because they
-/// have no pairs.
+/// part (an equal model if nothing is random). Pictures of coverage show the median, because a
+/// point of a picture has no pair of nodes.
 template <class T>
 concept RandomModel = requires(const T& model) {
     { model.median() } -> std::same_as<T>;
     { model.is_random() } -> std::same_as<bool>;
 };
 
-/// Model valid only at some frequencies; check_frequency throws std::invalid_argument for others.
+/// Model valid only at some frequencies; check_frequency throws std::invalid_argument for any other
+/// frequency.
 template <class T>
 concept FrequencyCheckedModel = requires(const T& model, Hertz frequency) {
     model.check_frequency(frequency);
 };
 
-/// Model valid only in some scenes; check_scene throws std::invalid_argument for others.
+/// Model valid only in some scenes; check_scene throws std::invalid_argument for any other scene.
 template <class T>
 concept SceneCheckedModel = requires(const T& model, const Scene& scene) {
     model.check_scene(scene);

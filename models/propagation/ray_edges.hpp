@@ -21,8 +21,8 @@ inline double cross_in_plan(Vec3 a, Vec3 b) { return a.x * b.y - a.y * b.x; }
 /// Convex vertical edge of a wall, seen in plan: a free end or a corner.
 ///
 /// The end of a thin wall has two corners near each other. Both corners form one edge, the edge of
-/// a screen: otherwise a sheet, a wedge and a brick would have different shadows. A path around an
-/// edge is a taut string that touches one or both of its corners.
+/// a screen. Otherwise the shadow of a wall would depend on the shape of its end: a sheet, a wedge
+/// or a brick. A path around an edge is a taut string that touches one or both of its corners.
 struct WallEdge {
     /// Indices of the faces before and behind the edge, in the order of the outline.
     std::size_t before, behind;
@@ -34,11 +34,11 @@ struct WallEdge {
     double n;
     /// Height of the wall at the edge [m].
     double height;
-    /// Largest distance of the drawn outline from the lines of both faces [m]; 0 if the outline
-    /// follows the map's grid.
+    /// Largest distance of the drawn outline from the lines of the edge's two faces [m]; 0 if the
+    /// outline follows the map's grid.
     double steps;
-    /// Indices of the neighbouring edges: at the other ends of the face before and of the face
-    /// behind; no_edge if there is none.
+    /// Indices of the neighbouring edges: `previous` at the other end of the face before the edge,
+    /// `next` at the other end of the face behind it; no_edge if there is no such edge.
     std::size_t previous, next;
     /// True if the corners are at most a wavelength apart, as at the end of a thin wall: both
     /// corners then count as one.
@@ -52,7 +52,8 @@ struct EdgeCorner {
     std::size_t edge;  ///< index of the corner's edge
 };
 
-/// Corners touched by a taut string between two points, with the bodies on the string's left.
+/// Subset of `corners` that a taut string from `from` to `to` touches, with the bodies on the
+/// string's left.
 std::vector<EdgeCorner> touched(std::span<const EdgeCorner> corners, Vec3 from, Vec3 to);
 
 /// Taut string around bodies, in plan, with the bodies on its left.
@@ -88,10 +89,10 @@ struct WayAround {
 
 /// Edges of a scene's walls at one wavelength.
 ///
-/// Faces shorter than five wavelengths, and than 0.4 of the outline's longest face, do not separate
-/// corners: everything between the longer faces before and behind is one edge, if the outline turns
-/// left there by more than 20 degrees in total. Therefore the end of a wall is one edge, and a
-/// pillar has four edges.
+/// Faces that are shorter than five wavelengths and shorter than 0.4 of the outline's longest face
+/// do not separate corners. Everything between the longer faces before and behind is one edge, if
+/// the outline turns left there by more than 20 degrees in total. Therefore the end of a wall is
+/// one edge, and a pillar has four edges.
 class RayEdges {
   public:
     RayEdges() = default;
@@ -113,7 +114,8 @@ class RayEdges {
                                          Vec3 a, Vec3 b, std::vector<EdgeCorner>& corners) const;
 
     /// Adds the next corner that the path passes to a path around one corner of an edge, if the
-    /// detour by that corner is less than `near_edge`: the two then form one pair.
+    /// detour by that corner is less than `near_edge` wavelengths. The two corners then form one
+    /// pair of edges.
     /// @param shadowed  whether the edge obstructs the straight path
     /// @return index of the added corner's edge, or no_edge
     std::size_t join_next_corner(WayAround& way, std::size_t edge, bool shadowed, Vec3 a,
@@ -146,7 +148,8 @@ class RayEdges {
     }
 
   private:
-    /// Edges at a face: with the face before them, behind them or between their corners.
+    /// Edges at a face: the edge that has the face before its corners, behind them, or between
+    /// them.
     struct EdgesOfFace {
         std::size_t before = no_edge, behind = no_edge, between = no_edge;
     };

@@ -26,10 +26,10 @@ class RayImages {
     RayImages() = default;
     /// @param faces     faces of the scene; must outlive the images
     /// @param order     largest number of reflections, >= 0
-    /// @param shortest  shorter faces [m] do not reflect
+    /// @param shortest  length [m] below which faces do not reflect
     /// @param few       true: the images of the highest order, which are most of the images, are
-    ///                  computed for each receiver separately: only those that it sees. This is
-    ///                  faster for few receivers, and slower for many.
+    ///                  computed for each receiver separately: only images that this receiver
+    ///                  sees. This is faster for few receivers, and slower for many.
     RayImages(std::span<const Face> faces, Vec3 from, int order, double shortest, bool few = false);
 
     /// Calls visit(chain) for each image whose beam contains the point p, with a tolerance of 1e-7
@@ -39,7 +39,7 @@ class RayImages {
         if (few_) add_seen_images(p);
         for (const Image& image : images_) {
             const auto& [front, left, right] = image.beam;
-            // All three at once, because a branch for each would often be mispredicted.
+            // The minimum needs one branch; three branches would often be mispredicted.
             const double least =
                 std::min(front.at(p.x, p.y), std::min(left.at(p.x, p.y), right.at(p.x, p.y)));
             if (least >= -slack) visit(chain_of(image));
@@ -49,7 +49,7 @@ class RayImages {
   private:
     static constexpr double slack = 1e-7;  // tolerance of a beam's sides [m]
     static constexpr std::uint32_t root = static_cast<std::uint32_t>(-1);  // parent: sender
-    /// Line in plan: the signed distance of the point (x, y) from it is a x + b y + c [m].
+    /// Line in plan: the signed distance of the point (x, y) from the line is a x + b y + c [m].
     struct Line {
         double a, b, c;
         double at(double x, double y) const { return a * x + b * y + c; }

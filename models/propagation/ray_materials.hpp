@@ -56,13 +56,15 @@ class RayMaterials {
     /// Field around an edge, relative to free space at the same path length.
     ///
     /// knife_edge: J(nu) of P.526, nu = 2 sqrt(detour / lambda), applied to the part of the power
-    /// that the wall does not transmit. utd: D sqrt((s + s') / (s s')), with the wall's
-    /// transmission into its shadow, and its reflection if `mirrors`. A pair of edges:
+    /// that the wall does not transmit. utd: D sqrt((s + s') / (s s')), with D of
+    /// wedge_coefficient(), the distances s' and s from the edge to the ends of the path, the
+    /// wall's transmission into its shadow, and its reflection if `mirrors`. A pair of edges:
     /// pair_field(). The magnitude of the field is at most 1.
     /// @param mirrors  whether reflected paths are added with their phases
     RayFactor around(const RayEdge& edge, RayDiffraction by, bool mirrors) const;
-    /// Loss of a straight path that passes an edge on its lit side [dB], for knife edges: up to 6
-    /// dB at one edge, applied to the part of the power that the wall does not transmit.
+    /// Loss [dB] of a straight path that passes near an edge but is not obstructed by it, for knife
+    /// edges. The loss is up to 6 dB at one edge, and applies to the part of the power that the
+    /// wall at the edge does not transmit.
     double beside_edge(const RayEdge& edge) const;
 
   private:

@@ -33,7 +33,7 @@ struct RayHit {
     std::size_t face;
     /// Material of the wall: index into Scene::materials().
     std::size_t material;
-    /// Drawn thickness of the wall, perpendicular to it [m].
+    /// Drawn thickness [m] of the wall, perpendicular to its face.
     double thickness;
     /// Cosine of the angle between the path and the wall's normal [-], `grazing` to 1.
     double cosine;
@@ -46,7 +46,7 @@ inline constexpr std::size_t no_face = static_cast<std::size_t>(-1);
 struct RayEdge {
     /// Path lengths before and after the edge [m], in three dimensions.
     double before, after;
-    /// Length of the path around the edge less that of the straight path [m].
+    /// Detour [m]: length of the path around the edge minus that of the straight path.
     double detour;
     /// Exterior angle of the edge over pi [-], 1 to 2, and the directions from the edge to the
     /// path's ends [rad], measured from its first face: see WedgePath.
@@ -57,8 +57,8 @@ struct RayEdge {
     double thickness, cosine;
     /// True if the straight path crosses a face at the edge.
     bool shadowed = false;
-    /// Pair of edges, if the path also passes a second edge of the same body. The other members are
-    /// then for the path around both edges.
+    /// Pair of edges, if the path also passes a second edge of the same body. The other members of
+    /// RayEdge are then for the path around both edges.
     std::optional<EdgePair> pair = std::nullopt;
     /// Field past the edge, relative to free space; set if the field also depends on other bodies.
     std::optional<math::Complex> field = std::nullopt;
@@ -79,8 +79,9 @@ struct RayPaths {
     std::vector<RayPath> paths;
     std::vector<RayHit> all_hits;
     std::vector<RayEdge> all_edges;
-    /// Edge with the smallest detour that the straight path passes on its lit side; empty if paths
-    /// are traced without edges.
+    /// Edge beside the straight path that does not obstruct this path: of all such edges the one
+    /// with the smallest detour (RayEdge::detour). Empty if there is no such edge, or if paths are
+    /// traced without edges.
     std::optional<RayEdge> beside = std::nullopt;
 
     std::span<const RayHit> hits(const RayPath& path) const {

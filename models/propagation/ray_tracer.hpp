@@ -20,7 +20,7 @@
 
 namespace rovernet {
 
-/// Limits that exclude paths which are too weak to matter.
+/// Rule by which RayTracer leaves out weak paths: a limit of loss, and the data to compute losses.
 struct RayLimit {
     const RayMaterials& materials;
     Hertz frequency;
@@ -38,10 +38,10 @@ struct RayLimit {
 /// left out. A path passes through every wall that it meets.
 ///
 /// With edges, there are paths around one body each: around the ends of the walls that obstruct the
-/// straight path, around both edges of a wide body, and around edges on the lit side with a detour
-/// of less than 2.25 wavelengths. Further paths go around several bodies in the straight path on
-/// one side: around all of them, and around those whose transmission loss exceeds the loss of the
-/// path around them.
+/// straight path, around both edges of a wide body, and around edges that do not obstruct the
+/// straight path and have a detour of less than 2.25 wavelengths. Further paths go around several
+/// bodies in the straight path on one side: around all of them, and around those whose transmission
+/// loss exceeds the loss of the path around them.
 ///
 /// With edges, a path that crosses the corner of a wall passes through the whole wall, to agree
 /// with the path around that corner. A corner is the intersection of the lines of two faces, also
@@ -65,14 +65,15 @@ class RayTracer {
     /// Writes the paths to a receiver into `out`.
     /// @param limit  null: all paths; otherwise the strongest path and those within the limit
     void trace(Vec3 to, const RayLimit* limit, RayPaths& out);
-    /// Losses [dB] of the paths of the last trace(), in their order; only with a limit.
+    /// Losses [dB] of the paths that the last trace() found, in the order of the paths; only with a
+    /// limit.
     std::span<const double> losses() const { return losses_; }
 
   private:
     /// Path that exists by geometry; its wall crossings are not computed yet.
     struct Candidate {
         double length;  // length of the path [m]
-        // Index of the path's first point; it has two more points than reflections.
+        // Index of the path's first point; the path has two more points than reflections.
         std::size_t first_point;
         std::size_t first, count;  // range of the path's reflections
         double free_space = 0;     // loss without walls [dB]
@@ -87,7 +88,8 @@ class RayTracer {
         double loss;              // loss so far [dB], including reflections
         bool whole_ends = false;  // a wall that is crossed at a corner counts in full thickness
         std::size_t clipped = no_edge;  // last edge whose wall was counted in full
-        // Edges at the start and at the end of the current leg: the leg does not cross their faces.
+        // Edges at the start and the end of the path's current section, which does not cross their
+        // faces.
         std::array<std::size_t, 2> beside = {no_edge, no_edge};
     };
     /// Cached losses of a slab, for a material, thickness and angle. The walls of a path are mostly

@@ -11,7 +11,7 @@
 
 namespace rovernet {
 
-/// Method for diffraction around edges.
+/// Method of computing the diffraction around edges of walls.
 enum class RayDiffraction {
     none,
     knife_edge,  ///< edges of opaque screens
@@ -23,7 +23,7 @@ struct EnumNames<RayDiffraction> {
     static constexpr std::array<std::string_view, 3> values = {"none", "knife_edge", "utd"};
 };
 
-/// Method of adding the paths of a link.
+/// Method of adding the paths of a link: sum of their powers or of their fields.
 enum class RaySum {
     power,    ///< sum of powers: the mean over positions within some wavelengths
     coherent  ///< sum of fields with phases: the value at one place, with fading. On a map, the
@@ -67,7 +67,7 @@ struct EnumNames<RaySum> {
 ///
 /// The loss is at most 200 dB above free space.
 ///
-/// Paths are found in plan, without storeys: it is an error if the scene has several storeys.
+/// Paths are found in the horizontal plane. It is an error if the scene has several storeys.
 ///
 /// Without walls the loss is that of free space. Source: the method of images, for instance H. L.
 /// Bertoni, Radio Propagation for Modern Wireless Systems, 2000, chapter 3; slabs: ITU-R P.2040-3;
@@ -78,14 +78,14 @@ struct Rays {
 
     /// Largest number of reflections of a path [-], 0 to 3.
     int order = 2;
-    /// Method for diffraction around edges of walls.
+    /// Method of computing the diffraction around edges of walls: none, knife edges or wedges.
     RayDiffraction diffraction = RayDiffraction::knife_edge;
-    /// Method of adding the paths of a link.
+    /// Method of adding the paths of a link: sum of their powers or of their fields.
     RaySum sum = RaySum::power;
     /// Material of walls without a loss of their own.
     ItuMaterial wall = ItuMaterial::concrete;
-    /// Loss of crossing a wall whose material has no loss of its own [dB], >= 0, at any angle; if
-    /// given, it replaces the slab of `wall`. `rovernet fit` estimates it.
+    /// Loss of crossing a wall whose material has no loss of its own [dB], >= 0, at any angle. A
+    /// given `wall_loss` replaces the slab of `wall`. `rovernet fit` estimates this parameter.
     std::optional<Db> wall_loss = std::nullopt;
     /// Loss of a reflection [dB], >= 0, by a material with a loss in decibels.
     Db reflection_loss{6};

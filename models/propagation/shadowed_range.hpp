@@ -14,9 +14,9 @@
 #include <cstdint>
 #include <vector>
 
-// Link decisions under shadowing without computing the loss. Each pair of robots has a draw. For
-// most draws, a table decides the link by the distance alone. A model supports such tables by
-// shadowed_loss().
+// Link decisions under shadowing without computing the loss. Each pair of robots has a random draw
+// of the shadowing. For most draws, a table decides from the distance whether the link is up. A
+// model supports such tables by shadowed_loss().
 
 namespace rovernet {
 
@@ -29,9 +29,10 @@ inline PairDraws shadowing_draws(std::uint64_t seed, std::uint32_t replication) 
 /// draw: exactly the decision of the loss, without a logarithm, a square root or a normal draw.
 ///
 /// The table is over the squared distance, in cells of equal width between powers of two. A cell
-/// has two numbers of the 2^31 draws: those in range everywhere in the cell, and those in range
-/// somewhere in it. For a draw between the two numbers, which is rare (computed_share()), the loss
-/// is computed. A table takes at most 16 KiB; the medium stores one for each pair of radio kinds.
+/// stores two counts of the 2^31 possible draws: draws that are in range everywhere in the cell,
+/// and further draws that are in range only in a part of the cell. For one of the further draws,
+/// which is rare (computed_share()), the loss is computed. A table takes at most 16 KiB; the medium
+/// stores one for each pair of radio kinds.
 class ShadowedRange {
   public:
     /// @param budget  largest path loss at which a link is up

@@ -46,7 +46,8 @@ struct EnumNames<Polarization> {
 ///   d2 - d1 = 4 ht hr / (d1 + d2),   k = 2 pi / lambda,   sin t = (ht + hr) / d2,
 ///   G = (sin t - z) / (sin t + z) for horizontal polarization,
 ///   G = (e sin t - z) / (e sin t + z) for vertical,   z = sqrt(e - cos^2 t),
-/// with the relative permittivity e of a lossless ground. Source: Rappaport, section 4.6 and
+/// with the reflection coefficient G of the ground, the angle t between reflected path and ground,
+/// and the relative permittivity e of a lossless ground. Source: Rappaport, section 4.6 and
 /// equations 4.24 and 4.25. The loss is not monotone: it falls to up to 6 dB below free space, and
 /// rises without bound in a null.
 ///
@@ -104,7 +105,8 @@ struct TwoRay {
     void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const;
 
   private:
-    // Losses of form "exact"; below it, height [m] for an antenna at z: at least lowest_antenna.
+    // Losses of form "exact". The function height() returns the height [m] of an antenna at z [m]
+    // in the equations, at least lowest_antenna.
     void exact_loss(const LinkBatch& links, std::span<double> out_db) const;
     double height(double z) const { return z > lowest_antenna.value ? z : lowest_antenna.value; }
 };

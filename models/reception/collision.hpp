@@ -16,7 +16,8 @@
 
 namespace rovernet {
 
-/// Capture rule: which of two overlapping frames can survive, by the order in which they begin.
+/// Capture rule: determines which of two overlapping frames can survive, by the order of their
+/// beginnings.
 enum class CaptureOrder {
     /// Only the first frame, which the receiver is already receiving, can survive, as in ns-2.
     first,
@@ -29,8 +30,8 @@ struct EnumNames<CaptureOrder> {
     static constexpr std::array<std::string_view, 2> values = {"first", "later"};
 };
 
-/// Reception model "collision": frames that overlap at a node collide: both are lost, unless one
-/// captures the receiver. A transmitting node receives nothing (half-duplex).
+/// Reception model "collision": frames that overlap at a node collide. Both frames are lost, unless
+/// one of them captures the receiver. A transmitting node receives nothing (half-duplex).
 ///
 ///   first    |========|          stronger by the ratio: first survives, second is ignored
 ///   second        |========|     otherwise: both are lost with CaptureOrder::first; with `later`
@@ -51,8 +52,8 @@ struct EnumNames<CaptureOrder> {
 struct Collision {
     static constexpr std::string_view name = "collision";
 
-    /// Capture ratio [dB], > 0: least level difference at which a frame survives an overlapping
-    /// one.
+    /// Capture ratio [dB], > 0: smallest level difference at which the stronger of two overlapping
+    /// frames survives.
     Db capture_ratio{10};
     /// Capture rule: whether only the first of two overlapping frames can survive, or either.
     CaptureOrder capture = CaptureOrder::first;
@@ -77,7 +78,8 @@ struct Collision {
     bool finds_receiver_at(const Arrival& frame, const Arrival& other) const {
         return capture == CaptureOrder::first && frame.begin > other.begin;
     }
-    /// Whether the receiver ignores `frame`, because it receives `other`, which is stronger.
+    /// Whether the receiver ignores `frame`, because the receiver is receiving the stronger frame
+    /// `other`.
     template <class IsStronger>
     bool lets_pass(Arrival& frame, Arrival& other, IsStronger is_stronger) const {
         const bool is_at = other.begin <= frame.begin && frame.begin < other.end && !other.own;

@@ -69,15 +69,15 @@ class Interference {
     /// Removes the frames that cannot affect a reception from `now` on; calls use(frame) for each.
     template <class Use>
     void forget(Time now, Use use) {
-        // A reception that is still to be judged may have begun one such time ago, and a frame that
-        // affects it one more.
+        // A reception that is still to be judged began at most one longest airtime and delay ago. A
+        // frame that affects the reception began at most as long before.
         const Duration matters = 2 * (on_air_.longest() + longest_delay());
         on_air_.forget(now - matters, [&](const Emission& frame) {
             judge_->is_forgotten(frame);
             use(frame);
         });
     }
-    /// Sets the fate of receptions that end by `now`, of the frame with that serial number.
+    /// Sets the fate of the receptions that end by `now`, of the frame with serial number `serial`.
     /// Receptions at nodes that are off are left unchanged.
     void judge(std::uint64_t serial, std::span<Reception> receptions, Time now);
 
@@ -94,8 +94,8 @@ class Interference {
     Dbm level(const Arrival& arrival, NodeId node) const {
         return settings_.medium->arrivals().level(arrival, node);
     }
-    /// Whether the level of `frame` at `node` exceeds the level of `other` by `by` [dB] or more.
-    /// Levels are computed only if bounds on them do not decide.
+    /// Whether the level of `frame` at `node` exceeds the level of `other` by `by` [dB] or more. A
+    /// level is computed only if bounds on the levels do not decide.
     bool is_stronger(Arrival& frame, Arrival& other, Db by, NodeId node) {
         return settings_.medium->arrivals().is_stronger(frame, other, by, node);
     }
@@ -114,7 +114,7 @@ class Interference {
 
     Settings settings_;
     std::unique_ptr<Judge> judge_;
-    // Frames on air, and states of nodes before they changed.
+    // Frames on air, and states of nodes before their legs or radios changed.
     OnAir on_air_;
     // Frames that may overlap with the judged frame; kept to reuse the memory.
     std::vector<const Emission*> all_;

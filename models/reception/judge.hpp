@@ -28,8 +28,8 @@ namespace rovernet {
 class Interference;
 
 /// Frame that starts now, as passed to Judge::begins(). `transmission` and `receptions` are valid
-/// during that call only. A judge that needs their data later copies them, into a table indexed by
-/// Emission::flight.
+/// only during Judge::begins(). A judge that needs their data later copies them, into a table
+/// indexed by Emission::flight.
 struct SentFrame {
     /// Frame as transmitted; the reference is valid while the frame can affect other frames.
     const Emission& emission;
@@ -41,8 +41,8 @@ struct SentFrame {
     std::span<const Reception> receptions;
 };
 
-/// Other frames that may be on air at a receiver; Interference::arrival() determines which of them
-/// are.
+/// List of the other frames that may be on air at a receiver. Interference::arrival() determines
+/// which of these frames have an effect at the receiver.
 using Frames = std::span<const Emission* const>;
 
 /// Judge of a reception model: determines the fate of frames at their receivers. One object for all
@@ -52,8 +52,8 @@ class Judge {
     /// Virtual destructor, because Interference owns the judge by a pointer to Judge.
     virtual ~Judge() = default;
 
-    /// Whether the fate of a frame may depend on frames that ended before it began; such frames are
-    /// then passed to judge(), too.
+    /// Whether the fate of a frame may depend on frames that ended before the frame began; judge()
+    /// then also gets such earlier frames.
     virtual bool looks_back() const = 0;
     /// Determines the fate of a reception that ends now, at a node that is on. Sets reception.fate
     /// if the frame is lost, and leaves it unchanged if the frame is received. A judge that models

@@ -41,8 +41,8 @@ class OnAir {
     /// @param on   whether the node's radio was on until now
     void changes(NodeId node, const Leg& leg, bool on);
 
-    /// Adds a frame; it must not begin before the last added frame.
-    /// @return its serial number, one more than the last
+    /// Adds a frame, which must not begin before the previously added frame.
+    /// @return serial number of the frame, one more than that of the previous frame
     std::uint64_t add(Emission frame);
     /// Removes the oldest frames that ended at or before `t`, up to the first that did not. Calls
     /// use(frame) for each removed frame.
@@ -57,7 +57,7 @@ class OnAir {
             ++first_change_;
         }
     }
-    /// Frame with that serial number, which must be stored.
+    /// Frame with serial number `serial`, which must be stored.
     const Emission& operator[](std::uint64_t serial) const { return frames_[serial - first_]; }
 
     /// Stored frames, in the order of their serial numbers.
@@ -75,7 +75,7 @@ class OnAir {
         bool on;
         /// Serial number of the first frame that began after the change.
         std::uint64_t serial;
-        /// Number of the node's previous change, counted over all nodes.
+        /// Number of the node's previous change, as numbered over all nodes; 0 if there is none.
         std::uint64_t previous;
     };
     /// Whether the node's leg or radio has changed since the start of any stored frame: near() is
@@ -101,7 +101,7 @@ class OnAir {
     static constexpr std::uint64_t none = ~std::uint64_t{0};
     static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-    // Frames transmitted in a cell, as a chain of serial numbers.
+    // Chain of the frames transmitted in a grid cell: serial numbers of its first and last frame.
     struct Cell {
         std::uint64_t oldest = none, newest = none;
     };
@@ -112,7 +112,7 @@ class OnAir {
     }
     // Builds the grid again for the current interference range.
     void lay_grid();
-    // Appends a stored frame to the chain of its cell.
+    // Appends a stored frame to the chain of its grid cell.
     void file(std::uint64_t serial);
     // Removes the oldest stored frame.
     void take_off();
@@ -126,7 +126,7 @@ class OnAir {
 
     // Frames in the order of their serial numbers.
     std::deque<Emission> frames_;
-    // For each frame, serial number of the next frame in the same cell.
+    // Serial number of the next frame in the same grid cell, for each frame of frames_.
     std::deque<std::uint64_t> next_;
     // Serial number of the first stored frame.
     std::uint64_t first_ = 0;

@@ -17,7 +17,7 @@ namespace rovernet {
 
 /// Data of a frame that determine its fate, in addition to the frames on air.
 struct SinrFrame {
-    /// Physical layer of all frames; below, coding and bit rate [bit/s] of the frame's payload.
+    /// Physical layer of all frames; then coding and bit rate [bit/s] of the frame's payload.
     const Phy* phy;
     Coding coding;
     double rate;
@@ -113,11 +113,13 @@ class SinrReceiver {
             10 * math::log10(others_mw + math::exp10(frame.noise.value / 10));
         return Dbm{level(preamble)} - Dbm{interference_db} >= threshold;
     }
-    // Whether the receiver was free when `arrival` began: not locked onto another frame.
+    // Whether the receiver was free when `arrival` began: neither transmitting nor locked onto
+    // another frame.
     bool is_free_for(const Arrival& arrival) const;
     // Whether the node of the receiver begins to transmit in (after, until].
     bool sends_within(Time after, Time until) const;
-    // Whether the frame is decoded for any random draw: no other frames, and far above the noise.
+    // Whether the frame is decoded for any random draw: no other frame is on air, and the level of
+    // the frame is far above the noise.
     bool is_certain(const Arrival& judged, const SinrFrame& frame) const {
         return here_.empty() &&
                Dbm{judged.level_dbm} - frame.noise >= frame.phy->certain_sinr(frame.coding);

@@ -14,18 +14,21 @@
 
 namespace rovernet {
 
-/// Fading of a run: the gain g of each frame at each receiver, the same for all calls.
+/// Fading of a run: the gain g of each frame at each receiver (received power over its local mean),
+/// the same for all calls.
 ///
-/// The gain g follows from z, see Fading. With coherence `frame`, z is a draw for the frame and the
-/// receiver. With `place`, z is a random field over the positions a and b of both ends,
+/// The gain g follows from a complex normal random number z, see Fading. With coherence `frame`, z
+/// is a draw for the frame and the receiver. With `place`, z is a random field over the positions a
+/// and b of both ends,
 ///
 ///   z(a, b) = (W(a, b) + W(b, a)) / sqrt(2 N (1 + J0(2 pi |a - b| / lambda)^2)),
 ///   W(a, b) = sum over m of e^(j (2 pi (u_m.a + v_m.b) / lambda + phi_m)),  |u_m| = |v_m| = 1,
 ///
-/// with N = 32 waves of uniform directions and phases. z is the same in both directions; the
-/// autocorrelation of z, when one end moves by D, is J0(2 pi D / lambda), as in R. H. Clarke, Bell
-/// System Technical Journal 47(6), 1968. Distances are horizontal. There is no time step: between
-/// robots at rest the fading is constant.
+/// with the wavelength lambda, the Bessel function J0, and N = 32 plane waves of uniform random
+/// directions u_m and v_m and phases phi_m. z is the same in both directions; the autocorrelation
+/// of z, when one end moves by D, is J0(2 pi D / lambda), as in R. H. Clarke, Bell System Technical
+/// Journal 47(6), 1968. Distances are horizontal. There is no time step: between robots at rest the
+/// fading is constant.
 ///
 /// With `place`, nakagami consists of ceil(m) such fields, and takes that many times as long. If 2
 /// m is an integer, its level crossing rate is that of theory (M. D. Yacoub, J. E. V. Bautista, L.
@@ -47,7 +50,8 @@ class Fades {
         /// Carrier frequency [Hz].
         Hertz frequency;
     };
-    /// Gain by fading 10 log10 g [dB] of a frame at a receiver, from -200 dB to most().
+    /// Gain by fading [dB] of a frame at a receiver: its power over the local mean, from -200 dB to
+    /// most().
     Db gain(const Frame& frame) const;
     /// Largest gain by fading [dB].
     Db most() const { return most_; }
@@ -64,9 +68,10 @@ class Fades {
 
     Fading settings_;
     PairDraws draws_;
-    // Random fields for `place`: one, or several whose powers are added.
+    // Random fields for coherence `place`: one field, or several fields whose powers are added.
     std::vector<PairWaves> fields_;
-    // Number of real fields whose squares are added, for nakagami with `place`.
+    // Number of real-valued fields (real or imaginary parts) whose squares are added, for nakagami
+    // with `place`.
     double parts_ = 2;
     // Table of gamma variates, for nakagami if the power is not only a sum of fields.
     std::optional<GammaTable> gamma_;

@@ -45,7 +45,8 @@ struct EnumNames<Coherence> {
 ///             g = (x_1^2 + ... + x_2m^2) / m                 of places: x_i are the real and
 ///                                                            imaginary parts of several z
 ///
-/// g is cut at its quantile of 1 - 1e-6, which bounds the range: 11.4 dB for rayleigh.
+/// K is `k_factor`, d the distance of the antennas, lambda the wavelength. g is cut at its quantile
+/// of 1 - 1e-6, which bounds the range: 11.4 dB for rayleigh.
 ///
 /// Source: J. G. Proakis, Digital Communications, 4th ed., sections 2.1.4 and 14.1.
 struct Fading {
@@ -70,8 +71,8 @@ struct Fading {
                   "theory if 2 m is whole"));
     }
 
-    /// Quantile of g [-]: g is below it with probability p, 1e-9 <= p <= 1 - 1e-9. Not for the
-    /// model `none`.
+    /// Quantile of the power g [-] relative to its local mean: g is below it with probability p,
+    /// 1e-9 <= p <= 1 - 1e-9. Not for the model `none`.
     double quantile(double p) const;
 };
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-// Gamma distribution, for Nakagami fading; based on sim/math.hpp, so that every compiler gives the
-// same bits.
+// Gamma distribution, for Nakagami fading. The functions are based on sim/math.hpp, so that every
+// compiler gives the same bits.
 
 namespace rovernet {
 
@@ -16,11 +16,12 @@ double log_gamma(double x);
 /// -log Q(m, y) for m >= 0.5 and y > 0, with the regularised upper incomplete gamma function Q: the
 /// probability that a gamma variate of shape m and scale 1 exceeds y.
 ///
-/// Sources: the series DLMF 8.11.4 for small y, the continued fraction DLMF 8.9.2 otherwise.
+/// Sources: NIST Digital Library of Mathematical Functions: the series 8.11.4 for small y, the
+/// continued fraction 8.9.2 otherwise.
 double minus_log_gamma_q(double m, double y);
 
-/// Solution y > 0 of -log Q(m, y) = p, for p >= 1e-290; relative error below 1e-12. The function
-/// transforms a standard exponential variate p into a gamma variate of shape m.
+/// Solution y > 0 of minus_log_gamma_q(m, y) = p, for p >= 1e-290; relative error below 1e-12. The
+/// function transforms a standard exponential variate p into a gamma variate of shape m.
 double gamma_of_exponential(double m, double p);
 
 /// Table of gamma_of_exponential() for one m: cubic interpolation in log p, with a relative error
@@ -28,11 +29,13 @@ double gamma_of_exponential(double m, double p);
 class GammaTable {
   public:
     explicit GammaTable(double m);
-    /// Gamma variate y for p from 1e-20 to 20; for larger p the value at 20.
+    /// Gamma variate y for a standard exponential variate p from 1e-20 to 20; for larger p the
+    /// value at 20.
     double operator()(double p) const;
 
   private:
-    // Edge of a cell of the table: log y, and slope of log y with respect to log p, in cells.
+    // Support point of the table, for an exponential variate p: log y of its gamma variate y, and
+    // derivative of log y with respect to log p, times the spacing of the points in log p.
     struct Edge {
         double log_y, slope;
     };

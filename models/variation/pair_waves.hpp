@@ -7,13 +7,14 @@
 #include <cmath>
 #include <cstddef>
 
-// Random fields over both ends of a link, as sums of plane waves: a value for each pair of
-// positions, without a table, a grid or a state. Used for shadowing and fading.
+// Random fields over the positions of both ends of a link, as sums of plane waves. A field has a
+// value for each pair of positions, without a table, a grid or a state. Shadowing and fading use
+// such fields.
 
 namespace rovernet {
 
-/// Cosine cos(2 pi x) for x [turns], |x| < 2^51; error below 1e-11, exactly even in x. Without a
-/// branch, so that a loop over it can be vectorised.
+/// Cosine cos(2 pi x) for x [turns], |x| < 2^51; error below 1e-11, exactly even in x. The function
+/// has no branch, so that a loop of calls can be vectorised.
 inline double cos_of_turns(double x) {
     // The series of sin(2 pi y) for |y| <= 1/4, in y^2: (-1)^k (2 pi)^(2 k + 1) / (2 k + 1)!.
     constexpr double c0 = 6.283185307179586477, c1 = -41.341702240399760234,
@@ -39,8 +40,8 @@ class PairWaves {
     /// Number of plane waves in the sum.
     static constexpr std::size_t count = 32;
 
-    /// Plane wave: wave vectors at both ends [turns/m, or turns per unit of `scale`], phase
-    /// [turns].
+    /// Plane wave: wave vectors (kx, ky) at one end and (qx, qy) at the other end [turns/m, or
+    /// turns per unit of `scale`], and phase [turns].
     struct Wave {
         double kx, ky, qx, qy, phase;
     };

@@ -53,8 +53,8 @@ struct ChartGuide {
 };
 
 /// Natural bounds of the numbers of a chart's axis, such as 0 and 1 of a ratio. Axis and intervals
-/// are clipped to these bounds. An axis with two bounds shows the whole range, unless the numbers
-/// use less than a fifth of it.
+/// are clipped to these bounds. An axis with two bounds shows the whole range between the bounds,
+/// unless the numbers use less than a fifth of this range.
 struct ChartLimits {
     std::optional<double> low = {}, high = {};
 };
@@ -66,9 +66,9 @@ struct Chart {
     std::string value_label = {};   ///< quantity that a heat map shows by colours, with unit
     std::string legend_title = {};  ///< quantity that distinguishes the series, such as "ttl"
     std::string note = {};  ///< text below the chart: meaning of intervals, source of numbers
-    bool log_x = false, log_y = false;     ///< true: logarithmic (numeric axes only)
+    bool log_x = false, log_y = false;     ///< true: logarithmic axis (numeric axes only)
     ChartLimits x_limits = {};             ///< bounds of a numeric x
-    ChartLimits y_limits = {};             ///< bounds of y, or of the colours of a heat map
+    ChartLimits y_limits = {};             ///< bounds of y, or of the values of a heat map
     std::vector<ChartSeries> series = {};  ///< series of points; names are unique
     std::vector<ChartGuide> guides = {};   ///< lines behind the marks of a scatter chart
     /// Upper end, in y, of a grey band at the lower edge of a scatter, and its label. Only
@@ -97,8 +97,8 @@ struct ChartLayout {
 std::string chart_svg(std::span<const Chart> panels, const ChartLayout& layout = {});
 
 /// Chart as a gnuplot script (5.2 or later) with its data, for users who want another style. The
-/// script writes an SVG to standard output. Texts of the chart are escaped, so that none runs as a
-/// command.
+/// script writes an SVG to standard output. Texts of the chart are escaped, so that gnuplot never
+/// executes a text as a command.
 std::string chart_gnuplot(const Chart& chart);
 
 }  // namespace rovernet

@@ -9,15 +9,17 @@
 
 #include <cstddef>
 
-// Parts of a scatter besides its marks: band, lines behind the marks, intervals along x.
+// Drawing of the parts of a scatter chart other than its marks: band, lines behind the marks,
+// intervals along x.
 
 namespace rovernet {
 
 /// Draws the grey band at the lower edge of a chart, and the band's label at a free place.
 void draw_band(Svg& svg, const Chart& chart, const ChartFrame& frame, LabelPlaces& labels);
-/// Draws the lines behind the marks of a chart, and keeps later labels off them.
+/// Draws the lines behind the marks of a chart. Labels placed later avoid these lines.
 void draw_guides(Svg& svg, const Chart& chart, const ChartFrame& frame, LabelPlaces& labels);
-/// Horizontal whiskers of a series (the intervals of its points along x). Later labels avoid them.
+/// Horizontal whiskers of a series (the intervals of its points along x). Labels placed later avoid
+/// the whiskers.
 SvgPath x_whiskers(const ChartView& view, std::size_t series, const ChartFrame& frame,
                    LabelPlaces& labels);
 

@@ -13,13 +13,14 @@ void draw_cells(Svg& svg, const ChartView& view, const ChartFrame& frame, const 
 /// @param number  number of the chart in the SVG document, from 0
 void draw_color_bar(Svg& svg, const ChartFrame& frame, const ChartAxis& colors, std::size_t number);
 
-/// Least value whose cell in a heat map has dark text, since the cell is light; below: white text.
+/// Threshold of the text colour in a heat map: cells with at least this value are light and have
+/// dark text, cells with a lower value have white text.
 double dark_text_from(const ChartAxis& colors);
 
-/// Whether a cell of the heat map has no value.
+/// Whether at least one cell of the heat map has no value.
 bool has_missing_cells(const ChartView& view);
 
-/// Appends the cross of a heat map's cell without a value, from corner to corner.
+/// Appends the diagonals of `box` to `path`, as the mark of a heat map's cell without a value.
 void append_cross(SvgPath& path, const Box& box);
 
 constexpr const char* missing_color = "#999999";

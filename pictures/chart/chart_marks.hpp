@@ -22,7 +22,7 @@ struct ChartFrame {
     PicturePoint at(double x_value, double y_value) const;
 };
 
-// Drawing functions for the points of a chart, one for each kind of chart.
+// Functions that draw the points of a chart, one function for each kind of chart.
 
 /// Draws the lines of a line chart, with marks. Intervals are drawn as a band, or as whiskers if
 /// points are few or x is categorical. Series with overlapping whiskers are drawn a few pixels
@@ -30,7 +30,8 @@ struct ChartFrame {
 void draw_lines(Svg& svg, const Chart& chart, const ChartView& view, const ChartFrame& frame);
 /// Draws the bars of a bar chart, or dots if ChartView::dots is set, with whiskers.
 void draw_bars(Svg& svg, const Chart& chart, const ChartView& view, const ChartFrame& frame);
-/// Draws the marks of a scatter chart with whiskers and labels; marks at one point are set apart.
+/// Draws the marks of a scatter chart with whiskers and labels. Marks at the same point are drawn
+/// side by side.
 /// @return number of labels that found no free place
 std::size_t draw_scatter(Svg& svg, const Chart& chart, const ChartView& view,
                          const ChartFrame& frame);
@@ -44,7 +45,7 @@ double reach_of_marks(const Chart& chart, const ChartView& view, const ChartFram
 double rise_of_marks(const Chart& chart, const ChartView& view);
 /// Whether a line chart has room for a mark at each point.
 bool room_for_marks(const ChartView& view, const ChartFrame& frame);
-/// Fill colour of the bars of a series.
+/// Fill colour of the bars of the series with index `series`.
 Color bar_color(std::size_t series);
 /// Draws a mark of a series. @param tip  tooltip of the mark, or ""
 void draw_mark(Svg& svg, PicturePoint at, std::size_t series, const std::string& tip);

@@ -46,7 +46,7 @@ class ChartPanel {
     void draw_foot(Svg& svg) const;
 
     const Chart& chart_;
-    double width_;  // [px]
+    double width_;  // width of the column [px]
     std::size_t number_;
     ChartView view_;
     ChartFrame frame_ = {};

@@ -29,7 +29,7 @@ struct ChartMarker {
     int gnuplot = 0;
     std::span<const PicturePoint> corners = {};  // corners of a mark of radius 1
 
-    /// Appends the mark to a path. @param radius  [px]
+    /// Appends the mark to a path. @param radius  radius of the mark [px]
     void append_to(SvgPath& path, PicturePoint centre, double radius) const;
 };
 

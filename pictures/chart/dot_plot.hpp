@@ -9,7 +9,7 @@
 
 namespace rovernet {
 
-/// Dot of a row: its value on the main scale and its value on the second scale.
+/// Dot of a row of a dot plot: its value on the main scale and its value on the second scale.
 struct Dot {
     std::size_t series = 0;
     double value = 0;
@@ -30,7 +30,7 @@ struct DotRow {
 struct DotPlot {
     std::string title = {};
     std::string value_label = {}, beside_label = {};  ///< labels of both scales, with units
-    bool log = false;  ///< main scale is logarithmic; values <= `least` are drawn at its left end
+    bool log = false;  ///< true: logarithmic main scale, with values <= `least` at its left end
     double least = 0;
     std::vector<std::string> series = {};
     std::vector<DotRow> rows = {};  ///< rows of the plot, from the top

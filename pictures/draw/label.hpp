@@ -30,15 +30,16 @@ class LabelPlaces {
 
     /// Reserves a box of the picture: no label is placed there from now on.
     void keep_free(const Box& box);
-    /// Adds a line that labels should avoid if they can.
+    /// Adds a line of the picture. place() puts labels on such lines only if all free places lie on
+    /// lines.
     void avoid(PicturePoint from, PicturePoint to);
-    /// Finds and reserves a free place for a label beside a disc. Candidates are right, left,
-    /// above, below, then the corners; the first candidate that lies on the fewest lines is chosen.
-    /// None if no place is free.
+    /// Finds and reserves a free place for a label beside a disc. The candidates are the places
+    /// right, left, above, below, then at the corners. The first candidate that lies on the fewest
+    /// lines is chosen. None if no place is free.
     std::optional<Box> place(PicturePoint centre, double radius, double width, double height);
-    /// Finds and reserves a free place for a label below or above the end of a vertical line: as
-    /// central as other labels allow, and never wholly to one side of the line. None if no place is
-    /// free.
+    /// Finds and reserves a free place for a label below or above the end of a vertical line. The
+    /// label is centred on the line, or shifted sideways by at most half its width if other labels
+    /// require a shift. None if no place is free.
     std::optional<Box> place_at_end(PicturePoint end, bool below, double width, double height);
 
   private:

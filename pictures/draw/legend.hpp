@@ -14,8 +14,8 @@ namespace rovernet {
 struct LegendItem {
     std::string text;
     double width = 24;  ///< width of the symbol [px]
-    /// Function that draws the symbol; the point is the middle of its left edge. None: the text is
-    /// a bold title of the entries after it.
+    /// Function that draws the symbol; its argument is the middle of the symbol's left edge. None:
+    /// the text is a bold title of the entries after it.
     std::function<void(Svg&, PicturePoint)> draw = nullptr;
 };
 

@@ -39,8 +39,9 @@ struct PicturePoint {
 /// y.
 class Plot {
   public:
-    /// Limits of the size of a plot. The plot is the largest one that fits; if it would be smaller
-    /// than the least sizes, it shows more than the given extent, which stays in the middle.
+    /// Limits of the size of a plot. The plot is the largest one that fits. If the plot would be
+    /// smaller than the least size, it shows more of the world than the given extent, which stays
+    /// in the middle.
     struct Limits {
         double width = 1000, height = 800;  ///< largest size of the plot [px], > 0
         double least_width = 300,
@@ -55,7 +56,7 @@ class Plot {
     double right() const { return left + width; }
     double bottom() const { return top + height; }
 
-    double left = 0, top = 0, width = 1, height = 1;  ///< plot within the picture [px]
+    double left = 0, top = 0, width = 1, height = 1;  ///< place and size in the picture [px]
     double scale = 1;                                 ///< pixels for each metre of the world [px/m]
     Vec3 low{},
         high{1, 1};  ///< lower left and upper right corner of the visible part of the world [m]
@@ -64,8 +65,8 @@ class Plot {
 /// Largest round number (... 0.2, 0.5, 1, 2, 5, 10, 20, 50 ...) that is <= `most` > 0.
 double round_number(double most);
 
-/// Axis ticks from `low` to `high`, at multiples of a round step: at most `most` (>= 2), and nearly
-/// as many.
+/// Positions of axis ticks from `low` to `high`, at multiples of a round step. The number of ticks
+/// is at most `most` (>= 2), and nearly as large.
 std::vector<double> round_ticks(double low, double high, int most);
 
 /// Length with its unit, for a scale bar: "20 cm", "5 m", "2 km".

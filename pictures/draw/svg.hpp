@@ -11,12 +11,12 @@
 
 namespace rovernet {
 
-/// Number for an SVG: at most two decimals, no trailing zeros, never "-0". Numbers beyond +-1e9 and
-/// infinities are clamped to +-1e9; NaN becomes 0.
+/// Text of a number in an SVG: at most two decimals, no trailing zeros, never "-0". Numbers beyond
+/// +-1e9 and infinities are clamped to +-1e9; NaN becomes 0.
 std::string svg_number(double v);
 
-/// Text for XML: markup characters are escaped; characters that XML forbids (control characters,
-/// invalid UTF-8) become U+FFFD.
+/// Text converted for XML: markup characters are escaped. Characters that XML forbids (control
+/// characters, invalid UTF-8) become U+FFFD.
 std::string xml_text(std::string_view text);
 
 /// Text, shortened to at most `most` >= 1 characters; a shortened text ends in an ellipsis.
@@ -56,7 +56,7 @@ class SvgPath {
     std::string text_;
 };
 
-/// Anchor of a text: its point is the start, the middle or the end of the text.
+/// Anchor of a text: the part of the text (start, middle or end) that lies at the given point.
 enum class TextAnchor { start, middle, end };
 
 /// Style of a text in an SVG.

@@ -18,8 +18,9 @@ struct ContourLine {
 
 /// Smoothed borders of the area of a map where the level is at least `level`. Areas and gaps
 /// narrower than about 1.3 `smoothing` vanish, such as streaks behind the ragged edge of a drawn
-/// wall. Corners are rounded by about as much. Islands smaller than a disc of radius 2 `smoothing`,
-/// or narrower than it, are omitted. Straight edges and contours of free space do not move.
+/// wall. Corners are rounded by about the same length. Islands smaller than a disc of radius
+/// 2 `smoothing`, or narrower than `smoothing`, are omitted. Straight edges and contours of free
+/// space do not move.
 ///
 /// Method: the difference to `level`, clamped to +-0.5 dB, is smoothed by a Gaussian. The lines are
 /// its zeros, found by marching squares (the planar case of W. E. Lorensen and H. E. Cline,

@@ -29,9 +29,9 @@ struct Transmitter {
     std::uint32_t replication = 0;
 };
 
-/// Transmitter of a robot at time `at`, for receivers with the same radio. Link shadowing is left
-/// out, since it is defined for pairs of robots only; a shadowing field depends on positions and is
-/// included. The network must outlive the transmitter.
+/// Transmitter of a robot at time `at`, for receivers with the same radio. Link shadowing is not
+/// included, since it is defined for pairs of robots only. A shadowing field is included, since it
+/// depends on positions. The network must outlive the transmitter.
 Transmitter transmitter(const Network& network, NodeId robot, Time at);
 
 /// Computes the levels [dBm] at receivers; a directional receiver antenna points to the

@@ -13,7 +13,7 @@
 namespace rovernet {
 
 /// Coverage of one robot in a picture: levels as colours, a colour bar, and contours at the
-/// receivers' sensitivity and at the radio's range_db.
+/// receivers' sensitivity and at the level range_db that the radio's settings choose.
 class HeatLayer {
   public:
     /// Computes the coverage of the plot area.

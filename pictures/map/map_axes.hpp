@@ -15,7 +15,7 @@ class MapAxes {
 
     double left() const;                 ///< width of the axis left of the plot [px]
     static constexpr double below = 40;  ///< height of the axis below the plot [px]
-    /// @param plot  same size and same part of the world as given to the constructor
+    /// @param plot  must equal the constructor's plot in size and in the visible part of the world
     void draw(Svg& svg, const Plot& plot) const;
 
   private:

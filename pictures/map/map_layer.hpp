@@ -15,7 +15,7 @@ namespace rovernet {
 class MapLayer {
   public:
     /// @param scene  scene to draw; outlives the layer
-    /// @param open   the scene with all doors open, which gives the unknown cells
+    /// @param open   scene with all doors open, from which the unknown cells are taken
     MapLayer(const Scene& scene, const Scene& open);
     explicit MapLayer(const Scene& scene) : MapLayer(scene, scene) {}
 

@@ -18,13 +18,14 @@ struct PictureOptions {
     /// Robot whose radio and antenna height the assumed receivers of the coverage have; none: those
     /// of the robot `coverage`.
     std::optional<std::string> receiver = std::nullopt;
-    /// Robots between which the route in use is drawn, with the ages of the routes.
+    /// Source and destination of a route to draw: the route in use, with the age of each hop's
+    /// route.
     struct Route {
         std::string from, to;
     };
     std::optional<Route> route = std::nullopt;
-    /// Whether the robots that sent the last request of a route are marked: of the robot
-    /// Route::from, or of any robot without a route.
+    /// True: the robots that sent the last route request (its origin and forwarders) are marked.
+    /// With `route`, only requests of the robot Route::from count, otherwise those of all robots.
     bool search = false;
     bool links = false;   ///< draw links, coloured by level above sensitivity (margin)
     bool trails = false;  ///< draw the robots' past paths

@@ -20,7 +20,7 @@ struct RobotMark {
     std::string name;
     PicturePoint at;
     double radius = 0;   ///< radius of the robot's circle [px]
-    double ring = 0;     ///< room for a ring around the circle [px], which names keep off
+    double ring = 0;     ///< width of a ring around the circle [px], kept free of names
     double heading = 0;  ///< heading of the robot [rad], counter-clockwise from the x axis
     Presence presence = Presence::on;
     bool here = true;         ///< whether the robot is on the drawn storey
@@ -28,8 +28,8 @@ struct RobotMark {
     Color rim = {};           ///< colour of the robot's circle
 
     bool on() const { return presence == Presence::on; }
-    /// Whether the robot is drawn: only on the drawn storey; an absent robot only if its
-    /// coverage is drawn.
+    /// Whether the robot is drawn. A robot on another storey is not drawn. A robot that is not yet
+    /// or no longer present is drawn only if its coverage is drawn.
     bool drawn() const { return here && (on() || presence == Presence::off || stands_out); }
 };
 
@@ -44,12 +44,12 @@ class RobotMarks {
                bool colored, const Plot& plot);
 
     const RobotMark& operator[](NodeId node) const { return marks_[node.index()]; }
-    /// Leaves room for a ring around a robot's circle, out to `width` [px] beyond it.
+    /// Leaves room for a ring around a robot's circle, out to `width` [px] beyond the circle.
     void add_ring(NodeId node, double width) {
         double& ring = marks_[node.index()].ring;
         ring = std::max(ring, width);
     }
-    /// Places the names of the robots. @param places  contains the other obstacles already
+    /// Places the names of the robots. @param places  already contains all other obstacles
     void place_names(LabelPlaces& places);
     void draw(Svg& svg) const;
     /// Appends the robots' symbols to a legend, and the number of robots whose name found no room.

@@ -12,17 +12,18 @@
 
 namespace rovernet {
 
-/// Route in a picture: an arrow for each hop, with the age of the route beside it; a hop whose link
-/// is down is dashed, and the robot at which the way breaks off has a cross.
+/// Route in a picture: an arrow for each hop, with the age of the route beside the arrow. A hop
+/// whose link is down is dashed. The robot at which the route breaks off has a cross.
 class RouteLines {
   public:
     explicit RouteLines(RouteWay way) : way_(std::move(way)) {}
 
-    /// Way of the route as a sentence, see route_way_text().
+    /// Sentence about the hops of the route, see route_way_text().
     std::string text(const Network& network) const { return route_way_text(network, way_); }
-    /// Adds the arrows to what labels should avoid, and leaves room for the ring at the break.
+    /// Makes labels avoid the arrows. Leaves room for a ring around the robot at which the route
+    /// breaks off.
     void keep_off(LabelPlaces& places, RobotMarks& robots) const;
-    /// Places the ages of the routes, after the names of the robots.
+    /// Places the ages of the routes. Called after the names of the robots are placed.
     void place_ages(LabelPlaces& places, const RobotMarks& robots);
     void draw(Svg& svg, const RobotMarks& robots) const;
     void append_to(Legend& legend) const;

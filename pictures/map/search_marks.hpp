@@ -13,30 +13,31 @@
 
 namespace rovernet {
 
-/// Sink that notes who sent the last request of a routing protocol: the control packet whose kind
-/// ends in "REQUEST" that was made last, on all its hops.
+/// Sink that stores the robots that sent the last route request: its origin, and the robots that
+/// forwarded it. A request is a control packet of a routing protocol whose kind ends in "REQUEST".
 class LastSearch {
   public:
     KindMask kinds() const { return kind_of<Transmitted>(); }
     void on(const Record& record, const RecordContext& context);
 
-    /// Notes requests of this robot only.
+    /// Restricts the sink to requests whose origin is the robot `origin`.
     void only(NodeId origin) { origin_ = origin; }
 
-    /// Robots that sent the request, in the order of time: the one that made it is the first.
+    /// Robots that sent the last request, in order of time. The origin of the request is the first.
     const std::vector<NodeId>& senders() const { return senders_; }
-    /// Search as a sentence: "last request of A: sent by 7 robots from 3.02 s to 3.05 s".
+    /// Sentence about the request: "last request of A: sent by 7 robots from 3.02 s to 3.05 s".
     std::string text(const Network& network) const;
 
   private:
     std::optional<NodeId> origin_ = std::nullopt;
-    std::uint64_t uid_ = 0;  // of the request, if there is one
+    std::uint64_t uid_ = 0;  // uid of the last request, if senders_ is not empty
     NodeId from_{};          // robot that made the request
     Time begin_ = start_of_run, end_ = start_of_run;
     std::vector<NodeId> senders_ = {};
 };
 
-/// Leaves room for the rings around the robots that sent the last request, and draws them.
+/// Leaves room for rings around the robots that sent the last request; draw_search() draws the
+/// rings.
 void add_rings(RobotMarks& robots, const LastSearch& search);
 void draw_search(Svg& svg, const LastSearch& search, const RobotMarks& robots);
 void append_search(Legend& legend);

@@ -16,7 +16,7 @@ namespace rovernet {
 /// and dots at equal time intervals.
 class TrailLines {
   public:
-    /// Collects the parts of paths on one storey, including whole stairs that begin or end on it.
+    /// Collects the parts of paths on one storey, and on whole stairs that begin or end there.
     /// @param trails  trails of the network's robots; trails and network must outlive the lines
     /// @param storey  number of the storey
     TrailLines(const Trails& trails, const Network& network, Time at, std::size_t storey);

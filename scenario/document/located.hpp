@@ -20,7 +20,7 @@ namespace rovernet {
 ///   const Movement move = located(table.where, [&] { return Movement(Patrol{table.path}); });
 ///
 /// @param where  file position of the value
-/// @return what make() returns
+/// @return result of make()
 auto located(const Location& where, auto&& make) {
     try {
         return make();
@@ -36,7 +36,7 @@ auto located(const Location& where, auto&& make) {
 /// names the file, as "KEY: FILE: MESSAGE".
 /// @param where  file position of the name in the input; if it has no line, no error is changed
 /// @param key    key whose value is the name
-/// @return what make() returns
+/// @return result of make()
 auto located_file(const Location& where, std::string_view key, auto&& make) {
     try {
         return make();

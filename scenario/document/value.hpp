@@ -31,7 +31,7 @@ using Array = std::vector<Value>;
 ///
 /// find() is a linear search: tables in files are short.
 struct Table {
-    /// Entries in the order of the file. Readers of tables search them for unknown keys.
+    /// Entries in the order of the file. Readers of tables search the entries for unknown keys.
     std::vector<Entry> entries;
 
     /// Value of `key`, or null if the table lacks the key. The pointer is valid until an entry is
@@ -78,7 +78,8 @@ struct Value {
     Value(Array v);
     Value(Table v);
 
-    /// Content of the value as the type that names the function, or null if it has another type.
+    /// Pointer to the content of the value if the content is a table; otherwise null. array() and
+    /// string() return the content if the content is a list or a text; otherwise null.
     const Table* table() const { return std::get_if<Table>(&data); }
     Table* table() { return std::get_if<Table>(&data); }
     const Array* array() const { return std::get_if<Array>(&data); }

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-// Radios of Stage worlds. Stage's wifi device of 2007 is a model `wifi` on a robot, with keys and
-// units of Stage; here they are converted to keys and units of a scenario file.
+// Radios of Stage worlds. Stage's wifi device of 2007 is a model `wifi` on a robot. Its keys and
+// units are converted to keys and units of a scenario file.
 
 namespace rovernet {
 

@@ -22,7 +22,7 @@ namespace rovernet {
 ///
 /// Numbers in parentheses are Stage's defaults. The pose of each range finder and update_interval
 /// [ms] are read, too.
-/// @param notices  receives notices "file:line: text" where the reading differs from Stage
+/// @param notices  receives notices "file:line: text" about keys that Stage interprets differently
 /// @throws InputError for values of the wrong kind
 Array stage_scanners(const WorldEntity& robot, const WorldUnits& units,
                      std::vector<std::string>& notices);

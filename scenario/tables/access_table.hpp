@@ -26,7 +26,7 @@ void read_value(const Value& value, std::string_view key, EifsRule& out);
 using AccessTable = ModelChoice<AccessModels, AccessModel>;
 
 /// Default radio of a scenario: usual_radio() of the access model if the model has this function,
-/// or else the defaults of Radio. Keys of [radio] override it.
+/// or else the defaults of Radio. Keys of [radio] override the default radio.
 Radio usual_radio(const AccessTable& access);
 
 }  // namespace rovernet

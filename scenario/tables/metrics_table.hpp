@@ -17,8 +17,8 @@ namespace rovernet {
 /// network_settings() and ScenarioRun configure Metrics and add the sink Topology accordingly.
 struct MetricsTable {
     /// True if the metric reach is measured: number of deliveries over number of robots that are
-    /// connected to the sender, by any number of hops, when it sends. The computing time for each
-    /// message grows with the number of robots. None: measured only while this time is small.
+    /// connected to the sender, by any number of hops, when the message is sent. The computing time
+    /// per message grows with the number of robots. None: measured only while this time is small.
     std::optional<bool> reach = {};
     /// True if the metrics of each flow ([[traffic]] table) are measured separately.
     bool flows = true;
@@ -26,8 +26,8 @@ struct MetricsTable {
     bool robots = false;
     /// True if the topology is measured: degree, components, mean speed, lifetime of links.
     bool topology = false;
-    /// True if path_stretch is measured: hops of routed unicasts over those of the shortest path
-    /// when they were sent. Each unicast costs a search of the network.
+    /// True if path_stretch is measured: hops of routed unicasts over hops of the shortest path at
+    /// the time of sending. Each unicast requires a search of the network.
     bool path_stretch = false;
 
     static constexpr auto fields() {

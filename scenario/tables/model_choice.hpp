@@ -41,14 +41,14 @@ struct ModelChoice {
             return at;
         }(static_cast<Models*>(nullptr));
     }
-    /// Calls visit.template operator()<M>() for each listed model, in order.
+    /// Calls visit.template operator()<M>() for each model M of the list `Models`, in order.
     template <class Visitor>
     static constexpr void for_each_type(Visitor&& visit) {
         [&]<class... M>(std::tuple<M...>*) {
             (visit.template operator()<M>(), ...);
         }(static_cast<Models*>(nullptr));
     }
-    /// Names of the listed models, in order.
+    /// Names of all models of the list `Models`, in order.
     static std::vector<std::string> names() {
         std::vector<std::string> out;
         for_each_type([&]<class M>() { out.emplace_back(M::name); });
@@ -65,7 +65,7 @@ struct ModelChoice {
     const M* as() const {
         return model == place_of<M>() ? &std::get<M>(parameters) : nullptr;
     }
-    /// Calls visit(parameters, is_chosen) for each listed model, in order.
+    /// Calls visit(parameters, is_chosen) for each model of the list `Models`, in order.
     template <class Visitor>
     void for_each(Visitor&& visit) const {
         std::size_t at = 0;
@@ -103,7 +103,7 @@ constexpr bool has_key(std::string_view key) {
     return has;
 }
 
-/// Checks that the chosen model has all parameters without a default.
+/// Checks that the file gives all parameters of the chosen model that have no default.
 /// @param what  kind of the model, for the error message: "propagation model"
 /// @throws InputError at `where`, naming the first missing parameter
 template <class... Choice>
@@ -122,7 +122,7 @@ void check_given(const ModelChoice<Choice...>& choice, std::string_view what, Lo
 /// chosen model. A model that is not chosen ignores a value outside of its own range.
 /// @param key   key whose value is the name of the model: "model"
 /// @param what    kind of the model, for error messages: "propagation model"
-/// @param common  described structs whose keys the table has beside those of the models
+/// @param common  described structs whose keys the table has in addition to the models' keys
 /// @throws InputError at the first mistake, such as a missing parameter of the chosen model
 template <class... Choice, Described... Common>
 void read_model(const Value& value, std::string table_name, std::string_view key,
@@ -149,8 +149,8 @@ void read_model(const Value& value, std::string table_name, std::string_view key
     check_given(out, what, value.where);
 }
 
-/// Table from which read_model() reads the same choice: the chosen model with its parameters, and
-/// those parameters of other models that differ from their defaults.
+/// Converts a model choice to a table: the inverse of read_model(). The table has the chosen model
+/// with its parameters, and the parameters of other models that differ from their defaults.
 template <class... Choice>
 Table chosen_document(const ModelChoice<Choice...>& choice, std::string_view key = "model") {
     Table table;
@@ -168,8 +168,8 @@ Table chosen_document(const ModelChoice<Choice...>& choice, std::string_view key
     return table;
 }
 
-/// Table from which read_model() reads the same choice: the chosen model, and the parameters of all
-/// models. A key that several models have gets the value of the chosen model.
+/// Converts a model choice to a table: the inverse of read_model(). The table has the chosen model
+/// and the parameters of all models. A key of several models has the value of the chosen model.
 template <class... Choice>
 Table whole_document(const ModelChoice<Choice...>& choice) {
     const Table chosen = chosen_document(choice);

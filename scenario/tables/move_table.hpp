@@ -31,7 +31,7 @@
 
 namespace rovernet {
 
-/// Movement `fixed`, the default: the robot stays where it is:
+/// Movement `fixed`, the default: the robot stays at its start position:
 ///
 ///   move = { model = "fixed" }
 struct FixedTable {
@@ -134,7 +134,7 @@ struct MoveTable {
 /// parameter
 MoveTable read_move(const Value& value, bool placed);
 
-/// Table from which read_move() reads the same movement.
+/// Converts a movement to a `move` table: the inverse of read_move().
 Table move_document(const MoveTable& move);
 
 }  // namespace rovernet

@@ -24,7 +24,7 @@ struct EnumNames<MovementSyntax> {
     static constexpr std::array<std::string_view, 2> values = {"strict", "tolerant"};
 };
 
-/// [movement]: a movement file of another program. Robots named in it need no [[robot]].
+/// [movement]: a movement file of another program. Robots named in the file need no [[robot]].
 /// read_scenario() reads the whole file once, so that every mistake is reported before the run;
 /// play() of experiment/movement_play.hpp moves the robots in the run.
 struct MovementTable {

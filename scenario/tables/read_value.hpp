@@ -43,7 +43,7 @@ void read_value(const Value& value, std::string_view key, BitRate& out);
 void read_value(const Value& value, std::string_view key, Duration& out);
 /// Reads a whole number of bytes from 0 B to 1 MB.
 void read_value(const Value& value, std::string_view key, Bytes& out);
-/// Reads a position: a list of two or three lengths; z is 0 if it is not given.
+/// Reads a position: a list [x, y] or [x, y, z] of lengths; a missing z is 0.
 void read_value(const Value& value, std::string_view key, Vec3& out);
 /// Reads a point of an antenna pattern: a list of two numbers, degrees and dB.
 void read_value(const Value& value, std::string_view key, PatternPoint& out);
@@ -92,12 +92,12 @@ void read_value(const Value& value, std::string_view key, std::optional<T>& out)
     out = std::move(present);
 }
 
-/// Value of a scenario file for a C++ value, with its unit if it has one. read_value() reads the
-/// same C++ value from it.
+/// Converts a C++ value to a value of a scenario file, with its unit if it has one. read_value()
+/// converts the result back to the same C++ value.
 Value to_value(bool v);
 Value to_value(int v);
 Value to_value(std::uint64_t v);
-/// Value of a scenario file for a number without a unit, or for a text.
+/// Converts a number without a unit, or a text, to a value of a scenario file.
 Value to_value(double v);
 Value to_value(const std::string& v);
 /// Text of a quantity with its unit, if possible in a unit in which the number is whole.

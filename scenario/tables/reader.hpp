@@ -10,7 +10,8 @@
 #include <utility>
 #include <vector>
 
-// Reader of tables. A mistake is an InputError with file, line and column:
+// Reader of the tables of a scenario file. A mistake in the file causes an InputError with file,
+// line and column:
 //
 //     TableReader table(value, "[radio]");
 //     table.read_fields(radio);
@@ -38,7 +39,7 @@ class TableReader {
     /// Value of `key`, or null if the table lacks the key. reject_unknown() accepts the key from
     /// now on.
     const Value* take(std::string_view key);
-    /// Reads `key` if it is present. @return whether it is present
+    /// Reads the value of `key` if the key is present. @return whether the key is present
     /// @param out    unchanged if the key is missing
     /// @param range  allowed range of the number
     /// @throws InputError for a wrong type or a number outside the range
@@ -99,7 +100,8 @@ class TableReader {
     std::vector<std::string> known_;
 };
 
-/// Appends one field of a struct to a table, as an entry `name`. An empty optional is omitted.
+/// Appends an entry to a table: the key `name` with the value `member`, a field of a struct. An
+/// empty optional is omitted.
 template <class M>
 void append_field(Table& table, std::string_view name, const M& member) {
     if constexpr (requires { member.has_value(); }) {

@@ -20,7 +20,7 @@ namespace rovernet {
 /// protocols. make() returns the protocol for Network::route().
 using RoutingTable = ModelChoice<RoutingProtocols, Router>;
 
-/// Names of roles that robots may have, see RouterTraits::roles: those of the chosen protocol.
+/// Names of the roles that robots may have in the chosen routing protocol, see RouterTraits::roles.
 inline std::vector<std::string> roles_of(const RoutingTable& routing) {
     std::vector<std::string> roles;
     routing.for_each([&]<class M>(const M&, bool chosen) {
@@ -30,8 +30,8 @@ inline std::vector<std::string> roles_of(const RoutingTable& routing) {
     });
     return roles;
 }
-/// Names of roles of all listed protocols: the key `role` of a robot may stand in a file that
-/// chooses another protocol.
+/// Names of the roles of all routing protocols. The key `role` of a robot may have any of these
+/// values, whatever protocol the file chooses.
 inline std::vector<std::string> all_roles() {
     std::vector<std::string> roles;
     RoutingTable::for_each_type([&]<class M>() {

@@ -15,7 +15,7 @@ namespace rovernet {
 /// each other, or two range finders of the same name
 std::vector<Scanner> read_scanners(const Value& value);
 
-/// Value from which read_scanners() reads the same range finders: a table, or a list of tables.
+/// Converts range finders to a table, or to a list of tables: the inverse of read_scanners().
 /// @param scanners  at least one
 Value scanners_document(const std::vector<Scanner>& scanners);
 

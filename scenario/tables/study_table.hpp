@@ -40,7 +40,8 @@ struct Warmup {
     /// Duration of the warm-up [ns], from the start of the run. Messages sent during the warm-up
     /// are not counted.
     Duration given{0};
-    /// True if the rule MSER-5 computes the warm-up of each run; then `given` is not used.
+    /// True if the rule MSER-5, which detects the initial transient of a time series, computes the
+    /// warm-up of each run; then `given` is not used.
     bool mser5 = false;
 };
 
@@ -72,9 +73,9 @@ struct StudyTable {
     /// Combinations of values that the study skips.
     std::vector<Exclusion> exclude;
 
-    /// Method of confidence intervals to use: `interval` if it is given, or else betting if
-    /// `precision` is given, since only betting stays valid when runs are added until a precision
-    /// is reached. None: the default method of each metric.
+    /// Method of confidence intervals to use: `interval` if it is given, or else the method betting
+    /// if `precision` is given. Reason: only intervals by betting stay valid when runs are added
+    /// until a precision is reached. None: the default method of each metric.
     std::optional<IntervalMethod> interval_wish() const {
         if (interval || !precision) return interval;
         return IntervalMethod::betting;
@@ -101,7 +102,8 @@ struct StudyTable {
 /// @throws InputError at the first mistake
 StudyTable read_study(const Value& value, Duration duration);
 
-/// Table from which read_study() reads the same study, with every range expanded to a list.
+/// Converts a study to a table [study], with every range expanded to a list: the inverse of
+/// read_study().
 Table study_document(const StudyTable& study);
 
 }  // namespace rovernet

@@ -41,8 +41,8 @@ struct TrafficTable {
     std::string from;
     /// Name of the robot to which unicasts are sent.
     std::optional<std::string> to;
-    /// Hop limit of the messages. 1: they go over one hop, without the routing protocol. None: the
-    /// routing protocol forwards the messages if it can, see Network::send.
+    /// Hop limit of the messages. 1: the messages are sent over one hop, without the routing
+    /// protocol. None: the routing protocol forwards the messages if it can, see Network::send.
     std::optional<int> hops;
     /// True for a saturated source: the next message is queued as soon as the previous one is sent.
     /// Requires a medium access model.
@@ -63,7 +63,7 @@ struct TrafficTable {
     Location from_where = {}, to_where = {}, hops_where = {}, payload_where = {};
 };
 
-/// Range of `size` in [[traffic]] and reactions.
+/// Allowed message sizes [bytes]: range of the key `size` of [[traffic]] and of reactions.
 inline constexpr Range sizes_of_messages{
     .low = 0,
     .high = longest_message,

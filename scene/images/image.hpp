@@ -10,8 +10,9 @@ namespace rovernet {
 
 /// Image with 8 bits per channel; row 0 is the top row.
 ///
-/// Samples of a pixel are consecutive: gray; gray, alpha; red, green, blue; or red, green, blue,
-/// alpha. Alpha 255 is opaque. Values are as stored in the file: no gamma correction.
+/// The samples of a pixel are consecutive. The channels are gray (1 channel), gray and alpha (2),
+/// red, green and blue (3), or red, green, blue and alpha (4). Alpha 255 is opaque. Values are as
+/// stored in the file: no gamma correction.
 struct Image {
     int width = 0;                      ///< width [pixels]
     int height = 0;                     ///< height [pixels]

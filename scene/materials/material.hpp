@@ -20,7 +20,8 @@ struct Material {
     /// Loss of each crossing of a wall [dB], independent of the length inside the wall.
     std::optional<Db> per_crossing = std::nullopt;
     std::optional<DbPerMeter> per_metre = std::nullopt;  ///< loss per length inside [dB/m], >= 0
-    std::optional<ItuMaterial> slab = std::nullopt;      ///< ITU material of the slab with the loss
+    /// Material of ITU-R P.2040: the loss of a crossing is that of a slab of this material.
+    std::optional<ItuMaterial> slab = std::nullopt;
     Meters thickness{0};  ///< thickness of the slab [m], > 0, independent of the drawn thickness
     Meters height{std::numeric_limits<double>::infinity()};  ///< height of the wall [m]
 
@@ -34,7 +35,8 @@ struct WallRate {
     double per_metre = 0;     ///< loss per metre inside [dB/m]
 };
 
-/// Losses of wall crossings, separate for light (thin) and heavy (thick) walls by drawn thickness.
+/// Tables of the losses of wall crossings by material: one for light (thin) walls, and one for
+/// heavy (thick) walls. The drawn thickness of a wall determines its table.
 struct WallRates {
     std::vector<WallRate> light;  ///< losses by material, of walls thinner than thinnest_heavy
     std::vector<WallRate> heavy;  ///< losses by material, of walls from thinnest_heavy on
@@ -42,7 +44,7 @@ struct WallRates {
 };
 
 /// Loss of a wall of `material` at `frequency`. If the material gives no loss, the loss is
-/// `usual_per_metre` [dB/m], which is that of the propagation model.
+/// `usual_per_metre` [dB/m], the wall loss of the propagation model.
 WallRate wall_rate(const Material& material, Hertz frequency, double usual_per_metre);
 
 /// One passage of a segment a-b (the direct path between two points) through a wall.

@@ -37,9 +37,9 @@ struct Permittivity {
     double imaginary;  ///< sigma / (2 pi f eps_0) [-], > 0 for a lossy material
 };
 
-/// Complex relative permittivity of a material: eps_r = a f^b and sigma = c f^d [S/m], f in GHz;
-/// extrapolated beyond the table's range (1-100 GHz for most materials). Source: ITU-R P.2040-3,
-/// table 3 and eq. 28.
+/// Complex relative permittivity of a material: eps_r = a f^b and conductivity sigma = c f^d [S/m],
+/// with f in GHz and the constants a to d of the source's table. Values are extrapolated beyond the
+/// table's range (1-100 GHz for most materials). Source: ITU-R P.2040-3, table 3 and eq. 28.
 Permittivity permittivity(ItuMaterial material, Hertz frequency);
 
 /// Losses [dB] of a plane wave at a flat slab in air, for the transmitted and for the reflected

@@ -13,7 +13,7 @@ struct SlabFields {
     /// Transmitted field, relative to the field without the slab, without the factor e^-decay.
     math::Complex transmitted;
     /// Decay of the transmitted field [Np], >= 0: the field is e^-decay times `transmitted`. The
-    /// decay is stored separately, since it is thousands of decibels in a sheet of metal.
+    /// decay is stored separately, since a sheet of metal has a decay of thousands of decibels.
     double decay;
     /// Field reflected by the slab.
     math::Complex reflected;

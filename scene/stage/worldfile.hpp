@@ -35,7 +35,7 @@ struct WorldEntity {
     std::vector<WorldEntity> children = {};
     Location where = {};
 
-    /// Last property of that name; null if there is none.
+    /// Last property with the name `name`; null if there is none.
     const WorldProperty* find(std::string_view name) const;
 };
 

@@ -36,7 +36,7 @@ enum class Priority : std::uint8_t {
 /// structure.
 ///
 /// A key has 16 bytes: the time [ns], and 4 bits priority | 36 bits sequence | 24 bits slot. The
-/// slot is the index of the event's payload in the Scheduler; it does not affect the order.
+/// slot is the index of the event's payload in the Scheduler, and does not affect the order.
 class EventKey {
   public:
     /// Default key, later than the key of every event; the top of an empty queue.
@@ -93,10 +93,10 @@ struct LineAllocator {
 /// Priority queue of keys: a 4-ary heap, in which every node has up to four children. A push
 /// compares the key with at most log4(n) keys, a pop with about 3 log4(n).
 ///
-/// The four children of a node lie in one cache line, and the least of them is found without a
-/// branch; there are half as many levels as in a binary heap. EventQueue uses an EventHeap for the
-/// few keys that are too late for its sorted lines, and for all keys but ends of frames while few
-/// events are pending.
+/// The four children of a node lie in one cache line, and the smallest of the four is found without
+/// a branch; there are half as many levels as in a binary heap. EventQueue uses an EventHeap for
+/// the few keys that are too late for its sorted lines, and for all keys but ends of frames while
+/// few events are pending.
 ///
 /// All keys in a heap must differ.
 class EventHeap {
@@ -105,7 +105,7 @@ class EventHeap {
     bool empty() const { return end_ == root; }
     /// Number of keys in the heap.
     std::size_t size() const { return end_ - root; }
-    /// Least key; the default key if the heap is empty.
+    /// Smallest key, that of the earliest event; the default key if the heap is empty.
     EventKey top() const { return keys_[root]; }
 
     /// Adds a key. Memory grows by doubling, as in a std::vector.
@@ -130,7 +130,7 @@ class EventHeap {
     static constexpr std::size_t line = 4;
     using Keys = std::vector<EventKey, LineAllocator<EventKey>>;
 
-    // Moves the hole towards the root until `key` can be stored there.
+    // Moves the empty place `hole` towards the root until `key` can be stored in it.
     void sift_up(std::size_t hole, EventKey key);
 
     // Keys by index; the entries before the root are not used.

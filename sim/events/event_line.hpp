@@ -26,7 +26,7 @@ class EventLine {
     bool empty() const { return front() == EventKey{}; }
     /// Number of keys, without the removed ones.
     std::size_t size() const { return keys_.size() - 1 - front_; }
-    /// Least key; the default key if the line is empty.
+    /// Smallest key, that of the earliest event; the default key if the line is empty.
     EventKey front() const { return keys_[front_]; }
 
     /// Inserts a key, unless more than 8 stored keys come after it.
@@ -72,7 +72,7 @@ class EventLine {
 
     // Keys, sorted from front_ on; the default key is the last entry.
     std::vector<EventKey> keys_ = std::vector<EventKey>(1);
-    // Index of the least key; the keys before it were removed.
+    // Index of the smallest key; the keys before it were removed.
     std::size_t front_ = 0;
 };
 

@@ -41,7 +41,7 @@ class EventQueue {
     bool empty() const { return top_ == EventKey{}; }
     /// Number of keys in the queue.
     std::size_t size() const { return near_.size() + heap_.size() + filed_ + ends_.size(); }
-    /// Least key; the default key if the queue is empty.
+    /// Smallest key, that of the earliest event; the default key if the queue is empty.
     EventKey top() const { return top_; }
 
     /// Adds a key, which must differ from all stored keys.
@@ -117,7 +117,7 @@ class EventQueue {
     static Rank above(std::size_t level, Rank rank) {
         return rank & ~((Rank{16} << 4 * level) - 1);
     }
-    // Bucket of a rank, by the highest digit in which it differs from the base.
+    // Bucket of a rank, by the highest digit in which the rank differs from the base.
     static Place place(Rank rank, Rank base);
 
     // Sets top_, after filling near_ if near_ and heap_ are empty.
@@ -139,7 +139,7 @@ class EventQueue {
     std::size_t filed_below(std::size_t level) const;
     // Sets a base before all keys in buckets, and moves the keys whose bucket changes.
     void lower_base(Rank base);
-    // Bucket with the earliest keys; there must be one.
+    // Bucket with the earliest keys; at least one bucket must have keys.
     Place nearest() const;
     // Empties a bucket and returns its keys; the caller then owns their chunks.
     Bucket take(Place place);
@@ -148,7 +148,7 @@ class EventQueue {
     // Adds a chunk to the free chunks.
     void free_chunk(std::uint32_t chunk);
 
-    // Empties a bucket and calls use(key) for its keys, which may file them again.
+    // Empties a bucket and calls use(key) for each of its keys; use() may file the key again.
     template <class Use>
     void empty_bucket(Place place, Use use) {
         Bucket bucket = take(place);
@@ -173,8 +173,8 @@ class EventQueue {
     EventKey top_;
     // Ends of frames, except those that precede many stored ends, which are among the other keys.
     EventLine ends_;
-    // Other keys: up to near_end_ in near_ or heap_, later ones in the bucket given by place(). If
-    // near_ and heap_ are empty, the buckets are, too.
+    // Other keys: keys up to near_end_ are in near_ or heap_, later keys in the bucket given by
+    // place(). If near_ and heap_ are empty, all buckets are empty.
     EventLine near_;
     EventHeap heap_;
     // Largest rank of the keys in near_ and heap_.
@@ -187,7 +187,7 @@ class EventQueue {
     std::size_t filed_ = 0;
     // Bit mask of the levels that have keys.
     std::uint32_t used_levels_ = 0;
-    // First chunk of the chain of free chunks.
+    // Index in chunks_ of the first free chunk; free chunks form a chain by Chunk::next.
     std::uint32_t free_ = none;
     // Bit mask of the non-empty buckets, for each level.
     std::array<std::uint16_t, levels> used_digits_{};

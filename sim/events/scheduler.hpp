@@ -101,7 +101,7 @@ class Scheduler {
         return true;
     }
 
-    /// Removes the next event and returns it; there must be one.
+    /// Removes the next event and returns this event; an event must be queued.
     Event pop() {
         assert(!empty());
         const Key key = queue_.top();
@@ -119,7 +119,7 @@ class Scheduler {
     std::optional<Time> next_time() const {
         return empty() ? std::nullopt : std::optional(queue_.top().time());
     }
-    /// Payload of the next event; there must be one.
+    /// Payload of the next event; an event must be queued.
     const Payload& next() const { return slots_[queue_.top().slot()].payload; }
     /// Whether an event with this key would be served before all queued events.
     bool runs_before_next(Key key) const { return key < queue_.top(); }

@@ -18,34 +18,36 @@ namespace rovernet {
 /// CPU cost of a candidate model, measured on this machine. No decision depends on the cost.
 struct CandidateCost {
     double run_s = 0;  ///< median CPU time of a run [s]; 0: not measured
-    /// CPU time of the simulated medium for each transmission [s]: median, lowest and highest of
-    /// the measurement turns.
+    /// CPU time of the simulated medium for each transmission [s]: median, lowest and highest value
+    /// over the measurement turns.
     std::optional<double> transmission_s, low_s, high_s;
     std::optional<double> share;  ///< approximate share of the medium in a run's CPU time [-]
 };
 
-/// Models that differ between a candidate and the reference.
+/// Kind of models in which a candidate differs from the reference: path loss model, reception
+/// model, or both.
 enum class AdviceStep { path_loss, reception, both };
 
 /// Candidate (a path loss and a reception model) with its verdict against the reference.
 struct JudgedCandidate {
     AdviceStep step{};
-    std::size_t path_loss, reception;  ///< indices into the lists of AdviceCandidates
+    std::size_t path_loss, reception;  ///< indices of the two models in AdviceCandidates
     std::string name;                  ///< name of the candidate: "log_distance + sinr"
     CandidateDecision decision;
-    /// False: a cheaper candidate is sufficient, so that the choice does not depend on this one.
+    /// False: a cheaper candidate is sufficient, so that the choice does not depend on this
+    /// candidate.
     bool needed = true;
-    /// Mean of D and mean of |D|, in the metric's unit, with D = value of the candidate - value of
-    /// the reference in one replication.
+    /// Mean of D and mean of |D|, in the metric's unit. D is the value of the candidate minus the
+    /// value of the reference in one replication.
     double bias = 0, run_error = 0;
-    /// Confidence intervals of `bias` and of `run_error`, each alone at the confidence 1 -
-    /// DecisionRule::alpha.
+    /// Confidence intervals of `bias` and of `run_error`. Each interval by itself has the
+    /// confidence level 1 - DecisionRule::alpha.
     std::optional<MeanInterval> bias_interval, run_error_interval;
     CandidateCost cost;
 };
 
-/// Advice on a scenario: the cheapest path loss and reception models whose results equal the
-/// reference's within the tolerance.
+/// Advice on a scenario: the cheapest path loss and reception models whose results differ from
+/// those of the reference by at most the tolerance.
 struct Advice {
     std::string metric;
     DecisionRule rule;
@@ -57,18 +59,19 @@ struct Advice {
     std::vector<JudgedCandidate> judged;
     std::size_t path_loss, reception;  ///< indices of the chosen models
     std::size_t replications = 0;      ///< number of replications of the reference
-    /// True: the comparison was stopped before all necessary verdicts; the choice is preliminary.
+    /// True: the comparison was stopped before all necessary verdicts, so that the choice is
+    /// preliminary.
     bool stopped = false;
     CandidateCost reference_cost;
     std::string cost_text = {};  ///< text on how costs were measured; empty: not measured
 
     /// Whether the advice was stopped before any candidate was compared.
     bool knows_nothing() const;
-    /// Judged candidate that has both chosen models; null: the reference was chosen.
+    /// Judged candidate that has both chosen models; null if both are the models of the reference.
     const JudgedCandidate* chosen() const;
-    /// Whether the reference costs hardly more than the choice: the medium takes at most 5 % of the
-    /// reference's CPU time, or runs of the choice need more than 9/10 of the reference's CPU time.
-    /// False if costs were not measured, or if the reference was chosen.
+    /// Whether the reference costs hardly more CPU time than the choice. True if the medium takes
+    /// at most 5 % of the reference's CPU time, or runs of the choice need more than 9/10 of the
+    /// reference's CPU time. False if costs were not measured, or if the reference was chosen.
     bool saves_nothing() const;
 };
 
@@ -84,9 +87,10 @@ using MakeRuns = std::function<bool(const std::vector<std::uint32_t>& replicatio
 /// `rule.most` replications counts as insufficient. If the pair of chosen models is insufficient,
 /// the chosen path loss is combined with the reference's reception.
 ///
-/// Candidates that need few more replications come first: a block contains the candidates whose
-/// predicted number of replications is at most 4 times the least. A candidate with 100 replications
-/// and a prediction above `rule.most` gets no more runs: its error is too close to the tolerance.
+/// Candidates that need few more replications come first. A block contains the candidates whose
+/// predicted number of replications is at most 4 times the least predicted number. A candidate with
+/// 100 replications and a prediction above `rule.most` gets no more runs, since its error is too
+/// close to the tolerance.
 ///
 /// The advice depends on results only, not on the number of workers, the speed of the machine or
 /// the initial content of the store, unless make_runs() stops it.
@@ -94,9 +98,9 @@ using MakeRuns = std::function<bool(const std::vector<std::uint32_t>& replicatio
 Advice advise(const AdviceCandidates& candidates, const Store& store, const std::string& metric,
               const DecisionRule& rule, const MakeRuns& make_runs);
 
-/// Number of replications at the end of the next block, if n replications exist: n + 10, or 5/4 n
-/// if that is larger, but at most `most`. Blocks are small, since runs after a verdict within a
-/// block are wasted.
+/// Number of replications at the end of the next block (group of runs made together), if n
+/// replications exist: n + 10, or 5/4 n if that is larger, but at most `most`. Blocks are small,
+/// since runs after a verdict within a block are wasted.
 std::size_t next_block(std::size_t n, std::size_t most);
 
 }  // namespace rovernet

@@ -17,11 +17,12 @@
 
 namespace rovernet {
 
-/// Request of a user: models that may be candidates, and changes of the reference.
+/// Request of a user to `rovernet advise`: models that may be candidates, and changes of the
+/// reference.
 struct CandidateQuestion {
-    /// Names of propagation models or of candidates. If empty: on a map, all models less detailed
-    /// than the reference (earlier in the list of models); on an open field, all models that need
-    /// no map.
+    /// Names of propagation models or of candidates. If empty on a map: all models less detailed
+    /// than the reference (earlier in the list of models). If empty on an open field: all models
+    /// that need no map.
     std::vector<std::string> models;
     /// Assignments "propagation.KEY=VALUE" and "reception.KEY=VALUE" that change the reference.
     std::vector<std::string> reference;
@@ -31,12 +32,13 @@ struct CandidateQuestion {
 
 /// Propagation or reception model that is a candidate.
 struct CandidateModel {
-    /// Name of the candidate, such as "log_distance"; for a cheaper form of the reference also the
-    /// changed keys: "rays order=1 diffraction=none".
+    /// Name of the candidate, such as "log_distance". If the candidate is a cheaper form of the
+    /// reference, the name includes the changed keys: "rays order=1 diffraction=none".
     std::string name;
     std::string model;  ///< name of the model in the list of models
     Table table;        ///< complete table [propagation] or [reception] of a scenario file
-    /// Text of fitted parameters, "exponent 2.91, excess 3.2 dB"; empty: none is fitted.
+    /// Text of fitted parameters, such as "exponent 2.91, excess 3.2 dB"; empty: no parameter is
+    /// fitted.
     std::string fitted;
     std::string note;  ///< reason why the fit failed; empty: no failure
 };
@@ -46,8 +48,9 @@ struct CandidateModel {
 /// not a choice of model detail.
 struct AdviceCandidates {
     std::vector<CandidateModel> path_losses, receptions;
-    /// Number of the study's point for each pair of path loss and reception; none for incompatible
-    /// models, such as `disc` (which has no levels) with the reception `sinr`.
+    /// Number of the study point for each pair of path loss and reception model, as [path
+    /// loss][reception]. None for incompatible models, such as `disc` (which has no levels) with
+    /// the reception `sinr`.
     std::vector<std::vector<std::optional<std::uint32_t>>> points;
     /// Path loss models that are compatible with none of the reception models, as texts
     /// "NAME: REASON".
@@ -56,11 +59,12 @@ struct AdviceCandidates {
 
     std::size_t reference_path_loss() const { return path_losses.size() - 1; }
     std::size_t reference_reception() const { return receptions.size() - 1; }
-    /// Most detailed reception that is compatible with a path loss; mostly the reception of the
-    /// reference.
+    /// Most detailed reception model that is compatible with a path loss model, as an index; mostly
+    /// the reception model of the reference.
     std::size_t reception_of(std::size_t path_loss) const;
-    /// Number of pairs of models that may be compared: all pairs but the reference. The probability
-    /// of a false verdict is divided among them, since any of them may be chosen.
+    /// Number of pairs of models that may be compared: all pairs except the reference. The
+    /// probability of a false verdict is divided among these pairs, since any of them may be
+    /// chosen.
     std::size_t family() const;
     /// Name of a pair of models: "log_distance + sinr".
     std::string name_of(std::size_t path_loss, std::size_t reception) const;
@@ -71,10 +75,10 @@ struct AdviceCandidates {
     std::vector<Exclusion> exclude() const;
 };
 
-/// Candidates for a scenario. Unless `question` changes the reference, it has the reception `sinr`
-/// and this path loss: on a map `rays` (order 3, diffraction utd), on a map of several storeys
-/// `multi_wall`, on an open field `two_ray` (form exact). Free parameters of the other models are
-/// fitted to the reference, see calibrate_to_model().
+/// Candidates for a scenario. Unless `question` changes the reference, the reference has the
+/// reception `sinr` and this path loss: on a map `rays` (order 3, diffraction utd), on a map of
+/// several storeys `multi_wall`, on an open field `two_ray` (form exact). Free parameters of the
+/// other models are fitted to the reference, see calibrate_to_model().
 /// @param tell  called with the finished share of the fit, 0 ... 1; may be empty
 /// @throws InputError if the file is invalid, if an option names an unknown model, or if the
 ///         reference is invalid in the scenario

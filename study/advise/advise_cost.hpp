@@ -14,10 +14,10 @@ namespace rovernet {
 /// Advice::reference_cost and cost_text:
 ///
 /// - CPU time of the medium alone, for the transmissions of replication 0 of the reference. Path
-///   losses are measured in turns. The time does not depend on the reception.
+///   losses are measured in turns. This time does not depend on the reception model.
 /// - CPU time of whole runs of a few replications, without path planning. Candidates are measured
-///   in turns. The time includes the cost of the reception.
-/// @param stopped  called now and then; returning true ends the measurement without filling in
+///   in turns. This time includes the cost of the reception model.
+/// @param stopped  called repeatedly; returning true ends the measurement without costs
 void add_costs(Advice& advice, Study& study, const std::function<bool()>& stopped);
 
 /// Advice as sentences for the user: recommended models, confidence, saved CPU time, and undecided

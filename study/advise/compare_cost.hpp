@@ -13,7 +13,7 @@ namespace rovernet {
 /// detailed model. Fills in ComparedModel::cost, ComparedModel::radio_share and
 /// Comparison::cost_text. These members stay empty if that replication fails or has no frames.
 /// @param study    study whose points are the compared models
-/// @param stopped  called now and then; returning true ends the measurement without filling in
+/// @param stopped  called repeatedly; returning true ends the measurement without costs
 void add_costs(Comparison& comparison, Study& study, const Store& store,
                const std::function<bool()>& stopped);
 

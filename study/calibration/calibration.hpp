@@ -18,22 +18,24 @@
 
 namespace rovernet {
 
-/// Propagation model with its parameters fitted to links of known loss, and its errors.
+/// Propagation model, its parameters fitted to links of known loss, and its prediction errors.
 struct CalibratedModel {
     std::string model;
     std::vector<FittedParameter> parameters;
     /// Tables for a scenario file: [propagation], and [radio] if the power was fitted.
     Table settings;
     PredictionErrors fitted;  ///< errors on the links to which the model is fitted
-    /// Errors by cross-validation: on each group of links, with a fit to the links of all other
-    /// groups. None for a single group.
+    /// Errors by cross-validation: errors on each group of links, with a fit to the links of all
+    /// other groups. None if there is only one group.
     std::optional<PredictionErrors> left_out;
     std::optional<PredictionErrors> as_given;  ///< errors with the scenario's own parameters
     std::optional<PredictionErrors> checked;   ///< errors on independent links, by check()
     std::vector<WorstLink> worst;              ///< links with the five largest errors
-    std::vector<TransmitterGain> gains = {};   ///< fitted gains of transmitters; empty: equal
+    std::vector<TransmitterGain> gains = {};   ///< fitted gains of transmitters; empty: all gains
+                                               ///< are equal
     std::string failure;       ///< reason why the fit of the model failed; empty: no failure
     std::string refusal = {};  ///< reason not to use the fit, see refuse_absurd(); empty: usable
+                               ///< fit
 
     /// Whether the links determine at least one parameter of the model.
     bool is_fitted() const {
@@ -51,10 +53,11 @@ struct CalibratedModel {
 ///
 /// Standard errors by group (see KnownLink::group) are those of least_squares(). For the Tobit
 /// model, and for gains, they are computed by the jackknife over the groups. The fit of `disc` has
-/// none.
+/// no standard errors.
 ///
-/// With measured levels, powers and gains are only roughly known. Each model except `disc` then has
-/// a free constant: its parameter `excess`, or the radios' power if the model has no `excess`.
+/// With measured levels, transmit powers and antenna gains are only roughly known. Each model
+/// except `disc` then has a free constant: its parameter `excess`, or the radios' power if the
+/// model has no `excess`.
 /// @param decided_within  largest length [m] of links whose decisions (up or down) are counted
 /// @param gains           by_transmitter: with measured levels, each model except `disc` also has a
 ///                        free gain for each transmitter position, relative to the mean gain
@@ -64,31 +67,33 @@ std::vector<CalibratedModel> calibrate(const KnownLinks& known, const Scenario& 
                                        Gains gains = Gains::equal,
                                        const std::function<void(double)>& tell = {});
 
-/// Marks meaningless fits to measured levels by CalibratedModel::refusal: a power that differs from
-/// `given_power` by more than 30 dB; an excess beyond +-30 dB; an error above 20 dB; an error both
-/// above twice the error of the fitted free-space model and more than 3 dB above it.
+/// Marks meaningless fits to measured levels by CalibratedModel::refusal:
+/// - a power that differs from `given_power` by more than 30 dB
+/// - an excess beyond +-30 dB
+/// - an error above 20 dB
+/// - an error more than twice that of the fitted free-space model, and more than 3 dB above it
 void refuse_absurd(std::vector<CalibratedModel>& models, Dbm given_power);
 
-/// Standard error [dB] of the loss that a fitted log_distance model predicts at the distance at
-/// which this loss equals the mean link budget. A small error shows that the number of links
-/// suffices for a fit. NaN with one group.
+/// Standard error [dB] of the loss that a fitted log_distance model predicts. It is computed at the
+/// distance at which the predicted loss equals the mean link budget. A small error shows that the
+/// number of links suffices for a fit. NaN with one group.
 double loss_error_at_budget(const KnownLinks& known, const Scenario& scenario);
 
 /// Links of known loss in a scenario, and the propagation models calibrated to the links.
 struct Calibration {
-    std::string reference;  ///< name of the reference model; empty: measured levels
+    std::string reference;  ///< name of the reference model; empty: fitted to measured levels
     KnownLinks known;
     /// Largest length [m] of links whose decisions (link up or down) are counted.
     Meters decided_within = Propagation::anything;
     std::vector<CalibratedModel> models;
     /// Standard error of the loss at the link budget [dB], see loss_error_at_budget().
     double loss_error = 0;
-    /// Largest loss error [dB] at which the number of links is sufficient.
+    /// Largest `loss_error` [dB] at which the number of links is considered sufficient.
     static constexpr double enough = 0.5;
 };
 
-/// Excess of a path loss over the link budget [dB]: no radio receives over a link with a larger
-/// excess.
+/// Excess of a path loss over the link budget [dB] at which links are certainly down. No radio
+/// receives over a link with a larger excess.
 inline constexpr Db beyond_radio{20};
 
 /// Copy of links in which large losses are censored: a link with a loss above budget + `beyond` is

@@ -21,9 +21,12 @@ struct DiscFit {
 };
 
 /// Fits the range of a disc model for the fewest wrong decisions (link up or down). Among equally
-/// good ranges, ordered by the number of links within, the lower median is chosen. The range is the
-/// geometric mean of the distances of the farthest link within the range and the nearest link
-/// beyond; half the nearest distance if no link is within; the farthest distance if all links are.
+/// good ranges, ordered by the number of links within the range, the lower median is chosen. The
+/// range is
+/// - half the nearest distance, if no link is within the range
+/// - the farthest distance, if all links are within the range
+/// - otherwise the geometric mean of the distances of the farthest link within and the nearest
+///   link beyond the range
 /// @param links  links in any order; links of equal distance keep their order
 /// @throws std::invalid_argument without a link, or if a distance is not > 0 and finite
 DiscFit fit_disc(std::vector<DiscLink> links);

@@ -22,36 +22,37 @@ namespace rovernet {
 /// Link whose path loss is known, by a measurement or by a reference model.
 struct KnownLink {
     std::string name;        ///< name of the link for reports: end points and time, or file line
-    std::string place = {};  ///< label of the antennas' positions, equal for levels measured at the
-                             ///< same positions; empty: not measured
+    std::string place = {};  ///< label of the antennas' positions, equal for levels measured at
+                             ///< equal positions; empty if the loss is not measured
     Vec3 from, to;           ///< positions of the antennas [m]
     Hertz frequency;
-    /// Random-draw keys of the end points, and replication number, for propagation models with
-    /// random draws.
+    /// Keys of the two end points for random draws, and replication number. Propagation models with
+    /// random draws use them.
     std::uint64_t from_key = 0, to_key = 0;
     std::uint32_t replication = 0;
-    /// Number of the link's group: links with dependent errors, of one replication or one receiver.
+    /// Number of the link's group. The links of a group have dependent errors: links of one
+    /// replication, or of one receiver.
     std::uint32_t group = 0;
-    /// Path loss [dB]; for an unseen link its lower bound.
+    /// Path loss [dB]; for an unseen link (nothing received) the lower bound of the path loss.
     double loss = 0;
     bool unseen = false;  ///< true: nothing was received, so that the path loss is above `loss`
-    /// Link budget [dB]: the link is up if the loss does not exceed it.
+    /// Link budget [dB]: largest path loss at which the link is up.
     double budget = 0;
 
     double distance() const { return rovernet::distance(from, to); }
     bool up() const { return !unseen && loss <= budget; }
 };
 
-/// Links of known loss in a scenario.
+/// Links of known loss in a scenario, with the data that propagation models need.
 struct KnownLinks {
     std::vector<KnownLink> links;
     std::size_t groups = 0;
     const char* group_name = "replication";  ///< kind of the groups of links, for reports
-    /// True if levels were measured, so that powers and gains may differ from the scenario.
+    /// True if levels were measured, so that real powers and gains may differ from the scenario.
     bool measured = false;
     /// True if receiver positions are known; false: KnownLink::to is meaningless.
     bool knows_receivers = true;
-    /// Scene (walls) in which the links are.
+    /// Scene (walls) that contains the links.
     std::shared_ptr<const Scene> scene;
     Meters floor_height;
     std::uint64_t seed = 0;
@@ -59,7 +60,7 @@ struct KnownLinks {
     double loss_by(const Propagation& model, const KnownLink& link) const;
 };
 
-/// First replication number that samples of links use; studies use smaller numbers.
+/// Smallest replication number that samples of links use. Studies use smaller numbers.
 inline constexpr std::uint32_t first_sampled_replication = 1'000'000;
 
 /// Size of a sample of links.
@@ -70,26 +71,27 @@ struct SampleSize {
     std::uint32_t first_replication = first_sampled_replication;
 };
 
-/// Sample of links between a scenario's robots, with losses by a reference model. At random times
-/// of replications (by default with numbers that no study uses), the sample takes all pairs of
-/// robots that are switched on and within the reference's range for a link budget raised by 20 dB.
-/// Pairs are selected by distance only, since a selection by loss would bias every fit. If the
-/// links are too many, every k-th link is taken.
+/// Sample of links between a scenario's robots, with losses by a reference model. The sample is
+/// taken at random times of replications, by default with numbers that no study uses. It takes all
+/// pairs of robots that are switched on and within the reference's range for a link budget raised
+/// by 20 dB. Pairs are selected by distance only, since a selection by loss would bias every fit.
+/// If the links are too many, every k-th link is taken.
 ///
 /// If robots react to messages, the scenario is run with its traffic, but with the faster model
 /// multi_wall instead of rays: only the robots' positions depend on these runs.
 ///
-/// Groups are replications, or senders if all replications are equal.
+/// Groups of links (see KnownLink::group) are replications, or senders if all replications are
+/// equal.
 /// @param tell  called with the finished share, 0 ... 1, of the runs, then of the computed losses;
 ///              may be empty
 /// @throws InputError, RunError as a run; InputError if no two robots are within range
 KnownLinks sample_links(const Scenario& scenario, const Propagation& reference,
                         const SampleSize& size, const std::function<void(double)>& tell = {});
 
-/// Sample of links of known loss that can grow. The sample for each number of replications is equal
-/// to that of sample_links(), but is computed from the sample for a smaller number. The reference
-/// model is evaluated once for each link; a reference without random draws only once for all links
-/// with equal end points.
+/// Sample of links of known loss that can grow. The sample for a number of replications equals that
+/// of sample_links(), but is computed from the sample for a smaller number. The reference model is
+/// evaluated once for each link. If the reference has no random draws, it is evaluated once for all
+/// links with equal end points.
 class LinkSample {
   public:
     /// @param size  largest number of links, and number of times in each replication; for
@@ -108,11 +110,12 @@ class LinkSample {
     std::unique_ptr<State> state_;
 };
 
-/// Receiver positions in a file of measured levels: required (known), or optional.
+/// Requirement on receiver positions in a file of measured levels: they must be known, or may be
+/// unknown.
 enum class Receivers { known, may_be_unknown };
 
-/// Measured levels as links of a scenario: a file of comma-separated values whose first line names
-/// the columns; lines that begin with # are comments.
+/// Measured levels as links of a scenario. The file has comma-separated values. Its first line
+/// names the columns; lines that begin with # are comments.
 ///
 ///   from_x_m, from_y_m, to_x_m, to_y_m   antennas [m]; from_z_m, to_z_m: 0 if not given
 ///   level_dbm                            received level [dBm]; empty: below `floor`
@@ -128,13 +131,16 @@ enum class Receivers { known, may_be_unknown };
 KnownLinks read_levels(const std::string& path, const Scenario& scenario, std::optional<Dbm> floor,
                        Receivers receivers = Receivers::known);
 
-/// Repeatability of measured levels: differences of levels measured again at the same positions.
+/// Repeatability of measured levels: statistics of differences between levels measured repeatedly
+/// at the same positions.
 struct Repeatability {
-    std::size_t levels = 0;  ///< number of repeated levels, without the first at each position
+    std::size_t levels = 0;  ///< number of repeated levels, without the first level at each
+                             ///< position
     double rms = 0;  ///< root mean square difference to the first level at the position [dB]
 
-    /// Standard deviation of the error of one level [dB], which even an exact model would show: the
-    /// difference of two levels with independent errors is sqrt(2) times as large.
+    /// Standard deviation of the error of one level [dB]: rms / sqrt(2), since the difference of
+    /// two levels with independent errors is sqrt(2) times as large. Even an exact model has this
+    /// error.
     double one_level() const { return rms / std::numbers::sqrt2; }
 };
 /// Repeatability of measured levels over two sets together. A level counts if either set has an

@@ -15,38 +15,40 @@
 
 namespace rovernet {
 
-/// Parameter with its fitted value.
+/// Parameter of a propagation model with its fitted value.
 struct FittedParameter {
     std::string key;           ///< key in [propagation]; "power" is a key of [radio]
     std::string unit;          ///< unit of the parameter; empty: a number without unit
-    bool is_constant = false;  ///< true: a term of the loss that is equal for all links
+    bool is_constant = false;  ///< true: the parameter is a constant term of the loss, equal for
+                               ///< all links
     double value = 0;  ///< fitted value, or the scenario's value if the links do not determine it
     bool determined = true;
-    bool at_bound = false;  ///< true: the value is fixed at 0, since the fit would be negative
+    bool at_bound = false;  ///< true: `value` is the bound 0, since a free fit would give a
+                            ///< negative value
     /// Standard errors of the fitted value, see Coefficient; NaN if the method gives none.
     double se_plain = 0, se_by_group = 0;
 };
 
-/// Fitted gains of transmitters: equal gains (part of the model's constant), or a gain for each
-/// transmitter.
+/// Choice of fitted transmitter gains: equal gains (part of the model's constant), or a separate
+/// gain for each transmitter.
 enum class Gains { equal, by_transmitter };
 
 /// Fitted gain of a transmitter, relative to the mean gain of all transmitters.
 struct TransmitterGain {
     Vec3 at;           ///< position of the transmitter's antenna [m]
-    Coefficient gain;  ///< gain relative to the mean of all transmitters [dB]
+    Coefficient gain;  ///< gain relative to the mean gain of all transmitters [dB]
 };
 
 /// Fitted parameters, and the tables of a scenario file that contain them.
 struct FittedSettings {
     std::vector<FittedParameter> parameters;
-    /// Table [propagation], and [radio] if the power was fitted.
+    /// Table [propagation] and, if the transmit power was fitted, table [radio].
     Table tables;
 };
 
 /// Fit of a propagation model, whose loss is linear in its free parameters, to links of known loss.
-/// The method is least squares in dB, or the Tobit model if some links are unseen. Parameters that
-/// no link determines keep their values.
+/// The method is least squares in dB, or the Tobit model (regression with censored values) if some
+/// links are unseen. Parameters that no link determines keep their values.
 class LinearCalibration {
   public:
     /// Fitted values of the determined parameters, with standard errors if the method has them.
@@ -54,7 +56,7 @@ class LinearCalibration {
         std::vector<Coefficient> coefficients;
         std::vector<bool> at_bound;
         double sigma = 0;  ///< standard deviation of the error of a loss [dB]
-        std::vector<TransmitterGain> gains = {};  ///< gain of each transmitter; empty: equal
+        std::vector<TransmitterGain> gains = {};  ///< gain of each transmitter; empty: equal gains
     };
 
     /// @throws InputError, std::invalid_argument if the model cannot be evaluated
@@ -64,7 +66,7 @@ class LinearCalibration {
     /// Fits the model to the links for which `takes` returns true.
     /// @throws std::invalid_argument if the links do not determine the parameters
     Solution fit(const std::function<bool(const KnownLink&)>& takes) const;
-    /// Predicted loss of known link i [dB], by a solution of fit().
+    /// Loss of known link i [dB] that the model predicts with a solution of fit().
     double predict(const Solution& solution, std::size_t i) const;
     FittedSettings settings(const Solution& solution) const;
 
@@ -79,7 +81,7 @@ class LinearCalibration {
     std::string model_;
     std::vector<FreeParameter> free_;
     std::vector<LinearLoss> losses_;
-    std::vector<std::size_t> used_;   // indices of free parameters that affect some link
+    std::vector<std::size_t> used_;   // indices in free_ of the parameters that affect some link
     std::vector<Vec3> transmitters_;  // positions of transmitters with free gains
     // Transmitter of each known link, as an index into transmitters_; empty: equal gains.
     std::vector<std::size_t> transmitter_;

@@ -18,44 +18,49 @@ namespace rovernet {
 
 /// Settings of a localisation by received levels.
 struct LocateQuestion {
-    /// Standard deviation of a level's error [dB]; none: standard deviation of the scenario's
-    /// shadowing.
+    /// Standard deviation of the error of a received level [dB]; none: that of the shadowing in the
+    /// scenario.
     std::optional<Db> sigma = {};
     bool knows_power = true;
     /// Margin [m] around the bounding box of the anchors (transmitters of known position). On an
-    /// open field, positions are searched in this extended box; with a map, on the whole map.
+    /// open field, positions are searched in the box extended by the margin. With a map, they are
+    /// searched on the whole map.
     Meters margin{0};
 };
 
-/// Position estimated from levels.
+/// Position of a robot, estimated from received levels.
 struct Fix {
     std::string name;                ///< name of the robot, or place in a file of levels
     std::optional<Time> at = {};     ///< simulated time of the estimate; none: from a file
-    std::size_t anchors = 0;         ///< number of anchors whose signal was received
+    std::size_t anchors = 0;         ///< number of anchors (known transmitters) that were received
     std::optional<Vec3> truth = {};  ///< true position [m]; none: unknown
     Vec3 found = {};                 ///< estimated position [m]
-    /// Lower bound of the rms error [m] at the true position, if known, or else at the estimate;
-    /// none if the anchors do not determine the position.
+    /// Lower bound of the rms position error [m] at the true position, or at the estimate if the
+    /// true position is unknown. None if the anchors (known transmitters) do not determine the
+    /// position.
     std::optional<Meters> bound = {};
 
-    /// Horizontal distance [m] between estimate and true position, if the latter is known.
+    /// Horizontal distance [m] between estimate and true position; none if the true position is
+    /// unknown.
     std::optional<double> error() const;
 };
 
 /// Result of a localisation. locate_robots() orders the fixes by time, then by robot.
 /// locate_levels() orders them by first occurrence of the place in the file.
 struct Located {
-    Db sigma{0};  ///< standard deviation of a level's error [dB], used for Fix::bound
+    Db sigma{0};  ///< standard deviation of the error of a level [dB], used for Fix::bound
     std::vector<Fix> fixes = {};
-    /// Number of positions without a fix, since fewer than three anchors were received.
+    /// Number of positions that were not estimated, since fewer than three anchors (known
+    /// transmitters) were received.
     std::size_t too_few = 0;
 
-    /// Root mean squares [m] of the errors and of the bounds, over the fixes that have both.
+    /// Root mean squares [m] of position errors and of their lower bounds, over the fixes that have
+    /// both error and bound.
     struct Errors {
         std::size_t fixes;
         double rms, bound;
     };
-    /// Root mean squares of errors and bounds; none if no fix has both.
+    /// Root mean squares of position errors and their bounds; none if no fix has both values.
     std::optional<Errors> errors() const;
 };
 
@@ -63,18 +68,19 @@ struct Located {
 /// possible positions.
 inline constexpr std::size_t fewest_anchors = 3;
 
-/// Locates all robots except the anchors, at given times of a scenario's run, by the levels that
-/// they receive from anchors. Levels include shadowing but no fading, as in `rovernet links`. The
-/// locator uses the scenario's propagation model, without knowing the shadowing.
-/// @param anchors  names of robots
+/// Locates all robots except the anchors (transmitters of known position), at given times of a
+/// scenario's run, by the levels that they receive from anchors. Levels include shadowing but no
+/// fading, as in `rovernet links`. The locator uses the scenario's propagation model, without
+/// knowing the shadowing.
+/// @param anchors  names of the robots that are anchors
 /// @throws InputError for an unknown robot, for an anchor with a directional antenna, or if neither
 ///         `question` nor the scenario gives the standard deviation of levels
 Located locate_robots(const Scenario& scenario, const std::vector<std::string>& anchors,
                       const std::vector<Time>& times, const LocateQuestion& question);
 
 /// Locates the receivers of a file of measured levels, see read_levels(). The senders are the
-/// anchors. Receiver positions in the file are the true positions; without them, the column `place`
-/// groups levels that were measured together.
+/// anchors. Receiver positions in the file are the true positions. If the file has no receiver
+/// positions, the column `place` groups levels that were measured together.
 /// @throws InputError if the file is invalid, or if neither `question` nor the scenario gives the
 ///         standard deviation of levels
 Located locate_levels(const std::string& path, const Scenario& scenario,

@@ -13,8 +13,8 @@
 
 namespace rovernet {
 
-/// Propagation model that displaces each antenna by `by` [m] for the whole run: east, north, west
-/// or south, chosen by the robot's key. Robots' movements do not change.
+/// Propagation model that displaces each antenna by `by` [m] for the whole run. The direction
+/// (east, north, west or south) is chosen by the robot's key. Robots' movements do not change.
 ///
 ///   Displaced{scenario.propagation.make(), Meters{0.01}}
 struct Displaced {
@@ -23,7 +23,7 @@ struct Displaced {
     Propagation model;
     Meters by{0};
 
-    /// Displacement [m] of the antenna of the robot with this key.
+    /// Displacement [m] of the antenna of the robot with the given key.
     Vec3 displacement(std::uint64_t key) const {
         const std::array<Vec3, 4> ways{
             {{by.value, 0}, {0, by.value}, {-by.value, 0}, {0, -by.value}}};

@@ -22,12 +22,12 @@ struct Perturbation {
     Meters moved{0};      ///< displacement of each antenna [m]; 0: the antennas are not displaced
     std::string nothing;  ///< reason why the scenario is not perturbed; empty: perturbed
 
-    /// Settings of a network for the perturbed scenario.
+    /// Settings of a Network for the perturbed scenario.
     /// @throws InputError as network_settings()
     NetworkSettings settings() const;
 };
 
-/// Perturbations of a scenario, in this order:
+/// Perturbations (small changes) of a scenario, in this order:
 ///
 ///   1 cm, 1 um                   each antenna is displaced by that much, see Displaced
 ///   resolution x2, x0.5          cells of the maps split in four, or four joined into one: see
@@ -36,10 +36,10 @@ struct Perturbation {
 ///   MATERIAL +3 dB, -3 dB        loss of a wall crossing changed, not below 0 dB; up to 8
 ///                                materials one by one, more materials all together
 ///
-/// A material with only a loss per metre changes by 3 dB at the median drawn thickness of its
-/// walls. Walls without a material change together, by the model's wall_factor, light_wall and
-/// heavy_wall. On an open field, or if the model ignores walls, only the first two perturbations
-/// exist. Maps with more than 16 million cells are not redrawn.
+/// If a material has only a loss per metre, this loss changes by 3 dB at the median drawn thickness
+/// of the material's walls. Walls without a material change together, by the model's wall_factor,
+/// light_wall and heavy_wall. On an open field, or if the model ignores walls, only the first two
+/// perturbations exist. Maps with more than 16 million cells are not redrawn.
 /// @param scenario  scenario with its walls loaded, as by load_scenario()
 std::vector<Perturbation> perturbations(const Scenario& scenario);
 

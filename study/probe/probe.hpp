@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-// Effect of each of the perturbations() on links and messages of a scenario. A result that a
+// Effect of small changes (perturbations) of a scenario on its links and messages. A result that a
 // perturbation changes depends on the drawing of the map or on exact positions.
 
 namespace rovernet {
@@ -25,8 +25,8 @@ struct ProbeSize {
     std::size_t messages = 100;  ///< largest number of message changes listed for each perturbation
 };
 
-/// Effect of one perturbation on a link. If the perturbation displaces an antenna, the displacement
-/// with the largest change of loss is listed.
+/// Effect of one perturbation on a link. If the perturbation displaces antennas, the effect is that
+/// of the displacement with the largest change of loss.
 struct LinkEffect {
     std::string link;          ///< name of the link: end points and time
     std::string perturbation;  ///< name, such as "resolution x2" or "1 cm east of the sender"
@@ -45,7 +45,7 @@ struct LinkEffect {
     /// Whether the loss changes by more than 0.5 dB per mm.
     bool is_cliff() const { return steepness() > cliff; }
 
-    static constexpr double cliff = 0.5;  // [dB/mm]
+    static constexpr double cliff = 0.5;  // limit above which a loss changes steeply [dB/mm]
 };
 
 /// Message that a robot received in only one of two runs (with and without a perturbation).
@@ -54,7 +54,7 @@ struct MessageEffect {
     std::uint32_t number;  ///< number of the message among the messages of `from`, from 0
     Time sent;
     std::string perturbation;
-    bool gained;  ///< true: received only with the perturbation; false: only without
+    bool gained;  ///< true: received only with the perturbation; false: only without it
 };
 
 /// Effect of one perturbation on all links and messages.
@@ -62,15 +62,16 @@ struct PerturbationEffect {
     std::string name;
     std::string nothing;       ///< reason why the scenario was not perturbed; empty: perturbed
     std::size_t changed = 0;   ///< number of links whose loss changes by more than 0.01 dB
-    std::size_t flips = 0;     ///< number of links that the perturbation turns up or down
-    double worst = 0;          ///< change of a link's loss that is largest in absolute value [dB]
+    std::size_t flips = 0;     ///< number of links that the perturbation switches up or down
+    double worst = 0;          ///< largest change of a link's loss by absolute value, with sign
+                               ///< [dB]
     double rms = 0;            ///< root mean square change of the loss [dB]
     double steepest = 0;       ///< largest change of the loss per displacement [dB/mm]
     std::uint64_t lost = 0;    ///< number of receptions that only the unperturbed run has
     std::uint64_t gained = 0;  ///< number of receptions that only the perturbed run has
 };
 
-/// Result of a probe: effects of small perturbations on a scenario's links and messages.
+/// Result of a probe: effects of small changes (perturbations) on a scenario's links and messages.
 struct Probe {
     std::string model;
     std::size_t links = 0;
@@ -79,10 +80,12 @@ struct Probe {
     Time until = start_of_run;  ///< [ns] end of the part of the run in which messages are compared
     bool whole_run = true;      ///< whether `until` is the end of the run
     std::vector<PerturbationEffect> perturbations;
-    /// Effects on links whose loss changes. First links with a change above 0.5 dB per mm, by
-    /// steepness; then links that go up or down, by change; then other links, by change.
+    /// Effects on links whose loss changes. Links with a change above 0.5 dB per mm come first,
+    /// sorted by steepness; then links that go up or down, sorted by change; then other links,
+    /// sorted by change.
     std::vector<LinkEffect> effects;
-    /// Messages received in only one of two runs, by perturbation, then in order of time.
+    /// Messages that a robot received in only one of two runs (with and without perturbation), by
+    /// perturbation, then in order of time.
     std::vector<MessageEffect> messages;
 };
 
@@ -91,8 +94,8 @@ struct Probe {
 /// wall. Then the scenario is run once unperturbed and once with each perturbation, with the same
 /// seed, to compare received messages.
 ///
-/// A propagation model of a single robot affects messages only; the antenna of such a robot is not
-/// displaced in these runs.
+/// If a single robot has its own propagation model, this model affects messages only. The antenna
+/// of such a robot is not displaced in the runs.
 /// @param scenario  scenario with its walls loaded, as by load_scenario()
 /// @param tell      called with the finished share, 0 ... 1; may be empty
 /// @throws InputError, RunError as a run; InputError if no two robots come within range

@@ -22,7 +22,8 @@ struct BoundedMean {
 /// as the interval is narrow. Its width is never 0.
 ///
 /// A candidate mean m is rejected when the wealth of bets on "the true mean is above m" becomes
-/// large. A gambler who stakes the share f of his wealth on each value has after n values
+/// large. A gambler who stakes the share f of his wealth on each value x1, x2, ... has after n
+/// values
 ///   W_f(m) = (1 + f (x1 / m - 1)) ... (1 + f (xn / m - 1)),
 /// which is never negative, and a fair game if m is the mean. The wealth W(m) is the average over
 /// 16 gamblers with f_k = (1 - cos((2 k - 1) pi / 32)) / 2, k = 1 ... 16: Jeffreys' prior on f. By
@@ -46,9 +47,10 @@ struct BoundedMean {
 BoundedMean bounded_mean(std::span<const double> values, const Bounds& bounds, double confidence);
 
 /// Estimated total number of replications after which bounded_mean() gives an interval of width 2 *
-/// wanted, if further values resemble the n given ones: the least N at which the wealth W(m) of the
-/// gamblers suffices at both ends, if each gambler's wealth keeps its growth rate. The estimate is
-/// rough: repeat it after more runs. The result is at least n; none if 10^9 would not suffice.
+/// wanted, if further values resemble the n given ones. This is the least N at which the wealth
+/// W(m) of the gamblers suffices at both ends, if each gambler's wealth keeps its growth rate. The
+/// estimate is rough: repeat it after more runs. The result is at least n; none if 10^9 would not
+/// suffice.
 /// @param  wanted  half-width > 0, in the metric's unit; other parameters as in bounded_mean()
 std::optional<std::size_t> bounded_mean_replications(std::span<const double> values,
                                                      const Bounds& bounds, double wanted,

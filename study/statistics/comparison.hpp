@@ -16,37 +16,39 @@ namespace rovernet {
 /// i gives the pair (ai, bi); the statistics use the differences ai - bi, in the metric's unit.
 struct PairedComparison {
     Summary difference;  ///< summary of the differences ai - bi; n >= 2
-    /// Probability that all intervals of the family cover their true values [-].
+    /// Probability [-] that the intervals of all `family` simultaneous comparisons cover their true
+    /// values.
     double confidence = 0;
     std::size_t family = 1;    ///< number of simultaneous comparisons, including this one
     double low = 0, high = 0;  ///< confidence interval for the true mean difference
-    IntervalMethod method{};   ///< method of interval and p
-    double p = 1;  ///< p-value of "the true mean difference is 0" [-], adjusted for the family
-    std::optional<double> detectable;  ///< least detectable difference, see compare_pairs()
+    IntervalMethod method{};   ///< method of the interval and of the p-value
+    double p = 1;  ///< p-value [-] of the hypothesis of equal means, times `family`, at most 1
+    std::optional<double> detectable;  ///< smallest detectable difference, see compare_pairs()
     std::size_t above = 0, below = 0;  ///< number of replications with ai > bi, and with ai < bi
-    /// p-value of the sign test [-], adjusted for the family; none with the method betting.
+    /// p-value of the sign test [-] (see compare_pairs()), adjusted for `family` comparisons; none
+    /// with the method betting.
     std::optional<double> sign_p;
     friend bool operator==(const PairedComparison&, const PairedComparison&) = default;
 
     bool found() const { return p <= 1 - confidence; }  ///< whether the interval excludes 0
     /// Whether the sign test is significant: values of one variant are more often above than below
-    /// values of the other variant in the same replication.
+    /// the values of the other variant in the same replication.
     bool direction_found() const { return sign_p && *sign_p <= 1 - confidence; }
 };
 
 /// Compares the pairs (ai, bi); none for fewer than 2 pairs.
 ///
-/// low, high: interval_of() the differences at confidence 1 - (1 - confidence) / family. With a
-///   probability of at least `confidence`, all intervals of the family cover their true values. If
-///   all differences are equal, t gives no interval, and both ends are that difference.
-/// p: the least 1 - confidence at which the interval excludes 0 (Bonferroni adjustment: p of the
+/// low, high: interval_of() for the differences at confidence 1 - (1 - confidence) / family. With a
+///   probability of at least `confidence`, the intervals of all `family` comparisons cover their
+///   true values. If all differences are equal, t gives no interval, and both ends are that value.
+/// p: the smallest 1 - confidence at which the interval excludes 0 (Bonferroni adjustment: p of the
 ///   single comparison times the family, at most 1). By t it is the p-value of the two-sided
 ///   paired t-test: with s the standard deviation of the differences, t = mean sqrt(n) / s has n -
 ///   1 degrees of freedom. For s = 0 the limits are used: p = 0 if all differences are equal and
 ///   not 0, p = 1 if all are 0. By betting and STaR-Bets, p below 1e-6 is given as 1e-6. By
-///   betting, p is valid at any stopping time. By STaR-Bets, p is exact at the study's level;
-///   below it, p is the last rejected of levels that fall from there by 2^1/4; above it, of levels
-///   that fall from 1.
+///   betting, p is valid at any stopping time. By STaR-Bets, p is found by tests at levels that
+///   fall by factors of 2^1/4, from 1 - confidence if the interval excludes 0, or else from 1; p is
+///   the last level before the first test that does not reject.
 /// detectable: the smallest true mean difference that a study with this n and s detects with a
 ///   probability (power) of 80 %. By t it is d s / sqrt(n), with d of t_shift() at the level (1 -
 ///   confidence) / family; 0 if s = 0; none if t_shift() gives none. By betting it is the

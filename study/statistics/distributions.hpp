@@ -8,7 +8,7 @@ namespace rovernet {
 
 // Distributions used by the statistics of study/, from Boost.Math. Unlike sim/math.hpp, Boost.Math
 // calls the C library, so that the last digits may differ between machines. T has Student's t
-// distribution with `degrees` > 0 degrees of freedom; levels and probabilities are above 0 and
+// distribution with `degrees` > 0 degrees of freedom. Levels and probabilities are above 0 and
 // below 1.
 
 /// Critical value t > 0 of Student's t distribution with `degrees` degrees of freedom: a variable T
@@ -19,9 +19,9 @@ double t_critical(double degrees, double level);
 /// freedom; 0 for an infinite t.
 double t_exceeded(double degrees, double t);
 
-/// Shift at which the two-sided t-test of this level rejects with probability `power` > level: the
-/// noncentrality d >= 0 for which a noncentral t variable T has P(|T| > t_critical()) = power,
-/// including rejections with the wrong sign.
+/// Shift (noncentrality d >= 0) at which the two-sided t-test of this level rejects with
+/// probability `power` > level. For a noncentral t variable T with this d, P(|T| > t_critical()) =
+/// power, including rejections with the wrong sign.
 ///
 /// Solved by bracketing (TOMS 748) to the last digits; the relative error against an integration
 /// with 30 digits is below 1e-14. None if t_critical > 10^4 (with one degree of freedom: a level

@@ -11,22 +11,22 @@
 
 namespace rovernet {
 
-/// Verdict on a mean difference D: |D| is below the margin (within), above it (outside), or the
-/// replications do not decide (undecided).
+/// Verdict on a mean difference D. within: |D| is below the margin. outside: |D| is above the
+/// margin. undecided: the replications do not suffice for a verdict.
 enum class Equivalence { undecided, within, outside };
 
 /// Verdict on a mean difference, with its method and its number of replications.
 struct EquivalenceVerdict {
     Equivalence verdict = Equivalence::undecided;
     IntervalMethod method{};  ///< method of the test, see method_for()
-    /// Number of replications that gave the verdict. Method betting: the number of replications up
-    /// to the verdict; other methods: all. None: undecided.
+    /// Number of replications that gave the verdict. With the method betting, this is the number up
+    /// to the verdict; with other methods, the number of all replications. None: undecided.
     std::optional<std::size_t> decided_at;
     /// Predicted total number of replications for a verdict, if undecided and if further
     /// replications resemble the given ones. None if no prediction is possible, or if 100,000 (by
     /// STaR-Bets 10,000) would not suffice.
     std::optional<std::size_t> needed;
-    /// Least margin that this number of replications can decide with 80 % power if the true
+    /// Smallest margin that this number of replications can decide with 80 % power if the true
     /// difference is 0, in the metric's unit: half-width of the one-sided interval plus the 90 %
     /// quantile of the mean's normal error, since both sides must be rejected. None without an
     /// interval.
@@ -50,13 +50,13 @@ struct EquivalenceVerdict {
 /// betting, JRSS-B 86(1), 2024, section 4.
 class EquivalenceTest {
   public:
-    /// Index of a gambler's wealth. A large wealth is evidence that the true mean D satisfies the
-    /// condition given here.
+    /// Index of the wealth of one of the four gamblers in the betting test. A large wealth is
+    /// evidence for the condition at its index, where D is the true mean difference.
     enum Wealth : std::size_t {
-        not_above,  ///< evidence for D < margin
-        not_below,  ///< evidence for D > -margin
-        above,      ///< evidence for D > margin
-        beneath     ///< evidence for D < -margin
+        not_above,  ///< large wealth is evidence for D < margin
+        not_below,  ///< large wealth is evidence for D > -margin
+        above,      ///< large wealth is evidence for D > margin
+        beneath     ///< large wealth is evidence for D < -margin
     };
 
     /// @param  margin  [-], above 0 and below 1
@@ -68,15 +68,16 @@ class EquivalenceTest {
     /// Adds the next difference. @param  difference  [-], -1 ... 1
     void add(double difference);
 
-    /// Verdict after the differences so far; the first verdict is final. `within`: the wealths
-    /// not_above and not_below have each reached family / alpha at some time. `outside`: the wealth
-    /// above or beneath has reached 2 family / alpha.
+    /// Verdict of the test after the differences so far. The first verdict is final. It is
+    /// - `within` if each of the wealths not_above and not_below has reached family / alpha at some
+    ///   time
+    /// - `outside` if the wealth above or the wealth beneath has reached 2 family / alpha
     Equivalence verdict() const { return verdict_; }
     double log_wealth(Wealth which) const { return log_wealth_[which]; }
 
   private:
     double margin_;
-    double log_within_, log_outside_;  ///< thresholds of the logarithm of a wealth, by verdict
+    double log_within_, log_outside_;  ///< logarithms of the wealth thresholds for each verdict
     double n_ = 0, sum_ = 0, squares_ = 0;
     std::array<double, 4> log_wealth_{}, log_most_{};
     Equivalence verdict_ = Equivalence::undecided;

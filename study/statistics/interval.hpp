@@ -22,7 +22,8 @@ namespace rovernet {
 /// - `star`: STaR-Bets; also assumes only that values are bounded; gives narrower intervals than
 ///   betting, but needs a number of values fixed beforehand.
 ///
-/// [study] interval chooses the method; interval_of() computes the interval.
+/// The key interval of [study] chooses the method. The function interval_of() computes the
+/// interval.
 enum class IntervalMethod { t, betting, star };
 
 inline constexpr std::array all_interval_methods = {IntervalMethod::t, IntervalMethod::betting,
@@ -38,15 +39,16 @@ struct MeanInterval {
     double low = 0;
     double high = 0;
     IntervalMethod method{};  ///< method of the interval
-    /// True: method t with values that are too skewed, see too_skewed_for_t().
+    /// True: the method is t although the values are too skewed for it, see too_skewed_for_t().
     bool skewed = false;
     friend bool operator==(const MeanInterval&, const MeanInterval&) = default;
 
     double half_width() const { return (high - low) / 2; }
 };
 
-/// Interval method for the mean of values. If the metric has two bounds and all values lie within
-/// the bounds: `wish`, or STaR-Bets if no method is wished. Otherwise: t.
+/// Method of the confidence interval for the mean of values. If the metric has two bounds and all
+/// values lie within the bounds, the method is `wish`, or STaR-Bets if no method is wished.
+/// Otherwise the method is t.
 ///
 /// STaR-Bets is valid for a number of values fixed beforehand. Callers that let the values decide
 /// when to stop must wish for betting.
@@ -80,9 +82,11 @@ std::optional<std::size_t> replications_for_width(std::span<const double> values
                                                   double confidence = 0.95,
                                                   std::optional<IntervalMethod> wish = {});
 
-/// Whether Student's interval is doubtful for values: n <= 25 G^2, with G the sample skewness, and
-/// |G| exceeds the limit that 95 % of normal samples do not exceed, 2 sqrt(6 n (n - 1) / ((n - 2)
-/// (n + 1) (n + 3))). False for n < 3.
+/// Whether Student's interval is doubtful for values, since their sample skewness G is large:
+/// - n <= 25 G^2, and
+/// - |G| exceeds 2 sqrt(6 n (n - 1) / ((n - 2) (n + 1) (n + 3))), the limit that 95 % of samples
+///   of normal values do not exceed.
+/// False for n < 3.
 ///
 /// G = (sum (x - mean)^3 / n) / (sum (x - mean)^2 / n)^1.5. Source: W. G. Cochran, Sampling
 /// Techniques, 3rd ed., section 2.15 (n > 25 G^2); its standard error: D. N. Joanes, C. A. Gill,
@@ -96,8 +100,8 @@ std::optional<IntervalMethod> method_named(const std::optional<std::string>& nam
 /// Interval method as a phrase for captions: "by STaR-Bets", "by betting", "by Student's t".
 std::string_view words_of(IntervalMethod method);
 
-/// Notice that intervals of a metric do not use the requested method `wish`, with the reason; empty
-/// if all intervals use it, or if no method is requested.
+/// Notice that intervals of a metric do not use the requested method `wish`, with the reason. Empty
+/// if all intervals use `wish`, or if no method is requested.
 /// @param used  methods of the intervals
 std::string other_method_text(std::string_view metric, std::optional<IntervalMethod> wish,
                               std::span<const IntervalMethod> used);

@@ -9,10 +9,11 @@
 
 namespace rovernet {
 
-/// Observations of a linear model y = sum over j of x_j b_j + error, one row for each observation.
+/// Observations of a linear model y = sum over j of x_j b_j + error, with coefficients b_j. Each
+/// observation is a row of the x_j and y.
 ///
-/// Rows of one group have dependent errors: rows of one replication, or of one receiver of a
-/// measured set.
+/// Rows of one group have dependent errors. A group contains the rows of one replication, or of one
+/// receiver of a set of measurements.
 struct Observations {
     std::size_t columns = 0;                ///< number of coefficients of the model
     std::vector<double> x = {};             ///< matrix x, row by row, `columns` values for each row
@@ -30,7 +31,7 @@ struct Observations {
     }
 };
 
-/// Coefficient b_j of a LinearFit, in units of y over units of x_j.
+/// Coefficient b_j of a linear model y = sum over j of x_j b_j, in units of y over units of x_j.
 struct Coefficient {
     double value = 0;
     double se_plain = 0;     ///< standard error if the errors of all observations are independent
@@ -39,13 +40,14 @@ struct Coefficient {
 
 /// Least squares fit of a linear model.
 struct LinearFit {
-    /// Coefficient b_j of each column x_j; none (taken as 0): not determined by the observations.
+    /// Coefficient b_j of each column x_j; none: the observations do not determine b_j, which is
+    /// taken as 0.
     std::vector<std::optional<Coefficient>> coefficients;
-    /// Flag of each coefficient; true: fixed at 0, since the fit would make it negative although it
-    /// must not be.
+    /// Flag of each coefficient; true: the coefficient is fixed at 0, since the fit would make it
+    /// negative although it must not be.
     std::vector<bool> at_bound;
-    double rmse = 0;   ///< sqrt(SSE / N), in units of y; SSE: sum of squared errors
-    double sigma = 0;  ///< sqrt(SSE / (N - p)), in units of y; p fitted coefficients
+    double rmse = 0;   ///< sqrt(SSE / N), in units of y; SSE: sum of squared errors; N: rows
+    double sigma = 0;  ///< sqrt(SSE / (N - p)), in units of y; p: number of fitted coefficients
 
     double predict(std::span<const double> row) const;
 };
@@ -57,7 +59,7 @@ struct LinearFit {
 /// and p fitted coefficients. Source: G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed.,
 /// section 5.4; A. C. Cameron, D. L. Miller, A Practitioner's Guide to Cluster-Robust Inference,
 /// JHR 50(2), 2015.
-/// @param not_below_0  for each coefficient: whether it must be >= 0; empty: none must
+/// @param not_below_0  for each coefficient: true if it must be >= 0; empty: any may be negative
 /// @throws std::invalid_argument without a row, or if sizes differ or a number is not finite
 LinearFit least_squares(const Observations& observations,
                         const std::vector<bool>& not_below_0 = {});

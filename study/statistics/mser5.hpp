@@ -6,7 +6,7 @@
 
 namespace rovernet {
 
-/// Warm-up at the start of a series, to be deleted.
+/// Warm-up to be deleted at the start of a series of observations.
 struct Truncation {
     std::size_t observations = 0;  ///< number of observations to delete, a multiple of 5
     bool conclusive = false;       ///< false: the series is too short; a longer run is needed

@@ -6,7 +6,7 @@
 
 namespace rovernet {
 
-/// Confidence interval for a quantile; its ends are two of the values, in the metric's unit.
+/// Confidence interval for a quantile. Its ends are two of the values, in the metric's unit.
 struct QuantileInterval {
     double low = 0;
     double high = 0;
@@ -22,8 +22,8 @@ struct Quantile {
     friend bool operator==(const Quantile&, const Quantile&) = default;
 };
 
-/// The p-quantile of the values by nearest rank, the ceil(p n)-th smallest value, and a
-/// distribution-free interval for the true quantile; none without values.
+/// Quantile of the values for the probability p by nearest rank (the ceil(p n)-th smallest value),
+/// and a distribution-free confidence interval for the true quantile; none without values.
 ///
 /// The interval runs from the l-th to the u-th smallest value, with l the greatest and u the least
 /// rank for which P(B < l) <= (1 - confidence) / 2 and P(B >= u) <= (1 - confidence) / 2; B is

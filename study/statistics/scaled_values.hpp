@@ -9,11 +9,12 @@
 
 namespace rovernet {
 
-/// Bounded values scaled to 0 ... 1, and mirrored (1 - value). The lower end of an interval for the
-/// mean of the mirrored values gives the upper end of the interval for the mean of the values.
+/// Bounded values scaled to 0 ... 1, and their mirror images (1 - scaled value). The lower end of
+/// an interval for the mean of the mirrored values gives the upper end of the interval for the mean
+/// of the values.
 struct ScaledValues {
-    std::vector<double> values;    ///< (v - low) / (high - low)
-    std::vector<double> mirrored;  ///< 1 - values
+    std::vector<double> values;    ///< (v - low) / (high - low) of each value v
+    std::vector<double> mirrored;  ///< 1 - x of each scaled value x
     double low, width;  ///< lower bound, and difference of the bounds, in the metric's unit
 
     double mean() const;
@@ -23,7 +24,7 @@ struct ScaledValues {
 
 /// Scales values to their bounds, and checks the arguments of the calling function.
 /// @param  confidence  confidence level of the calling function, for the check only
-/// @param  owner  name of the calling function, for the message
+/// @param  owner  name of the calling function, for the error message
 /// @throws std::invalid_argument without values, without bounds, if a value is out of bounds, or if
 ///         confidence is not in (0, 1)
 ScaledValues scaled_values(std::span<const double> values, const Bounds& bounds, double confidence,

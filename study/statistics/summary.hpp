@@ -19,8 +19,8 @@ struct Summary {
     friend bool operator==(const Summary&, const Summary&) = default;
 };
 
-/// Summary of the values; none without values. The standard deviation is 0 exactly if all values
-/// are equal (for values and differences between 1e-150 and 1e150).
+/// Summary of the values; none if there are no values. The standard deviation is exactly 0 if and
+/// only if all values are equal (for values and differences between 1e-150 and 1e150).
 ///
 /// Method: two passes over x - x1, in the order of the values, so that a common offset costs no
 /// precision and all machines give the same bits. Source: T. F. Chan, G. H. Golub, R. J. LeVeque,

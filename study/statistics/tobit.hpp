@@ -7,22 +7,24 @@
 
 namespace rovernet {
 
-/// Linear model fitted to levels, some of which were below a floor and not observed (censored).
+/// Linear model y = x b + e (Tobit model) fitted to levels, some of which were below a floor and
+/// not observed (censored).
 struct TobitFit {
-    /// Coefficients b of the model, in units of y over units of the columns of x.
+    /// Coefficients b of the model y = x b + e, in units of y over units of the columns of x.
     std::vector<double> coefficients;
-    double sigma = 0;  ///< standard deviation of the error e, in units of y
+    double sigma = 0;  ///< standard deviation of the model's error, in units of the observed values
     double negative_log_likelihood = 0;
 };
 
-/// Fits  y = x b + e,  e normal with deviation sigma, by maximising the log-likelihood, if the
-/// values of unseen rows are only known to be below a floor y:
-///   sum over the seen of log(phi((y - x b) / sigma) / sigma)
-///   + sum over the unseen of log Phi((y - x b) / sigma).
+/// Fits the model y = x b + e, with normal errors e of standard deviation sigma, by maximum
+/// likelihood. Values of unseen rows are only known to be below a floor y. The log-likelihood is
+///   sum over the seen rows of log(phi((y - x b) / sigma) / sigma)
+///   + sum over the unseen rows of log Phi((y - x b) / sigma),
+/// where phi and Phi are density and distribution function of the standard normal distribution.
 /// Ignoring unseen rows would underestimate the loss of long links. The maximum is found by
-/// Newton's method on b / sigma and 1 / sigma, in which this function is concave. Source: J. Tobin,
-/// Estimation of relationships for limited dependent variables, Econometrica 26(1), 1958; R. J.
-/// Olsen, Note on the uniqueness of the maximum likelihood estimator for the Tobit model,
+/// Newton's method on b / sigma and 1 / sigma, in which the log-likelihood is concave. Source: J.
+/// Tobin, Estimation of relationships for limited dependent variables, Econometrica 26(1), 1958; R.
+/// J. Olsen, Note on the uniqueness of the maximum likelihood estimator for the Tobit model,
 /// Econometrica 46(5), 1978.
 /// @param unseen  for each row; true: y is the floor, and the value was below it
 /// @throws std::invalid_argument if sizes differ, a number is not finite, fewer rows are seen than

@@ -15,33 +15,35 @@ struct EnumNames<BenchMobility> {
     static constexpr std::array<std::string_view, 2> values = {"static", "random_waypoint"};
 };
 
-/// Settings of a flood benchmark: messages of 64 bytes that every robot forwards once, at 11 Mb/s
-/// with a short preamble. Robots are uniformly distributed in a square, have a range of 250 m, and
-/// 12 neighbours on average away from the borders.
+/// Settings of a flood benchmark. In a flood, every robot forwards a message of 64 bytes once, at
+/// 11 Mb/s with a short preamble. Robots are uniformly distributed in a square, have a range of 250
+/// m, and 12 neighbours on average away from the borders.
 struct FloodBench {
     std::vector<std::uint32_t> nodes = {1000};
     ReceptionTable reception = {};
-    /// Access model. With csma, the jitter of forwarding is 50 ms instead of 10 ms.
+    /// Model of medium access. With csma, the jitter of forwarding is 50 ms instead of 10 ms.
     AccessTable access = {};
-    BenchMobility mobility = BenchMobility::fixed;  ///< random waypoint: 1-20 m/s, without pauses
-    Db shadowing{0};        ///< standard deviation of each link's shadowing; 0: no shadowing
-    bool recorded = false;  ///< true: with metrics, fingerprint and timeline, as in `rovernet run`
-    double cpu_s = 2;       ///< least CPU time of the measurement for each network size [s]
+    BenchMobility mobility = BenchMobility::fixed;  ///< fixed, or random waypoint at 1-20 m/s
+                                                    ///< without pauses
+    Db shadowing{0};        ///< standard deviation of shadowing on links [dB]; 0: none
+    bool recorded = false;  ///< true: metrics, fingerprint, timeline are on, as in `rovernet run`
+    double cpu_s = 2;       ///< minimum CPU time of the floods for each network size [s]
     std::uint64_t seed = 1;
 };
 
-/// Result of a flood benchmark for one size of network.
+/// Result of a flood benchmark for one size of the network.
 struct FloodBenchRow {
     std::uint32_t nodes;
-    std::uint64_t transmissions;  ///< number of transmissions in all floods
+    std::uint64_t transmissions;  ///< number of transmissions in all floods of the benchmark
     std::uint64_t receptions;     ///< number of received frames, including duplicates
     std::uint64_t attempts;       ///< number of robots within range, summed over all transmissions
     std::uint64_t events;         ///< number of processed events
-    /// CPU time per robot within range of a transmission [ns]: median of five parts of the
-    /// measurement.
+    /// CPU time of the simulation per transmission and robot within its range [ns]: median over
+    /// five parts of the benchmark.
     double ns_per_reception;
-    double bfs_ns_per_edge;  ///< CPU time per edge of a breadth-first search on the same graph [ns]
-    double bytes_per_node;   ///< memory of the network after the floods, per robot [bytes]
+    double bfs_ns_per_edge;  ///< CPU time [ns] per edge of a breadth-first search in the graph of
+                             ///< links
+    double bytes_per_node;   ///< allocated memory per robot after all floods [bytes]
 };
 
 /// Runs floods in a network of `nodes` robots until the CPU time FloodBench::cpu_s is used up.

@@ -19,12 +19,12 @@ struct Validation {
     std::vector<Promise> promises = {};
     std::vector<std::string> left_out = {};  ///< sentences on skipped checks, with reasons
 
-    /// Whether every error is within its promised limit.
+    /// Whether every checked error is within its claimed limit.
     bool kept() const;
 };
 
-/// Makes all charts and checks all promised error limits: errors of this build, and costs on this
-/// machine.
+/// Makes all charts and checks all claimed error limits. Errors are those of this build, costs
+/// those of this machine.
 /// @param field  folder of measurements, see measured_flat(); none: no chart of measurements
 /// @param tell   called with the name of the next step; may be empty
 /// @throws InputError for a damaged folder of measurements

@@ -9,8 +9,8 @@
 
 namespace rovernet {
 
-/// Picture of a chart as SVG: a dot plot for each panel, with a row for each method in order of
-/// cost. Each row shows the error with its interval and, on a second scale, the cost. Names of
+/// Picture of a chart as SVG. It has a dot plot for each panel, with a row for each method in order
+/// of cost. Each row shows the error with its interval and, on a second scale, the cost. Names of
 /// methods on the Pareto front are bold. Empty if all errors are 0.
 std::string validation_svg(const ValidationChart& chart);
 

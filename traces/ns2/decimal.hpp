@@ -19,14 +19,15 @@ char* write_integer(char* out, std::uint64_t value);
 /// Writes hexadecimal digits in lower case, without 0x.
 char* write_hex(char* out, std::uint32_t value);
 
-/// Writes "%.2f" exactly: the exact binary value is rounded, ties to the even digit.
+/// Writes a number with two decimals ("%.2f"). The exact binary value is rounded, ties to the even
+/// digit.
 char* write_fixed2(char* out, double value);
 
-/// Writes seconds [s] with 9 decimals, exact.
+/// Writes a time [s] with 9 decimals, exactly.
 char* write_seconds(char* out, Time time);
-/// Writes seconds [s] with 5 decimals: the exact value is rounded, ties to the even digit.
+/// Writes a time [s] with 5 decimals. The exact value is rounded, ties to the even digit.
 char* write_seconds5(char* out, Time time);
-/// Writes seconds [s] with as many decimals as the exact value needs: "10", "0.25".
+/// Writes a time [s] with as many decimals as the exact value needs: "10", "0.25".
 char* write_seconds_short(char* out, Time time);
 
 inline char* write_text(char* out, std::string_view text) {

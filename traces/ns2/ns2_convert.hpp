@@ -15,7 +15,8 @@ namespace rovernet {
 /// Output format for an ns-2 trace.
 enum class TraceForm { csv, ns2_old, ns2_new };
 
-/// Numbers of events written to a new trace file, and left out of it.
+/// Result of converting an ns-2 trace: numbers of events that were written to the new file, and
+/// numbers of events that were not.
 struct Converted {
     Ns2Counts counts;
     std::uint64_t written = 0;                      ///< number of events written

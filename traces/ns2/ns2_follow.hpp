@@ -28,7 +28,7 @@ struct FollowedRobot {
     NodeId robot;
     int depth = 0;               ///< number of hops of its first copy; 0: sender of the message
     std::optional<NodeId> from;  ///< robot that transmitted the first copy
-    Time time;                   ///< time of the robot's first copy, or of sending
+    Time time;                   ///< time of the robot's first copy; of sending at the sender
     bool is_delivered = false;   ///< true if the robot's application received the message
     std::uint64_t copies = 0;    ///< number of copies received, including the first
     std::vector<Time> on_air;    ///< times at which the robot transmitted the message
@@ -79,8 +79,8 @@ class Ns2Follower {
     std::map<std::uint32_t, FollowedRobot> by_robot_;
     std::vector<std::uint32_t> order_;  ///< robots in the order of their first copies
     std::set<std::uint32_t> robots_;
-    std::optional<std::uint64_t> least_;  ///< smallest id so far, until the message is found
-    std::uint64_t most_ = 0;              ///< largest id of a message so far
+    std::optional<std::uint64_t> least_;  ///< smallest message id before the message is found
+    std::uint64_t most_ = 0;              ///< largest message id before the message is found
 };
 
 /// Traces the message of an application with this id: the first such message in the trace.

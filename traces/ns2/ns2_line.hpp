@@ -25,9 +25,9 @@ struct Ns2Mac {
     std::uint32_t ethertype = 0;    ///< 0x800 IP, 0x806 ARP; 0: control frame, or not yet at a MAC
     bool is_smac = false;           ///< the header is of S-MAC, which has no ethertype
 
-    /// Whether a MAC has sent the packet: before that both addresses are 0.
+    /// Whether a MAC has sent the packet. Before a MAC sends a packet, both addresses are 0.
     bool has_sent() const { return ethertype != 0 || (is_smac && (to != 0 || from != 0)); }
-    /// Equality of all fields, for any kind of MAC header.
+    /// Equality of all fields except is_smac.
     friend bool operator==(const Ns2Mac& a, const Ns2Mac& b) {
         return a.duration_us == b.duration_us && a.to == b.to && a.from == b.from &&
                a.ethertype == b.ethertype;
@@ -119,9 +119,9 @@ inline constexpr std::int64_t routing_port = 255;
 
 /// Parses one line, without its end-of-line characters.
 ///
-/// Every line is an event, skipped by its kind, or refused; no line throws. Times are rounded to 1
-/// ns. Source: cmu-trace.cc of ns-2.35 and its output; the swapped -M:s and -M:d of the tagged
-/// format are corrected.
+/// The result is an event, a kind of line to skip (Ns2Other), or an error (Ns2Refused). No line
+/// causes an exception. Times are rounded to 1 ns. Source: cmu-trace.cc of ns-2.35 and its output;
+/// the swapped -M:s and -M:d of the tagged format are corrected.
 Ns2Line parse_ns2_line(std::string_view line);
 
 }  // namespace rovernet

@@ -20,7 +20,7 @@ Leg leg_of(const Ns2Move& move);
 /// have a position. Positions are rounded to 1 cm, speeds to 1 cm/s. The motion of a robot is
 /// reconstructed as follows:
 ///
-/// * Before the first position in the trace the robot rests there.
+/// * The robot rests at its first position in the trace until the time of this position.
 /// * A leg ends at its goal, at the time that follows from its speed, or at the next position in
 ///   the trace: the robot then moves straight there, if rounding explains the deviation from the
 ///   leg.
@@ -42,7 +42,7 @@ class Ns2Motion {
 
     /// Adds an `M` line, given as its leg, see leg_of(). Lines are added in the order of the file.
     void begins(NodeId node, const Leg& leg);
-    /// Adds the position [m] of a robot in a packet line.
+    /// Adds the position `place` [m] of a robot at `time`, which a packet line gives.
     void is_at(NodeId node, Time time, Vec3 place);
 
     /// Whether the trace has contained a position of the robot so far.
@@ -57,7 +57,7 @@ class Ns2Motion {
     /// Reconstructed motion of one robot.
     struct Track {
         std::vector<Leg> past;
-        Leg plan;          ///< leg from the last used position
+        Leg plan;          ///< current leg, from the last used position
         double speed = 0;  ///< speed of the last `M` line [m/s], or 0
         Time told;  ///< time of the robot's last position in the trace; not before plan.start
         bool is_known = false;

@@ -10,9 +10,9 @@
 
 namespace rovernet {
 
-/// Callback for each packet line, called after the line's records, except a reception that the next
-/// line may continue. The message is the application's message in the packet, if it is known and
-/// the line is not of a frame that a MAC sends or receives.
+/// Callback for each packet line, called after the records of the line (a reception that the next
+/// line may continue is recorded later). Second argument: the application's message in the packet;
+/// null if the message is unknown, or if a MAC sends or receives the packet in this line.
 using OnNs2Packet = std::function<void(const Ns2Packet&, const Message*)>;
 
 /// Reads an ns-2 trace of rovernet or of ns-2, in any format, and passes its records to `sink`.
@@ -29,11 +29,11 @@ using OnNs2Packet = std::function<void(const Ns2Packet&, const Message*)>;
 ///   not count. The `r AGT` belongs to the `r RTR` directly before it; if the routing agent writes
 ///   no `r RTR` at the destination, it is a separate reception.
 ///
-/// A Received has one reception. All values of Metrics are exact for traces of rovernet. Positions
-/// are those of the `M` lines: rounded to 1 cm, speeds to 1 cm/s, times to 10 us, and without
-/// vertical motion. These lines have no record: control frames of the MAC, ARP, packets of routing
-/// agents, copies of messages whose `s AGT` is not in the file, and drops for reasons that are not
-/// in sim/fate.hpp.
+/// Each Received record has one reception. All values of Metrics are exact for traces of rovernet.
+/// Positions are those of the `M` lines: rounded to 1 cm, speeds to 1 cm/s, times to 10 us, and
+/// without vertical motion. These lines have no record: control frames of the MAC, ARP, packets of
+/// routing agents, copies of messages whose `s AGT` is not in the file, and drops for reasons that
+/// are not in sim/fate.hpp.
 ///
 /// The file is streamed: memory grows with robots and messages, not with lines.
 ///

@@ -54,8 +54,9 @@ struct TraceStats {
     // Jitter of the latencies d of one flow at one receiver, in the order of arrival.
     std::optional<double> jitter_mean;  ///< mean of |d_i - d_(i-1)| [s], d_i: consecutive latencies
     std::optional<double>
-        jitter_rfc3550;               ///< [s] J += (|d_i - d_(i-1)| - J) / 16 (RFC 3550, 6.4.1),
-                                      ///< final value, averaged over flows and receivers
+        jitter_rfc3550;               ///< interarrival jitter J [s] (RFC 3550, 6.4.1), averaged
+                                      ///< over flows and receivers: final value of
+                                      ///< J += (|d_i - d_(i-1)| - J) / 16, d_i as in jitter_mean
     std::optional<double> jitter_sd;  ///< standard deviation of all latencies (n - 1) [s]
 
     /// Throughput [bit/s]: bits of the delivered messages / (time from the first message sent,

@@ -14,13 +14,14 @@ namespace rovernet {
 // written.
 //
 // A payload can be converted if it is empty, of constant bit rate ("[seq] n n") or of TCP ("[seq
-// ack] n n"). ARP and control frames of the MAC cannot: the new format has neither their type nor
-// their size.
+// ack] n n"). ARP packets and control frames of the MAC cannot be converted, since the new format
+// has neither their type nor their size.
 
-/// Appends a packet line in the old format of ns-2. @return "", or why the line cannot be written
+/// Appends a packet line in the old format of ns-2. @return "" if the line is written; otherwise
+/// the reason for which it cannot be written
 std::string_view write_old_line(const Ns2Packet& packet, std::string& out);
 /// Appends a packet line in the new format of ns-2. @param place  position of the robot [m]
-/// @return "", or why the line cannot be written
+/// @return "" if the line is written; otherwise the reason for which it cannot be written
 std::string_view write_new_line(const Ns2Packet& packet, Vec3 place, std::string& out);
 
 /// Column names of the CSV rows of write_csv_line().

@@ -50,16 +50,17 @@ std::string_view ns2_type(const Message& message);
 ///
 /// The size in an `s MAC` line, and of a frame lost on air, is the size on air. A frame with a
 /// header of the access model has 24 bytes more, those of the PLCP (802.11-2020, 15.2.2: 144 + 48
-/// bits), as ns-2 adds them at any rate and standard. Control frames have them also when received:
-/// RTS 44, CTS and ACK 38, id 0. Their lines have no network part; lines of CTS and ACK have no
-/// transmitter, because these frames do not contain it, and in the new format no type and size.
+/// bits), as ns-2 adds them at any rate and standard. Control frames have these bytes also when
+/// received: the size is 44 for RTS, 38 for CTS and ACK. The id of control frames is 0, and their
+/// lines have no network part. Lines of CTS and ACK have no transmitter, because these frames do
+/// not contain it, and in the new format neither type nor size.
 ///
 /// Source: the output of ns-2.35, and its cmu-trace.cc.
 /// Example: examples/trace.cpp.
 class Ns2Trace {
   public:
-    /// Opens the trace under a temporary name. It gets the name `path` at the end, see PartFile.
-    /// @throws RunError if it cannot be written
+    /// Opens the trace file under a temporary name. close() renames it to `path`, see PartFile.
+    /// @throws RunError if the file cannot be written
     explicit Ns2Trace(const std::string& path, Ns2Format format = Ns2Format::new_format,
                       MacTrace mac = MacTrace::off);
     /// Passes the trace to `out` in pieces of whole lines, instead of writing a file.
@@ -76,13 +77,13 @@ class Ns2Trace {
         return kind_of<Sent>() | kind_of<Transmitted>() | kind_of<Received>() | kind_of<Dropped>() |
                kind_of<Moved>() | kind_of<Routed>() | (mac_ == MacTrace::on ? of_mac : 0);
     }
-    /// @throws RunError if the file cannot be written (disk full, for example); it is then removed
+    /// @throws RunError if the file cannot be written (disk full, say); the file is then removed
     void on(const Record& record, const RecordContext& context);
 
     /// Completes the trace, which keeps its temporary name. @throws RunError as close()
     void finish();
     /// Completes the trace and gives it its final name. A second call does nothing.
-    /// @throws RunError if it cannot be written
+    /// @throws RunError if the file cannot be written
     void close();
 
   private:

@@ -13,8 +13,8 @@
 
 namespace rovernet {
 
-/// Reader of the words of one line, from left to right, with checks. For a word of the wrong form a
-/// function returns false, and `refused` has the place.
+/// Reader of the words of one trace line, from left to right, with checks. If a word has the wrong
+/// form, a function returns false, and stores the word and its column in `refused`.
 class Ns2Words {
   public:
     explicit Ns2Words(std::string_view line) : line_(line) {}

@@ -15,7 +15,8 @@
 
 namespace rovernet {
 
-/// Jitter of latencies: mean difference, running average and standard deviation.
+/// Jitter of latencies: mean difference of consecutive latencies, running average of RFC 3550, and
+/// standard deviation.
 class Jitter {
   public:
     void add(std::uint32_t flow, NodeId receiver, Duration delay);
@@ -72,7 +73,7 @@ class TraceCounter {
     void name_flow(std::uint32_t flow, const std::string& name) { rows_[flow].name = name; }
 
     /// Writes the counts into `stats`, which already has counts of lines and metrics.
-    /// @param flows  values of each flow, at index flow - 1; `expected` is copied
+    /// @param flows  values of each flow, at index flow - 1; only `expected` is used
     void tell(TraceStats& stats, const std::vector<PartValues>& flows);
 
   private:

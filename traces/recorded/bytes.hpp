@@ -16,7 +16,7 @@ namespace rovernet {
 /// Length of the longest varint (integer of variable length) [bytes].
 inline constexpr std::size_t longest_varint = 10;
 
-/// Writes a varint at `at`. @return the position after it
+/// Writes a varint (integer of variable length) at `at`. @return position after the varint
 inline char* write_varint(char* at, std::uint64_t value) {
     while (value >= 0x80) {
         *at++ = static_cast<char>(value | 0x80);
@@ -37,7 +37,8 @@ constexpr std::int64_t unfolded(std::uint64_t value) {
 /// Buffer to which numbers and texts are appended.
 class ByteWriter {
   public:
-    /// Reserves `size` bytes at the end. @return their position, valid until the next call
+    /// Reserves `size` bytes at the end of the buffer. @return pointer to these bytes, valid until
+    /// the next call
     char* room(std::size_t size) {
         if (used_ + size > bytes_.size()) bytes_.resize(2 * bytes_.size() + size);
         return bytes_.data() + used_;
@@ -109,9 +110,9 @@ class ByteReader {
     std::string_view text() { return take(fixed<std::uint32_t>()); }
 
     std::size_t left() const { return rest_.size(); }
-    /// Whether anything was read beyond the end, or a varint was longer than 64 bits.
+    /// Whether a function tried to read beyond the end, or a varint was longer than 64 bits.
     bool failed() const { return failed_; }
-    /// Whether everything was read, without failure.
+    /// Whether all bytes were read, without failure.
     bool is_done() const { return !failed_ && rest_.empty(); }
 
   private:

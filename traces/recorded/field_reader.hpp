@@ -20,16 +20,16 @@
 
 namespace rovernet {
 
-/// Largest value of each enumeration that is a field of records.
+/// Largest valid number of an enumeration that is a field of records, by the argument's type.
 constexpr unsigned last_of(Fate) { return static_cast<unsigned>(last_fate); }
 constexpr unsigned last_of(DropReason) { return static_cast<unsigned>(last_drop_reason); }
-/// Control frames of a recorded trace, at index number_of() - 1. Sizes are 0: a record stores the
-/// size itself.
+/// Control frames of a recorded trace, at index number_of() - 1. Sizes are 0, since the record of a
+/// frame stores the frame's size.
 inline constexpr std::array<ControlFrame, 4> control_frames{
     {{"RTS", 0}, {"CTS", 0}, {"ACK", 0}, {"CTL", 0}}};
 
-/// Reader of the fields of records from bytes that FieldWriter wrote: an overload of take() for
-/// each type of field. A value out of its range makes is_done() false, like missing bytes.
+/// Reader of the fields of records from bytes that FieldWriter wrote. It has an overload of take()
+/// for each type of field. If bytes are missing or a value is out of range, is_done() is false.
 class FieldReader {
   public:
     FieldReader(std::string_view bytes, Time time, unsigned format,

@@ -16,15 +16,15 @@
 
 namespace rovernet {
 
-/// Bits for the parts of a leg (piece of movement) that are written to a recorded trace. Parts that
-/// are left out are 0; Leg::to is then Leg::from.
+/// Bits for the parts of a leg (piece of movement) that are written to a recorded trace. Without a
+/// bit, the part is omitted: velocity, heading or turning is then 0, and Leg::to equals Leg::from.
 struct LegParts {
     static constexpr std::uint8_t moves = 1, heads = 2, turns = 4;
     static constexpr std::uint8_t all = moves | heads | turns;
 };
 
-/// Writer of the fields of records and their parts, as bytes of a recorded trace: an overload of
-/// put() for each type of field. docs/trace-format.md has the bytes.
+/// Writer of the fields of records and their parts, as bytes of a recorded trace. There is an
+/// overload of put() for each type of field. docs/trace-format.md describes the bytes.
 class FieldWriter {
   public:
     FieldWriter(ByteWriter& to, Time time) : to_(to), time_(time) {}

@@ -6,8 +6,9 @@
 #include <string>
 #include <string_view>
 
-// MCAP, the container format of a recorded trace: a file is the magic, records, and the magic
-// again. A record is its opcode (1 byte), the length of its content (8 bytes) and the content.
+// MCAP, the container format of a recorded trace. A file consists of the bytes mcap_magic, records,
+// and mcap_magic again. A record is an opcode (1 byte), the length of the content (8 bytes) and the
+// content.
 // Source: the MCAP format specification, https://mcap.dev/spec, version 0.
 
 namespace rovernet {

@@ -21,7 +21,7 @@ struct McapRecord {
 
 /// Unpacked chunk of an MCAP file.
 struct McapMessages {
-    /// First and last time of the chunk's messages [ns].
+    /// Times of the first and the last message in the chunk [ns].
     std::uint64_t first, last;
     /// Records in the chunk; valid until the next chunk is unpacked.
     std::string_view records;
@@ -38,13 +38,14 @@ class McapReader {
 
     /// Next record; empty at the end.
     std::optional<McapRecord> next();
-    /// Returns to a record, so that next() returns it again.
+    /// Moves back to a record, so that next() returns this record again.
     void go_to(const McapRecord& record) { at_ = record.offset; }
-    /// Unpacks a chunk. @return empty if it is broken; the fault is added to damage()
+    /// Unpacks a chunk. @return messages of the chunk; empty if the chunk is broken: a description
+    /// of the fault is then added to damage()
     std::optional<McapMessages> unpack(const McapRecord& chunk);
     /// Adds the description of a fault to damage().
     void tell(std::string text) { damage_.push_back(std::move(text)); }
-    /// Broken and missing parts found so far; empty if there are none.
+    /// Descriptions of the broken and missing parts of the file found so far.
     const std::vector<std::string>& damage() const { return damage_; }
 
   private:

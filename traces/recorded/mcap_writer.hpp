@@ -20,7 +20,7 @@ namespace rovernet {
 class McapChunk {
   public:
     /// Begins a message on a channel; its content is written to bytes() until end_message().
-    /// @param time  [ns]
+    /// @param time  time of the message [ns]
     void begin_message(std::uint16_t channel, std::uint64_t time);
     void end_message();
     ByteWriter& bytes() { return bytes_; }
@@ -33,7 +33,7 @@ class McapChunk {
 
     ByteWriter bytes_;
     std::size_t begun_ = 0;  // position of the current message's length field
-    // [ns] times of the first and the last message
+    // Times of the first and the last message in the chunk [ns].
     std::uint64_t first_ = ~std::uint64_t{0}, last_ = 0;
     std::map<std::uint16_t, ByteWriter> indexes_;  // time and position of each message, by channel
 };
@@ -44,12 +44,12 @@ class McapChunk {
 /// MCAP format specification, https://mcap.dev/spec.
 class McapWriter {
   public:
-    /// Opens the file. @throws RunError if it cannot be written, like all functions below
+    /// Opens the file. This function and all functions below throw RunError if writing fails.
     McapWriter(const std::string& path, std::string_view profile, std::string_view library);
 
     void metadata(std::string_view name, const std::map<std::string, std::string>& entries);
     void attach(const AttachedFile& file);
-    /// Declares a schema, and the channel of the same number that uses it.
+    /// Declares a schema with this number, and a channel with the same number for the schema.
     void declare(std::uint16_t number, std::string_view topic, std::string_view layout);
     /// Packs and writes the messages of a chunk.
     void write(const McapChunk& chunk);

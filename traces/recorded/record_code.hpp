@@ -22,8 +22,8 @@ namespace rovernet {
 /// field that is added to the records of an earlier version is described with since(VERSION).
 inline constexpr std::uint32_t recorded_format = 3;
 
-/// Number of a kind of frame on air: 0 for data, 1 RTS, 2 CTS, 3 ACK, 4 for any other control
-/// frame.
+/// Number by which a recorded trace stores the kind of a frame: 0 for a data frame (`control` is
+/// null), 1 for RTS, 2 for CTS, 3 for ACK, 4 for any other control frame.
 std::uint8_t number_of(const ControlFrame* control);
 
 /// Kind of message in a recorded trace: its topic, and the layout of its bytes.
@@ -60,7 +60,7 @@ bool decode(std::uint16_t channel, Time time, std::string_view bytes,
             std::vector<Reception>& receptions, Record& record, unsigned format = recorded_format);
 /// Decodes the definition of a message from its bytes.
 /// @param kind    receives the text of Message::kind, which the caller has to store
-/// @param format  version of the layouts of the trace; before 3 messages had no port
+/// @param format  version of the layouts of the trace; a message has a port from version 3 on
 /// @return whether the bytes are a valid definition
 bool decode(Time time, std::string_view bytes, MessageId& slot, Message& message,
             std::string_view& kind, unsigned format = recorded_format);

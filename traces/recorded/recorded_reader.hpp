@@ -31,11 +31,11 @@ struct RecordedRun {
     std::vector<AttachedFile> files;
     /// Names of attached files that are broken; their content is not known.
     std::vector<std::string> broken;
-    /// True if robots.txt is attached completely; it may be empty.
+    /// True if the attached file robots.txt, with the names of the robots, is complete.
     bool has_names = true;
 
-    /// Text for the user: number of named robots, and the reason if no robot has a name and no
-    /// attached file explains that.
+    /// Text for error messages: the number of named robots, and whether the attached file with the
+    /// names is missing or broken.
     std::string names_in_words() const;
 };
 
@@ -45,9 +45,9 @@ struct RecordedRun {
 ///         content
 bool is_recorded_trace(const std::string& path);
 
-/// Reader of the records of a recorded trace, in the order of the run, with legs and messages as
-/// they were then. The reader can drive any sink: metrics, fingerprint and ns-2 trace equal
-/// those of the run.
+/// Reader of the records of a recorded trace, in the order of the run, with the legs and messages
+/// at the time of each record. The reader can drive any sink: metrics, fingerprint and ns-2 trace
+/// equal those of the run.
 ///
 ///     RecordedReader reader("runs/rescue-s7/trace.mcap");
 ///     while (const Record* record = reader.next()) sink.on(*record, reader.context());
@@ -71,9 +71,10 @@ class RecordedReader {
     const Record* next();
     /// Legs and messages at the time of the last record that next() returned.
     RecordContext context() const { return {legs_, messages_}; }
-    /// Passes all remaining records to a sink: begin, on, finish. @throws InputError as next()
+    /// Passes all remaining records to a sink: calls begin(), on() for each record, and finish().
+    /// @throws InputError as next()
     void read(const Sink& sink);
-    /// Broken and missing parts found so far, as sentences; empty if there are none.
+    /// Sentences about the broken and missing parts of the trace found so far.
     const std::vector<std::string>& damage() const { return file_.damage(); }
     /// Time of the last record so far.
     Time now() const { return now_; }
@@ -97,8 +98,9 @@ class RecordedReader {
     McapReader file_;
     RecordedRun run_;
     unsigned format_ = 1;
-    std::map<std::uint16_t, std::string> later_kinds_;  // names by channel; empty once reported
-    ByteReader chunk_{{}};                              // rest of the current chunk
+    // Names of the record kinds of later versions, by channel; a name is empty once reported.
+    std::map<std::uint16_t, std::string> later_kinds_;
+    ByteReader chunk_{{}};  // rest of the current chunk
     std::uint64_t chunk_offset_ = 0;
     std::uint32_t chunks_ = 0;   // number of chunks so far
     std::uint64_t records_ = 0;  // number of records so far

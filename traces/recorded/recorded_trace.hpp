@@ -22,15 +22,15 @@ namespace rovernet {
 /// Not stored: keys of random draws (Message::key, Frame::path), and levels of receptions.
 class RecordedTrace {
   public:
-    /// Contents of the file in addition to the records.
+    /// Contents of the trace file in addition to the run's records, and options of the recording.
     struct Contents {
         /// Version of the program, as text.
         std::string version;
-        /// Scenario as TOML, which replaces the run's own; empty: the run's own.
+        /// Scenario to store, as TOML; empty: the scenario that begin() receives in RunInfo.
         std::string scenario = {};
         /// Files that the scenario refers to.
         std::vector<AttachedFile> files = {};
-        /// True: link changes are recorded, too, which costs a search for them.
+        /// True: link changes are recorded, too. The network must then search for their times.
         bool links = false;
         /// Size of a chunk [receptions]; each record counts as 12 further receptions.
         std::size_t chunk = 250'000;

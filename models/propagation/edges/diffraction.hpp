@@ -14,10 +14,10 @@ namespace rovernet {
 ///   J(nu) = -20 log10( sqrt((1 - C - S)^2 + (C - S)^2) / 2 ),
 ///   nu = h sqrt(2 (d1 + d2) / (lambda d1 d2)),
 ///
-/// with the Fresnel integrals C and S of nu, the edge's height h [m] above the straight line, and
-/// its distances d1 and d2 [m] from the ends of the line. The loss is 6.02 dB if the edge touches
-/// the line; for edges below the line it may be negative, a gain of up to 1.4 dB. Valid for any nu;
-/// infinite for infinity.
+/// with the Fresnel integrals C and S of nu, the edge's height h [m] above the straight line, its
+/// distances d1 and d2 [m] from the ends of the line, and the wavelength lambda [m]. The loss is
+/// 6.02 dB if the edge touches the line; for edges below the line it may be negative, a gain of up
+/// to 1.4 dB. Valid for any nu; the loss is infinite for infinite nu.
 /// Source: Recommendation ITU-R P.526-15, section 4.1, equations 26 and 30.
 double knife_edge_loss_db(double nu);
 
@@ -26,8 +26,8 @@ double knife_edge_loss_db(double nu);
 ///   J(nu) = 6.9 + 20 log10( sqrt((nu - 0.1)^2 + 1) + nu - 0.1 ) for nu > -0.78, else 0
 ///
 /// The approximation is within 0.13 dB of knife_edge_loss_db() for nu > -0.78, and neglects the
-/// oscillation below. Its step at -0.78 is 0.004 dB; without the limit the approximation would be
-/// an unbounded gain.
+/// oscillation for smaller nu. Its step at nu = -0.78 is 0.004 dB; without the limit the
+/// approximation would be an unbounded gain.
 double knife_edge_loss_p526_db(double nu);
 
 /// Transition function F(x) [-] of the uniform theory of diffraction, for x >= 0:
@@ -46,14 +46,17 @@ struct WedgePath {
     Radians phi_incident;  ///< direction to the source [rad], from face 0: 0 to n pi
 };
 
-/// Rays of geometrical optics that reach a receiver near a wedge.
+/// Rays of geometrical optics that reach a receiver near a wedge, see WedgePath for the angles.
 struct LitBy {
-    bool direct;  ///< whether the straight ray reaches the receiver: |phi - phi'| <= pi
-    bool face_0;  ///< whether the ray reflected by face 0 reaches the receiver: phi + phi' <= pi
-    /// Whether the ray reflected by face n reaches the receiver: phi + phi' >= (2 n - 1) pi.
+    /// Whether the straight ray reaches the receiver: |phi - phi_incident| <= pi.
+    bool direct;
+    /// Whether the reflection by face 0 reaches the receiver: phi + phi_incident <= pi.
+    bool face_0;
+    /// Whether the reflection by face n reaches the receiver: phi + phi_incident >= (2 n - 1) pi.
     bool face_n;
 };
-/// Rays of geometrical optics that reach a receiver, by the angles of the path.
+/// Rays of geometrical optics that reach the receiver of a path around a wedge, from the angles of
+/// the path.
 LitBy lit_by(const WedgePath& path);
 
 /// Coefficients of a wedge's faces [-]: ratios of fields to the incident field.
@@ -62,13 +65,15 @@ struct WedgeFaces {
     math::Complex face_n;      ///< reflection by face n
     math::Complex through{0};  ///< transmission into the shadow; 0 for an opaque wedge
 };
-/// Faces at which the field is 0 (soft), and at which its normal derivative is 0 (hard): metal for
-/// an electric field parallel to the edge, and perpendicular to it.
+/// Coefficients of faces at which the field is 0 (soft), or at which its normal derivative is 0
+/// (hard). A metal wedge is soft for an electric field parallel to its edge, and hard for an
+/// electric field perpendicular to its edge.
 inline constexpr WedgeFaces soft_faces{-1, -1};
 inline constexpr WedgeFaces hard_faces{1, 1};
 
 /// Angles of incidence for the reflection coefficients of a lossy wedge's faces: from the grazing
-/// angles min(phi, phi') for face 0 and n pi - max(phi, phi') for face n.
+/// angles min(phi, phi') for face 0 and n pi - max(phi, phi') for face n, with phi and phi'
+/// (phi_incident) of WedgePath.
 ///
 /// Luebbers uses phi' for face 0 and n pi - phi for face n, so that exchanging source and receiver
 /// changes the result. With the smaller angle the coefficient is reciprocal; at the boundary where
@@ -88,7 +93,9 @@ FaceIncidence face_incidence(const WedgePath& path);
 ///       [ (1 - T) (K(pi - b) + K(pi + b)) + R0 K(pi - c) + Rn K(pi + c) ],
 ///   b = |phi - phi'|,   c = phi + phi',   K(e) = cot(e / 2n) F(2 k L sin^2(e / 2)),
 ///
-/// with e reduced by the multiple of 2 pi n that leaves it nearest to 0.
+/// with phi, phi' (phi_incident) and n of `path`, the coefficients R0, Rn and T (face_0, face_n and
+/// through) of `faces`, the transition function F, and e reduced by the multiple of 2 pi n that
+/// leaves it nearest to 0.
 ///
 /// A ray of geometrical optics appears where e = 0, and K has a step there of the size of that ray.
 /// The sign of K is taken from `lit`: the sum with the rays of the same `lit` has no step, also on

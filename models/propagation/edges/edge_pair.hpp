@@ -6,19 +6,21 @@
 
 namespace rovernet {
 
-/// Detour around an edge [wavelengths] below which the edge affects the straight path: with such a
-/// detour, the straight path and the path around the edge form one field.
+/// Detour around an edge [wavelengths] below which the edge affects the straight path. The detour
+/// is the length of the path around the edge minus that of the straight path. With a smaller
+/// detour, both paths together form one field.
 inline constexpr double near_edge = 2.25;
 
 /// Pair of consecutive edges of one body, with a face between the edges, and a path past both
 /// edges: a block as wide as the face is long. The path leads from one end to the first edge, along
 /// the face to the last edge, and to the other end.
 struct EdgePair {
-    /// Lengths of the path [m], > 0: to the first edge, along the face, and from the last edge.
+    /// Lengths of the parts of the path [m], > 0: to the first edge, along the face, and from the
+    /// last edge.
     double before, along, after;
-    /// Detours [m] of the path at the first and at the last edge: its length past the edge less the
-    /// straight line between the two neighbouring points (the other edge and an end). Negative if
-    /// the path bends away from the body there: the edge is lit.
+    /// Detours [m] of the path at the first and at the last edge: length of the path past the edge
+    /// minus the straight distance of its two neighbouring points (the other edge and an end). A
+    /// detour is negative if the edge does not obstruct the straight line (the edge is lit).
     double first, last;
     /// True if a face connects the edges; false for the edges of two screens.
     bool face = true;
@@ -26,12 +28,13 @@ struct EdgePair {
 
 /// Field past one screen, relative to free space [-], with its phase relative to that of the
 /// shortest path: 1 far above the edge, 1/2 at the edge.
-/// @param bend  detour [m]: length of the path by the edge less the straight line; negative if the
-///              edge is lit
+/// @param bend  detour [m]: length of the path by the edge minus the straight line; negative if the
+///              edge does not obstruct the straight line (it is lit)
 math::Complex screen_field(double bend, double wavelength);
 
 /// Field past a wide body, relative to free space [-], with its phase relative to that of the
-/// shortest path around the body: a taut string, or the straight line if both edges are lit.
+/// shortest path around the body: a taut string, or the straight line if neither edge obstructs it
+/// (both edges are lit).
 ///
 /// With the heights y1, y2 > 0 over the two edges, and the kernel G of Fresnel's integral,
 ///
@@ -39,7 +42,8 @@ math::Complex screen_field(double bend, double wavelength);
 ///
 /// The field along the face vanishes (soft face, as for every material at a grazing angle), so a
 /// mirrored part has the opposite sign. In closed form except for one smooth integral, with
-/// rho = sqrt(before after / ((before + along) (along + after))), nu = 2 sqrt(bend / lambda):
+/// rho = sqrt(before after / ((before + along) (along + after))), and nu = 2 sqrt(d / lambda) for
+/// the detour d at each edge (`first`, `last`), with the sign of d:
 ///
 ///   U = V(pi/2 + asin rho) - V(pi/2 - asin rho),
 ///   V(T) = 1/(2 pi) integral from 0 to T of 1 - F(s^2) dp,

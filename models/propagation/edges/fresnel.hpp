@@ -11,7 +11,7 @@ namespace rovernet::math {
 ///
 /// f and g fall smoothly, from 1/2 at 0 to f = 1 / (pi t) and g = 1 / (pi^2 t^3) for large t.
 /// Unlike C and S they do not oscillate, and no nearly equal numbers are subtracted. Relative error
-/// below 2e-14. They give the complementary error function on a diagonal of the complex plane:
+/// below 2e-14. f and g give the complementary error function on a diagonal of the complex plane:
 /// g - j f = (1 - j) / 2 e^(z^2) erfc(z) with z = sqrt(pi) / 2 (1 + j) t.
 ///
 /// Source: NIST Digital Library of Mathematical Functions, 7.2(iv) and 7.12(ii).

@@ -9,18 +9,20 @@
 
 namespace rovernet {
 
-/// Saturation throughput of the 802.11 DCF for `n` stations in range of each other that always have
-/// a frame to send: the share of time in which payload bits are received.
+/// Saturation throughput of the 802.11 DCF by Bianchi's model, for `n` stations in range of each
+/// other that always have a frame to send. Throughput is the share of time in which payload bits
+/// are received.
 ///
 /// Source: G. Bianchi, Performance analysis of the IEEE 802.11 distributed coordination function,
 /// IEEE JSAC 18(3), 2000; equations 7, 9-13.
 struct Bianchi {
-    int window = 32;                           ///< W = CWmin + 1 [slots]
-    int stages = 3;                            ///< m: number of doublings of the window
-    double slot, payload, success, collision;  ///< slot time, mean payload time E[P], durations of
-                                               ///< a success Ts and of a collision Tc [us]
+    int window = 32;                           ///< initial contention window W = CWmin + 1 [slots]
+    int stages = 3;                            ///< number m of doublings of the contention window
+    double slot, payload, success, collision;  ///< durations [us]: slot, mean payload E[P], success
+                                               ///< Ts, collision Tc
 
-    /// Probability that a station transmits in a slot, if its frames collide with probability `p`.
+    /// Probability that a station transmits in a slot, if its frames collide with the probability
+    /// `p`.
     double attempts(double p) const {
         const double q = 1 - 2 * p;
         return 2 * q / (q * (window + 1) + p * window * (1 - std::pow(2 * p, stages)));
@@ -42,16 +44,16 @@ struct Bianchi {
     }
 };
 
-/// Cell (group of stations in range of each other) with the parameters of Bianchi's table II: 1
-/// Mb/s; slot 50, SIFS 28, DIFS 128 us; 8184 bits of payload after 272 bits of MAC header and a
-/// preamble of 128 us. No EIFS, no retry limit, no sensing delay.
+/// Group of stations in range of each other, with the parameters of Bianchi's table II: 1 Mb/s;
+/// slot 50, SIFS 28, DIFS 128 us; 8184 bits of payload after 272 bits of MAC header and a preamble
+/// of 128 us. No EIFS, no retry limit, no sensing delay.
 struct BianchiCell {
     static constexpr std::uint32_t payload = 1023;  ///< payload of a frame [bytes]
     static constexpr BitRate rate{1e6};
     static constexpr Duration preamble = std::chrono::microseconds{128};
 
-    int window = 32;    ///< W = CWmin + 1 [slots]
-    int stages = 3;     ///< m: number of doublings of the window
+    int window = 32;    ///< initial contention window W = CWmin + 1 [slots]
+    int stages = 3;     ///< number m of doublings of the contention window
     bool asks = false;  ///< true: RTS and CTS precede each data frame
 
     Bianchi theory() const {

@@ -3,9 +3,9 @@
 
 namespace rovernet {
 
-/// Excess loss [dB] over free space of a 2450 MHz wave behind a block. Source at (-8 m, 0.3 m);
-/// receiver: mean power within 15 cm of (8 m, y). The block covers -width / 2 to width / 2 in x and
-/// 0 to 1 m in y; the field is 0 on its sides.
+/// Excess loss [dB] over free space of a 2450 MHz wave behind a block. The source is at (-8 m, 0.3
+/// m). The receiver takes the mean power within 15 cm of (8 m, y). The block covers -width / 2 to
+/// width / 2 in x and 0 to 1 m in y. The field is 0 on the block's sides.
 ///
 /// Accuracy: 0.3 dB. Computed by a two-dimensional boundary integral over the block's outline,
 /// without ray optics; test/study/validation/cases/block_shadows_test.cpp repeats the computation.

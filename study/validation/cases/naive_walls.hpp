@@ -8,8 +8,8 @@
 #include <functional>
 #include <vector>
 
-// Simple methods for the length of a link inside walls, as used by other simulators; only for
-// comparison with Scene.
+// Simple methods for the length of a link inside walls, as used by other simulators. They are only
+// compared with Scene.
 
 namespace rovernet {
 
@@ -24,8 +24,9 @@ class NaiveRaster {
     /// differential analyser). Source: J. Amanatides and A. Woo, A fast voxel traversal algorithm,
     /// 1987.
     double traversed(Vec3 a, Vec3 b) const;
-    /// Length [m] of the line a-b times the share of wall cells among its Bresenham cells. Source:
-    /// J. E. Bresenham, IBM Systems Journal 4(1), 1965.
+    /// Length [m] of the line a-b inside walls, estimated as the length of a-b times the share of
+    /// wall cells among the cells of its Bresenham line. Source: J. E. Bresenham, IBM Systems
+    /// Journal 4(1), 1965.
     double bresenham(Vec3 a, Vec3 b) const;
 
   private:
@@ -41,7 +42,7 @@ class NaiveRaster {
     std::vector<std::uint8_t> cells_;
 };
 
-/// Length [m] of the line a-b inside walls, by samples at about every `step` [m].
+/// Length [m] of the line a-b inside walls, estimated from samples at about every `step` [m].
 /// @param is_wall  whether a point is in a wall; called for each sample
 template <class IsWall>
 double sampled_wall(Vec3 a, Vec3 b, double step, const IsWall& is_wall) {

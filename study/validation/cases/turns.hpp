@@ -11,15 +11,15 @@
 
 namespace rovernet {
 
-/// Cost of one operation [ns]: median, lowest and highest of the measurement turns.
+/// CPU time of one operation [ns]: median, lowest and highest value over the measurement turns.
 struct TurnCost {
     double median = 0, low = 0, high = 0;
 };
 
 /// Method whose CPU time is measured by costs_in_turns().
 struct TimedMethod {
-    /// Function that performs all operations once. Its result depends on every operation, so that
-    /// the compiler removes none.
+    /// Function that performs all operations once (a pass). Its result depends on every operation,
+    /// so that the compiler removes no operation.
     std::function<double()> pass;
     double operations = 1;  ///< number of operations in a pass, > 0
 };
@@ -35,10 +35,10 @@ TimedMethod timed_sum(const All& all, Value value) {
             static_cast<double>(std::size(all))};
 }
 
-/// Length of a cost measurement by costs_in_turns().
+/// Number and length of the turns of a cost measurement by costs_in_turns().
 struct Turns {
     int turns = 5;
-    /// Least CPU time [s] of each method in a turn: passes of the method are repeated until their
+    /// Minimum CPU time [s] of each method in a turn. Passes of the method are repeated until their
     /// CPU time reaches this value.
     double least_s = 0.02;
 };

@@ -16,7 +16,7 @@
 
 namespace rovernet {
 
-/// Scenario that is not in a file: the text of a scenario file and, optionally, walls.
+/// Scenario that is defined in the program: the text of a scenario file and, optionally, walls.
 struct ValidationScene {
     std::string name;
     std::string text;  ///< content of a scenario file, without [scene]
@@ -27,15 +27,15 @@ struct ValidationScene {
     Scenario scenario(const Table& settings, std::uint32_t replication = 0) const;
 };
 
-/// Open field of 900 m x 900 m with 20 moving robots; a message every two seconds, which all robots
-/// forward.
+/// Open field of 900 m x 900 m with 20 moving robots. Every two seconds a message is sent, which
+/// all robots forward.
 ValidationScene open_field_scene();
 /// Office of drawn_office() with 8 moving robots.
 ValidationScene office_scene();
 /// Cave of is_rock() with 8 moving robots.
 ValidationScene cave_scene();
 
-/// Variant of a scene, such as a different model.
+/// Variant of a scene with different settings, such as a different model.
 struct Variant {
     std::string label, series;
     Table settings;
@@ -43,8 +43,8 @@ struct Variant {
 
 /// Results of the runs of one variant of a scene.
 struct VariantRuns {
-    std::vector<double> delivery_ratio;  ///< delivery ratio of each replication
-    TurnCost cost;  ///< CPU time of a run per transmission [ns]: median, lowest and highest run
+    std::vector<double> delivery_ratio;  ///< delivery ratio in each replication [-]
+    TurnCost cost;  ///< CPU time per transmission [ns]: median, lowest and highest over the runs
 };
 
 /// Runs all variants of a scene on the same replications. In each replication, the variants run one
@@ -53,11 +53,13 @@ std::vector<VariantRuns> paired_runs(const ValidationScene& scene,
                                      const std::vector<Variant>& variants,
                                      std::size_t replications);
 
-/// Differences between the runs of a variant and of the reference ("truth"), pair by pair.
+/// Differences of delivery ratios between the runs of a variant and of the reference ("truth"),
+/// compared in each replication.
 struct RunErrors {
-    std::vector<double> distances = {};  ///< absolute difference of each replication
+    std::vector<double> distances = {};  ///< absolute difference in each replication
     double mean = 0;                     ///< mean absolute difference of delivery ratios
-    std::optional<MeanInterval> likely;  ///< 95 % interval of `mean`; none if `mean` is 0
+    std::optional<MeanInterval> likely;  ///< 95 % confidence interval of `mean`; none if `mean` is
+                                         ///< 0
     double bias = 0;                     ///< mean difference of delivery ratios (with sign)
 };
 RunErrors run_errors(const VariantRuns& runs, const VariantRuns& truth);
