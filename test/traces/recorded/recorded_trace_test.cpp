@@ -160,7 +160,8 @@ TEST_CASE("a recorded trace keeps the header of a frame, with the record of that
     RecordedTrace trace(folder / "t.mcap", {.version = "1"});
     trace.begin(info(2));
     Stream stream;
-    const Frame frame{.message = stream.messages.add({.origin = {0}}), .sender = {0}, .hops = 1};
+    const Frame frame{
+        .message = stream.messages.add({.origin = {0}, .payload = {}}), .sender = {0}, .hops = 1};
     const FrameHeader header{"DSR", std::string("a\0b", 3)};
     const auto emit = [&](const Record& record, const FrameHeader* its_header) {
         trace.on(record, {stream.legs, stream.messages, nullptr, its_header});
