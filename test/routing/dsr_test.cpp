@@ -125,8 +125,11 @@ TEST_CASE("dsr 8.1.3, 8.1.5: a message has its whole route, and the same bytes o
     CHECK(n.data().back().bytes == 20 + 4 + 4 + 4 * 2);
     CHECK(n.data().back().next_hop == NodeId{1});
     CHECK(n.data().back().ttl == 32);
+    CHECK(n.route_on_air(n.data().back()) == "1 2, salvage 0, left 2");
     CHECK(n.arrive().fate == Fate::waiting);
+    CHECK(n.route_on_air(n.data().back()) == "1 2, salvage 0, left 1");
     CHECK(n.arrive().fate == Fate::waiting);
+    CHECK(n.route_on_air(n.data().back()) == "1 2, salvage 0, left 0");
     CHECK(n.data().back().bytes == 36);
     CHECK(n.data().back().sender == NodeId{2});
     CHECK(n.data().back().next_hop == NodeId{3});
