@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "network/arp.hpp"
 
+#include "network/arp_packet.hpp"
 #include "network/world.hpp"
 
 #include <algorithm>
 #include <utility>
 
 namespace rovernet {
-namespace {
-
-constexpr std::string_view request = "ARP REQUEST", reply = "ARP REPLY";
-
-}  // namespace
 
 Arp::Entry* Arp::find(NodeId node, NodeId neighbour) {
     if (node.index() >= entries_.size()) return nullptr;
@@ -59,7 +55,7 @@ void Arp::ask(NodeId node, Entry& entry) {
     }
     ++entry.requests;
     set_event(entry, node, world_.now + answer_time);
-    send(node, entry.neighbour, everyone, request);
+    send(node, entry.neighbour, everyone, arp::request_kind);
 }
 
 void Arp::on_timer(NodeId node, NodeId neighbour) {
@@ -68,7 +64,7 @@ void Arp::on_timer(NodeId node, NodeId neighbour) {
     entry->due = never;
     if (entry->requests > 0) return ask(node, *entry);
     const auto held = std::exchange(entry->held, std::nullopt);
-    if (std::exchange(entry->owes_reply, false)) send(node, neighbour, neighbour, reply);
+    if (std::exchange(entry->owes_reply, false)) send(node, neighbour, neighbour, arp::reply_kind);
     if (held) user_.send_resolved(*held);
 }
 
@@ -80,7 +76,7 @@ void Arp::send(NodeId from, NodeId to, NodeId next_hop, std::string_view kind) {
                                              .number = number,
                                              .to = to,
                                              .key = combine(combine(world_.key(from), own), number),
-                                             .size = packet_bytes,
+                                             .size = arp::packet_bytes,
                                              .payload = {},
                                              .kind = kind});
     user_.send_resolved({{.message = id,
@@ -99,7 +95,7 @@ void Arp::receive(const Frame& frame, std::span<Reception> receptions) {
         r.fate = Fate::arrived;
         r.delivered = false;
         Entry& entry = add(r.node, frame.sender);
-        if (r.node == packet.to && packet.kind == request) entry.owes_reply = true;
+        if (r.node == packet.to && packet.kind == arp::request_kind) entry.owes_reply = true;
         learn(entry, r.node, r.time);
     }
 }

@@ -38,7 +38,6 @@ class ArpUser {
 /// without an answer, the waiting frame is dropped.
 class Arp {
   public:
-    static constexpr std::uint32_t packet_bytes = 28;
     static constexpr std::uint8_t most_requests = 3;
     static constexpr Duration answer_time = std::chrono::seconds{3};
 

@@ -14,7 +14,7 @@ using big_endian::get;
 using big_endian::put;
 
 constexpr std::uint32_t request_type = 1, reply_type = 2, error_type = 3, route_type = 96;
-constexpr std::uint32_t node_unreachable = 1, no_next_header = 59;
+constexpr std::uint32_t node_unreachable = 1, no_next_header = 59, udp = 17;
 
 /// Option in a header: its type, the place of its data, and the place behind it.
 struct Option {
@@ -56,6 +56,12 @@ void put_option(std::string& to, std::uint32_t type, std::size_t addresses, std:
 }
 void put_nodes(std::string& to, std::span<const NodeId> nodes) {
     for (const NodeId node : nodes) put(to, node.value);
+}
+/// Header with these options (6.1).
+std::string header_of(std::uint32_t next_header, const std::string& options) {
+    std::string bytes;
+    put(bytes, next_header << 24 | static_cast<std::uint32_t>(options.size()));
+    return bytes + options;
 }
 /// Nodes between the ends of a path.
 std::span<const NodeId> between(const Path& path) {
@@ -113,6 +119,15 @@ bool take(const Option& option, const Message& message, Packet& packet) {
 
 }  // namespace
 
+std::string message_header(const Path& path, unsigned salvage, std::size_t hop) {
+    const auto nodes = salvage > 0 ? std::span(path.begin(), path.hops()) : between(path);
+    const auto segments_left = static_cast<std::uint32_t>(path.hops() - 1 - hop);
+    std::string option;
+    put_option(option, route_type, nodes.size(), salvage << 6 | segments_left);
+    put_nodes(option, nodes);
+    return header_of(udp, option);
+}
+
 std::string to_bytes(const Packet& packet) {
     std::string options;
     if (const auto& r = packet.request) {
@@ -134,9 +149,7 @@ std::string to_bytes(const Packet& packet) {
         put_option(options, route_type, nodes.size(), segments_left);
         put_nodes(options, nodes);
     }
-    std::string bytes;
-    put(bytes, no_next_header << 24 | static_cast<std::uint32_t>(options.size()));
-    return bytes + options;
+    return header_of(no_next_header, options);
 }
 
 Packet packet_of(const Message& message) {
@@ -151,6 +164,19 @@ Packet packet_of(const Message& message) {
 
 std::string on_air(std::string_view bytes, const Frame& frame,
                    const std::function<std::uint32_t(NodeId)>& address) {
+    std::string changed = header_on_air(bytes, address);
+    const auto options = options_of(bytes);
+    if (!options || frame.hops == 0) return changed;
+    for (const Option& each : *options) {
+        if (each.type != route_type) continue;
+        char& segments_left = changed[each.data + 1];
+        segments_left = static_cast<char>(get(bytes, each.data + 1, 1) + 1U - frame.hops);
+    }
+    return changed;
+}
+
+std::string header_on_air(std::string_view bytes,
+                          const std::function<std::uint32_t(NodeId)>& address) {
     std::string changed(bytes);
     const auto options = options_of(bytes);
     if (!options) return changed;
@@ -159,11 +185,6 @@ std::string on_air(std::string_view bytes, const Frame& frame,
         if (!before) continue;
         for (std::size_t at = each.data + *before; at + 4 <= each.end; at += 4) {
             big_endian::set(changed, at, address(NodeId{get(bytes, at)}));
-        }
-        const bool is_on_its_way = each.type == route_type && frame.hops > 0;
-        if (is_on_its_way) {  // segments left
-            changed[each.data + 1] =
-                static_cast<char>(get(bytes, each.data + 1, 1) + 1U - frame.hops);
         }
     }
     return changed;

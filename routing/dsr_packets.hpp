@@ -24,6 +24,8 @@ inline constexpr std::uint8_t ip_protocol = 48;
 /// Kinds of DSR packets, see Message::kind: type in ns-2 traces, and name.
 inline constexpr std::string_view request_kind = "DSR REQUEST", reply_kind = "DSR REPLY",
                                   error_kind = "DSR ERROR";
+/// Protocol of a message's header, as that of the kinds.
+inline constexpr std::string_view protocol = "DSR";
 /// Size of an IP header, and of the fixed part of the DSR Options header (6.1) [bytes].
 inline constexpr std::uint32_t ip_header = 20, fixed_header = 4;
 /// Size of a Source Route option with this number of addresses (6.7) [bytes].
@@ -64,6 +66,10 @@ struct Packet {
 
 /// Bytes of the DSR Options header with the options of a packet.
 std::string to_bytes(const Packet& packet);
+/// Bytes of the DSR Options header before a message: a Source Route option, and UDP behind it. A
+/// salvaged message's route lists its first node, too, as that is not the message's source (8.3.6).
+/// @param hop  hops that the message has made on this path
+std::string message_header(const Path& path, unsigned salvage, std::size_t hop);
 /// Packet that the payload of a message contains; without options if the payload is no DSR packet.
 Packet packet_of(const Message& message);
 
@@ -72,6 +78,10 @@ Packet packet_of(const Message& message);
 /// @param address  IPv4 address of a node, in host byte order
 std::string on_air(std::string_view bytes, const Frame& frame,
                    const std::function<std::uint32_t(NodeId)>& address);
+
+/// Bytes of the header of a message as they are on the air: with IP addresses.
+std::string header_on_air(std::string_view bytes,
+                          const std::function<std::uint32_t(NodeId)>& address);
 
 /// Appends the content of a packet to `text`, as ns-2 writes it. For a reply, the number of the
 /// answered request is written as 0, because a reply of RFC 4728 does not contain the number.

@@ -65,6 +65,12 @@ std::vector<RouteState> DsrRouter::routes(NodeId at, Time) const {
     return all;
 }
 
+FrameHeader DsrRouter::header_bytes(const Frame& frame) const {
+    const Header& h = header(frame);
+    const auto hop = static_cast<std::size_t>(frame.hops - h.first_hops);
+    return {dsr::protocol, dsr::message_header(h.path, h.salvage, hop)};
+}
+
 std::size_t DsrRouter::pairs_too_far() const {
     return static_cast<std::size_t>(std::count_if(too_far_.begin(), too_far_.end(),
                                                   [](const auto& each) { return each.second; }));

@@ -44,6 +44,7 @@ class DsrRouter {
                   std::string& text) const {
         dsr::describe(message, style, text);
     }
+    FrameHeader header_bytes(const Frame& frame) const;
     /// Shortest route to each destination that a node knows, in the order of destinations.
     std::vector<RouteState> routes(NodeId node, Time now) const;
 

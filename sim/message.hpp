@@ -91,6 +91,14 @@ struct Frame {
     std::uint32_t header = 0;
 };
 
+/// Header that the routing protocol puts before the message in a frame, with the bytes that go on
+/// air; an address in them is the id of a node.
+struct FrameHeader {
+    /// Protocol whose header it is, as in Message::protocol.
+    std::string_view protocol;
+    std::string bytes;
+};
+
 /// Frame that waits to be sent: for its send time in Routing, or for channel access in a station's
 /// queue.
 struct QueuedFrame {

@@ -202,6 +202,9 @@ struct RecordContext {
     /// Routing protocol, which describes its control packets; null without one, and for records
     /// that were read from a file.
     const Router* router = nullptr;
+    /// Header of the frame of an AirSent that was read from a file; null if the frame has none. In
+    /// a run, Router::header_bytes has it.
+    const FrameHeader* header = nullptr;
 };
 
 }  // namespace rovernet

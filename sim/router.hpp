@@ -56,6 +56,8 @@ class Router {
     void describe(const Message& m, const Frame& f, PacketStyle style, std::string& text) const {
         self_->describe(m, f, style, text);
     }
+    /// Header of a frame with Frame::header; without bytes if the protocol does not show it.
+    FrameHeader header_bytes(const Frame& f) const { return self_->header_bytes(f); }
     /// Routing table of a node at `now`, in the order of destinations; empty if the protocol has
     /// none.
     std::vector<RouteState> routes(NodeId node, Time now) const { return self_->routes(node, now); }
@@ -96,6 +98,7 @@ class Router {
         virtual void forget_header(std::uint32_t) = 0;
         virtual bool keeps(MessageId) const = 0;
         virtual void describe(const Message&, const Frame&, PacketStyle, std::string&) const = 0;
+        virtual FrameHeader header_bytes(const Frame&) const = 0;
         virtual std::vector<RouteState> routes(NodeId, Time) const = 0;
         virtual std::string notice() const = 0;
         virtual Hops initial_ttl(const Message&) const = 0;
@@ -137,6 +140,10 @@ class Router {
                       [[maybe_unused]] PacketStyle style,
                       [[maybe_unused]] std::string& text) const override {
             if constexpr (DescribesPackets<T>) protocol.describe(m, f, style, text);
+        }
+        FrameHeader header_bytes([[maybe_unused]] const Frame& f) const override {
+            if constexpr (ShowsHeaders<T>) return protocol.header_bytes(f);
+            return {};
         }
         std::vector<RouteState> routes([[maybe_unused]] NodeId node,
                                        [[maybe_unused]] Time now) const override {

@@ -106,6 +106,12 @@ concept DescribesPackets = requires(const T router, const Message& message, cons
                                     PacketStyle style, std::string& text) {
     {router.describe(message, frame, style, text)};
 };
+/// Protocol that shows the headers of its frames (Frame::header) in recorded traces and captures:
+/// header_bytes() returns the header that goes on air in this frame.
+template <class T>
+concept ShowsHeaders = requires(const T router, const Frame& frame) {
+    { router.header_bytes(frame) } -> std::convertible_to<FrameHeader>;
+};
 /// Protocol that is notified of node starts: on_start is called for each node when the run begins,
 /// in the order of keys, or when the node is added later. HELLO messages start here.
 template <class T>

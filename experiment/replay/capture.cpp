@@ -4,6 +4,7 @@
 #include "experiment/replay/recorded_air.hpp"
 #include "experiment/reports/link_table.hpp"
 #include "experiment/reports/range_of_model.hpp"
+#include "network/arp_packet.hpp"
 #include "routing/packet_on_air.hpp"
 #include "traces/pcapng/wifi_packet.hpp"
 
@@ -76,7 +77,9 @@ class Capturing {
     void add_received(const AirFrame& air, const Reception& reception);
     void add_packet(NodeId at, Time time, PcapngWriter::Way way, const RecordedFrame& frame,
                     std::optional<RadiotapFacts::Signal> signal);
+    std::optional<PacketContent> content(const RecordedFrame& frame) const;
     PacketAddresses addresses(const AirFrame& air) const;
+    arp::Station station(NodeId node) const;
     std::uint32_t ip_of(NodeId node) const;
 
     RecordedReader& trace_;
@@ -128,6 +131,28 @@ void Capturing::add_received(const AirFrame& air, const Reception& reception) {
     add_packet(reception.node, reception.time, PcapngWriter::Way::in, found, signal);
 }
 
+/// Content of a data frame as the layer whose packet it is has it; none for a message alone.
+std::optional<PacketContent> Capturing::content(const RecordedFrame& frame) const {
+    const Message& message = trace_.context().messages[frame.air.frame.message];
+    const auto ip = [&](NodeId node) { return ip_of(node); };
+    if (message.is_link_packet()) {
+        return PacketContent{
+            .ethertype = arp::ethertype,
+            .bytes = arp::on_air(message, station(message.origin), station(message.to))};
+    }
+    if (!message.kind.empty()) {
+        auto own = packet_on_air(message, frame.air.frame, ip);
+        if (!own) return std::nullopt;
+        return PacketContent{
+            .ip_protocol = own->ip_protocol, .port = own->port, .bytes = std::move(own->bytes)};
+    }
+    auto header = header_on_air(frame.header, ip);
+    if (!header) return std::nullopt;
+    return PacketContent{.ip_protocol = header->ip_protocol,
+                         .bytes = std::move(header->bytes),
+                         .precedes_message = true};
+}
+
 /// Adds a frame to the interface of a robot that sends or receives it.
 void Capturing::add_packet(NodeId at, Time time, PcapngWriter::Way way, const RecordedFrame& frame,
                            std::optional<RadiotapFacts::Signal> signal) {
@@ -138,15 +163,9 @@ void Capturing::add_packet(NodeId at, Time time, PcapngWriter::Way way, const Re
                      .signal = signal},
                     bytes_);
     if (!air.control) {
-        const Message& message = trace_.context().messages[air.frame.message];
-        const auto own =
-            message.kind.empty()
-                ? std::nullopt
-                : packet_on_air(message, air.frame, [&](NodeId node) { return ip_of(node); });
-        const PacketContent content =
-            own ? PacketContent{own->ip_protocol, own->port, own->bytes} : PacketContent{};
-        append_data_frame(air, message, frame.bytes, addresses(air), own ? &content : nullptr,
-                          bytes_);
+        const auto own = content(frame);
+        append_data_frame(air, trace_.context().messages[air.frame.message], frame.bytes,
+                          addresses(air), own ? &*own : nullptr, bytes_);
     } else {
         append_control_frame(air, addresses(air), bytes_);
     }
@@ -170,6 +189,10 @@ PacketAddresses Capturing::addresses(const AirFrame& air) const {
 
 std::uint32_t Capturing::ip_of(NodeId node) const {
     return node.index() < hosts_.size() ? hosts_[node.index()].ip : every_host;
+}
+
+arp::Station Capturing::station(NodeId node) const {
+    return {hosts_[node.index()].mac, hosts_[node.index()].ip};
 }
 
 }  // namespace

@@ -95,6 +95,7 @@ void RecordedAir::take(const Record& record, const RecordContext& context) {
         const bool is_data = !sent->air.control;
         add({.air = sent->air,
              .uid = is_data ? context.messages[sent->air.frame.message].uid : 0,
+             .header = context.header ? *context.header : FrameHeader{},
              .bytes = sent->bytes,
              .rate = {},
              .begin = sent->time,

@@ -24,6 +24,8 @@ struct RecordedFrame {
     AirFrame air;
     /// Uid of the frame's message; 0 for a frame that is no data frame.
     std::uint64_t uid = 0;
+    /// Header of the routing protocol before the message; without bytes: none.
+    FrameHeader header = {};
     /// Size of the frame on air [bytes].
     std::uint32_t bytes = 0;
     /// Bit rate of the frame's payload [bit/s].

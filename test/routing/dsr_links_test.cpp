@@ -43,10 +43,12 @@ TEST_CASE("dsr 8.3.4: a broken link is told to the source, and the message goes 
         CHECK(values(n.router.header(salvaged).path) == Nodes{0, 1, 2, 5});
         CHECK(n.router.header(salvaged).salvage == 1);
         CHECK(salvaged.bytes == 20 + 4 + 4 + 4 * 3);  // with node 0, which is not its source
+        CHECK(n.route_on_air(salvaged) == "0 1 2, salvage 1, left 2");
         CHECK(n.link.drops.empty());
         CHECK(n.route(5) == Nodes{1, 2, 5});
         // 8.3.4: the next error goes to the node that salvaged it.
         n.arrive();
+        CHECK(n.route_on_air(n.data().back()) == "0 1 2, salvage 1, left 1");
         n.fail();
         CHECK(n.sent(dsr::error_kind).back().second.error.value().to == NodeId{0});
         CHECK(n.sent(dsr::error_kind).back().second.error.value().salvage == 1);

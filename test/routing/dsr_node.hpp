@@ -117,6 +117,23 @@ struct DsrNode {
         }
         return {};
     }
+    /// Source Route option of a frame's header, read by the layout of RFC 4728, 6.7: "1 2, salvage
+    /// 0, left 1".
+    std::string route_on_air(const Frame& frame) const {
+        const FrameHeader header = router.header_bytes(frame);
+        CHECK(header.protocol == "DSR");
+        CHECK(header.bytes.size() + 20 == frame.bytes);  // the fake's messages have no size
+        const auto byte = [&](std::size_t at) {
+            return static_cast<std::uint8_t>(header.bytes[at]);
+        };
+        std::string text;
+        for (std::size_t at = 8; at < header.bytes.size(); at += 4) {
+            text += std::to_string(byte(at + 3)) + ' ';
+        }
+        if (!text.empty()) text.pop_back();
+        return text + ", salvage " + std::to_string((byte(6) & 3) << 2 | byte(7) >> 6) + ", left " +
+               std::to_string(byte(7) & 63);
+    }
     /// Control packets of a kind that were sent so far.
     std::vector<std::pair<Frame, dsr::Packet>> sent(std::string_view kind) const {
         std::vector<std::pair<Frame, dsr::Packet>> all;

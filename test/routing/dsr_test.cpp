@@ -59,6 +59,23 @@ TEST_CASE("dsr 6: packets have the RFC's bytes, and are read back") {
     CHECK(air.substr(4, 7) == std::string("\2\x0d\0\x0a\0\0\5", 7));
 }
 
+TEST_CASE("dsr 6.7, 8.3.6: the header of a message has its route, salvage count, segments left") {
+    const dsr::Path way = path({4, 5, 6, 9});
+    CHECK(dsr::message_header(way, 0, 0) ==
+          std::string("\x11\0\0\x0c\x60\x0a\0\2\0\0\0\5\0\0\0\6", 16));
+    CHECK(dsr::message_header(way, 0, 2) ==
+          std::string("\x11\0\0\x0c\x60\x0a\0\0\0\0\0\5\0\0\0\6", 16));
+    CHECK(dsr::message_header(path({4, 9}), 0, 0) == std::string("\x11\0\0\4\x60\2\0\0", 8));
+    // The node that salvages is the first address, and is visited already.
+    const std::string salvaged = dsr::message_header(way, 7, 1);
+    CHECK(salvaged.substr(4, 8) == std::string("\x60\x0e\1\xc1\0\0\0\4", 8));
+    CHECK(dsr::header_on_air(salvaged, [](NodeId n) { return 0x0a000000 + n.value; }) ==
+          std::string("\x11\0\0\x10\x60\x0e\1\xc1\x0a\0\0\4\x0a\0\0\5\x0a\0\0\6", 20));
+    // Sizes on air are those of the bytes.
+    CHECK(dsr::message_header(way, 0, 0).size() == dsr::fixed_header + dsr::route_option(2));
+    CHECK(salvaged.size() == dsr::fixed_header + dsr::route_option(3));
+}
+
 TEST_CASE("dsr: packets in traces, as ns-2 writes them") {
     const auto text = [](const dsr::Packet& packet, std::uint32_t from, std::uint32_t to,
                          PacketStyle style = PacketStyle::brackets) {
@@ -108,8 +125,11 @@ TEST_CASE("dsr 8.1.3, 8.1.5: a message has its whole route, and the same bytes o
     CHECK(n.data().back().bytes == 20 + 4 + 4 + 4 * 2);
     CHECK(n.data().back().next_hop == NodeId{1});
     CHECK(n.data().back().ttl == 32);
+    CHECK(n.route_on_air(n.data().back()) == "1 2, salvage 0, left 2");
     CHECK(n.arrive().fate == Fate::waiting);
+    CHECK(n.route_on_air(n.data().back()) == "1 2, salvage 0, left 1");
     CHECK(n.arrive().fate == Fate::waiting);
+    CHECK(n.route_on_air(n.data().back()) == "1 2, salvage 0, left 0");
     CHECK(n.data().back().bytes == 36);
     CHECK(n.data().back().sender == NodeId{2});
     CHECK(n.data().back().next_hop == NodeId{3});

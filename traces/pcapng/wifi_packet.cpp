@@ -72,8 +72,17 @@ void append_ip(const AirFrame& air, const Message& message, const PacketAddresse
     to.bytes(ip.view().substr(checksum_at + 2));
 }
 
+void append_udp(std::uint16_t port, std::string_view content, ByteWriter& to) {
+    put_big(port, to);
+    put_big(port, to);
+    put_big(static_cast<std::uint16_t>(8 + content.size()), to);
+    put_big(std::uint16_t{0}, to);  // without a checksum
+    to.bytes(content);
+}
+
 void append_message(const AirFrame& air, const Message& message, std::uint32_t bytes,
-                    std::size_t carried, ByteWriter& to) {
+                    ByteWriter& to) {
+    const std::size_t carried = std::min<std::size_t>(message.size, longest_captured);
     to.bytes("rvnt");
     to.fixed(std::uint8_t{1});  // version
     to.fixed(static_cast<std::uint8_t>(message.kind.empty() ? 0 : 1));
@@ -87,6 +96,23 @@ void append_message(const AirFrame& air, const Message& message, std::uint32_t b
     const std::size_t told = std::min(message.payload.size(), carried);
     to.bytes(std::string_view(message.payload).substr(0, told));
     to.bytes(std::string(carried - told, '\0'));
+}
+
+/// Appends what follows LLC and SNAP.
+void append_packet(const AirFrame& air, const Message& message, std::uint32_t bytes,
+                   const PacketAddresses& addresses, const PacketContent* content, ByteWriter& to) {
+    if (content && content->ethertype != ipv4_ethertype) return to.bytes(content->bytes);
+    ByteWriter own, behind_ip;
+    if (content && content->ip_protocol != udp_protocol) behind_ip.bytes(content->bytes);
+    if (!content || content->precedes_message) {
+        append_message(air, message, bytes, own);
+        append_udp(capture_port, own.view(), behind_ip);
+    } else if (content->ip_protocol == udp_protocol) {
+        append_udp(content->port, content->bytes, behind_ip);
+    }
+    append_ip(air, message, addresses, content ? content->ip_protocol : udp_protocol,
+              behind_ip.size(), to);
+    to.bytes(behind_ip.view());
 }
 
 }  // namespace
@@ -112,11 +138,6 @@ void append_data_frame(const AirFrame& air, const Message& message, std::uint32_
                        const PacketAddresses& addresses, const PacketContent* content,
                        ByteWriter& to) {
     const std::size_t begin = to.size();
-    const std::size_t carried = std::min<std::size_t>(message.size, longest_captured);
-    const std::uint8_t protocol = content ? content->ip_protocol : udp_protocol;
-    const std::size_t size = (protocol == udp_protocol ? 8 : 0) +
-                             (content ? content->bytes.size() : message_header + carried);
-    const std::uint16_t port = content ? content->port : capture_port;
     to.fixed(std::uint8_t{0x08});  // data
     to.fixed(static_cast<std::uint8_t>(air.attempt > 0 ? 0x08 : 0));
     to.fixed(duration_field(air.reserved));
@@ -124,19 +145,9 @@ void append_data_frame(const AirFrame& air, const Message& message, std::uint32_
     put_address(addresses.sender, to);
     put_address(network_address, to);
     to.fixed(static_cast<std::uint16_t>((air.number & 0xfff) << 4));
-    to.bytes({"\xaa\xaa\x03\0\0\0\x08\0", 8});  // LLC and SNAP: IPv4
-    append_ip(air, message, addresses, protocol, size, to);
-    if (protocol == udp_protocol) {
-        put_big(port, to);
-        put_big(port, to);
-        put_big(static_cast<std::uint16_t>(size), to);
-        put_big(std::uint16_t{0}, to);  // without a checksum
-    }
-    if (content) {
-        to.bytes(content->bytes);
-    } else {
-        append_message(air, message, bytes, carried, to);
-    }
+    to.bytes({"\xaa\xaa\x03\0\0\0", 6});  // LLC and SNAP
+    put_big(content ? content->ethertype : ipv4_ethertype, to);
+    append_packet(air, message, bytes, addresses, content, to);
     put_check_sequence(begin, to);
 }
 

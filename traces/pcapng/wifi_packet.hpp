@@ -8,7 +8,7 @@
 
 #include <cstdint>
 #include <optional>
-#include <string_view>
+#include <string>
 
 // Bytes of a frame as captured by a wireless card in monitor mode: a radiotap header, the 802.11
 // frame, and its frame check sequence.
@@ -42,12 +42,18 @@ struct PacketAddresses {
 };
 /// Protocol number of UDP in IP headers.
 inline constexpr std::uint8_t udp_protocol = 17;
-/// Content of an IP packet in place of the message's.
+/// Type of IPv4 packets behind LLC and SNAP.
+inline constexpr std::uint16_t ipv4_ethertype = 0x0800;
+/// Content of a packet in place of the message's, or before it.
 struct PacketContent {
+    /// Type behind LLC and SNAP. Of another type than IPv4, the bytes are the whole packet.
+    std::uint16_t ethertype = ipv4_ethertype;
     std::uint8_t ip_protocol = udp_protocol;
     /// UDP port of source and destination; none with another IP protocol.
     std::uint16_t port = 0;
-    std::string_view bytes;
+    std::string bytes;
+    /// Whether the bytes are a header between IP and UDP, with the message behind it.
+    bool precedes_message = false;
 };
 /// UDP port of source and destination in captured packets.
 inline constexpr std::uint16_t capture_port = 49'600;
@@ -59,12 +65,13 @@ inline constexpr std::size_t longest_captured = 65'000;
 
 /// Appends an 802.11 data frame (ad hoc mode) that contains the message in a UDP packet: headers of
 /// 802.11, LLC/SNAP, IPv4 and UDP, the header of message_header bytes, then Message::size bytes:
-/// the payload, padded with zeros. With `content` of another IP protocol there is no UDP header.
+/// the payload, padded with zeros. With `content` of another IP protocol there is no UDP header, of
+/// another type no IP header.
 ///
 /// @param bytes    size of the frame in the simulation [bytes], stored in the message header
-/// @param content  content that replaces message header and message; null: these
+/// @param content  content that replaces message header and message, or precedes them; null: these
 ///
-/// Sources: IEEE 802.11-2020, 9.2 and 9.3.2; RFC 791; RFC 768.
+/// Sources: IEEE 802.11-2020, 9.2 and 9.3.2; RFC 1042 (SNAP); RFC 791; RFC 768.
 void append_data_frame(const AirFrame& air, const Message& message, std::uint32_t bytes,
                        const PacketAddresses& addresses, const PacketContent* content,
                        ByteWriter& to);

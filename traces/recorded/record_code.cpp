@@ -53,6 +53,13 @@ void encode(const Message& message, MessageId slot, Time time, ByteWriter& to) {
     }
 }
 
+void encode(const FrameHeader& header, ByteWriter& to) {
+    for (const std::string_view text : {header.protocol, std::string_view(header.bytes)}) {
+        to.varint(text.size());
+        to.bytes(text);
+    }
+}
+
 bool decode(std::uint16_t channel, Time time, std::string_view bytes,
             std::vector<Reception>& receptions, Record& record, unsigned format) {
     FieldReader from(bytes, time, format, receptions);
@@ -94,6 +101,13 @@ bool decode(Time time, std::string_view bytes, MessageId& slot, Message& message
     kind = from.take(from.varint());
     message.payload = std::string(from.take(from.varint()));
     return from.is_done() && in_range;
+}
+
+bool decode(std::string_view bytes, FrameHeader& header, std::string_view& protocol) {
+    ByteReader from(bytes);
+    protocol = from.take(from.varint());
+    header.bytes = std::string(from.take(from.varint()));
+    return from.is_done();
 }
 
 }  // namespace rovernet

@@ -43,6 +43,12 @@ constexpr std::uint16_t channel_of(std::size_t index) {
     return static_cast<std::uint16_t>(index + 2);
 }
 
+/// Channel of the headers of frames (FrameHeader): the header is in the frame of the AirSent that
+/// follows. Kinds of records have channels below, see bit_in().
+inline constexpr std::uint16_t header_channel = 30;
+/// Topic and layout of the headers.
+RecordedKind recorded_header();
+
 /// Time under which the container stores a record: for a Received the time of its first reception.
 /// A Received without receptions gets `otherwise`.
 Time time_of(const Record& record, Time otherwise);
@@ -51,6 +57,9 @@ Time time_of(const Record& record, Time otherwise);
 void encode(const Record& record, Time time, ByteWriter& to);
 /// Appends the bytes of the definition of the message in `slot` at `time`.
 void encode(const Message& message, MessageId slot, Time time, ByteWriter& to);
+
+/// Appends the bytes of the header of a frame.
+void encode(const FrameHeader& header, ByteWriter& to);
 
 /// Decodes a record from its bytes, on the channel of its kind.
 /// @param receptions  receives the receptions of a Received, to which the record then points
@@ -64,5 +73,10 @@ bool decode(std::uint16_t channel, Time time, std::string_view bytes,
 /// @return whether the bytes are a valid definition
 bool decode(Time time, std::string_view bytes, MessageId& slot, Message& message,
             std::string_view& kind, unsigned format = recorded_format);
+
+/// Decodes the header of a frame from its bytes.
+/// @param protocol  receives the text of FrameHeader::protocol, which the caller has to store
+/// @return whether the bytes are a valid header
+bool decode(std::string_view bytes, FrameHeader& header, std::string_view& protocol);
 
 }  // namespace rovernet

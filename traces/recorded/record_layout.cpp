@@ -65,4 +65,8 @@ std::vector<RecordedKind> recorded_kinds() {
     return kinds;
 }
 
+RecordedKind recorded_header() {
+    return {"Header", "protocol:s bytes:s(of the next AirSent; addresses are robots)"};
+}
+
 }  // namespace rovernet

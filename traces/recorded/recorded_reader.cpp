@@ -150,6 +150,7 @@ void RecordedReader::read_channel(std::string_view content) {
     from.fixed<std::uint16_t>();  // its schema
     const std::string_view topic = from.text();
     constexpr std::uint16_t end = channel_of(std::variant_size_v<Record>);
+    if (number == header_channel) return;
     if (!from.failed() && number >= end) later_kinds_.emplace(number, topic);
 }
 
@@ -196,6 +197,7 @@ const Record* RecordedReader::next() {
                                 "{:.6f} s: the rest of the chunk is left out",
                                 chunk_offset_, seconds(now_)));
                 chunk_ = ByteReader({});
+                next_header_ = {};
                 break;
             }
             if (opcode == McapOpcode::message && has_record_) return &record_;
@@ -217,13 +219,16 @@ bool RecordedReader::take_message(std::string_view content) {
     now_ = Time{Duration{static_cast<std::int64_t>(ns)}};
     const std::string_view bytes = from.take(from.left());
     const auto later = later_kinds_.find(channel);
-    has_record_ = channel != message_channel && later == later_kinds_.end();
+    has_record_ =
+        channel != message_channel && channel != header_channel && later == later_kinds_.end();
     if (channel == message_channel) return define(bytes);
+    if (channel == header_channel) return take_header(bytes);
     if (!has_record_) return leave_out(later->second), true;
     if (!decode(channel, now_, bytes, receptions_, record_, format_) || !has_message(record_))
         return false;
     meet(record_);
     ++records_;
+    header_ = std::exchange(next_header_, {});
     if (const auto* moved = std::get_if<Moved>(&record_)) {
         if (moved->leg.start < legs_.leg(moved->node).start) return false;
         legs_.replace(moved->node, moved->leg);
@@ -234,6 +239,13 @@ bool RecordedReader::take_message(std::string_view content) {
         },
         record_);
     complete(record_);
+    return true;
+}
+
+bool RecordedReader::take_header(std::string_view bytes) {
+    std::string_view protocol;
+    if (!decode(bytes, next_header_, protocol)) return false;
+    next_header_.protocol = *kinds_.emplace(protocol).first;
     return true;
 }
 

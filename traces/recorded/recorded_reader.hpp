@@ -69,8 +69,11 @@ class RecordedReader {
     /// Next record, valid until the next call; null at the end.
     /// @throws InputError for a robot that the trace does not name, or for too many flows
     const Record* next();
-    /// Legs and messages at the time of the last record that next() returned.
-    RecordContext context() const { return {legs_, messages_}; }
+    /// Legs and messages at the time of the last record that next() returned, and the header of its
+    /// frame if it is an AirSent.
+    RecordContext context() const {
+        return {legs_, messages_, nullptr, header_.bytes.empty() ? nullptr : &header_};
+    }
     /// Passes all remaining records to a sink: calls begin(), on() for each record, and finish().
     /// @throws InputError as next()
     void read(const Sink& sink);
@@ -88,6 +91,7 @@ class RecordedReader {
     void tell_missing_chunks(std::string_view statistics);
     bool take_message(std::string_view content);
     bool define(std::string_view bytes);
+    bool take_header(std::string_view bytes);
     bool has_message(const Record& record) const;
     void complete(Record& record) const;
     void meet(const Record& record);
@@ -107,11 +111,14 @@ class RecordedReader {
     Time now_ = start_of_run;
     Record record_;
     bool has_record_ = false;  // true: the last message was a record, not a definition
+    // Header of the last record's frame, and that of the next one; without bytes: none.
+    FrameHeader header_, next_header_;
     std::vector<Reception> receptions_;
     Legs legs_;
     MessageTable messages_;
     std::vector<std::optional<MessageId>> slots_;  // message ids by slots of the file
-    std::set<std::string, std::less<>> kinds_;     // texts to which Message::kind refers
+    std::set<std::string, std::less<>>
+        kinds_;  // texts to which Message::kind and FrameHeader::protocol refer
 };
 
 }  // namespace rovernet

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "traces/recorded/recorded_trace.hpp"
 
+#include "sim/router.hpp"
 #include "traces/record_walk.hpp"
 #include "traces/recorded/mcap_writer.hpp"
 #include "traces/recorded/record_code.hpp"
@@ -25,10 +26,16 @@ struct RecordedTrace::Batch {
         MessageId slot;
         Message message;
     };
+    /// Header of the frame in the record with that index.
+    struct Header {
+        std::size_t before;
+        FrameHeader header;
+    };
     // A reception takes about 4 bytes in a chunk, any other record about 50.
     static constexpr std::size_t receptions_a_record = 12;
 
     std::vector<Definition> definitions;
+    std::vector<Header> headers;
     /// Records in order; a Received does not point to its receptions, but contains their number.
     std::vector<Record> records;
     std::vector<Reception> receptions;
@@ -39,6 +46,7 @@ struct RecordedTrace::Batch {
     std::size_t size() const { return receptions.size() + receptions_a_record * records.size(); }
     void clear() {
         definitions.clear();
+        headers.clear();
         records.clear();
         receptions.clear();
         defined.clear();
@@ -50,6 +58,14 @@ struct RecordedTrace::Batch {
         if (uid == message.uid + 1) return;
         uid = message.uid + 1;
         definitions.push_back({records.size(), slot, message});
+    }
+    void add_header(const Record& record, const RecordContext& context) {
+        const auto* sent = std::get_if<AirSent>(&record);
+        if (!sent || sent->air.control) return;
+        if (context.header) headers.push_back({records.size(), *context.header});
+        if (sent->air.frame.header == 0 || !context.router) return;
+        FrameHeader header = context.router->header_bytes(sent->air.frame);
+        if (!header.bytes.empty()) headers.push_back({records.size(), std::move(header)});
     }
 };
 
@@ -114,6 +130,8 @@ void RecordedTrace::Packer::begin(const RunInfo& run) {
     std::uint16_t channel = message_channel;
     for (const RecordedKind& kind : recorded_kinds())
         file_.declare(channel++, kind.topic, kind.layout);
+    const RecordedKind header = recorded_header();
+    file_.declare(header_channel, header.topic, header.layout);
     thread_ = std::thread([this] { work(); });
 }
 
@@ -171,6 +189,7 @@ void RecordedTrace::Packer::pack(Batch& batch) {
     chunk_.clear();
     const Reception* receptions = batch.receptions.data();
     auto definition = batch.definitions.cbegin();
+    auto header = batch.headers.cbegin();
     for (std::size_t i = 0; i < batch.records.size(); ++i) {
         Record& record = batch.records[i];
         if (auto* received = std::get_if<Received>(&record)) {
@@ -182,6 +201,11 @@ void RecordedTrace::Packer::pack(Batch& batch) {
         for (; definition != batch.definitions.cend() && definition->before == i; ++definition) {
             chunk_.begin_message(message_channel, ns);
             encode(definition->message, definition->slot, last_, chunk_.bytes());
+            chunk_.end_message();
+        }
+        for (; header != batch.headers.cend() && header->before == i; ++header) {
+            chunk_.begin_message(header_channel, ns);
+            encode(header->header, chunk_.bytes());
             chunk_.end_message();
         }
         chunk_.begin_message(channel_of(record.index()), ns);
@@ -211,6 +235,7 @@ void RecordedTrace::on(const Record& record, const RecordContext& context) {
             for_each_in<MessageId>(r, [&](MessageId slot) { batch.define(slot, context); });
         },
         record);
+    batch.add_header(record, context);
     batch.records.push_back(record);
     if (const auto* received = std::get_if<Received>(&record)) {
         const auto& all = received->receptions;

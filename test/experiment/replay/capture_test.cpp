@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/replay/capture.hpp"
-
 #include "experiment/replay/recorded_air.hpp"
-#include "experiment/run.hpp"
-#include "routing/aodv_packets.hpp"
-#include "scenario/scenario.hpp"
-#include "scenario/scenario_file.hpp"
 #include "sim/error.hpp"
-#include "test/traces/record_stream.hpp"
+#include "test/experiment/replay/captured_run.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include <chrono>
-#include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -71,18 +62,6 @@ payload = "too far"
 start = "0.17 s"
 every = "1 s"
 )";
-
-struct Recorded {
-    TempFolder folder;
-    std::string trace = folder / "trace.mcap", capture = folder / "run.pcapng";
-
-    explicit Recorded(const std::string& text) {
-        write_file(folder / "s.toml", text);
-        RunOptions to;
-        to.folder = folder / ".";
-        run_scenario(load_scenario(folder / "s.toml", {.set = {"trace.record=true"}}), to);
-    }
-};
 
 std::uint64_t little(std::string_view bytes, std::size_t at, std::size_t size) {
     std::uint64_t value = 0;
@@ -200,7 +179,7 @@ std::string lines_of(const std::string& trace) {
 }  // namespace
 
 TEST_CASE("a capture has every frame at its sender and at all who received it") {
-    const Recorded run(busy);
+    const CapturedRun run(busy);
     const Capture made = capture_recorded(run.trace, run.capture);
     CHECK(made.left_out == 0);
     CHECK(made.damage.empty());
@@ -222,7 +201,7 @@ TEST_CASE("a capture has every frame at its sender and at all who received it") 
 }
 
 TEST_CASE("a capture has our header in front of each message") {
-    const Recorded run(busy);
+    const CapturedRun run(busy);
     capture_recorded(run.trace, run.capture);
     const std::size_t header = 16 + 24 + 8 + 20 + 8;
     std::size_t floods = 0, unicasts = 0;
@@ -247,122 +226,19 @@ TEST_CASE("a capture has our header in front of each message") {
 }
 
 TEST_CASE("tshark reads a capture: no frame is malformed; times, addresses, lengths are ours") {
-    if (std::system("tshark --version > /dev/null 2>&1") != 0) {
-        MESSAGE("tshark is missing: not checked");
-        return;
-    }
-    const Recorded run(busy);
+    if (!has_tshark()) return;
+    const CapturedRun run(busy);
     capture_recorded(run.trace, run.capture);
-    const std::string printed = run.folder / "printed", errors = run.folder / "errors";
-    const auto tshark = [&](const std::string& options) {
-        const std::string line = "HOME=" + run.folder / "." + " tshark -n -r " + run.capture + " " +
-                                 options + " > " + printed + " 2> " + errors;
-        REQUIRE(std::system(line.c_str()) == 0);
-        return content(printed);
-    };
-    CHECK(tshark("-Y _ws.malformed").empty());
-    CHECK(tshark("-o wlan.check_checksum:TRUE -Y 'not wlan.fcs.status == 1'").empty());
-    CHECK(tshark("-o ip.check_checksum:TRUE -Y 'ip and not ip.checksum.status == 1'").empty());
-    CHECK(tshark("-T fields -e frame.interface_name -e frame.time_epoch -e frame.len "
-                 "-e wlan.fc.type_subtype -e wlan.ra -e wlan.ta -e radiotap.dbm_antsignal "
-                 "-e ip.src -e ip.dst -e udp.length") == lines_of(run.trace));
-}
-
-/// Five robots in a line whose messages are routed; one in the middle is switched off.
-const std::string routed = R"(
-[scenario]
-duration = "3 s"
-[propagation]
-model = "disc"
-range = "250 m"
-[access]
-model = "csma"
-[routing]
-protocol = "aodv"
-[[robot]]
-name = "n0"
-at = ["0 m", "0 m"]
-[[robot]]
-name = "n1"
-at = ["200 m", "0 m"]
-[[robot]]
-name = "n2"
-at = ["400 m", "0 m"]
-off = ["2 s"]
-[[robot]]
-name = "n3"
-at = ["600 m", "0 m"]
-[[traffic]]
-kind = "unicast"
-from = "n0"
-to = "n3"
-size = "64 B"
-start = "1 s"
-every = "250 ms"
-)";
-
-/// What tshark has to print of an AODV packet: IP source and destination, TTL, type, hops, then the
-/// fields of its type.
-std::string aodv_line(const Frame& frame, const Message& message) {
-    const auto ip = [](NodeId node) {
-        return node == everyone ? "255.255.255.255" : fmt::format("10.0.0.{}", node.value + 1);
-    };
-    const std::string ends =
-        fmt::format("{}\t{}\t{}\t", ip(message.to == everyone ? frame.sender : message.origin),
-                    ip(message.to), frame.ttl);
-    const auto packet = aodv::packet_of(message.payload);
-    if (const auto* r = std::get_if<aodv::Request>(&packet)) {
-        return ends + fmt::format("1\t{}\t{}\t{}\t{}\t{}\t{}\t\t\n", frame.hops - 1, r->id,
-                                  ip(r->destination), r->number.value_or(0), ip(r->originator),
-                                  r->originator_number);
-    }
-    if (const auto* r = std::get_if<aodv::Reply>(&packet)) {
-        return ends + fmt::format("2\t{}\t\t{}\t{}\t{}\t\t{}\t\n", r->hops + frame.hops - 1,
-                                  ip(r->destination), r->number, ip(r->originator),
-                                  r->lifetime / std::chrono::milliseconds{1});
-    }
-    const auto& error = std::get<aodv::Error>(packet);
-    std::string lost, numbers;
-    for (const auto& each : error.lost) {
-        lost += (lost.empty() ? "" : ",") + ip(each.destination);
-        numbers += (numbers.empty() ? "" : ",") + std::to_string(each.number);
-    }
-    return ends + fmt::format("3\t\t\t\t{}\t\t\t\t{}\n", numbers, lost);
-}
-
-TEST_CASE("tshark reads AODV's packets: type, hops, addresses, numbers are ours") {
-    if (std::system("tshark --version > /dev/null 2>&1") != 0) {
-        MESSAGE("tshark is missing: not checked");
-        return;
-    }
-    const Recorded run(routed);
-    capture_recorded(run.trace, run.capture);
-    std::string expected;
-    std::map<std::string_view, int> kinds;
-    RecordedReader trace(run.trace);
-    while (const Record* record = trace.next()) {
-        const auto* sent = std::get_if<AirSent>(record);
-        if (!sent || sent->air.control) continue;
-        const Message& message = trace.context().messages[sent->air.frame.message];
-        if (message.kind.empty()) continue;
-        expected += aodv_line(sent->air.frame, message);
-        ++kinds[message.kind];
-    }
-    CHECK(kinds.size() == 3);
-    const std::string printed = run.folder / "printed";
-    const std::string line =
-        "HOME=" + run.folder / "." + " tshark -n -r " + run.capture +
-        " -Y 'aodv and frame.packet_flags_direction == 2'"
-        " -T fields -e ip.src -e ip.dst -e ip.ttl -e aodv.type -e aodv.hopcount -e aodv.rreq_id"
-        " -e aodv.dest_ip -e aodv.dest_seqno -e aodv.orig_ip -e aodv.orig_seqno -e aodv.lifetime"
-        " -e aodv.unreach_dest_ip > " +
-        printed;
-    REQUIRE(std::system(line.c_str()) == 0);
-    CHECK(content(printed) == expected);
+    CHECK(run.tshark("-Y _ws.malformed").empty());
+    CHECK(run.tshark("-o wlan.check_checksum:TRUE -Y 'not wlan.fcs.status == 1'").empty());
+    CHECK(run.tshark("-o ip.check_checksum:TRUE -Y 'ip and not ip.checksum.status == 1'").empty());
+    CHECK(run.tshark("-T fields -e frame.interface_name -e frame.time_epoch -e frame.len "
+                     "-e wlan.fc.type_subtype -e wlan.ra -e wlan.ta -e radiotap.dbm_antsignal "
+                     "-e ip.src -e ip.dst -e udp.length") == lines_of(run.trace));
 }
 
 TEST_CASE("a capture of a trace that is cut or broken has what is left of it") {
-    const Recorded run(busy);
+    const CapturedRun run(busy);
     const std::uint64_t all = capture_recorded(run.trace, run.capture).packets;
     std::filesystem::resize_file(run.trace, std::filesystem::file_size(run.trace) - 40);
     const Capture made = capture_recorded(run.trace, run.capture);

@@ -178,7 +178,7 @@ TEST_CASE("a reader in Python, written from docs/trace-format.md, reads the same
     const std::string path = folder / "busy.toml";
     testing::write_file(path, busy);
     const std::string script = std::string(ROVERNET_TEST_DATA) + "/../traces/recorded/read.py";
-    for (const char* set : {"trace.links=true", "access.model=csma"}) {
+    for (const char* set : {"trace.links=true", "access.model=csma", "routing.protocol=dsr"}) {
         const RecordedRunOf run(path, {set});
         std::string ours;
         RecordedReader reader(run.trace);

@@ -122,6 +122,8 @@ def lines(number, time, m, uids):
         yield f"{time} AirSent {air(m, uids)} {m.v()} {m.v()} {m.z()}"
     elif number == 13:
         yield f"{time} ControlReceived {air(m, uids)} {m.v()} {fate(m.b())} {m.v()}"
+    elif number == 30:
+        m.s(), m.s()  # protocol and bytes of a header
     elif number == 14:
         uid, rest = frame(m, uids)
         yield f"{time} Routed {uid} {rest} {m.node()}"

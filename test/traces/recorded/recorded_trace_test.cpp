@@ -155,6 +155,34 @@ TEST_CASE("records of kinds that this version does not know are left out, which 
     }
 }
 
+TEST_CASE("a recorded trace keeps the header of a frame, with the record of that frame alone") {
+    TempFolder folder;
+    RecordedTrace trace(folder / "t.mcap", {.version = "1"});
+    trace.begin(info(2));
+    Stream stream;
+    const Frame frame{
+        .message = stream.messages.add({.origin = {0}, .payload = {}}), .sender = {0}, .hops = 1};
+    const FrameHeader header{"DSR", std::string("a\0b", 3)};
+    const auto emit = [&](const Record& record, const FrameHeader* its_header) {
+        trace.on(record, {stream.legs, stream.messages, nullptr, its_header});
+    };
+    emit(AirSent{at(5), {.frame = frame}, 10}, nullptr);
+    emit(AirSent{at(6), {.frame = frame}, 10}, &header);
+    emit(Arrived{at(7), NodeId{1}}, nullptr);
+    emit(AirSent{at(8), {.frame = frame}, 10}, nullptr);
+    trace.finish();
+    trace.close();
+    RecordedReader reader(folder / "t.mcap");
+    std::string found;
+    while (reader.next()) {
+        const FrameHeader* its = reader.context().header;
+        found += its ? fmt::format("{} {};", its->protocol, its->bytes.size()) : "none;";
+        if (its) CHECK(its->bytes == header.bytes);
+    }
+    CHECK(found == "none;DSR 3;none;none;");
+    CHECK(reader.damage().empty());
+}
+
 TEST_CASE("a recorded trace keeps what the run was") {
     TempFolder folder;
     RecordedTrace trace(folder / "t.mcap",
