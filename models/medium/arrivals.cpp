@@ -72,10 +72,11 @@ std::optional<Arrival> Arrivals::within_reach(const Emission& frame, double d2, 
 
 Dbm Arrivals::level(const Arrival& arrival, NodeId to) const {
     // Distance and pair determine the level, which is the same for all frames of the link.
-    const Vec3 there{std::sqrt(arrival.squared_distance), 0, 0};
-    const Db lost{links_.mean(arrival.from, to, {}, there, arrival.begin, 0,
-                              Db{std::numeric_limits<double>::infinity()})};
     const RadioKinds& kinds = stations_.kinds();
+    const double z = kinds.antennas().first.value;
+    const Vec3 there{std::sqrt(arrival.squared_distance), 0, z};
+    const Db lost{links_.mean(arrival.from, to, {0, 0, z}, there, arrival.begin, 0,
+                              Db{std::numeric_limits<double>::infinity()})};
     return received_power(kinds.radio(stations_.kind(arrival.from)),
                           kinds.radio(stations_.kind(to)), lost);
 }

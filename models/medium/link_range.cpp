@@ -27,14 +27,16 @@ double last_that(Predicate holds) {
 
 }  // namespace
 
-double loss_at(const Propagation& model, Hertz frequency, double distance) {
-    assert(model.shape() == LossShape::by_distance);
-    return model.loss_to({distance, 0, 0}, {.frequency = frequency, .from = {}});
+double loss_at(const Propagation& model, Hertz frequency, double distance, Meters height) {
+    assert(model.shape() == LossShape::by_distance || model.shape() == LossShape::by_heights);
+    const double z = height.value;
+    return model.loss_to({distance, 0, z}, {.frequency = frequency, .from = {0, 0, z}});
 }
 
-double largest_squared_distance(const Propagation& model, Hertz frequency, Db budget) {
+double largest_squared_distance(const Propagation& model, Hertz frequency, Db budget,
+                                Meters height) {
     return last_that([&](double squared) {
-        return loss_at(model, frequency, std::sqrt(squared)) <= budget.value;
+        return loss_at(model, frequency, std::sqrt(squared), height) <= budget.value;
     });
 }
 

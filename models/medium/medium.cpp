@@ -57,7 +57,6 @@ void Medium::choose_cells() {
 /// Prepares the index for queries about `from` at `t`.
 void Medium::look_from(NodeId from, Time t, const Legs& legs) {
     if (!cells_chosen_) {
-        stations_.measure(legs);
         choose_cells();
     }
     index_.refresh(t, legs);
@@ -94,6 +93,7 @@ void Medium::find(NodeId from, Kind mine, Strength strength, Time t, const Legs&
     if (std::exchange(last_, search) == search && !links_.fades()) return;
     found_.clear();
     sensors_.clear();
+    stations_.measure(legs);  // decision and reach depend on it
     stations_.kinds().prepare(mine);
     switch (stations_.kinds().decision(mine)) {
         case Decision::by_range:
@@ -172,7 +172,6 @@ void Medium::share_draws() {
 
 void Medium::find_in_reach(NodeId from, Kind mine, Strength strength, Time t, const Legs& legs,
                            std::uint64_t frame) {
-    stations_.measure(legs);  // the reach depends on it
     const Scene& scene = settings_.scene_at(t);
     if (std::exchange(pairs_of_, &scene) != &scene) pairs_.forget_all();
     const bool fixed = settings_.keep_losses && !settings_.all_pairs && rests(legs.leg(from), t);
@@ -251,7 +250,7 @@ bool Medium::hears(NodeId from, NodeId to, Time t, const Legs& legs) {
     here.z += stations_.kinds().height(mine);
     there.z += stations_.kinds().height(theirs);
     const double d2 = squared_distance(here, there);
-    stations_.measure(legs);  // the reach depends on it
+    stations_.measure(legs);  // decision and reach depend on it
     if (d2 > stations_.kinds().squared_reach(mine, Strength::decodable)) return false;
     stations_.kinds().prepare(mine);
     switch (stations_.kinds().decision(mine)) {

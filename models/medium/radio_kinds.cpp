@@ -30,8 +30,13 @@ Radio without_labels(Radio radio) {
     return radio;
 }
 
+/// Whether the loss depends on distance alone between antennas of one height, and only there.
+bool needs_level(const Propagation& model) {
+    return model.shape() == LossShape::by_heights && !model.is_random();
+}
+
 Decision cheapest_decision(const Propagation& model, Hertz frequency) {
-    if (model.shape() == LossShape::by_distance) return Decision::by_range;
+    if (model.shape() == LossShape::by_distance || needs_level(model)) return Decision::by_range;
     return model.shadowed_loss(frequency) ? Decision::by_table : Decision::by_loss;
 }
 
@@ -57,9 +62,11 @@ RadioKinds::Kind RadioKinds::add(const Radio& radio, const Propagation& propagat
                       .membership = membership(radio),
                       .model = model,
                       .cheapest = cheapest_decision(propagation, plain.frequency),
+                      .needs_level = needs_level(propagation),
                       .noise = noise_floor(plain)});
     heights_.push_back(plain.antenna_height.value);
-    heights_matter_ = heights_matter_ || propagation.is_bounded_by_height();
+    heights_matter_ =
+        heights_matter_ || propagation.is_bounded_by_height() || needs_level(propagation);
     directional_ = directional_ || radio.is_directional();
     varies_ = varies_ || directional_;
     // All match while all have the same network, or none is gated.
@@ -91,6 +98,7 @@ RadioKinds::Kind RadioKinds::of_coding(Kind kind, Coding coding) {
                 .membership = mine.membership,
                 .model = mine.model,
                 .cheapest = mine.cheapest,
+                .needs_level = mine.needs_level,
                 .noise = mine.noise,
                 .stations = 0};
     kinds_.push_back(std::move(other));
@@ -111,6 +119,10 @@ Db RadioKinds::budget(Strength strength, Kind from, Kind to, LinkGain gain) cons
     const Radio& receiver = kinds_[to].radio;
     return budget(strength, kinds_[from].radio, receiver, gain,
                   phy_.sensitivity(receiver, kinds_[from].coding));
+}
+
+Db RadioKinds::budget(Strength strength, Kind from, Kind to) const {
+    return budget(strength, from, to, LinkGain::most(kinds_[from].radio, kinds_[to].radio));
 }
 
 Db RadioKinds::budget(Strength strength, const Radio& from, const Radio& to, LinkGain gain,
@@ -139,9 +151,10 @@ Db RadioKinds::left_out(std::size_t frames) const {
     return most;
 }
 
-void RadioKinds::set_highest(Meters z) {
-    if (z == highest_) return;
-    highest_ = z;
+void RadioKinds::set_antennas(const AntennaHeights& heights) {
+    const bool is_higher = heights.highest != antennas_.highest;
+    antennas_ = heights;
+    if (!is_higher) return;
     for (Alike& each : kinds_) each.reach2 = {};
 }
 
@@ -158,7 +171,8 @@ double RadioKinds::squared_reach(Kind from, Strength strength) {
         const Radio& sender = radio(from);
         const Db most = best_budget_[static_cast<std::size_t>(strength)] + Db{sender.power.value} +
                         LinkGain::most(sender, sender).sender + most_fade_;
-        const double reach = model(from).reach(most, sender.frequency, highest_).value * slack;
+        const double reach =
+            model(from).reach(most, sender.frequency, antennas_.highest).value * slack;
         reach2 = reach * reach;
     }
     return reach2;
@@ -177,8 +191,8 @@ void RadioKinds::make_room(Kind from) {
 
 double RadioKinds::compute_range(Kind from, Kind to, Strength strength) {
     const Radio& sender = radio(from);
-    const double range2 =
-        largest_squared_distance(model(from), sender.frequency, budget(strength, from, to));
+    const double range2 = largest_squared_distance(model(from), sender.frequency,
+                                                   budget(strength, from, to), antennas_.first);
     return kinds_[from].range2[to][strength] = range2;
 }
 

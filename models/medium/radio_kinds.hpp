@@ -2,6 +2,7 @@
 #pragma once
 
 #include "models/link_gain.hpp"
+#include "models/medium/antenna_heights.hpp"
 #include "models/medium/link_range.hpp"
 #include "models/medium/loss_bounds.hpp"
 #include "models/medium/membership.hpp"
@@ -70,19 +71,17 @@ class RadioKinds {
     /// Largest path loss [dB] at which a signal of `from` has this strength at `to`.
     Db budget(Strength strength, Kind from, Kind to, LinkGain gain) const;
     /// Largest path loss [dB] at which a signal has this strength, over all poses of antennas.
-    Db budget(Strength strength, Kind from, Kind to) const {
-        return budget(strength, from, to, LinkGain::most(kinds_[from].radio, kinds_[to].radio));
-    }
+    Db budget(Strength strength, Kind from, Kind to) const;
     /// Weakest signal [dBm] that interferes at `to`; to be called only if there is a cut-off.
     Dbm weakest_interfering(const Radio& to) const;
     /// Upper bound on the ratio [dB] by which `frames` neglected frames raise a receiver's noise.
     /// To be called only if interference has a cut-off.
     Db left_out(std::size_t frames) const;
-    /// Sets the upper bound [m] on z of all antennas, present and past; it must not decrease.
-    void set_highest(Meters z);
-    /// Upper bound [m] on z of all antennas, as passed to set_highest().
-    Meters highest() const { return highest_; }
-    /// Whether any model's range bound depends on antenna heights.
+    /// Sets the heights of all antennas, present and past.
+    void set_antennas(const AntennaHeights& heights);
+    /// Heights of all antennas, as passed to set_antennas().
+    const AntennaHeights& antennas() const { return antennas_; }
+    /// Whether the range bound or the shape of any model depends on antenna heights.
     bool heights_matter() const { return heights_matter_; }
     /// Whether any antenna is directional.
     bool is_directional() const { return directional_; }
@@ -95,7 +94,8 @@ class RadioKinds {
         constexpr std::size_t most_tables = 16;
         const Decision cheapest = kinds_[from].cheapest;
         const bool pays = cheapest != Decision::by_table || kinds_.size() <= most_tables;
-        return pays && !varies_ ? cheapest : Decision::by_loss;
+        const bool holds = antennas_.are_equal || !kinds_[from].needs_level;
+        return pays && holds && !varies_ ? cheapest : Decision::by_loss;
     }
     /// Squared distance [m^2] up to which a signal has this strength at nodes of kind `to`, for
     /// Decision::by_range; negative: at none.
@@ -105,9 +105,8 @@ class RadioKinds {
     }
     /// Bounds of the path loss at a squared distance [m^2], for Decision::by_range.
     LossBounds::Bounds loss_bounds(Kind from, double squared_distance) {
-        Alike& mine = kinds_[from];
-        return mine.loss_bounds.at(squared_distance, [&](double d) {
-            return loss_at(models_[mine.model], mine.radio.frequency, d);
+        return kinds_[from].loss_bounds.at(squared_distance, [&](double d) {
+            return loss_at(model(from), radio(from).frequency, d, antennas_.first);
         });
     }
     /// Table of the shadowing draws with which a link is within range, for Decision::by_table.
@@ -146,6 +145,7 @@ class RadioKinds {
         /// Index of the kind's propagation model in models_.
         std::uint32_t model;
         Decision cheapest;
+        bool needs_level;  ///< `cheapest` holds only between antennas of one height
         Dbm noise;
         std::size_t stations = 1;
         /// Number of receiver kinds for which the vectors below have space.
@@ -192,7 +192,7 @@ class RadioKinds {
     // True if there are two kinds whose gates forbid links.
     bool gated_ = false;
     bool heights_matter_ = false;
-    Meters highest_{-std::numeric_limits<double>::infinity()};
+    AntennaHeights antennas_;
     // Largest budget of any receiver kind for a sender of 0 dBm, by Strength.
     std::array<Db, strengths.size()> best_budget_ = {Db{-1e300}, Db{-1e300}, Db{-1e300}};
 };

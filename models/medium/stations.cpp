@@ -4,7 +4,6 @@
 #include "models/medium/shadowed.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace rovernet {
 
@@ -84,17 +83,13 @@ Pose Stations::pose(NodeId node, Time t, const Legs& legs) const {
     return {antenna(node, t, legs), Radians{legs.leg(node).heading_at(t)}};
 }
 
-/// Updates the largest antenna height for the legs of nodes `begin` to `end`, if heights matter.
 void Stations::measure(std::size_t begin, std::size_t end, const Legs& legs) {
-    if (!kinds_.heights_matter()) return;
+    AntennaHeights antennas = kinds_.antennas();
     for (std::size_t i = begin; i < end; ++i) {
         const NodeId node{static_cast<std::uint32_t>(i)};
-        const Leg leg = legs.leg(node);
-        const bool climbs_on = leg.end == never && leg.velocity.z > 0;
-        const double top = climbs_on ? std::numeric_limits<double>::infinity()
-                                     : std::max(leg.from.z, leg.to.z) + height(node);
-        if (top > kinds_.highest().value) kinds_.set_highest({top});
+        antennas.take(legs.leg(node), {height(node)});
     }
+    kinds_.set_antennas(antennas);
     measured_ = std::max(measured_, end);
 }
 

@@ -105,14 +105,17 @@ class Stations {
             return std::pair{pose(from, t, legs), pose(to, t, legs)};
         });
     }
-    /// Updates the bound on antenna heights for a new leg of `node`, if heights matter and
+    /// Updates the antenna heights for a new leg of `node`, if heights matter and
     /// measure() has included the node before.
     void moved(NodeId node, const Legs& legs) {
         if (node.index() < measured_) measure(node.index(), node.index() + 1, legs);
     }
-    /// Updates the bound on antenna heights for all nodes added since the last call. Must be called
-    /// before the reach of a kind is queried.
-    void measure(const Legs& legs) { measure(measured_, keys_.size(), legs); }
+    /// Updates the antenna heights for all nodes added since the last call. Must be called
+    /// before the reach or the decision of a kind is queried.
+    void measure(const Legs& legs) {
+        if (kinds_.heights_matter() && measured_ < keys_.size()) [[unlikely]]
+            measure(measured_, keys_.size(), legs);
+    }
 
     /// On/off states of all nodes by one copied pointer, which a loop that writes to memory need
     /// not reload.
@@ -132,6 +135,7 @@ class Stations {
     void list_stations();
     // Model with the shadowing of the settings; for copies of one Propagation the same object.
     Propagation shadowed(const Propagation& model);
+    // Reports the antenna heights on the legs of nodes `begin` to `end` to kinds_.
     void measure(std::size_t begin, std::size_t end, const Legs& legs);
 
     // Shadowing that is added to all models; below, seed and replication of its draws.
@@ -149,7 +153,7 @@ class Stations {
     RadioKinds kinds_;
     // Propagation models as passed to add(), each with its copy that has added shadowing.
     std::vector<std::pair<Propagation, Propagation>> shadowed_;
-    // Number of nodes included in the bound on antenna heights.
+    // Number of nodes whose antenna heights are known to kinds_.
     std::size_t measured_ = 0;
 };
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "models/medium/link_range.hpp"
 #include "models/medium/medium.hpp"
 #include "models/propagation/two_ray.hpp"
 #include "test/scene/drawn_map.hpp"
@@ -7,7 +8,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace two_ray_reach_test {
@@ -82,6 +85,35 @@ TEST_CASE("two-ray: nobody is missed as robots climb, jump and come, higher than
         }
     }
     CHECK(links > 3000);
+}
+
+TEST_CASE("two-ray: distance decides, to the last bit, until an antenna leaves the common height") {
+    Ground ground(1);
+    const Radio radio{.power = {10}, .antenna_height = {1.5}};
+    const auto add = [&](double x) {
+        ground.medium.add(radio, ground.legs.size() + 1, ground.model);
+        ground.legs.add({.from = {x, 0, 0}, .to = {x, 0, 0}});
+    };
+    const double range = std::sqrt(largest_squared_distance(
+        ground.model, radio.frequency, link_budget(radio, radio), radio.antenna_height));
+    add(0);
+    constexpr double ulp = std::numeric_limits<double>::epsilon();
+    for (int k = -8; k <= 8; ++k) add(range * (1 + k * ulp));
+    for (int k = 0; k < 40; ++k) add(ground.draw.uniform(0, 3 * range));
+    const auto decision = [&] {
+        return ground.medium.stations().kinds().decision(ground.medium.stations().kind(NodeId{0}));
+    };
+    CHECK(ground.compare(start_of_run) > 500);
+    CHECK(decision() == Decision::by_range);
+    const Vec3 from{range, 0, 0}, up{0, 0, 1};
+    ground.legs.replace(NodeId{1}, {.start = start_of_run,
+                                    .end = start_of_run + 9s,
+                                    .from = from,
+                                    .velocity = up,
+                                    .to = from + 9.0 * up});
+    ground.medium.moved(NodeId{1}, ground.legs);
+    CHECK(decision() == Decision::by_loss);
+    CHECK(ground.compare(start_of_run + 8s) > 500);
 }
 
 TEST_CASE("two-ray: over 4 km of flat ground only those nearby are looked at") {
