@@ -21,12 +21,12 @@ struct ResultsArguments {
 void results(const ResultsArguments& arguments);
 
 struct PlotArguments {
-    std::string store, x, y, by, kind, out;
-    std::vector<std::string> where;
+    std::string store, x, by, kind, beside, out;
+    std::vector<std::string> y, where;
     std::optional<double> confidence, quantile;
     std::optional<std::string> interval;
     bool log_x = false, log_y = false, common = false;
-    int width = 672;
+    std::optional<int> width;
     double font_size = 12;
 };
 void plot(const PlotArguments& arguments);

@@ -24,6 +24,8 @@ struct ChartQuestion {
     bool log_x = false, log_y = false;
     /// True: average only over cells for which every position of the chart has a value, see Cells.
     bool common = false;
+    /// Path of a CSV file whose rows are drawn as marks beside lines, see add_marks(); empty: none.
+    std::string beside = {};
 };
 
 /// Full path of the varied key that the user names by `word`. The word may be the full path, the
@@ -42,7 +44,7 @@ std::vector<Condition> conditions_of(const std::vector<std::string>& paths,
 /// over replications. Results are averaged over varied keys other than `x` and `by`, as in
 /// answers(). The chart's note lists the averaged keys, the number of replications, and missing
 /// runs.
-/// @throws std::invalid_argument as answers()
+/// @throws std::invalid_argument as answers(); InputError as add_marks()
 Chart study_chart(const Store& store, const ChartQuestion& question);
 
 /// Two charts of a comparison: the metric of each model with its interval, and each model's error
