@@ -23,10 +23,9 @@ void results(const ResultsArguments& arguments);
 struct PlotArguments {
     std::string store, x, by, kind, beside, out;
     std::vector<std::string> y, where;
-    std::optional<double> confidence, quantile;
+    std::optional<double> confidence, quantile, width;
     std::optional<std::string> interval;
     bool log_x = false, log_y = false, common = false;
-    std::optional<int> width;
     double font_size = 12;
 };
 void plot(const PlotArguments& arguments);

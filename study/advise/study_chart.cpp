@@ -50,11 +50,15 @@ std::string label_of(const std::string& path, const std::string& unit) {
     return unit.empty() ? path : fmt::format("{} [{}]", path, unit);
 }
 
-/// Metrics in seconds end in _s, those in microseconds in _us.
+/// Metrics in seconds end in _s, those in microseconds in _us. A quotient "A/B" is in the unit of A
+/// for each B.
 std::string metric_label(const std::string& metric) {
+    const auto slash = std::min(metric.find('/'), metric.size());
+    const std::string over = metric.substr(0, slash), under = metric.substr(slash);
     for (const std::string unit : {"s", "us"}) {
-        if (!metric.ends_with("_" + unit)) continue;
-        return fmt::format("{} [{}]", metric.substr(0, metric.size() - unit.size() - 1), unit);
+        if (!over.ends_with("_" + unit)) continue;
+        const std::string name = over.substr(0, over.size() - unit.size() - 1);
+        return fmt::format("{}{} [{}]", name, under, unit);
     }
     return metric;
 }
