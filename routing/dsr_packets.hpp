@@ -26,14 +26,14 @@ inline constexpr std::string_view request_kind = "DSR REQUEST", reply_kind = "DS
                                   error_kind = "DSR ERROR";
 /// Protocol of a message's header, as that of the kinds.
 inline constexpr std::string_view protocol = "DSR";
-/// Size of an IP header, and of the fixed part of the DSR Options header (6.1) [bytes].
+/// Size of an IP header, and of the fixed part of the DSR Options header (RFC 4728, 6.1) [bytes].
 inline constexpr std::uint32_t ip_header = 20, fixed_header = 4;
-/// Size of a Source Route option with this number of addresses (6.7) [bytes].
+/// Size of a Source Route option with this number of addresses (RFC 4728, 6.7) [bytes].
 constexpr std::uint32_t route_option(std::size_t addresses) {
     return 4 + 4 * static_cast<std::uint32_t>(addresses);
 }
 
-/// Route Request option (6.2).
+/// Route Request option (RFC 4728, 6.2).
 struct Request {
     std::uint16_t id = 0;
     NodeId target;
@@ -41,13 +41,13 @@ struct Request {
     /// nodes that forwarded the request.
     Path path;
 };
-/// Route Reply option (6.3).
+/// Route Reply option (RFC 4728, 6.3).
 struct Reply {
     /// Route that answers the request: from the originator, which the option itself does not
     /// contain, to the target.
     Path path;
 };
-/// Route Error option of type NODE_UNREACHABLE (6.4).
+/// Route Error option of type NODE_UNREACHABLE (RFC 4728, 6.4).
 struct Error {
     /// Node that could not reach its next hop, and node to which the error is reported.
     NodeId from, to;
@@ -60,14 +60,15 @@ struct Packet {
     std::optional<Request> request = std::nullopt;
     std::optional<Reply> reply = std::nullopt;
     std::optional<Error> error = std::nullopt;
-    /// Source Route option (6.7) from the packet's origin to its destination.
+    /// Source Route option (RFC 4728, 6.7) from the packet's origin to its destination.
     std::optional<Path> route = std::nullopt;
 };
 
 /// Bytes of the DSR Options header with the options of a packet.
 std::string to_bytes(const Packet& packet);
 /// Bytes of the DSR Options header before a message: a Source Route option, and UDP behind it. A
-/// salvaged message's route lists its first node, too, as that is not the message's source (8.3.6).
+/// salvaged message's route lists its first node, too, as that is not the message's source (RFC
+/// 4728, 8.3.6).
 /// @param hop  hops that the message has made on this path
 std::string message_header(const Path& path, unsigned salvage, std::size_t hop);
 /// Packet that the payload of a message contains; without options if the payload is no DSR packet.

@@ -51,6 +51,16 @@ std::string listed(const std::vector<std::string>& texts, std::string_view betwe
     return text;
 }
 
+ValuesOfPoints stored_values(const Store& store, const std::string& metric) {
+    ValuesOfPoints values;
+    for (const StoredValue& v : store.values(metric)) {
+        auto& list = values[v.point];
+        if (v.replication >= list.size()) list.resize(v.replication + 1);
+        list[v.replication] = v.value;
+    }
+    return values;
+}
+
 }  // namespace
 
 Rows rows_of(const std::vector<StoredPoint>& points, const std::vector<std::string>& group_by) {
@@ -106,11 +116,18 @@ std::string Gaps::text() const {
 }
 
 ValuesOfPoints values_of_points(const Store& store, const std::string& metric) {
-    ValuesOfPoints values;
-    for (const StoredValue& v : store.values(metric)) {
-        auto& list = values[v.point];
-        if (v.replication >= list.size()) list.resize(v.replication + 1);
-        list[v.replication] = v.value;
+    ValuesOfPoints values = stored_values(store, metric);
+    const auto slash = metric.find('/');
+    if (!values.empty() || slash == std::string::npos) return values;
+    values = stored_values(store, metric.substr(0, slash));
+    ValuesOfPoints under = stored_values(store, metric.substr(slash + 1));
+    for (auto& [point, list] : values) {
+        under[point].resize(list.size());
+        for (std::size_t r = 0; r < list.size(); ++r) {
+            const auto& below = under[point][r];
+            list[r] =
+                list[r] && below && *below != 0 ? std::optional(*list[r] / *below) : std::nullopt;
+        }
     }
     return values;
 }

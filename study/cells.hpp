@@ -47,6 +47,8 @@ struct Gaps {
 /// run has no value.
 using ValuesOfPoints = std::map<std::uint32_t, std::vector<std::optional<double>>>;
 
+/// Values of a metric, or of the quotient "A/B" of two metrics, run by run. A quotient by 0, or of
+/// a metric without a value, has none.
 ValuesOfPoints values_of_points(const Store& store, const std::string& metric);
 
 /// Cells of the results table for one metric. A cell is a combination of values of the averaged

@@ -104,7 +104,15 @@ std::vector<std::string> metrics_of(const Store& store, const Question& question
     std::vector<std::string> metrics = question.metrics;
     if (metrics.empty()) metrics = study_of(store).metrics;
     if (metrics.empty()) metrics = usual_metrics;
-    for (const auto& metric : metrics) check_known(metric, known_metrics(store), "the metric");
+    const std::vector<std::string> known = known_metrics(store);
+    for (const auto& metric : metrics) {
+        const auto slash = metric.find('/');
+        const bool is_known = std::find(known.begin(), known.end(), metric) != known.end();
+        check_known(is_known ? metric : metric.substr(0, slash), known, "the metric");
+        if (!is_known && slash != std::string::npos) {
+            check_known(metric.substr(slash + 1), known, "the metric");
+        }
+    }
     return metrics;
 }
 

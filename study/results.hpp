@@ -23,8 +23,8 @@ struct Condition {
 
 /// Query of a study's results.
 struct Question {
-    /// Names of the metrics to compute; empty: the metrics of [study] metrics, or else the default
-    /// metrics.
+    /// Names of the metrics to compute, or quotients "A/B" of two of them, run by run; empty: the
+    /// metrics of [study] metrics, or else the default metrics.
     std::vector<std::string> metrics = {};
     /// Paths of varied keys. Points with equal values of these keys form a row of the table. Not
     /// given: all varied keys. Empty: one row for all points.

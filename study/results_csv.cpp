@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace rovernet {
 namespace {
@@ -52,6 +53,11 @@ void write_csv(const Store& store, const Question& question, const Write& write)
         return question.metrics.empty() ||
                std::find(metrics.begin(), metrics.end(), metric) != metrics.end();
     };
+    for (const std::string& metric : question.metrics) {
+        if (metric.find('/') == std::string::npos || !store.values(metric).empty()) continue;
+        throw std::invalid_argument(
+            fmt::format("--csv: {} is a quotient, which no run has; expected --group-by", metric));
+    }
     const PointCells points(store, question.where);
     write(points.head + ",replication,metric,value\n");
     store.for_each_value([&](const StoredValue& v, const std::string& metric) {

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace rovernet::cli {
 namespace {
 
@@ -25,13 +27,20 @@ std::optional<ChartKind> kind_of(const std::string& word) {
                                             near));
 }
 
-/// A picture of 672 points, fewer if they are to be larger, as so many pixels.
+/// A picture of 672 points, or of up to three charts of 352 points side by side; fewer points if
+/// they are to be larger, as so many pixels.
 ChartLayout layout_of(const PlotArguments& a) {
     constexpr double usual_font_size = 12;
-    const ChartLayout usual;
+    constexpr int most_columns = 3;
+    const bool one = a.y.size() == 1;
+    const ChartLayout usual =
+        one ? ChartLayout{} : ChartLayout{.width = 320, .height = 240, .columns = most_columns};
     const double points = usual_font_size / a.font_size;
-    ChartLayout out{.width = usual.width * points, .height = usual.height * points, .columns = 1};
-    out.scale = a.width / out.picture_width();
+    const int columns = std::min(static_cast<int>(a.y.size()), most_columns);
+    ChartLayout out{
+        .width = usual.width * points, .height = usual.height * points, .columns = columns};
+    const double pixels = a.width ? *a.width : usual.picture_width(columns);
+    out.scale = pixels / out.picture_width(columns);
     return out;
 }
 
@@ -42,22 +51,30 @@ void plot(const PlotArguments& a) {
         throw std::invalid_argument(fmt::format(
             "-o: \"{}\"; expected NAME.svg, NAME.png, NAME.pdf or NAME.gp (gnuplot)", a.out));
     }
+    if (a.out.ends_with(".gp") && a.y.size() > 1) {
+        throw std::invalid_argument("-y: expected one metric for a gnuplot script");
+    }
     const Store store = Store::open(a.store);
-    const Chart chart = study_chart(store, {.kind = kind_of(a.kind),
-                                            .x = a.x,
-                                            .y = a.y,
-                                            .by = a.by,
-                                            .where = conditions_of(varied_paths(store), a.where),
-                                            .confidence = a.confidence,
-                                            .quantile = a.quantile,
-                                            .interval = method_named(a.interval),
-                                            .log_x = a.log_x,
-                                            .log_y = a.log_y,
-                                            .common = a.common});
+    ChartQuestion question{.kind = kind_of(a.kind),
+                           .x = a.x,
+                           .by = a.by,
+                           .where = conditions_of(varied_paths(store), a.where),
+                           .confidence = a.confidence,
+                           .quantile = a.quantile,
+                           .interval = method_named(a.interval),
+                           .log_x = a.log_x,
+                           .log_y = a.log_y,
+                           .common = a.common,
+                           .beside = a.beside};
+    std::vector<Chart> charts;
+    for (const std::string& metric : a.y) {
+        question.y = metric;
+        charts.push_back(study_chart(store, question));
+    }
     if (is_picture_name(a.out)) {
-        write_picture(a.out, chart_svg(std::span(&chart, 1), layout_of(a)));
+        write_picture(a.out, chart_svg(charts, layout_of(a)));
     } else {
-        write_whole({{a.out, chart_gnuplot(chart)}});
+        write_whole({{a.out, chart_gnuplot(charts.front())}});
     }
 }
 

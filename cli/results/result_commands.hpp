@@ -21,12 +21,11 @@ struct ResultsArguments {
 void results(const ResultsArguments& arguments);
 
 struct PlotArguments {
-    std::string store, x, y, by, kind, out;
-    std::vector<std::string> where;
-    std::optional<double> confidence, quantile;
+    std::string store, x, by, kind, beside, out;
+    std::vector<std::string> y, where;
+    std::optional<double> confidence, quantile, width;
     std::optional<std::string> interval;
     bool log_x = false, log_y = false, common = false;
-    int width = 672;
     double font_size = 12;
 };
 void plot(const PlotArguments& arguments);

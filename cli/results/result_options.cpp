@@ -66,10 +66,15 @@ void add_plot(Command app) {
         {"rovernet plot density.db -x robot.r.count -y delivery_ratio -o density.svg"});
     plot.add_option("STUDY", p.store, "store of a study, as sweep makes it").required();
     plot.add_option("-x", p.x, "key that varies, such as robots or radio.power");
-    plot.add_option("-y", p.y, "metric, such as delivery_ratio").required();
+    plot.add_option("-y", p.y,
+                    "metrics, such as delivery_ratio or airtime_s/messages: a chart each")
+        .delimiter(',')
+        .required();
     plot.add_option("--by", p.by, "key of the lines, or of the rows of a heat map");
     plot.add_option("--where", p.where, only_points).one_word();
     plot.add_flag("--common", p.common, only_cells);
+    plot.add_option("--beside", p.beside,
+                    "CSV file with values of another source: marks beside the lines");
     plot.add_option("--kind", p.kind,
                     "lines, bars, cdf or heat_map (default: lines over numbers, "
                     "bars over words)");
@@ -81,10 +86,11 @@ void add_plot(Command app) {
     plot.add_flag("--log-x", p.log_x, "a logarithmic axis");
     plot.add_flag("--log-y", p.log_y, "a logarithmic axis");
     plot.add_option("--width", p.width,
-                    "of the picture, in pixels (points of a PDF); all is scaled")
-        .range(100, 10000)
-        .shows_default();
-    plot.add_option("--font-size", p.font_size, "in points, of which the width is 672")
+                    "of the picture, in pixels (points of a PDF); all is scaled "
+                    "(default: 672, for several charts 352 each)")
+        .range(100, 10000);
+    plot.add_option("--font-size", p.font_size,
+                    "in points, of which a chart is 672 wide, 352 beside others")
         .range(4, 36)
         .shows_default();
     plot.add_option("-o,--output", p.out,

@@ -43,6 +43,9 @@ struct ChartPoint {
 struct ChartSeries {
     std::string name;
     std::vector<ChartPoint> points = {};
+    /// Number of another series, whose colour and mark this one takes: hollow marks without a line,
+    /// for values of another source in a chart of lines.
+    std::optional<std::size_t> beside = {};
 };
 
 /// Line behind the marks of a scatter chart, such as the Pareto front of the best points. Only

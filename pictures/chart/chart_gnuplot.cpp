@@ -164,7 +164,7 @@ class Script {
     /// Appends what `plot` draws of a series.
     void plots(std::size_t series, std::vector<std::string>& clauses) const {
         if (view_.series[series].empty()) return;
-        const ChartStyle style = chart_style(series);
+        const ChartStyle style = style_in(chart_, series);
         const std::string color = fmt::format("linecolor rgb '{}'", hex(style.color));
         const std::string dashes = fmt::format("({})", fmt::join(style.dashes, ","));
         const std::string line_style =
@@ -176,7 +176,7 @@ class Script {
         const bool bars = chart_.kind == ChartKind::bars && !view_.dots;
         if (bars) clauses.push_back(clause("boxes " + color));
         intervals(series, bars ? "linecolor rgb '#222222'" : color, clauses);
-        if (chart_.kind == ChartKind::lines) {
+        if (chart_.kind == ChartKind::lines && !style.hollow) {
             clauses.push_back(clause("linespoints " + line_style + " " + point));
         } else if (chart_.kind == ChartKind::cdf) {
             clauses.push_back(clause("steps " + line_style));

@@ -14,15 +14,14 @@ namespace {
 constexpr double line_length = 30;  // [px]
 constexpr double sign_size = 12;    // [px] of the others
 
-void draw_line_sign(Svg& svg, PicturePoint p, std::size_t series, bool mark) {
-    const ChartStyle style = chart_style(series);
+void draw_line_sign(Svg& svg, PicturePoint p, const ChartStyle& style, bool mark) {
     SvgPath path;
     path.move(p.x, p.y).horizontal(p.x + line_length);
     svg.add("path", {{"d", path.text()},
                      {"stroke", style.color},
                      {"stroke-width", 1.8},
                      {"stroke-dasharray", style.dash_text()}});
-    if (mark) draw_mark(svg, {p.x + line_length / 2, p.y}, series, "");
+    if (mark) draw_mark(svg, {p.x + line_length / 2, p.y}, style, "");
 }
 
 void draw_bar_sign(Svg& svg, PicturePoint p, std::size_t series) {
@@ -41,17 +40,19 @@ void draw_missing_sign(Svg& svg, PicturePoint p) {
 }
 
 LegendItem item(const Chart& chart, const ChartView& view, std::size_t series, bool marks) {
-    const bool lines = chart.kind == ChartKind::lines || chart.kind == ChartKind::cdf;
+    const ChartStyle style = style_in(chart, series);
+    const bool lines =
+        (chart.kind == ChartKind::lines || chart.kind == ChartKind::cdf) && !style.hollow;
     const bool bars = chart.kind == ChartKind::bars && !view.dots;
     return {.text = {},
             .width = lines ? line_length : sign_size,
             .draw = [=](Svg& svg, PicturePoint p) {
                 if (lines) {
-                    draw_line_sign(svg, p, series, marks);
+                    draw_line_sign(svg, p, style, marks);
                 } else if (bars) {
                     draw_bar_sign(svg, p, series);
                 } else {
-                    draw_mark(svg, {p.x + sign_size / 2, p.y}, series, "");
+                    draw_mark(svg, {p.x + sign_size / 2, p.y}, style, "");
                 }
             }};
 }

@@ -87,7 +87,7 @@ Box cover(const DrawnPoint& p, const ChartFrame& frame, double px) {
 /// Draws the marks of a series, in one path if there are too many for tips.
 void draw_marks(Svg& svg, const Chart& chart, const ChartView& view, const ChartFrame& frame,
                 std::size_t series, const Places& places) {
-    const ChartStyle style = chart_style(series);
+    const ChartStyle style = style_in(chart, series);
     SvgPath all;
     for (std::size_t i = 0; i < places.size(); ++i) {
         const DrawnPoint& p = view.series[series][i];
@@ -95,7 +95,7 @@ void draw_marks(Svg& svg, const Chart& chart, const ChartView& view, const Chart
         if (view.points > most_tips) {
             style.marker.append_to(all, at, small_mark_radius);
         } else {
-            draw_mark(svg, at, series, tip_of(chart, view, series, p));
+            draw_mark(svg, at, style, tip_of(chart, view, series, p));
         }
     }
     if (!all.empty()) {
@@ -115,10 +115,10 @@ std::size_t end_of_run(const std::vector<DrawnPoint>& points, std::size_t begin)
 }
 
 /// The intervals of a line: bands where neighbours have them, whiskers elsewhere.
-void draw_intervals(Svg& svg, const ChartView& view, const ChartFrame& frame, std::size_t series,
-                    const Places& places) {
+void draw_intervals(Svg& svg, const Chart& chart, const ChartView& view, const ChartFrame& frame,
+                    std::size_t series, const Places& places) {
     const auto& points = view.series[series];
-    const Color color = chart_style(series).color;
+    const Color color = style_in(chart, series).color;
     SvgPath band, whiskers;
     for (std::size_t i = 0; i < points.size();) {
         const std::size_t end = end_of_run(points, i);
@@ -271,15 +271,14 @@ Color bar_color(std::size_t series) {
     return blend(chart_style(series).color, {255, 255, 255}, share);
 }
 
-void draw_mark(Svg& svg, PicturePoint at, std::size_t series, const std::string& tip) {
-    const ChartStyle style = chart_style(series);
+void draw_mark(Svg& svg, PicturePoint at, const ChartStyle& style, const std::string& tip) {
     SvgPath path;
     style.marker.append_to(path, at, mark_radius);
     svg.open("path", {{"class", "mark"},
                       {"d", path.text()},
-                      {"fill", style.color},
-                      {"stroke", "#ffffff"},
-                      {"stroke-width", 0.7}});
+                      {"fill", style.hollow ? Color{255, 255, 255} : style.color},
+                      {"stroke", style.hollow ? style.color : Color{255, 255, 255}},
+                      {"stroke-width", style.hollow ? 1.4 : 0.7}});
     if (!tip.empty()) svg.title(tip);
     svg.close();
 }
@@ -309,10 +308,10 @@ void draw_lines(Svg& svg, const Chart& chart, const ChartView& view, const Chart
     std::vector<Places> places;
     for (std::size_t i = 0; i < view.series.size(); ++i) {
         places.push_back(places_of(view.series[i], frame, beside_x[i]));
-        draw_intervals(svg, view, frame, i, places[i]);
+        draw_intervals(svg, chart, view, frame, i, places[i]);
     }
     for (std::size_t i = 0; i < view.series.size(); ++i) {
-        const ChartStyle style = chart_style(i);
+        const ChartStyle style = style_in(chart, i);
         SvgPath line;
         for (std::size_t k = 0; k < places[i].size(); ++k) {
             const DrawnPoint& p = view.series[i][k];

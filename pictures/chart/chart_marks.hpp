@@ -3,6 +3,7 @@
 
 #include "pictures/chart/chart.hpp"
 #include "pictures/chart/chart_axis.hpp"
+#include "pictures/chart/chart_style.hpp"
 #include "pictures/chart/chart_view.hpp"
 #include "pictures/draw/label.hpp"
 #include "pictures/draw/plot.hpp"
@@ -48,6 +49,6 @@ bool room_for_marks(const ChartView& view, const ChartFrame& frame);
 /// Fill colour of the bars of the series with index `series`.
 Color bar_color(std::size_t series);
 /// Draws a mark of a series. @param tip  tooltip of the mark, or ""
-void draw_mark(Svg& svg, PicturePoint at, std::size_t series, const std::string& tip);
+void draw_mark(Svg& svg, PicturePoint at, const ChartStyle& style, const std::string& tip);
 
 }  // namespace rovernet

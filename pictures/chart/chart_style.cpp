@@ -48,4 +48,11 @@ ChartStyle chart_style(std::size_t series) {
     return out;
 }
 
+ChartStyle style_in(const Chart& chart, std::size_t series) {
+    const auto& beside = chart.series[series].beside;
+    ChartStyle style = chart_style(beside.value_or(series));
+    style.hollow = beside.has_value();
+    return style;
+}
+
 }  // namespace rovernet

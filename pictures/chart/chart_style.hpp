@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "pictures/chart/chart.hpp"
 #include "pictures/draw/color.hpp"
 #include "pictures/draw/plot.hpp"
 #include "pictures/draw/svg.hpp"
@@ -39,6 +40,7 @@ struct ChartStyle {
     Color color;
     std::vector<double> dashes;  ///< lengths [px] of dashes and gaps, in turn; empty: a solid line
     ChartMarker marker;
+    bool hollow = false;  ///< true: marks are white inside, and no line joins them
 
     /// Dashes in the notation of SVG (stroke-dasharray).
     std::string dash_text() const;
@@ -46,5 +48,7 @@ struct ChartStyle {
 
 /// Style of series number `series`, from 0; styles repeat after a few dozen series.
 ChartStyle chart_style(std::size_t series);
+/// Style of a series of a chart: its own, or hollow that of the series that it stands beside.
+ChartStyle style_in(const Chart& chart, std::size_t series);
 
 }  // namespace rovernet

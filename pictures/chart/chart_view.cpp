@@ -103,16 +103,16 @@ class SeriesView {
             }
         }
         if (chart_.kind != ChartKind::scatter) sort(found);
-        return without_gaps(found);
+        return without_gaps(found, !series.beside);
     }
 
-    std::vector<DrawnPoint> without_gaps(const std::vector<DrawnPoint>& found) {
+    std::vector<DrawnPoint> without_gaps(const std::vector<DrawnPoint>& found, bool line) {
         std::vector<DrawnPoint> out;
         bool joined = false;
         for (DrawnPoint p : found) {
             if (drawable(p.y, log_y())) {
                 set_interval(p);
-                p.joined = joined;
+                p.joined = line && joined;
                 out.push_back(p);
                 joined = true;
             } else {

@@ -110,7 +110,7 @@ class DotPanel {
         for (std::size_t i = 0; i < plot_.series.size(); ++i) {
             if (plot_.series[i].empty()) continue;
             legend_.add({plot_.series[i], 12, [i](Svg& svg, PicturePoint p) {
-                             draw_mark(svg, {p.x + 6, p.y}, i, "");
+                             draw_mark(svg, {p.x + 6, p.y}, chart_style(i), "");
                          }});
         }
         if (plot_.band) {
@@ -225,7 +225,7 @@ class DotPanel {
                                  {"stroke", join_color},
                                  {"stroke-width", 1.6}});
             for (std::size_t k = 0; k < dots.size(); ++k)
-                draw_mark(svg, {place(dots[k]), height_of(row, k)}, dots[k].series,
+                draw_mark(svg, {place(dots[k]), height_of(row, k)}, chart_style(dots[k].series),
                           tip(plot_.rows[row], dots[k]));
         }
     }

@@ -4,12 +4,12 @@
 #include "scenario/document/quantity.hpp"
 #include "scenario/document/toml.hpp"
 #include "sim/error.hpp"
+#include "study/advise/marks_beside.hpp"
 #include "study/statistics/metric_bounds.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <stdexcept>
 
 namespace rovernet {
@@ -20,17 +20,6 @@ struct Numbers {
     std::vector<double> values;
     std::string unit;
 };
-
-/// The number at the beginning of a text; the rest is its unit.
-std::optional<double> leading_number(const std::string& text, std::string& unit) {
-    double number = 0;
-    const char* const end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data(), end, number);
-    if (error != std::errc{}) return std::nullopt;
-    unit.assign(rest, end);
-    unit.erase(0, unit.find_first_not_of(' '));
-    return number;
-}
 
 /// The values as they stand if they share their unit, or else in the base unit of what they
 /// measure; nothing if they are words.
@@ -61,11 +50,15 @@ std::string label_of(const std::string& path, const std::string& unit) {
     return unit.empty() ? path : fmt::format("{} [{}]", path, unit);
 }
 
-/// Metrics in seconds end in _s, those in microseconds in _us.
+/// Metrics in seconds end in _s, those in microseconds in _us. A quotient "A/B" is in the unit of A
+/// for each B.
 std::string metric_label(const std::string& metric) {
+    const auto slash = std::min(metric.find('/'), metric.size());
+    const std::string over = metric.substr(0, slash), under = metric.substr(slash);
     for (const std::string unit : {"s", "us"}) {
-        if (!metric.ends_with("_" + unit)) continue;
-        return fmt::format("{} [{}]", metric.substr(0, metric.size() - unit.size() - 1), unit);
+        if (!over.ends_with("_" + unit)) continue;
+        const std::string name = over.substr(0, over.size() - unit.size() - 1);
+        return fmt::format("{}{} [{}]", name, under, unit);
     }
     return metric;
 }
@@ -244,6 +237,12 @@ Chart study_chart(const Store& store, const ChartQuestion& question) {
         }
         series.points.push_back(point);
     }
+    if (q.beside.empty()) return chart;
+    if (chart.kind != ChartKind::lines || !numbers) {
+        throw std::invalid_argument("--beside: expected a chart of lines, with numbers on x");
+    }
+    add_marks(chart, q.beside,
+              {.x = question.x, .unit = numbers->unit, .by = question.by, .y = q.y});
     return chart;
 }
 

@@ -26,6 +26,8 @@ struct ChartQuestion {
     /// True: average only over cells (combinations of averaged values and replication) for which
     /// every position of the chart has a value, see Cells.
     bool common = false;
+    /// Path of a CSV file whose rows are drawn as marks beside lines, see add_marks(); empty: none.
+    std::string beside = {};
 };
 
 /// Full path of the varied key that the user calls `word`. The word may be the full path, the last
@@ -44,7 +46,7 @@ std::vector<Condition> conditions_of(const std::vector<std::string>& paths,
 /// cdf, the distribution over replications. Results are averaged over varied keys other than `x`
 /// and `by`, as in answers(). The chart's note lists the averaged keys, the number of replications,
 /// and missing runs.
-/// @throws std::invalid_argument as answers()
+/// @throws std::invalid_argument as answers(); InputError as add_marks()
 Chart study_chart(const Store& store, const ChartQuestion& question);
 
 /// Two charts of a comparison. The first shows the metric of each model with its interval, the

@@ -10,6 +10,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -453,6 +454,26 @@ TEST_CASE("chart: series differ in colour, and in mark or dashes") {
 TEST_CASE("chart: a mark tells its values to who points at it") {
     const std::string text = drawn(ramp(ChartKind::lines, 4));
     CHECK(has(text, "<title>s: 2, 0.2 (0.15 to 0.3), n = 7</title>"));
+}
+
+TEST_CASE("marks beside a line are hollow, in its colour, and have no line") {
+    Chart chart = one_series(ChartKind::lines, {{.x = 0, .y = 1}, {.x = 5, .y = 2}});
+    chart.series.push_back({"beside", {{.x = 2, .y = 1.5}, {.x = 3, .y = 1.2}}, 0});
+    const auto svg = svg_elements(drawn(chart));
+    const auto lines = of_class(svg, "line");
+    const auto marks = of_class(svg, "mark");
+    REQUIRE(lines.size() == 2);
+    CHECK(has(lines[0].attributes.at("d"), "L"));
+    CHECK_FALSE(has(lines[1].attributes.at("d"), "L"));
+    const auto count = [&](const char* key, const std::string& value) {
+        return std::count_if(marks.begin(), marks.end(), [&](const SvgElement& mark) {
+            return mark.attributes.at(key) == value;
+        });
+    };
+    const std::string color = lines[0].attributes.at("stroke");
+    CHECK(count("stroke", color) == 3);  // two, and one of the legend
+    CHECK(count("fill", color) == 3);
+    CHECK(count("fill", "#ffffff") == 3);
 }
 
 }  // namespace chart_marks_test

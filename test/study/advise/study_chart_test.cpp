@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "study/advise/study_chart.hpp"
 
+#include "sim/error.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
+
+#include <fstream>
+#include <stdexcept>
 
 namespace study_chart_test {
 using namespace rovernet;
@@ -149,6 +153,54 @@ TEST_CASE("study chart: a question that it cannot answer is an error that says w
                          doctest::Contains("--by"), Error);
     CHECK_THROWS_WITH_AS(ask({.kind = ChartKind::cdf, .x = "a.count", .y = "reach"}),
                          doctest::Contains("-x"), Error);
+}
+
+TEST_CASE("study chart: rows of a file are marks beside the curves that they name") {
+    const TemporaryFolder folder;
+    const Store store =
+        made(folder.path("s.db"), "robot.r.count", {10, 20}, "routing.ttl", {1, 2, 3});
+    const std::string file = folder.path("field.csv");
+    const auto ask = [&](const std::string& text) {
+        std::ofstream(file) << text;
+        return study_chart(store,
+                           {.x = "robots", .y = "latency_mean_s", .by = "ttl", .beside = file});
+    };
+    const Chart chart =
+        ask("# measured\nttl,robots,latency_mean_s,latency_mean_s high\n2,10,0.5,0.75\n2,20,,\n");
+    REQUIRE(chart.series.size() == 4);
+    CHECK(chart.series[3].name == "2, field");
+    CHECK(chart.series[3].beside == 1);
+    REQUIRE(chart.series[3].points.size() == 1);
+    CHECK(chart.series[3].points[0].x == 10);
+    CHECK(chart.series[3].points[0].y == 0.5);
+    CHECK(chart.series[3].points[0].high == 0.75);
+    CHECK_FALSE(chart.series[3].points[0].low);
+    CHECK_FALSE(chart.series[0].beside);
+
+    const auto fails = [&](const std::string& text, const char* with) {
+        CHECK_THROWS_WITH_AS(ask(text), doctest::Contains(with), InputError);
+    };
+    fails("ttl,robots,latency\n2,10,0.5\n", "no column \"latency_mean_s\"");
+    fails("ttl,robots,latency_mean_s\n9,10,0.5\n", "field.csv:2:1: ttl: found \"9\"");
+    fails("ttl,robots,latency_mean_s\n2,10 m,0.5\n", "found \"10 m\", expected a number");
+    fails("ttl,robots,latency_mean_s\n2,0.5\n,,,\n", "found 4 fields, expected 3");
+    fails("", "no line of column names");
+}
+
+TEST_CASE("study chart: a quotient of metrics is taken run by run") {
+    const TemporaryFolder folder;
+    const Store store = made(folder.path("s.db"), "robot.r.count", {10, 20}, "routing.ttl", {1, 2});
+    const std::string quotient = "latency_mean_s/latency_mean_s";
+    const Chart chart =
+        study_chart(store, {.x = "robots", .y = quotient, .where = {{"routing.ttl", "2"}}});
+    CHECK(chart.y_label == "latency_mean/latency_mean_s [s]");
+    for (const ChartPoint& point : chart.series.at(0).points) CHECK(point.y == 1);
+    // At ttl = 1 the first run's value is 0, and so its quotient has none.
+    const Answers all = answers(store, {.metrics = {quotient}, .where = {{"routing.ttl", "1"}}});
+    CHECK(all.list.at(0).gaps.undefined == 1);
+    CHECK(all.list.at(0).values.size() == 2);
+    CHECK_THROWS_WITH_AS(answers(store, {.metrics = {"latency_mean_s/latency"}}),
+                         doctest::Contains("the metric \"latency\""), std::invalid_argument);
 }
 
 }  // namespace study_chart_test

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "pictures/chart/chart.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rovernet {
+
+/// Number at the beginning of a text such as "30 s"; none if there is no number.
+/// @param unit  receives the text behind the number, without blanks between them
+std::optional<double> leading_number(const std::string& text, std::string& unit);
+
+/// Columns of a table of values from another source, such as measurements, that are drawn as marks
+/// beside the curves of a study.
+struct MarkColumns {
+    std::string x;     ///< name of the column with x, as the user names the key
+    std::string unit;  ///< unit of x in the chart; empty: none
+    std::string by;    ///< name of the column with the name of the curve; empty: only one curve
+    /// Name of the column with y. The ends of its interval are in "Y low" and "Y high", if the
+    /// table has these columns.
+    std::string y;
+};
+
+/// Adds the rows of a CSV file to a chart of lines: hollow marks in the style of the curve that
+/// their row names. The file has a line of column names, and lines of numbers that are separated by
+/// commas; lines that begin with # are comments. The legend names the marks by the curve and by the
+/// file, without its folders and without ".csv". Rows without y make no mark.
+/// @throws InputError if the file cannot be read, lacks a column, names a curve that the chart does
+///         not have, or has a text where a number is expected
+void add_marks(Chart& chart, const std::string& path, const MarkColumns& columns);
+
+}  // namespace rovernet
