@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// Faults that are known of other simulators' AODV and DSR, one test each: what they do wrong is
+// done right here. Names begin with the simulator.
+#include "test/routing/aodv_node.hpp"
+#include "test/routing/dsr_node.hpp"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <optional>
+
+namespace known_faults_test {
+using namespace rovernet;
+using namespace std::chrono_literals;
+using test::AodvNode;
+using test::DsrNode;
+using test::path;
+using test::request;
+
+TEST_CASE("ns-3: a request that comes from the next hop to its destination is passed on") {
+    AodvNode n;
+    n.learn(5, 2, 10, 3);
+    aodv::Request asked = request(7, 5);
+    asked.number = 11;  // newer than the route, so that node 0 cannot answer
+    CHECK(n.hear(2, asked) == Fate::waiting);
+    CHECK(n.sent<aodv::Request>().size() == 1);
+}
+
+TEST_CASE("ns-3: a request with an older number leaves the way back to its originator") {
+    AodvNode n;
+    n.hear(1, request(7, 5, 1, 20), 2);
+    n.hear(2, request(7, 5, 2, 19), 1);
+    CHECK(n.route(7)->next_hop == NodeId{1});
+    CHECK(n.route(7)->number == std::optional<std::uint32_t>(20));
+    n.hear(3, request(7, 5, 3, 21), 3);  // a newer one replaces it
+    CHECK(n.route(7)->next_hop == NodeId{3});
+}
+
+TEST_CASE("ns-3: a request makes a broken way back to its originator valid again") {
+    AodvNode n;
+    n.learn(7, 1, 20, 3);
+    n.link.time += 4s;
+    CHECK_FALSE(n.route(7)->is_valid);
+    n.hear(2, request(7, 5, 1, 22), 2);
+    CHECK(n.route(7)->is_valid);
+}
+
+TEST_CASE("ns-3: a neighbour does not get the number of a request's originator") {
+    AodvNode n;
+    n.hear(2, request(7, 5, 1, 20), 3);
+    REQUIRE(n.route(2));
+    CHECK(n.route(2)->number != n.route(7)->number);
+}
+
+TEST_CASE("ns-3: the number of a lost destination rises before it is reported") {
+    AodvNode n;
+    n.pass_reply(7, 2, 5, 1, 9);
+    n.forward(7, 2, 5);
+    n.fail_last();
+    const auto errors = n.sent<aodv::Error>();
+    REQUIRE(errors.size() == 1);
+    REQUIRE(errors[0].second.lost.back().destination == NodeId{5});
+    CHECK(errors[0].second.lost.back().number == 10);
+}
+
+TEST_CASE("INET: equal ids of two originators are two requests") {
+    AodvNode n;
+    CHECK(n.hear(2, request(7, 5, 1)) == Fate::waiting);
+    CHECK(n.hear(2, request(8, 5, 1)) == Fate::waiting);
+    CHECK(n.hear(2, request(7, 5, 1)) == Fate::duplicate);
+}
+
+TEST_CASE("ns-2: two neighbours that repair a route at once do not send messages to each other") {
+    // Nodes 0 and 1 both lose 5 and have each other as next best: an answer of the neighbour has
+    // the number of the broken route, and is not accepted.
+    AodvNode n({.local_repair = true});
+    n.pass_reply(7, 2, 5, 1, 9);
+    n.forward(7, 2, 5);
+    n.fail_last();
+    CHECK(n.sent<aodv::Request>().back().second.number == std::optional<std::uint32_t>(10));
+    const auto before = n.data().size();
+    n.hear(3, aodv::Reply{.hops = 1,
+                          .destination = NodeId{5},
+                          .number = 9,  // as old as the broken route
+                          .originator = NodeId{0},
+                          .lifetime = 3s});
+    CHECK(n.data().size() == before);
+    CHECK_FALSE(n.route(5)->is_valid);
+}
+
+TEST_CASE("ns-2: a report ends no messages that wait for its sender on the way elsewhere") {
+    AodvNode n;
+    n.learn(5, 2, 9);
+    n.learn(6, 2, 9);
+    n.send(6);
+    n.hear(2, aodv::Error{.lost = {{NodeId{5}, 10}}});
+    CHECK(n.link.drops.empty());
+    CHECK(n.route(6)->is_valid);
+    n.link.go();
+    CHECK(n.data().size() == 1);
+}
+
+TEST_CASE("ns-2: messages without a route are reported ten times a second at most") {
+    AodvNode n;
+    for (int i = 0; i < 50; ++i) n.forward(7, 2, 5);
+    CHECK(n.sent<aodv::Error>().size() <= 10);
+    CHECK(n.sent<aodv::Error>().size() >= 1);
+    CHECK(n.link.drops.size() == 50);
+}
+
+TEST_CASE("ns-2: a search without an answer ends, and so do its packets") {
+    for (const bool as_ns2 : {false, true}) {
+        AodvNode n({.profile = as_ns2 ? AodvProfile::ns2 : AodvProfile::rfc});
+        for (int i = 0; i < 3; ++i) n.send(5);
+        n.run(n.link.time + 300s);
+        CHECK(n.link.drops.size() == 3);
+        CHECK(n.sent<aodv::Request>().size() < 12);
+        CHECK(n.link.timers.empty());
+    }
+}
+
+TEST_CASE("ns-2: requests of DSR grow by the address of each node, and by no more") {
+    DsrNode n;
+    n.request(path({7}), 5, 1);
+    n.request(path({7, 1}), 5, 2);
+    n.request(path({7, 1, 2, 3}), 5, 3);
+    const auto requests = n.sent(dsr::request_kind);
+    REQUIRE(requests.size() == 3);
+    const auto size = [&](int i) {
+        return n.link.message(requests[static_cast<std::size_t>(i)].first.message).size;
+    };
+    CHECK(size(1) == size(0) + 4);
+    CHECK(size(2) == size(1) + 8);
+}
+
+}  // namespace known_faults_test
