@@ -58,14 +58,23 @@ struct Learning {
     }
 };
 
+constexpr std::string_view scenario = R"(
+scenario.duration = "6 s"
+propagation = { model = "disc", range = "100 m" }
+access.model = "csma"
+radio.rate = "1 Mb/s"
+robot = [{ name = "0", at = ["0 m", "0 m"] },
+         { name = "1", at = ["80 m", "0 m"] },
+         { name = "2", at = ["160 m", "0 m"], off = ["2.5 s"] },
+         { name = "3", at = ["240 m", "0 m"], on_receive = { send = "yes", to = "sender" } },
+         { name = "4", at = ["80 m", "60 m"] },
+         { name = "5", at = ["160 m", "60 m"] }]
+traffic = [{ kind = "unicast", from = "0", to = "3", payload = "?", start = "1 s", every = "1 s" }]
+)";
+
 int main() {
-    Network net{{.propagation = Disc{.range = {100}}, .access = Csma{}}};
-    for (const Vec3 at : {Vec3{0, 0}, {80, 0}, {160, 0}, {240, 0}, {80, 60}, {160, 60}})
-        net.add({.name = {}, .at = at, .radio = {.rate = {1e6}}});
-    net.route(Learning{});
+    Session session(ScenarioFile(parse_toml(scenario, "scenario"), "", {}), {}, Router(Learning{}));
+    Network& net = session.network();
     net.on_receive({0}, [&](const Message&) { fmt::print("at {:.2f} s\n", seconds(net.now())); });
-    net.on_receive({3}, [&](const Message&) { net.send({3}, {0}, "yes"); });
-    for (int s = 1; s < 6; ++s) net.at(start_of_run + 1s * s, [&] { net.send({0}, {3}, "?"); });
-    net.at(start_of_run + 2500ms, [&] { net.switch_off({2}); });
-    net.run_for(6s);
+    session.step(session.end());
 }

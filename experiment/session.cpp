@@ -18,10 +18,11 @@
 
 namespace rovernet {
 
-Session::Session(const Scenario& scenario) : Session(scenario, network_settings(scenario)) {}
+Session::Session(const Scenario& scenario, std::optional<Router> router)
+    : Session(scenario, network_settings(scenario), std::move(router)) {}
 
-Session::Session(const ScenarioFile& file, const Table& settings)
-    : Session(load_scenario(file, settings)) {}
+Session::Session(const ScenarioFile& file, const Table& settings, std::optional<Router> router)
+    : Session(load_scenario(file, settings), std::move(router)) {}
 
 Session::Session(const Scenario& scenario, NetworkSettings settings, std::optional<Router> router)
     : file_(scenario.file),

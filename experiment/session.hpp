@@ -31,11 +31,13 @@ struct Scenario;
 class Session {
   public:
     /// Makes the network. @throws InputError for errors found with the map: a robot in a wall, say
-    explicit Session(const Scenario& scenario);
-    /// Makes a session of a scenario file, overridden by `settings` (values by path, as in --set).
-    explicit Session(const ScenarioFile& file, const Table& settings = {});
-    /// Makes a session whose network has the given settings, as from network_settings(scenario).
     /// @param router  routing protocol in place of the scenario's protocol
+    explicit Session(const Scenario& scenario, std::optional<Router> router = {});
+    /// Makes a session of a scenario file, overridden by `settings` (values by path, as in --set).
+    /// Example with a routing protocol of the program: examples/router.cpp.
+    explicit Session(const ScenarioFile& file, const Table& settings = {},
+                     std::optional<Router> router = {});
+    /// Makes a session whose network has the given settings, as from network_settings(scenario).
     Session(const Scenario& scenario, NetworkSettings settings, std::optional<Router> router = {});
     ~Session();
     Session(const Session&) = delete;  // callbacks of the network refer to this object
