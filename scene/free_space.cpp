@@ -84,7 +84,7 @@ std::vector<std::uint8_t> steps_between(const std::vector<std::uint8_t>& free,
         // As seen from a rectangle of whole cells, the nearest point of the square between four
         // centres is one of the centres. So if the four are free, every path inside the square is
         // passable.
-        for (std::size_t i = 0; i < columns; ++i) {
+        for (std::ptrdiff_t i = 0; i < grid.columns; ++i) {
             const int east = here[i + 1], north = above[i], west = here[i - 1], south = below[i];
             out[i] = static_cast<std::uint8_t>(
                 here[i] & ((east & 0x01) | (east & north & above[i + 1] & 0x02) | (north & 0x04) |

@@ -39,7 +39,7 @@ consteval KindMask bit_in(RecordList<R...>) {
     static_assert((std::is_same_v<T, R> || ...), "T is no kind of record");
     static_assert(sizeof...(R) < 28, "the bits from 28 on are requests");
     KindMask bit = 1;
-    ((std::is_same_v<T, R> || (bit <<= 1) == 0) || ...);
+    static_cast<void>(((std::is_same_v<T, R> || (bit <<= 1) == 0) || ...));
     return bit;
 }
 

@@ -124,14 +124,14 @@ std::optional<RobotCommand> read_one_of(std::tuple<std::type_identity<Commands>.
     const auto found = members(object, keys);
     const auto given = find_given(object, keys, found, parts);
     if (!given) return std::nullopt;
-    const auto [first, size] = parts[*given];
+    const auto given_part = parts[*given];
     std::optional<RobotCommand> result;
     std::size_t i = 0;
     const auto read = [&]<class Command>(std::type_identity<Command>) {
         if (i++ != *given) return;
         auto command = command_at<Command>(network, robot);
-        reader.read(command, object, std::span(keys).subspan(first, size),
-                    std::span(found).subspan(first, size));
+        reader.read(command, object, std::span(keys).subspan(given_part.first, given_part.size),
+                    std::span(found).subspan(given_part.first, given_part.size));
         result = std::move(command);
     };
     (read(std::type_identity<Commands>{}), ...);

@@ -124,7 +124,7 @@ void RayTracer::pass_beside(std::size_t e) {
         (other != edge.next || distance(edges_.all()[other].corners[1], edge.corners[0]) <=
                                    distance(edge.corners[1], edges_.all()[other].corners[0]));
     if (other_first) add(other, 1);
-    for (const std::size_t corner : {0, 1}) add(e, corner);
+    for (const std::size_t corner : {0UL, 1UL}) add(e, corner);
     if (other != no_edge && other != e && !other_first) add(other, 0);
     if (other != no_edge) done_[other] = true;
     if (other != no_edge && !way->edge.shadowed) {

@@ -75,8 +75,8 @@ Promise slanting_walls() {
                 0, 0};
     const auto is_wall = [](Vec3 p) { return std::abs(p.x) < 2 && std::abs(p.y) < 0.1; };
     const auto drawn_at = [&](double angle) {
-        const auto [sin, cos] = math::sincos(angle);
         OccupancyGrid grid = drawn_map(16, 16, 0.05, [&](Vec3 p) {
+            const auto [sin, cos] = math::sincos(angle);
             const double x = p.x - 8, y = p.y - 8;
             return is_wall({cos * x + sin * y, cos * y - sin * x});
         });
@@ -87,8 +87,8 @@ Promise slanting_walls() {
     const Rays model{.wall = ItuMaterial::brick};
     for (int step = 1; step <= 15; ++step) {
         const double angle = 0.1 * step;
-        const auto [sin, cos] = math::sincos(angle);
         const auto turned = [&](Vec3 p) {
+            const auto [sin, cos] = math::sincos(angle);
             return Vec3{cos * p.x - sin * p.y, sin * p.x + cos * p.y, 1};
         };
         const Scene scene = drawn_at(angle);

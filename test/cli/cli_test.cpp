@@ -165,10 +165,11 @@ TEST_CASE("trace stats: the metrics of the summary to the last digit, in both fo
                   std::to_string(200 * i) + " m\", \"0 m\"]\n" +
                   (i == 2 ? "off = [\"3 s\"]\n" : "");
     }
-    for (const auto& [format, scenario] : {std::pair<std::string, std::string>{"old", relay},
-                                           {"new", relay},
-                                           {"old", routed},
-                                           {"new", routed}}) {
+    for (const auto& each : {std::pair<std::string, std::string>{"old", relay},
+                             {"new", relay},
+                             {"old", routed},
+                             {"new", routed}}) {
+        const std::string &format = each.first, &scenario = each.second;
         CAPTURE(format);
         CAPTURE(scenario);
         const TemporaryFolder folder;

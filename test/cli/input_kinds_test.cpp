@@ -101,7 +101,7 @@ TEST_CASE("kinds of inputs: a loop of links or an endless device as scenario, tr
 
 TEST_CASE("kinds of inputs: files that a scenario names") {
     const Inputs in;
-    for (const auto& [section, reason] : std::vector<std::pair<std::string, std::string>>{
+    for (const auto& each : std::vector<std::pair<std::string, std::string>>{
              {"[scene]\nmap = \"loop.png\"\n", loop},
              {"[scene]\nmap = \"loop.yaml\"\n", loop},
              {"[scene]\nworld = \"loop.world\"\n", loop},
@@ -111,8 +111,8 @@ TEST_CASE("kinds of inputs: files that a scenario names") {
              {"[traffic]\nfile = \"/dev/zero\"\n", device},
              {"[scene]\nmap = \"/dev/zero\"\n", "is not a regular file"},
              {"[scene]\nworld = \"/dev/zero\"\n", "is not a regular file"}}) {
-        CAPTURE(section);
-        check_told(in.run({"where", in.scenario(section), "--at", "1s"}), reason);
+        CAPTURE(each.first);
+        check_told(in.run({"where", in.scenario(each.first), "--at", "1s"}), each.second);
     }
 }
 

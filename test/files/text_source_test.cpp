@@ -104,7 +104,8 @@ TEST_CASE("text source: what other programs pack, and what is no text, is refuse
         {std::string("s\0 \0r\0 \0s\0 \0r\0 \0\n\0", 18), "NUL"},
         {{"\x89MCAP0\r\n", 8}, "recorded trace"},
         {{"\xd4\xc3\xb2\xa1\2\0", 6}, "pcap"}};
-    for (const auto& [bytes, name] : files) {
+    for (const auto& each : files) {
+        const std::string &bytes = each.first, &name = each.second;
         CAPTURE(name);
         write_file(folder / "in", bytes);
         std::string told;

@@ -160,11 +160,13 @@ TEST_CASE("liveness: backwards and to the right, a corner and the border of the 
         robot.leg.heading = heading;
         return walk(scene, robot, Driven{.speed = {v}, .turn_rate = {w}}, Meters{0.2}, 20, 9999);
     };
-    for (const auto& [at, heading] : std::vector<std::pair<Vec3, double>>{{{2.79, 2, 0}, 0.1},
-                                                                          {{2.85, 0.85, 0}, 0.8},
-                                                                          {{0.001, 2, 0}, 3.1},
-                                                                          {{4, 0, 0}, -1.5}}) {
+    for (const auto& begin : std::vector<std::pair<Vec3, double>>{{{2.79, 2, 0}, 0.1},
+                                                                  {{2.85, 0.85, 0}, 0.8},
+                                                                  {{0.001, 2, 0}, 3.1},
+                                                                  {{4, 0, 0}, -1.5}}) {
         for (const double sign : {1.0, -1.0}) {
+            const Vec3 at = begin.first;
+            const double heading = begin.second;
             CAPTURE(at.x);
             CAPTURE(sign);
             const Count ahead = legs_at(at, heading, 0.5, sign);

@@ -102,7 +102,7 @@ TEST_CASE("csma: stations that begin together collide, unless each draws a backo
         room.net.route(Flood{.ttl = 1});
         for (int i = 0; i < 400; ++i) {
             room.net.at(start_of_run + i * 1s, [&room] {
-                for (const int from : {0, 1})
+                for (const std::size_t from : {0U, 1U})
                     room.net.send(room.nodes[from], everyone, "x", {.size = 100});
             });
         }

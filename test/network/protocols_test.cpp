@@ -123,9 +123,9 @@ TEST_CASE("protocols: every message to one robot is delivered or lost, once") {
         const bool routes = router.traits().routes_unicasts;
         const auto checker = run(std::move(router), access, arp);
         CHECK(checker->ends.size() == 40);
-        for (const auto& [uid, ends] : checker->ends) {
-            INFO("message ", uid);
-            if (routes) CHECK(ends == 1);
+        for (const auto& each : checker->ends) {
+            INFO("message ", each.first);
+            if (routes) CHECK(each.second == 1);
         }
     });
 }

@@ -84,7 +84,7 @@ TEST_CASE("aodv 6.2: a message lengthens the lives of four routes") {
     n.hear(2, request(7, 9), 3);
     n.link.time += 2500ms;
     CHECK(n.forward(7, 2, 5) == Fate::waiting);
-    for (const std::uint32_t to : {5, 1, 7, 2}) {
+    for (const std::uint32_t to : {5U, 1U, 7U, 2U}) {
         CAPTURE(to);
         CHECK(n.route(to)->until == n.link.time + 3s);
     }

@@ -172,10 +172,11 @@ TEST_CASE("cluster: a copy that is forwarded waits for the delay, another one ar
 }
 
 TEST_CASE("cluster: a threshold and a period of 0 are refused") {
-    CHECK_THROWS_WITH_AS(Router(Suppression{.scheme = SuppressionScheme::cluster, .threshold = 3}),
+    const auto make = [](const Suppression& settings) { return Router(settings); };
+    CHECK_THROWS_WITH_AS(make({.scheme = SuppressionScheme::cluster, .threshold = 3}),
                          "suppression: threshold must be left out for scheme \"cluster\", got 3",
                          std::invalid_argument);
-    CHECK_THROWS_AS(Router(Suppression{.scheme = SuppressionScheme::cluster, .hello = Duration{0}}),
+    CHECK_THROWS_AS(make({.scheme = SuppressionScheme::cluster, .hello = Duration{0}}),
                     std::invalid_argument);
 }
 

@@ -124,7 +124,7 @@ TEST_CASE("dsr: a source whose first link breaks takes another route, or searche
 }
 
 TEST_CASE("dsr 8.3.5: whoever hears an error forgets the link, and passes the error on") {
-    for (const std::uint32_t next : {0, 9}) {  // on the way, and overheard
+    for (const std::uint32_t next : {0U, 9U}) {  // on the way, and overheard
         DsrNode n;
         n.learn(path({0, 4, 5, 6}));
         const Path back = path({4, next, 7});

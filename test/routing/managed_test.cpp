@@ -115,9 +115,9 @@ TEST_CASE("managed, M2: -20 to 10 dB are windows of 3 to 8 in whole numbers, cla
         {-40, 3},  {-20, 3}, {-15, 3},  {-14.5, 4},       {-14, 4}, {-8.1, 5},
         {-7.5, 5}, {-2, 6},  {-0.9, 6}, {0, 6},           {3.9, 6}, {4, 7},
         {9.9, 7},  {10, 8},  {60, 8},   {std::nan(""), 3}};
-    for (const auto& [snr, window] : windows) {
-        CAPTURE(snr);
-        CHECK(ManagedRouter::contention_window(Db{snr}) == window);
+    for (const auto& each : windows) {
+        CAPTURE(each.first);
+        CHECK(ManagedRouter::contention_window(Db{each.first}) == each.second);
     }
 }
 

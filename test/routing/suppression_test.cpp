@@ -380,7 +380,9 @@ TEST_CASE("suppression on graphs: reach and savings of Ni et al.'s schemes on ma
                                    {.9032, .21, .3508, .094},
                                    {.8768, .232, .2883, .186},
                                    {.9445, .154, .2377, .225}}}};
-    for (const auto& [settings, on] : table) {
+    for (const auto& row : table) {
+        const auto& settings = row.settings;
+        const auto& on = row.on;
         for (std::size_t i = 0; i < on.size(); ++i) {
             const int k = 1 + 2 * static_cast<int>(i);
             const Outcome o = mean(k, settings, static_cast<int>(maps[i].here));

@@ -99,7 +99,8 @@ TEST_CASE("trace: an empty file, or one that another program packed, is refused 
         {std::string("\xfd\x37zXZ\0 packed", 13), "packed by xz"},
         {"BZh91AY packed", "packed by bzip2"},
         {"<html>\n</html>\n", "no line of this file"}};
-    for (const auto& [bytes, why] : files) {
+    for (const auto& each : files) {
+        const std::string &bytes = each.first, &why = each.second;
         CAPTURE(why);
         const std::string in = folder.write("in.tr", bytes);
         for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{

@@ -236,9 +236,11 @@ TEST_CASE("link changes: behind walls that stand askew, what dense sampling sees
         for (int round = 0; round < 40; ++round) {
             CAPTURE(round);
             MovingPair pair{&scene};
-            for (int i = 0; i < 2; ++i)
+            for (int i = 0; i < 2; ++i) {
+                const Dbm power{draw.uniform(-25, -20)};
                 pair.add(model, random_leg(draw, side, time),
-                         {.power = {draw.uniform(-25, -20)}, .sensitivity = {-80}});
+                         {.power = power, .sensitivity = {-80}});
+            }
             check_against_sampling(pair, a, b, time, search, seen);
         }
         CHECK(seen > 20);

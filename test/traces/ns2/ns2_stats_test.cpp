@@ -288,7 +288,8 @@ TEST_CASE("stats: a file without a line of a trace is refused, whatever its line
 
         {"<!DOCTYPE html>\n<html></html>\n", "no line of this file"},
         {"Sorry, this page\nhas moved\nelsewhere\nfor good\n", "no line of this file"}};
-    for (const auto& [text, why] : files) {
+    for (const auto& each : files) {
+        const std::string &text = each.first, &why = each.second;
         CAPTURE(text);
         write_file(folder / "in.tr", text);
         std::string told;
