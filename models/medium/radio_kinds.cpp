@@ -35,12 +35,13 @@ bool needs_level(const Propagation& model) {
     return model.shape() == LossShape::by_heights && !model.is_random();
 }
 
-Decision cheapest_decision(const Propagation& model, Hertz frequency) {
-    if (model.shape() == LossShape::by_distance || needs_level(model)) return Decision::by_range;
+}  // namespace
+
+Decision RadioKinds::cheapest_decision(const Propagation& model, Hertz frequency) const {
+    const bool is_level = needs_level(model) && antennas_.are_equal;
+    if (model.shape() == LossShape::by_distance || is_level) return Decision::by_range;
     return model.shadowed_loss(frequency) ? Decision::by_table : Decision::by_loss;
 }
-
-}  // namespace
 
 Membership RadioKinds::membership(const Radio& radio) {
     return {.essid = number_of(essids_, radio.essid),
@@ -62,7 +63,6 @@ RadioKinds::Kind RadioKinds::add(const Radio& radio, const Propagation& propagat
                       .membership = membership(radio),
                       .model = model,
                       .cheapest = cheapest_decision(propagation, plain.frequency),
-                      .needs_level = needs_level(propagation),
                       .noise = noise_floor(plain)});
     heights_.push_back(plain.antenna_height.value);
     heights_matter_ =
@@ -98,7 +98,6 @@ RadioKinds::Kind RadioKinds::of_coding(Kind kind, Coding coding) {
                 .membership = mine.membership,
                 .model = mine.model,
                 .cheapest = mine.cheapest,
-                .needs_level = mine.needs_level,
                 .noise = mine.noise,
                 .stations = 0};
     kinds_.push_back(std::move(other));
@@ -153,9 +152,14 @@ Db RadioKinds::left_out(std::size_t frames) const {
 
 void RadioKinds::set_antennas(const AntennaHeights& heights) {
     const bool is_higher = heights.highest != antennas_.highest;
+    const bool differ_now = antennas_.are_equal && !heights.are_equal;
     antennas_ = heights;
-    if (!is_higher) return;
-    for (Alike& each : kinds_) each.reach2 = {};
+    if (!is_higher && !differ_now) return;
+    for (Alike& each : kinds_) {
+        if (is_higher) each.reach2 = {};
+        if (differ_now)
+            each.cheapest = cheapest_decision(models_[each.model], each.radio.frequency);
+    }
 }
 
 const FirstLook& RadioKinds::first_look(Kind from, Strength strength) {

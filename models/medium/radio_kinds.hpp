@@ -94,8 +94,7 @@ class RadioKinds {
         constexpr std::size_t most_tables = 16;
         const Decision cheapest = kinds_[from].cheapest;
         const bool pays = cheapest != Decision::by_table || kinds_.size() <= most_tables;
-        const bool holds = antennas_.are_equal || !kinds_[from].needs_level;
-        return pays && holds && !varies_ ? cheapest : Decision::by_loss;
+        return pays && !varies_ ? cheapest : Decision::by_loss;
     }
     /// Squared distance [m^2] up to which a signal has this strength at nodes of kind `to`, for
     /// Decision::by_range; negative: at none.
@@ -145,7 +144,6 @@ class RadioKinds {
         /// Index of the kind's propagation model in models_.
         std::uint32_t model;
         Decision cheapest;
-        bool needs_level;  ///< `cheapest` holds only between antennas of one height
         Dbm noise;
         std::size_t stations = 1;
         /// Number of receiver kinds for which the vectors below have space.
@@ -159,6 +157,8 @@ class RadioKinds {
         std::vector<std::optional<FirstLook>> looks = {};
     };
 
+    // Fastest method that a model allows between antennas of the present heights.
+    Decision cheapest_decision(const Propagation& model, Hertz frequency) const;
     // Largest path loss [dB] at which a signal has this strength, for this sensitivity of `to`.
     Db budget(Strength strength, const Radio& from, const Radio& to, LinkGain gain,
               Dbm sensitivity) const;
