@@ -16,9 +16,7 @@
 
 namespace rovernet {
 
-/// Largest size of a message [bytes]: the content of a UDP packet over IPv4, whose total length of
-/// 65,535 bytes includes headers of 20 and 8 bytes. Sources: RFC 791, 3.1; RFC 768.
-inline constexpr std::uint32_t longest_message = 65'507;
+inline constexpr std::uint32_t longest_message = 65'507;  ///< [bytes] in a UDP packet over IPv4
 
 /// Message of an application, or control packet of a routing protocol. A message does not change
 /// once it is in the MessageTable.
@@ -38,8 +36,7 @@ struct Message {
     std::uint64_t key = 0;
     /// Size of the message on air [bytes], without the header that the access model adds.
     std::uint32_t size = 0;
-    /// Time at which the message was created.
-    Time created = start_of_run;
+    Time created = start_of_run;  ///< time at which the message was created
     /// Content of the message, for the receiver. The content's length may differ from `size`.
     std::string payload;
     /// Number of the application's flow, from 1; 0 for no flow. Metrics are computed for each flow.

@@ -40,12 +40,10 @@ struct Sent {
     MessageId message;
     /// Largest number of hops that the message may travel.
     Hops ttl;
-    /// Number of robots that the message concerns, including the sender: 2 for a unicast; all
-    /// robots that exist now for a broadcast.
+    /// Number of robots that the message concerns: 2 for a unicast, for a broadcast all robots now.
     std::uint32_t robots;
-    /// Number of robots that a chain of links connects to the sender now, without the sender: the
-    /// most that any protocol could reach if no robot moved. Set only if a sink requests it (see
-    /// kind_reachable, kind_cheap_reachable).
+    /// Number of other robots that a chain of links connects to the sender now. Set only if a sink
+    /// requests it (see kind_reachable, kind_cheap_reachable).
     std::optional<std::uint32_t> reachable;
     /// Hops of the shortest chain of links to the destination of a unicast now; none if there is no
     /// chain. Set only if a sink requests it (see kind_shortest).
@@ -121,11 +119,9 @@ struct Routed {
 struct Dropped {
     Time time;
     NodeId node;
-    /// Frame as the node received it; if the access model drops the frame, as it would have been
-    /// transmitted.
+    /// Frame as received; if the access model drops it, as it would have been transmitted.
     Frame frame;
-    /// Reason for the loss.
-    DropReason reason;
+    DropReason reason;  ///< reason for the loss
     /// Code of the reason, a literal, if `reason` is DropReason::own.
     std::string_view own_code = {};
     /// True if only one attempt at a link was lost: the routing protocol was notified, and sends
@@ -152,14 +148,10 @@ struct Dropped {
 /// record, or a control frame. A monitor of the channel would capture the same frames.
 struct AirSent {
     Time time;
-    /// Frame on air: data or control frame.
-    AirFrame air;
-    /// Size [bytes], including the bytes that the access model adds.
-    std::uint32_t bytes;
-    /// Bytes that the access model adds to a frame of a message.
-    std::uint32_t header = 0;
-    /// Airtime of the frame [ns].
-    Duration airtime{0};
+    AirFrame air;              ///< data frame or control frame
+    std::uint32_t bytes;       ///< size [bytes], including the bytes that the access model adds
+    std::uint32_t header = 0;  ///< bytes that the access model adds to a frame of a message
+    Duration airtime{0};       ///< airtime of the frame [ns]
 
     static constexpr std::string_view name = "AirSent";
     static constexpr auto fields() {
@@ -177,8 +169,7 @@ struct ControlReceived {
     /// Reception at the destination; its fate is `waiting` if the frame was decoded, otherwise the
     /// reason of the loss.
     Reception reception;
-    /// Size of the control frame [bytes].
-    std::uint32_t bytes;
+    std::uint32_t bytes;  ///< size of the control frame [bytes]
 
     static constexpr std::string_view name = "ControlReceived";
     static constexpr auto fields() {
@@ -195,8 +186,7 @@ using Record = decltype(variant_of(RecordKinds{}));
 
 /// State of the network that a sink may read while it handles a record.
 struct RecordContext {
-    /// Current legs of all robots.
-    const Legs& legs;
+    const Legs& legs;  ///< current legs of all robots
     /// Messages in use, including the messages that the record refers to.
     const MessageTable& messages;
     /// Routing protocol, which describes its control packets; null without one, and for records

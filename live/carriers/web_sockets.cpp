@@ -112,8 +112,8 @@ struct Client {
     beast::flat_buffer input = {};
     InputRate rate = {};
     std::deque<Output> output = {};  // the first is being written
-    std::size_t waiting = 0;          // [bytes] of those behind the first
-    bool is_open = false;             // its users know it
+    std::size_t waiting = 0;         // [bytes] of those behind the first
+    bool is_open = false;            // its users know it
     bool is_reading = false;
     bool is_closing = false;                      // no message goes out any more
     std::optional<close_code> close_reason = {};  // sent in the close frame, once all data is sent

@@ -192,7 +192,7 @@ TEST_CASE(
           "\"data\" is missing; expected such as \"data\":\"Rg==\"");
     CHECK(message(R"(,"do":{"A":{"stop":false}})") == "expected \"stop\":true");
     CHECK(message(R"(,"send":[{"from":"A","data":"","size":65536}])") ==
-          "found 65536; expected a whole number from 0 to 65535");
+          "found 65536; expected a whole number from 0 to 65507");
 }
 
 TEST_CASE("lockstep: time goes to the nearest end of a step once everybody has asked") {
