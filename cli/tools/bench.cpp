@@ -57,6 +57,10 @@ void bench_flood(const BenchArguments& a) {
     bench.access.model = choice("access", a.access, AccessTable::names());
     bench.mobility = static_cast<BenchMobility>(
         choice("mobility", a.mobility, EnumNames<BenchMobility>::values));
+    if (a.suppression != "none") {
+        bench.suppression = static_cast<SuppressionScheme>(
+            choice("suppression", a.suppression, EnumNames<SuppressionScheme>::values));
+    }
     Array rows;
     if (!a.json) {
         fmt::print("{:>9} {:>13} {:>12} {:>16} {:>15} {:>14}\n", "nodes", "transmissions",

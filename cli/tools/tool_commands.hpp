@@ -33,6 +33,7 @@ void material(const MaterialArguments& arguments);
 struct BenchArguments {
     FloodBench bench;
     std::string reception = "threshold", access = "none", mobility = "static";
+    std::string suppression = "none";
     bool json = false;
 };
 void bench_flood(const BenchArguments& arguments);

@@ -45,6 +45,11 @@ void add_bench(Command app) {
     flood.add_option("--reception", a.reception, "threshold, collision or sinr").shows_default();
     flood.add_option("--access", a.access, "none, aloha or csma").shows_default();
     flood.add_option("--mobility", a.mobility, "static or random_waypoint").shows_default();
+    flood
+        .add_option("--suppression", a.suppression,
+                    "none, or a scheme that holds robots back: counter, probability, distance, "
+                    "location or cluster")
+        .shows_default();
     flood.add_option("--shadowing", a.bench.shadowing.value, "of each link, sigma in dB")
         .check(not_negative())
         .shows_default();

@@ -147,6 +147,8 @@ std::string RecordedDay::hears_farther(const std::vector<std::string>& set) cons
     const DayLog::Heard* farthest = nullptr;
     double metres = 0;
     for (const DayLog::Heard& heard : log_.heard) {
+        // A damaged trace may have lost the legs of a robot.
+        if (log_.legs[heard.from.index()].empty() || log_.legs[heard.to.index()].empty()) continue;
         const double d = distance(place(heard.from, heard.time), place(heard.to, heard.time));
         if (d <= metres) continue;
         metres = d;
@@ -198,6 +200,7 @@ void RecordedDay::add_robots(Network& network, const Scenario& scenario) const {
             const RobotTable& table = *found->second;
             robot.radius = table.radius;
             robot.radio = table.radio;
+            if (log_.legs[i].empty() && table.at) robot.at = *table.at;
             if (table.propagation) robot.propagation = models.at(&table);
         }
         network.add(std::move(robot));

@@ -85,6 +85,11 @@ Scenario scenario_of(const FloodBench& bench) {
     std::get<Csma>(out.access.parameters).basic_rates = {{{11e6}}};
     std::get<Flood>(out.routing.parameters) = {
         .ttl = 65535, .upgrade = false, .jitter = out.access.as<Csma>() ? 50ms : 10ms};
+    if (bench.suppression) {
+        out.routing.model = RoutingTable::place_of<Suppression>();
+        std::get<Suppression>(out.routing.parameters) = {
+            .scheme = *bench.suppression, .range = Meters{decode_range}, .ttl = 65535};
+    }
     return out;
 }
 

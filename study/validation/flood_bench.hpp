@@ -25,6 +25,8 @@ struct FloodBench {
     AccessTable access = {};
     BenchMobility mobility = BenchMobility::fixed;  ///< fixed, or random waypoint at 1-20 m/s
                                                     ///< without pauses
+    /// Scheme of `suppression` in place of a flood, with its default threshold; empty: the flood.
+    std::optional<SuppressionScheme> suppression = std::nullopt;
     Db shadowing{0};        ///< standard deviation of shadowing on links [dB]; 0: none
     bool recorded = false;  ///< true: metrics, fingerprint, timeline are on, as in `rovernet run`
     double cpu_s = 2;       ///< minimum CPU time of the floods for each network size [s]

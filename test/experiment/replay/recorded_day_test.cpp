@@ -4,7 +4,9 @@
 #include "experiment/run.hpp"
 #include "scenario/scenario_file.hpp"
 #include "sim/error.hpp"
+#include "sim/sink.hpp"
 #include "test/scene/temporary_folder.hpp"
+#include "traces/recorded/recorded_reader.hpp"
 
 #include <doctest/doctest.h>
 
@@ -95,6 +97,23 @@ TEST_CASE("a recorded day: a setting that is none is refused by its name") {
     const RecordedDay day(record(folder, busy_day));
     CHECK_THROWS_WITH_AS(day.play({"propagation.modle=friis"}), doctest::Contains("modle"),
                          InputError);
+}
+
+TEST_CASE("a recorded day without the legs of a robot: it stands where the scenario begins it") {
+    const TemporaryFolder folder;
+    RecordedReader trace(record(folder, busy_day));
+    RecordedRun run = trace.run();
+    DayLog log;
+    trace.read(Sink(DayLogSink{log}));
+    const std::size_t robot_b = 7;
+    REQUIRE(run.robots[robot_b] == "B");
+    log.legs[robot_b].clear();
+    log.heard.push_back({start_of_run, NodeId{6}, NodeId{robot_b}});
+    const RecordedDay day(run, folder.path("run") + "/trace.mcap", log);
+    CHECK(day.hears_farther({"radio.power=-90 dBm"}).empty());
+    const PlayedDay again = day.play({});
+    CHECK(std::any_of(again.deliveries.begin(), again.deliveries.end(),
+                      [](const Delivery& each) { return each.at == NodeId{robot_b}; }));
 }
 
 }  // namespace recorded_day_test
