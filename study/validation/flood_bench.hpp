@@ -25,9 +25,10 @@ struct FloodBench {
     AccessTable access = {};
     BenchMobility mobility = BenchMobility::fixed;  ///< fixed, or random waypoint at 1-20 m/s
                                                     ///< without pauses
-    Db shadowing{0};        ///< standard deviation of shadowing on links [dB]; 0: none
-    bool recorded = false;  ///< true: metrics, fingerprint, timeline are on, as in `rovernet run`
-    double cpu_s = 2;       ///< minimum CPU time of the floods for each network size [s]
+    Db shadowing{0};  ///< standard deviation of shadowing on links [dB]; 0: none
+    /// True: the floods also compute metrics, fingerprint and timeline, as `rovernet run` does.
+    bool recorded = false;
+    double cpu_s = 2;  ///< minimum CPU time of the floods for each network size [s]
     std::uint64_t seed = 1;
 };
 
