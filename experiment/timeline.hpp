@@ -67,16 +67,18 @@ class Timeline {
         Hops hops;
     };
     static_assert(sizeof(Entry) == 24);
-    /// Text that a robot sends as payload, in one or several messages, with the robot.
+    /// Text that the robot `origin` sends as the payload of one or several messages.
     struct Words {
         NodeId origin;
         std::string payload;
     };
-    /// Set of pairs (text, robot), implemented as a hash table with open addressing, at most two
-    /// thirds full.
+    /// Set of pairs (text, robot) that already have an entry: the robot has sent or received the
+    /// text. Hash table with open addressing, at most two thirds full.
     class Pairs {
       public:
-        /// Adds a pair. @return false if the set already has it
+        /// Adds the pair of a text and the robot `node`.
+        /// @param words  index of the text in Timeline::words_
+        /// @return false if the set already contains this pair
         bool add(std::uint32_t words, NodeId node);
 
       private:

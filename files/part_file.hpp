@@ -55,9 +55,10 @@ void remove_orphans(const std::string& path);
 /// Whether `name` has the form WHOLE.N.part, an incomplete version of the file `whole`.
 bool is_part_of(std::string_view whole, std::string_view name);
 
-/// Lock of a folder, under which a process gives several files their names, so that files of two
-/// processes are never mixed. Other processes that ask for the lock wait. The lock has no effect if
-/// the file system has no locks.
+/// Exclusive lock of a folder during the lifetime of the object. A process holds the lock while it
+/// renames all output files of a run to their final names. Another process that locks the same
+/// folder waits, so that the folder never has files of two runs. The lock has no effect if the file
+/// system has no locks.
 class FolderLock {
   public:
     explicit FolderLock(const std::string& folder);

@@ -50,12 +50,15 @@ struct Area {
     Vec3 exit(Vec3 p, Vec3 direction) const;
 
     /// Uniform random position in the area at which the mover's body touches no obstacle. If there
-    /// is a map, the position is on the map. Its height is that of the mover. Empty if 10,000 draws
-    /// find no such position.
+    /// is a map, the position is on the map. The position has the mover's height. Empty if 10,000
+    /// draws find no such position.
     std::optional<Vec3> free_place(const Mover& mover, Draws& draws) const;
-    /// Start position of a movement. For StartPlace::uniform at the start of the run, the result is
-    /// a random position, see free_place(). Otherwise it is the mover's position.
-    /// @throws std::invalid_argument if the mover's position is used but outside the area
+    /// Start position of a movement in the area. It is random, by free_place(), if `start` is
+    /// StartPlace::uniform and the movement begins at the start of the run. In all other cases it
+    /// is the mover's current position.
+    /// @return empty if free_place() finds no position
+    /// @throws std::invalid_argument if the mover's current position is needed but lies outside the
+    ///         area
     std::optional<Vec3> first_place(const Mover& mover, StartPlace start, Draws& draws,
                                     std::string_view model) const;
 };

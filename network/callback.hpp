@@ -42,12 +42,13 @@ class Callback {
     }
 
   private:
-    // Function and end flag. A Subscription points to the flag and keeps the whole State alive.
+    // User function, and flag whether the callback was ended. A Subscription has a shared pointer
+    // to the flag, which also keeps the function alive.
     struct State {
         std::function<void(Arguments...)> call;
         bool ended = false;
     };
-    // Function and end flag, shared by copies; null for a callback without a function.
+    // State that all copies of this Callback share; null for a Callback without a function.
     std::shared_ptr<State> state_;
 };
 

@@ -82,7 +82,8 @@ class Channel {
     /// frames already on air is computed with the old leg and radio.
     /// @param on  whether the node's radio is on before the change
     void before_change(NodeId node, bool on);
-    /// Sets a new leg of the node, which begins now.
+    /// Reports the node's new leg, which begins now, to Interference, for bounds on speeds and
+    /// antenna positions.
     void goes(NodeId node, const Leg& leg);
 
     /// Checks a bit rate that a robot or the access model may use.

@@ -29,7 +29,8 @@ class Liveness {
         if (now - last_look_ < growth_) begin_ = now, is_counting_ = true;
         last_look_ = now;
     }
-    /// Whether the events of robots are counted now. Counting ends once time has grown by `growth`.
+    /// Whether the caller must now count the events of robots by is_stuck(). Counting begins in
+    /// look(). It ends in this function, once simulated time has grown by `growth` since then.
     bool is_counting(Time now) {
         if (is_counting_ && now - begin_ >= growth_) {
             is_counting_ = false;

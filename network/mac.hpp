@@ -113,8 +113,9 @@ class Mac final : public Air, public ChannelUser {
     bool judges(const Frame& frame) const {
         return frame.next_hop != everyone && !listens_ && user_.wants_result(frame);
     }
-    // Handles a unicast whose next hop is out of range: emits Dropped, or queues an event at `end`
-    // that reports the result.
+    // Handles a unicast whose next hop is out of range. If the MAC finds the result of the unicast
+    // itself (see judges()), queues an event at `end`, the end of the frame, that reports the loss
+    // to the user. Otherwise emits Dropped immediately.
     void miss(const AirFrame& air, Time end);
     // Reports to the user whether the next hop has received a unicast that ends now.
     void judge(const AirFrame& air, std::span<const Reception> receptions);

@@ -185,7 +185,8 @@ class Routing final : public LinkLayer, public MacUser, public ArpUser {
     std::vector<Dropped> drops_;
     // Number of the protocol's own references to each message; counted in a debug build.
     std::vector<std::int32_t> held_;
-    // First reception passed to on_receive, and received powers of all receptions, for level().
+    // Receptions of the current call of the protocol's on_receive: pointer to the first one, and
+    // received power of each one [dBm]. level() looks up the power of a reception by its index.
     const Reception* handed_up_ = nullptr;
     std::span<const Dbm> levels_;
 };

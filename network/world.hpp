@@ -51,7 +51,7 @@ struct World {
         message.created = now;
         return messages.add(std::move(message));
     }
-    /// Key of a robot, XXH64 of its name: draws and orderings depend on it, not on the robot's id.
+    /// Key of a robot, XXH64 of its name. Draws and orderings depend on the key, not on the id.
     std::uint64_t key(NodeId node) const { return medium.stations().key(node); }
     /// Uniform draw in (0, 1) of this run: a function of its key, independent of the order of
     /// draws.
@@ -125,17 +125,18 @@ struct World {
     std::uint64_t transmissions = 0;
     /// True if a sink or the routing protocol asks for the received powers at all nodes.
     bool levels_wanted = false;
-    /// Flag of each node, by id: an application of the node requests received powers. Empty if
-    /// there is no such node.
+    /// Flag of each node, by id; true: an application of the node requests received powers. Empty
+    /// if no application requests received powers.
     std::vector<bool> level_wanted_at = {};
-    /// Whether received powers of frames are requested: at any node; and at `node`.
+    /// Whether received powers of frames are requested: wants_levels() at any node,
+    /// wants_level_at() at `node`.
     bool wants_levels() const { return levels_wanted || !level_wanted_at.empty(); }
     bool wants_level_at(NodeId node) const {
         return levels_wanted ||
                (node.index() < level_wanted_at.size() && level_wanted_at[node.index()]);
     }
-    /// Received powers of receptions for records: `levels` if requested at all nodes, otherwise
-    /// empty.
+    /// Received powers of receptions [dBm], as a record contains them: `levels` if the powers are
+    /// requested at all nodes (levels_wanted); otherwise empty.
     std::span<const Dbm> for_sinks(std::span<const Dbm> levels) const {
         return levels_wanted ? levels : std::span<const Dbm>{};
     }

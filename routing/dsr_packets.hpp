@@ -21,10 +21,10 @@ namespace rovernet::dsr {
 
 /// IP protocol number of the packets (RFC 4728, section 11).
 inline constexpr std::uint8_t ip_protocol = 48;
-/// Kinds of DSR packets, see Message::kind: type in ns-2 traces, and name.
+/// Kinds of DSR packets (Message::kind): the type in ns-2 traces, then the name of the packet.
 inline constexpr std::string_view request_kind = "DSR REQUEST", reply_kind = "DSR REPLY",
                                   error_kind = "DSR ERROR";
-/// Protocol of a message's header, as that of the kinds.
+/// Protocol of the header of a message (FrameHeader::protocol), the first word of the kinds above.
 inline constexpr std::string_view protocol = "DSR";
 /// Size of an IP header, and of the fixed part of the DSR Options header (RFC 4728, 6.1) [bytes].
 inline constexpr std::uint32_t ip_header = 20, fixed_header = 4;
@@ -66,10 +66,11 @@ struct Packet {
 
 /// Bytes of the DSR Options header with the options of a packet.
 std::string to_bytes(const Packet& packet);
-/// Bytes of the DSR Options header before a message: a Source Route option, and UDP behind it. A
-/// salvaged message's route lists its first node, too, as that is not the message's source (RFC
-/// 4728, 8.3.6).
-/// @param hop  hops that the message has made on this path
+/// Bytes of the DSR Options header before a message. The header has a Source Route option, and the
+/// IP protocol number of UDP, which follows it. The route of a salvaged message also lists its
+/// first node, because this node is not the message's source (RFC 4728, 8.3.6).
+/// @param salvage  number of times that the message was salvaged (sent along another route)
+/// @param hop      number of hops that the message has made on this path
 std::string message_header(const Path& path, unsigned salvage, std::size_t hop);
 /// Packet that the payload of a message contains; without options if the payload is no DSR packet.
 Packet packet_of(const Message& message);
@@ -80,7 +81,9 @@ Packet packet_of(const Message& message);
 std::string on_air(std::string_view bytes, const Frame& frame,
                    const std::function<std::uint32_t(NodeId)>& address);
 
-/// Bytes of the header of a message as they are on the air: with IP addresses.
+/// Bytes of the DSR Options header of a message as transmitted: with IP addresses in place of the
+/// ids of nodes.
+/// @param address  IPv4 address of a node, in host byte order
 std::string header_on_air(std::string_view bytes,
                           const std::function<std::uint32_t(NodeId)>& address);
 

@@ -62,13 +62,15 @@ class DsrRouter {
     /// Source route of a frame of a message.
     const Header& header(const Frame& frame) const { return headers_[frame.header - 1]; }
     /// Number of pairs (source, destination) that lost messages because the route between them has
-    /// more than sixteen nodes; and notice to the user about these pairs, empty if there are none.
+    /// more than sixteen nodes. notice() describes these pairs to the user; it is empty if there
+    /// are no such pairs.
     std::size_t pairs_too_far() const;
     std::string notice() const;
 
   private:
-    /// Search for a route to a target, for packets that wait. The entry remains until a route is
-    /// found, so that the waits between requests grow (4.3).
+    /// Search of a node for a route to a target to which packets wait in the node's buffer. The
+    /// search ends when a route is found, or when the node gives up after its last request. It
+    /// counts the requests, because the waits between requests grow (RFC 4728, 4.3).
     struct Search {
         NodeId target;
         /// Number of requests sent; the first request reaches only the neighbours (TTL 1).
@@ -76,8 +78,8 @@ class DsrRouter {
         /// Time at which the wait for a reply ends.
         Time until = start_of_run;
     };
-    /// Gratuitous reply that was sent (4.4) because the node overheard a packet of `source` from
-    /// `sender`; not sent again before `until`.
+    /// Gratuitous Route Reply (RFC 4728, 4.4) that a node has sent because it overheard a packet of
+    /// `source` from `sender`. The node does not send the reply again before `until`.
     struct Shortening {
         NodeId source, sender;
         Time until;
@@ -151,8 +153,8 @@ class DsrRouter {
     // Source routes of frames; number n in Frame::header is entry n - 1.
     std::vector<Header> headers_;
     std::vector<std::uint32_t> free_headers_;
-    // Flag of each message that has arrived at its destination, by slot: a salvaged copy may arrive
-    // later.
+    // Flag of each message, by the index of its MessageId; true: the message has arrived at its
+    // destination, so that a salvaged copy that arrives later is a duplicate.
     std::vector<bool> arrived_;
     // Pairs (originator, target) of requests whose path reached sixteen nodes before the target;
     // true if the pair has lost messages.

@@ -45,8 +45,9 @@ class SeenIds {
         known.below |= bit(back);
         return true;
     }
-    /// Stores a 16-bit number, which wraps around, as note(): `id` stands for the number nearest to
-    /// the originator's highest number, within 32768.
+    /// Stores the number of a received packet, like note(), for packets with numbers of 16 bits,
+    /// which restart at 0 after 65535. Of all numbers that end with the 16 bits of `id`, the one
+    /// nearest to the originator's highest number is stored.
     bool note16(NodeId originator, std::uint16_t id, Time now, Duration memory) {
         const auto known = std::find_if(
             of_.begin(), of_.end(), [&](const Of& each) { return each.originator == originator; });
@@ -57,7 +58,8 @@ class SeenIds {
     void clear() { of_.clear(); }
 
   private:
-    /// Numbers of one originator. Bit k of `below` stands for highest - 1 - k.
+    /// Numbers received from one originator: the highest number, and a bit mask of lower numbers.
+    /// Bit k of `below` is set if the number highest - 1 - k was received.
     struct Of {
         NodeId originator;
         std::uint32_t highest;

@@ -100,7 +100,7 @@ enum class DropReason : std::uint8_t {
     timeout,
     /// The packet was sent on an alternative route (salvaged) too often.
     salvaged,
-    /// Reason that a routing protocol defines itself; Dropped::own_code is its code.
+    /// Reason that a routing protocol defines itself, with the code Dropped::own_code.
     own,
     /// The address of the next hop was not resolved (ARP).
     unresolved,

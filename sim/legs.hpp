@@ -78,7 +78,8 @@ class Legs {
   private:
     // Value of Place::motion for a leg at rest.
     static constexpr std::uint32_t at_rest = 0xffffffff;
-    // Bit of Place::motion that marks an index into motions_.
+    // Bit of Place::motion that is set if the other bits are an index into motions_, and not set if
+    // they are an index into level_motions_.
     static constexpr std::uint32_t not_level = 0x80000000;
     // Whether a moving leg's Place::motion is an index into level_motions_.
     static bool is_level(std::uint32_t motion) { return !(motion & not_level); }
@@ -91,7 +92,8 @@ class Legs {
         double heading;
         /// Number of times that the node's leg was replaced.
         std::uint32_t version = 0;
-        /// Index into level_motions_, or into motions_ with the bit not_level.
+        /// Value at_rest, or an index into level_motions_, or an index into motions_ with the bit
+        /// not_level set.
         std::uint32_t motion = at_rest;
     };
     /// Data of a moving leg at constant height without a turn.
@@ -114,9 +116,10 @@ class Legs {
 
     // Stores a leg in `place` and, if the leg is not at rest, in one of the two lists of motions.
     void put(Place& place, const Leg& leg);
-    // Stores the part of a leg that is not at rest. @return value of Place::motion for it
+    // Stores the motion of a leg that is not at rest in level_motions_ or motions_.
+    // @return value of Place::motion for the leg
     std::uint32_t take_motion(const Leg& leg);
-    // Frees the entry that take_motion() stored.
+    // Frees the entry of level_motions_ or motions_ to which a value of Place::motion refers.
     void release_motion(std::uint32_t motion);
 
     // Places by node; Place::motion is an index into one of the two lists below.

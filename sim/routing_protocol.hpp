@@ -32,26 +32,30 @@
 
 namespace rovernet {
 
-/// Routing protocol: one object for all its nodes, which calls the LinkLayer and is called by it.
+/// Routing protocol. One object serves all nodes. The network calls the functions of the protocol,
+/// and these functions call the network by the LinkLayer.
 ///
-/// Callbacks never occur inside the protocol's own functions: frames that a function sends leave
-/// after the function has returned. Rules:
+/// Sending does not call the protocol back: frames that a function of the protocol sends leave
+/// after the function has returned. Rules for the functions of a protocol:
 ///
-/// - on_receive gets the receptions of a frame at several nodes in one call: state of a node is
-///   looked up inside the loop, and link.now() is the time of the last reception; use
-///   reception.time.
-/// - `delivered` is set once for each message and destination; copies that were sent again arrive
-///   twice.
-/// - A `const Message&` is valid until the next originate(), also inside a function that is called.
-/// - `to` of a control packet is a label; next_hop of its frames decides.
-/// - A MessageId or Frame that is stored beyond a function needs a hold(), and then a release().
+/// - One call of on_receive has the receptions of a frame at several nodes, which end at different
+///   times. Use the state of each reception's node, and Reception::time: link.now() is the time of
+///   the last reception.
+/// - on_receive sets Reception::delivered only once for each message and destination, although a
+///   copy that was sent again arrives twice.
+/// - A `const Message&` from the link layer is valid until the next LinkLayer::originate(), which a
+///   called function may also call.
+/// - Message::to of a control packet is only a label. Frame::next_hop determines the receivers.
+/// - A protocol that stores a MessageId or Frame after its function has returned must call
+///   LinkLayer::hold(), and LinkLayer::release() when it no longer needs the MessageId or Frame.
 template <class T>
 concept RouterProtocol = requires(T router, LinkLayer& link, NodeId node, MessageId message,
                                   const Frame& frame, std::span<Reception> receptions) {
     /// Called for a message that the node's application sends, to message.to or to everyone.
     {router.send(link, node, message)};
-    /// Called for a frame at some of its destination nodes, in order of time and then of node;
-    /// on_receive sets the fate of each reception, and whether the message is delivered there.
+    /// Called when nodes have decoded a frame that is addressed to them. The receptions are in
+    /// order of time, then of node. on_receive sets Reception::fate of each, and
+    /// Reception::delivered if the node's application gets the message.
     {router.on_receive(link, frame, receptions)};
     /// Initial TTL [hops] of messages of this protocol, for records.
     { std::as_const(router).initial_ttl() } -> std::convertible_to<Hops>;
@@ -94,9 +98,9 @@ concept KeepsMessages = requires(const T router, MessageId message) {
 };
 /// Style of a packet's content in ns-2 traces: that of the old or of the new trace format.
 enum class PacketStyle {
-    /// "[0x2 1 1 [3 0] [0 4]] (REQUEST)"
+    /// Style of the old trace format: "[0x2 1 1 [3 0] [0 4]] (REQUEST)"
     brackets,
-    /// "-P aodv -Pt 0x2 -Ph 1 ... -Pc REQUEST "
+    /// Style of the new trace format: "-P aodv -Pt 0x2 -Ph 1 ... -Pc REQUEST "
     tags,
 };
 /// Protocol that shows the content of its control packets in traces: describe() appends the content
@@ -106,8 +110,8 @@ concept DescribesPackets = requires(const T router, const Message& message, cons
                                     PacketStyle style, std::string& text) {
     {router.describe(message, frame, style, text)};
 };
-/// Protocol that shows the headers of its frames (Frame::header) in recorded traces and captures:
-/// header_bytes() returns the header that goes on air in this frame.
+/// Protocol that shows the headers of its frames (Frame::header) in recorded traces and captures.
+/// header_bytes() returns the header that is transmitted with the frame.
 template <class T>
 concept ShowsHeaders = requires(const T router, const Frame& frame) {
     { router.header_bytes(frame) } -> std::convertible_to<FrameHeader>;
@@ -154,8 +158,8 @@ template <class T>
 concept HasRoutes = requires(const T router, NodeId node, Time now) {
     { router.routes(node, now) } -> std::convertible_to<std::vector<RouteState>>;
 };
-/// Protocol with a notice to the user at the end of a run: a limit of the protocol that mattered.
-/// An empty text means no notice.
+/// Protocol with a notice to the user at the end of a run, such as a limit of the protocol that
+/// caused losses. An empty text means no notice.
 template <class T>
 concept HasNotice = requires(const T router) {
     { router.notice() } -> std::convertible_to<std::string>;

@@ -36,7 +36,9 @@ struct LinkReport {
     Radio sender, receiver;
     Db path_loss;                 ///< total path loss [dB], including walls and shadowing
     std::optional<Db> shadowing;  ///< shadowing [dB], included in the path loss; none: no shadowing
-    Db sender_pattern, receiver_pattern;  ///< antenna gain towards the peer [dB], <= 0
+    /// Gain of the sender's antenna pattern towards the receiver, and of the receiver's antenna
+    /// pattern towards the sender [dB], <= 0, relative to Radio::antenna_gain.
+    Db sender_pattern, receiver_pattern;
     Dbm received;
     Db margin;
     bool up;               ///< true if the received level suffices and both robots are on

@@ -61,12 +61,14 @@ class Front {
     virtual std::size_t received(Connection from, std::string_view bytes) = 0;
     virtual void closed(Connection gone) = 0;
 
-    /// Simulated time of the front's next message to clients; `never` if no message is due.
+    /// Simulated time at which the front sends its next messages to clients, by tell(); `never` if
+    /// no message is planned.
     virtual Time next() const = 0;
-    /// Sends the due messages to clients; called when simulated time has reached next().
+    /// Sends messages to clients. Called when simulated time has reached next().
     virtual void tell() = 0;
 
-    /// Simulated time at which the run must wait for messages of clients; `never`: no limit.
+    /// Simulated time at which the run stops and waits until clients have sent the messages that
+    /// the front needs; `never`: no limit.
     virtual Time limit() const { return never; }
     /// Called repeatedly while the run waits at limit().
     /// @param waited  real time since the run has reached the limit
@@ -77,7 +79,7 @@ class Front {
     virtual bool holds_end() const { return false; }
     /// Seed with which the run must start again; none: the run continues.
     virtual std::optional<std::uint64_t> new_seed() const { return std::nullopt; }
-    /// Called once the results are written. Messages that the front sends now still reach clients.
+    /// Called once the results are written. Messages sent in this call still reach the clients.
     /// @param metrics  metrics of the run, as in summary.json
     virtual void ended(std::string_view /*fingerprint*/, const Table& /*metrics*/) {}
     /// Error that ended the run, such as a lost client; empty: no error.

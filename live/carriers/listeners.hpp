@@ -91,9 +91,9 @@ class Listeners {
     /// @throws RunError
     void watch(int descriptor, std::function<bool()> readable);
 
-    /// Sends a message to a client. If the connection carries lines, the message is a line without
-    /// its end, which answers the client's last line. To a byte stream the message is sent
-    /// unchanged.
+    /// Sends a message to a client. If the connection carries lines, the message is the answer to
+    /// the client's last line; send() appends the end of the line. If the connection carries bytes,
+    /// the message is sent unchanged.
     void send(Connection to, std::string_view message);
     /// Closes a connection once all data is sent. The handler `closed` is called later, not by this
     /// call.

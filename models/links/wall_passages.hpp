@@ -15,11 +15,11 @@ namespace rovernet {
 
 /// Straight motion of a point at constant velocity: at(t) = from + t velocity.
 struct StraightMotion {
-    /// Position at t = 0 [m].
+    /// Position [m] of the moving point at the time t = 0 s.
     Vec3 from = {};
-    /// Velocity [m/s].
+    /// Velocity [m/s] of the moving point, constant.
     Vec3 velocity = {};
-    /// Position [m] at the time t [s].
+    /// Position [m] of the moving point at the time t [s].
     Vec3 at(double t) const { return from + t * velocity; }
 };
 
@@ -77,16 +77,17 @@ class WallPassages {
     const Scene* scene_ = nullptr;
     // Corners [m] of all walls, with z = 0, sorted by tile, row by row.
     std::vector<Vec3> corners_;
-    // Index of the first corner of each tile; one entry more than tiles.
+    // Index in corners_ of the first corner of each tile; the last entry is the number of corners.
     std::vector<std::size_t> first_;
     std::vector<End> ends_;
     // Heights of tops, bottoms and ceilings [m], ascending, each once.
     std::vector<double> levels_;
-    // For each storey, a height [m] below all tops of its walls.
+    // Height [m] of each storey at which pass_edges() finds the edges of all walls of the storey:
+    // below the tops of these walls.
     std::vector<double> feet_;
-    // Lower left corner of the tiles [m].
+    // Lower left corner [m] of the grid of tiles.
     Vec3 low_ = {};
-    // Side of a tile [m], and number of tiles in each direction.
+    // Side length of a tile [m], and number of columns and rows of the grid of tiles.
     double tile_ = 1;
     int columns_ = 0;
     int rows_ = 0;

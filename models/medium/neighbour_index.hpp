@@ -49,8 +49,8 @@ class NeighbourIndex {
     void refresh(Time t, const Legs& legs) {
         if (is_stale(t)) bin(t, legs);
     }
-    /// Position of the node [m], equal to that in `legs`. It is read from memory that is in the
-    /// processor's cache if the node's neighbours were visited recently.
+    /// Position of the node [m] by its leg in `legs`. The position is computed from a copy of the
+    /// leg, which is in the processor's cache if the node's neighbours were visited recently.
     Vec3 position_of(NodeId node, Time t, const Legs& legs) const {
         if (stale_) [[unlikely]]
             return legs.position(node, t);
@@ -104,8 +104,8 @@ class NeighbourIndex {
             visit(binned_.entries[i], binned_.position(i, t, legs), i);
         }
     }
-    /// Entries in the order of their cells, without the nodes stored separately; valid until
-    /// refresh() sorts the nodes again.
+    /// Entries of the nodes in grid cells, sorted by cell. Nodes outside the grid, see apart(), are
+    /// not among them. The span is valid until refresh() sorts the nodes again.
     std::span<const Entry> entries() const { return binned_.entries; }
     /// Number of times that the nodes were sorted into cells.
     std::uint64_t bins() const { return bins_; }
@@ -151,7 +151,7 @@ class NeighbourIndex {
     // Lower bounds of the squared distances [m^2] between `centre` and the entries that
     // look_around() found, for any motion since the last binning.
     float* distances_at_least(std::size_t count, Vec3 centre, double radius, Time t);
-    // Allocates memory for the results of look_around(). @return size of the memory
+    // Resizes near_ and distance2_, the results of look_around(), to 2 `places`. @return new size
     std::size_t make_room(std::size_t places);
 
     // Index of the cell that contains the position p [m].
@@ -165,7 +165,7 @@ class NeighbourIndex {
     std::size_t add_apart(NodeId node);
     // Sorts all nodes into cells by counting.
     void bin(Time t, const Legs& legs);
-    // Removes all nodes; returns them in the order of their cells, so that sorting moves few.
+    // Removes all entries and returns them sorted by old cell, so that new sorting moves few.
     IndexTable take_all(const Legs& legs);
     // Makes a grid of at most two cells per node.
     void lay_grid(const IndexTable& all, Time t, const Legs& legs);

@@ -53,7 +53,7 @@ class Reachability {
     std::uint64_t searches() const { return searches_; }
 
   private:
-    // Query: the network, its time, and the sender.
+    // Query of count() or reaches(): medium and legs of the nodes, current time, and sender.
     struct Now {
         Medium& medium;
         const Legs& legs;
@@ -65,7 +65,7 @@ class Reachability {
 
     // Whether no robot moves at the time of the query.
     bool is_at_rest(const Now& now);
-    // Finds all nodes that a chain connects to the sender.
+    // Marks as reached all nodes to which a chain of links leads from the sender now.from.
     void search(const Now& now);
     // Marks a node as reached.
     void reach(NodeId node) {
@@ -84,12 +84,13 @@ class Reachability {
     void follow_parents(const Now& now);
     // Fills open_ with the nodes that are on and not reached.
     void list_open(const Now& now);
-    // Marks the nodes that hear the reached node `node`.
+    // Marks as reached the nodes that can receive from the reached node `node`.
     void expand(const Now& now, NodeId node);
-    // Searches from nodes that are not reached; only if all links are bidirectional. A component
-    // that hears no reached node is not reachable.
+    // Searches for links from the nodes that are not reached to reached nodes. Used only if all
+    // links are bidirectional. A connected group of nodes without such a link is not reachable.
     void look_back(const Now& now);
-    // Connects the chain from `first` to `node` with the reached nodes, by a link from `reached`.
+    // Updates parents_ after look_back() found a chain from `first` to `node` and a link from
+    // `node` to the reached node `reached`: the chain is now traversed from `reached` to `first`.
     void join(NodeId reached, NodeId node, NodeId first);
 
     static constexpr std::uint32_t unknown = 0xffffffff;
@@ -114,7 +115,7 @@ class Reachability {
     std::size_t expanded_ = 0;
     // Nodes that are on and not reached.
     std::vector<NodeId> open_;
-    // Nodes of a chain; kept to reuse the memory.
+    // Nodes that look_back() has found from one node; kept to reuse the memory.
     std::vector<NodeId> path_;
 };
 

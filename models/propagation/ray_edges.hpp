@@ -60,7 +60,8 @@ std::vector<EdgeCorner> touched(std::span<const EdgeCorner> corners, Vec3 from, 
 struct TautString {
     Vec3 from, to;  ///< ends of the string [m], z = 0
     std::vector<EdgeCorner> touched;
-    std::vector<double> at;  ///< positions [m] of the start, of each touched corner and of the end
+    /// Distances along the string [m] from its start to each of its points, see point().
+    std::vector<double> at;
 
     /// Point i of the string: its start, the corners that it touches, and its end.
     Vec3 point(std::size_t i) const {
@@ -71,7 +72,8 @@ struct TautString {
     std::optional<std::size_t> touches(const EdgeCorner& corner) const;
 };
 
-/// Faces at an edge that a straight path crosses: the face before, the face behind.
+/// Flags of the faces of an edge, true if a straight path crosses the face: the face before the
+/// edge, and the face behind it.
 struct CrossedAt {
     bool before = false, behind = false;
     bool between = false;  ///< whether a short face between `before` and `behind` is crossed
@@ -82,7 +84,7 @@ struct CrossedAt {
 struct WayAround {
     std::array<std::size_t, 2> edges;  ///< indices of the first and the last edge of the path
     std::array<Vec3, 2> corners;       ///< first and last corner of the path [m]
-    RayEdge edge;                      ///< data of the edges, with lengths in three dimensions
+    RayEdge edge;                      ///< edge or pair of edges, with lengths in 3 dimensions
     double length;                     ///< length of the path around the edge [m]
     double detour;                     ///< `length` minus the straight distance of the ends [m]
 };
@@ -113,7 +115,7 @@ class RayEdges {
     std::optional<WayAround> around_body(std::size_t first, std::span<const CrossedAt> crossed,
                                          Vec3 a, Vec3 b, std::vector<EdgeCorner>& corners) const;
 
-    /// Adds the next corner that the path passes to a path around one corner of an edge, if the
+    /// Extends a path around one corner of an edge by the next corner that the path passes, if the
     /// detour by that corner is less than `near_edge` wavelengths. The two corners then form one
     /// pair of edges.
     /// @param shadowed  whether the edge obstructs the straight path
@@ -125,7 +127,8 @@ class RayEdges {
     /// @param faces  faces that the path crosses
     void find_crossed(std::span<const std::size_t> faces, std::vector<CrossedAt>& crossed) const;
 
-    /// Whether a face is before or behind an edge, or between the corners of the edge.
+    /// Whether a face belongs to an edge. In the order of the outline, the face is directly before
+    /// the edge, directly behind it, or between the two corners of the edge.
     bool is_of(std::size_t face, std::size_t edge) const {
         return edges_[edge].before == face || edges_[edge].behind == face ||
                of_face_[face].between == edge;
@@ -141,15 +144,16 @@ class RayEdges {
     /// Index of the edge that has the face between its corners, or no_edge.
     std::size_t edge_with(std::size_t face) const { return of_face_[face].between; }
 
-    /// Whether a path from edge `first` to edge `last` begins or ends at a face.
+    /// Whether a face belongs to an end of a path around a body: the face is before the edge
+    /// `first`, behind the edge `last`, or between the two corners of one of these edges.
     bool is_at(std::size_t face, std::size_t first, std::size_t last) const {
         const EdgesOfFace& of = of_face_[face];
         return of.before == first || of.between == first || of.behind == last || of.between == last;
     }
 
   private:
-    /// Edges at a face: the edge that has the face before its corners, behind them, or between
-    /// them.
+    /// Indices of the edges to which a face belongs: the edge that has the face before its corners,
+    /// the edge that has the face behind its corners, and the edge that has it between them.
     struct EdgesOfFace {
         std::size_t before = no_edge, behind = no_edge, between = no_edge;
     };

@@ -106,8 +106,10 @@ class RayTracer {
         WayAround way;
         bool left;
     };
-    /// Face that the straight path grazes, or face between the corners of an edge, and fraction [-]
-    /// of the face's reflection that the field of the edges includes.
+    /// Face beside the straight path. The field of the path past the face's edges already includes
+    /// the fraction `share` [-] of the face's reflection. The field of the separately traced
+    /// reflection is therefore multiplied by 1 - share. The face is `face`, or if this is no_face,
+    /// the face between the two corners of the edge `edge`.
     struct GrazedFace {
         std::size_t face, edge;
         double share;
@@ -176,7 +178,7 @@ class RayTracer {
     std::vector<Crossing> crossings_;
     std::vector<std::size_t> crossed_;  // faces of the walls crossed by the last leg
     std::vector<CrossedAt> at_edge_;    // crossed faces of the straight path, by edge
-    std::vector<char> done_;            // flag by edge: path around it was found
+    std::vector<char> done_;            // flag of each edge: a path around the edge was found
     std::vector<BodyWay> bodies_;       // paths around single bodies in the straight path
     std::vector<EdgeCorner> corners_;   // corners of the paths in bodies_
     std::vector<GrazedFace> grazed_;

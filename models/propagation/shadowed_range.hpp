@@ -74,13 +74,15 @@ class ShadowedRange {
         std::uint32_t open;
     };
 
-    // Sets the width of cells: the smallest that the number of cells allows.
+    // Chooses the smallest width of cells for which the table has at most most_cells cells.
     void choose_cells();
-    // Cell of the squared distances [m^2] from `nearest` to `farthest`.
+    // Computes the counts of draws for the cell that contains the squared distances [m^2] from
+    // `nearest` to `farthest`.
     Cell fill(double nearest, double farthest) const;
-    // Decision by computing the loss, for draws that the table does not decide.
+    // Whether the loss of a link is within the budget, by computing the loss. Used for draws that
+    // the table does not decide.
     bool computed(double squared_distance, std::uint64_t bits) const;
-    // Cell of a squared distance [m^2].
+    // Cell of the table that contains a squared distance [m^2].
     const Cell& cell(double squared_distance) const {
         // Non-negative floating-point numbers are ordered like their bits.
         const std::uint64_t number = std::bit_cast<std::uint64_t>(squared_distance) >> shift_;
@@ -91,12 +93,14 @@ class ShadowedRange {
     ShadowedLoss loss_;
     // Largest loss at which a link is up [dB].
     double budget_;
-    // Number of low bits of a squared distance that a cell number omits.
+    // Number of low bits that are dropped from the bits of a squared distance (a double): the
+    // remaining bits are the number of its cell.
     int shift_ = 0;
-    // Numbers of the first cell, which begins at 0, and of the last cell, which is unbounded.
+    // Number of the first cell, which begins at distance 0, and of the last cell, which has no
+    // upper end.
     std::uint64_t first_ = 0;
     std::uint64_t last_ = 0;
-    // Cells from the first number to the last.
+    // Cells with the numbers first_ to last_.
     std::vector<Cell> cells_;
 };
 
@@ -129,9 +133,9 @@ class FirstLook {
     // Number of cells of equal width; one more cell is unbounded.
     static constexpr std::uint16_t cells = 255;
 
-    // Number of cells per square metre [1/m^2].
+    // Number of cells per square metre of squared distance [1/m^2].
     float scale_;
-    // Number of draws that may be in range, by cell.
+    // Number n of draws that may be in range in each cell: the draws 0, 1 ... n - 1 of 2^31.
     std::array<std::uint32_t, cells + 1> most_draws_{};
 };
 

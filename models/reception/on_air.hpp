@@ -33,7 +33,7 @@ namespace rovernet {
 /// interference range.
 class OnAir {
   public:
-    /// Reports a leg of a node, for bounds on speeds and antenna positions.
+    /// Extends the bounds on speeds and antenna positions by a new leg of a node.
     /// @param antenna_height  height above the robot's z [m]
     void goes(const Leg& leg, Meters antenna_height);
     /// Stores the state of `node` between its last change and now, if any frame is stored.
@@ -75,7 +75,8 @@ class OnAir {
         bool on;
         /// Serial number of the first frame that began after the change.
         std::uint64_t serial;
-        /// Number of the node's previous change, as numbered over all nodes; 0 if there is none.
+        /// Number of the previous change of the same node; 0 if there is no previous change. The
+        /// changes of all nodes are numbered together, from 1.
         std::uint64_t previous;
     };
     /// Whether the node's leg or radio has changed since the start of any stored frame: near() is
@@ -106,7 +107,7 @@ class OnAir {
         std::uint64_t oldest = none, newest = none;
     };
 
-    // Number of the node's last change; 0 if there is none.
+    // Number of the node's last change, see Before::previous; 0 if the node has not changed.
     std::uint64_t last_change(NodeId node) const {
         return node.index() < last_change_.size() ? last_change_[node.index()] : 0;
     }
@@ -143,7 +144,7 @@ class OnAir {
     std::deque<Before> changes_;
     // Number of the first stored change.
     std::uint64_t first_change_ = 1;
-    // Number of the last change of each node.
+    // Number of the last change of each node, see Before::previous.
     std::vector<std::uint64_t> last_change_;
 
     // Longest time on air so far [ns].

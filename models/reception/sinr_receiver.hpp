@@ -131,9 +131,11 @@ class SinrReceiver {
     // Frames that are or were on air at the node, in the order of their starts; kept to reuse the
     // memory.
     std::vector<Arrival*> here_;
-    // Times at which the interference changes within a payload.
+    // Times at which the interference changes during the payload of the judged frame, with begin
+    // and end of the payload.
     std::vector<Time> changes_;
-    // Power of each frame of here_ [mW].
+    // Interference power of each frame of here_ [mW]: received power times the fraction that
+    // Phy::rejection() lets pass.
     std::vector<double> power_mw_;
 };
 

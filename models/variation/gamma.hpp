@@ -24,8 +24,8 @@ double minus_log_gamma_q(double m, double y);
 /// function transforms a standard exponential variate p into a gamma variate of shape m.
 double gamma_of_exponential(double m, double p);
 
-/// Table of gamma_of_exponential() for one m: cubic interpolation in log p, with a relative error
-/// of 1e-6; 30 times as fast as the function.
+/// Table of gamma_of_exponential() for one shape m. It interpolates cubically in log p, with a
+/// relative error of 1e-6, and is 30 times as fast as the function.
 class GammaTable {
   public:
     explicit GammaTable(double m);

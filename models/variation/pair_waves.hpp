@@ -63,7 +63,7 @@ class PairWaves {
         }
     }
 
-    /// Real part of the sum S(a, b) of plane waves.
+    /// Real part [-] of the sum S(a, b) of plane waves, for the positions a and b of a link's ends.
     double real(Vec3 a, Vec3 b) const {
         const Vec3 sum = a + b, apart = a - b;
         std::array<double, count> terms;
@@ -72,8 +72,9 @@ class PairWaves {
         }
         return 2 * total(terms);
     }
-    /// Value of the sum S(scale a, scale b) of plane waves.
-    /// @param scale  factor on all positions
+    /// Complex value [-] of the sum S(scale a, scale b) of plane waves, for the positions a and b
+    /// of a link's ends.
+    /// @param scale  factor by which both positions are multiplied
     Value complex(Vec3 a, Vec3 b, double scale) const {
         const Vec3 sum = scale * (a + b), apart = scale * (a - b);
         std::array<double, count> re, im;

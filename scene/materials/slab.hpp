@@ -15,16 +15,18 @@ struct SlabFields {
     /// Decay of the transmitted field [Np], >= 0: the field is e^-decay times `transmitted`. The
     /// decay is stored separately, since a sheet of metal has a decay of thousands of decibels.
     double decay;
-    /// Field reflected by the slab.
+    /// Field reflected by the slab, relative to the incident field.
     math::Complex reflected;
 };
 
-/// Powers of the fields transmitted and reflected by a slab: as SlabFields, but without phases and
-/// faster to compute.
+/// Powers that a slab transmits and reflects, relative to the incident power. They have no phases,
+/// and are faster to compute than SlabFields.
 struct SlabPowers {
-    double transmitted;  ///< transmitted power ratio without the decay: |SlabFields::transmitted|^2
-    double decay;        ///< decay of the transmitted field (not of its power) [Np], >= 0
-    double reflected;    ///< reflected power ratio: |SlabFields::reflected|^2
+    /// Transmitted power over incident power [-], without the factor e^(-2 decay): the square of
+    /// |SlabFields::transmitted|.
+    double transmitted;
+    double decay;      ///< decay of the transmitted field (not of its power) [Np], >= 0
+    double reflected;  ///< reflected over incident power [-]: |SlabFields::reflected|^2
 };
 
 /// Slab of one material at one frequency, evaluated for many thicknesses and angles. TE

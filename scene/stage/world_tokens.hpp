@@ -37,11 +37,12 @@ struct WorldToken {
     std::string description() const;
 };
 
-/// Tokens of a Stage world file, with included files in place, without comments and blanks.
+/// Tokens of a Stage world file, without comments and blanks. The tokens of an included file stand
+/// in place of the include.
 struct WorldTokens {
     std::vector<WorldToken> tokens = {};    ///< the last token is file_end
-    std::vector<std::string> files = {};    ///< paths as found: the world file, then its includes
-    std::vector<std::string> notices = {};  ///< notices about missing includes that are left out
+    std::vector<std::string> files = {};    ///< path of the world file, then those of its includes
+    std::vector<std::string> notices = {};  ///< notices about missing includes, which are left out
 
     Location where(const WorldToken& token) const {
         return {files[static_cast<std::size_t>(token.file)], token.line, token.column};

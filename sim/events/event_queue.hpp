@@ -113,7 +113,7 @@ class EventQueue {
     static Time time(Rank rank) {
         return Time{Duration{static_cast<std::int64_t>((rank ^ sign_bit) >> 64)}};
     }
-    // Digits of a rank above a level; the lower digits are 0.
+    // Rank in which the digit of a level and all lower digits are replaced by 0.
     static Rank above(std::size_t level, Rank rank) {
         return rank & ~((Rank{16} << 4 * level) - 1);
     }
@@ -137,7 +137,7 @@ class EventQueue {
     void deal_out(Place place);
     // Number of keys in the buckets of all levels below `level`.
     std::size_t filed_below(std::size_t level) const;
-    // Sets a base before all keys in buckets, and moves the keys whose bucket changes.
+    // Replaces base_ by a lower rank, and moves the keys whose bucket changes.
     void lower_base(Rank base);
     // Bucket with the earliest keys; at least one bucket must have keys.
     Place nearest() const;
@@ -179,7 +179,8 @@ class EventQueue {
     EventHeap heap_;
     // Largest rank of the keys in near_ and heap_.
     Rank near_end_ = ~Rank{0};
-    // Base with which keys in buckets were compared; no key in a bucket is below the base.
+    // Base: rank that determines the bucket of each key, by the highest digit in which rank and
+    // base differ. No key in a bucket has a rank below the base.
     Rank base_ = 0;
     // Size of the heap beyond which spill() is called.
     std::size_t heap_limit_ = small;

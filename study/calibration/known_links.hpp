@@ -47,7 +47,9 @@ struct KnownLink {
 struct KnownLinks {
     std::vector<KnownLink> links;
     std::size_t groups = 0;
-    const char* group_name = "replication";  ///< kind of the groups of links, for reports
+    /// Property that the links of a group have in common, as a word for reports: "replication",
+    /// "sender", "receiver", or "group" (a column of the file of measurements).
+    const char* group_name = "replication";
     /// True if levels were measured, so that real powers and gains may differ from the scenario.
     bool measured = false;
     /// True if receiver positions are known; false: KnownLink::to is meaningless.

@@ -34,8 +34,10 @@ struct Observations {
 /// Coefficient b_j of a linear model y = sum over j of x_j b_j, in units of y over units of x_j.
 struct Coefficient {
     double value = 0;
-    double se_plain = 0;     ///< standard error if the errors of all observations are independent
-    double se_by_group = 0;  ///< standard error if errors depend within groups; NaN with one group
+    double se_plain = 0;  ///< standard error if the errors of all observations are independent
+    /// Standard error if the errors of observations in one group depend on each other, and errors
+    /// of different groups are independent; NaN if there is only one group.
+    double se_by_group = 0;
 };
 
 /// Least squares fit of a linear model.

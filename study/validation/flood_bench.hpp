@@ -27,9 +27,10 @@ struct FloodBench {
                                                     ///< without pauses
     /// Scheme of `suppression` in place of a flood, with its default threshold; empty: the flood.
     std::optional<SuppressionScheme> suppression = std::nullopt;
-    Db shadowing{0};        ///< standard deviation of shadowing on links [dB]; 0: none
-    bool recorded = false;  ///< true: metrics, fingerprint, timeline are on, as in `rovernet run`
-    double cpu_s = 2;       ///< minimum CPU time of the floods for each network size [s]
+    Db shadowing{0};  ///< standard deviation of shadowing on links [dB]; 0: none
+    /// True: the floods also compute metrics, fingerprint and timeline, as `rovernet run` does.
+    bool recorded = false;
+    double cpu_s = 2;  ///< minimum CPU time of the floods for each network size [s]
     std::uint64_t seed = 1;
 };
 

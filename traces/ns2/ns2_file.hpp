@@ -29,10 +29,12 @@ struct Ns2RefusedLine {
 struct Ns2Counts {
     std::uint64_t lines = 0;
     std::uint64_t events = 0;
-    std::array<std::uint64_t, std::size(names_of_other)> skipped{};  ///< skipped lines by Ns2Other
+    /// Number of skipped lines of each kind; the index is the kind, an Ns2Other.
+    std::array<std::uint64_t, std::size(names_of_other)> skipped{};
     std::uint64_t refused = 0;
     std::vector<Ns2RefusedLine> refused_lines;  ///< first ten refused lines
-    /// Whether the file has lines of a trace format, by Ns2Dialect.
+    /// Flag of each trace format, true if the file has lines of the format; the index is the
+    /// format, an Ns2Dialect.
     std::array<bool, 3> dialects{};
 
     /// Whether all lines are blank or comments.

@@ -26,9 +26,9 @@ struct LostCopy {
 /// Robot that received a message, in the tree of first copies.
 struct FollowedRobot {
     NodeId robot;
-    int depth = 0;               ///< number of hops of its first copy; 0: sender of the message
+    int depth = 0;               ///< number of hops of the first copy; 0: sender of the message
     std::optional<NodeId> from;  ///< robot that transmitted the first copy
-    Time time;                   ///< time of the robot's first copy; of sending at the sender
+    Time time;                   ///< time of the first copy; for the sender, time of sending
     bool is_delivered = false;   ///< true if the robot's application received the message
     std::uint64_t copies = 0;    ///< number of copies received, including the first
     std::vector<Time> on_air;    ///< times at which the robot transmitted the message
@@ -83,10 +83,12 @@ class Ns2Follower {
     std::uint64_t most_ = 0;              ///< largest message id before the message is found
 };
 
-/// Traces the message of an application with this id: the first such message in the trace.
+/// Finds the path of one message through the network, from an ns-2 trace. The message is the first
+/// message of an application in the trace whose id is `uid`.
 ///
-/// The position of a robot in the tree follows from its first copy, `r RTR` or `r AGT`, and from
-/// the sender in the MAC header.
+/// Robots form a tree by their first copies of the message. The first copy of a robot is its first
+/// line `r RTR` or `r AGT` of the message. The sender in the MAC header of this line is the robot's
+/// parent in the tree.
 /// @throws InputError as read_ns2_trace(), and if no message has this id
 FollowedMessage follow_ns2(Ns2Source source, std::uint64_t uid,
                            Ns2Strictness = Ns2Strictness::tolerant);

@@ -11,12 +11,13 @@ namespace rovernet {
 /// detour, both paths together form one field.
 inline constexpr double near_edge = 2.25;
 
-/// Pair of consecutive edges of one body, with a face between the edges, and a path past both
-/// edges: a block as wide as the face is long. The path leads from one end to the first edge, along
-/// the face to the last edge, and to the other end.
+/// Two consecutive edges of a body that a radio path passes: the edges of a block, with a face of
+/// the block between them, or the edges of two screens. The path consists of three straight parts:
+/// from its start to the first edge, from there (along the face) to the last edge, and from there
+/// to its end.
 struct EdgePair {
-    /// Lengths of the parts of the path [m], > 0: to the first edge, along the face, and from the
-    /// last edge.
+    /// Lengths of the three parts of the path [m], > 0: from its start to the first edge, from the
+    /// first to the last edge, and from the last edge to its end.
     double before, along, after;
     /// Detours [m] of the path at the first and at the last edge: length of the path past the edge
     /// minus the straight distance of its two neighbouring points (the other edge and an end). A

@@ -56,11 +56,11 @@ std::vector<VariantRuns> paired_runs(const ValidationScene& scene,
 /// Differences of delivery ratios between the runs of a variant and of the reference ("truth"),
 /// compared in each replication.
 struct RunErrors {
-    std::vector<double> distances = {};  ///< absolute difference in each replication
-    double mean = 0;                     ///< mean absolute difference of delivery ratios
+    std::vector<double> distances = {};  ///< absolute difference [-] in each replication
+    double mean = 0;                     ///< mean absolute difference of delivery ratios [-]
     std::optional<MeanInterval> likely;  ///< 95 % confidence interval of `mean`; none if `mean` is
                                          ///< 0
-    double bias = 0;                     ///< mean difference of delivery ratios (with sign)
+    double bias = 0;                     ///< mean of the signed differences variant - reference [-]
 };
 RunErrors run_errors(const VariantRuns& runs, const VariantRuns& truth);
 
