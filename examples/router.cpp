@@ -65,10 +65,10 @@ access.model = "csma"
 radio.rate = "1 Mb/s"
 robot = [{ name = "0", at = ["0 m", "0 m"] },
  { name = "1", at = ["80 m", "0 m"] },
- { name = "2", at = ["160 m", "0 m"], off = ["2.5 s"] },
+ { name = "2", at = ["160 m", "0 m"] },
  { name = "3", at = ["240 m", "0 m"], on_receive = { send = "yes", to = "sender", once = false } },
  { name = "4", at = ["80 m", "60 m"] },
- { name = "5", at = ["160 m", "60 m"] }]
+ { name = "5", at = ["160 m", "60 m"], off = ["2.5 s"] }]
 traffic = [{ kind = "unicast", from = "0", to = "3", payload = "?", start = "1 s", every = "1 s" }]
 )";
 
