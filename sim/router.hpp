@@ -23,7 +23,7 @@ class Router {
     /// Stores the protocol. Settings convert to their protocol: Router{Flood{.ttl = 3}}.
     template <class T>
     requires(!std::same_as<T, Router> && RouterProtocol<T>) Router(T protocol)
-        : traits_(traits_of<T>()),
+        : traits_(traits_of(protocol)),
           hears_of_results_(hears_of_results_of(protocol)),
           hears_of_starts_(HearsOfStarts<T>),
           has_routes_(HasRoutes<T>),
@@ -74,9 +74,11 @@ class Router {
         if constexpr (requires { protocol.hears_of_results(); }) return protocol.hears_of_results();
         return HearsOfResults<T>;
     }
-    // Traits of a protocol, from its static members.
+    // Traits of a protocol, from its static members. A protocol that contains another protocol
+    // states its traits by its function traits().
     template <class T>
-    static constexpr RouterTraits traits_of() {
+    static RouterTraits traits_of(const T& protocol) {
+        if constexpr (requires { protocol.traits(); }) return protocol.traits();
         RouterTraits traits;
         if constexpr (requires { T::routes_unicasts; }) traits.routes_unicasts = T::routes_unicasts;
         if constexpr (requires { T::overhears; }) traits.overhears = T::overhears;

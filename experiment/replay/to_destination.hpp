@@ -13,15 +13,16 @@ namespace rovernet {
 
 /// Adapter that lets a flooding protocol carry messages for one robot. All robots receive and
 /// forward such a message. Only the destination delivers the message to its application.
-/// @tparam wants_level  RouterTraits::wants_levels of the protocol: whether it uses received levels
-template <bool wants_level>
 class ToDestination {
   public:
-    static constexpr bool routes_unicasts = true;
-    static constexpr bool wants_levels = wants_level;
-
     explicit ToDestination(Router protocol) : protocol_(std::move(protocol)) {}
 
+    /// Traits of the protocol, which routes unicasts by this adapter.
+    RouterTraits traits() const {
+        RouterTraits traits = protocol_.traits();
+        traits.routes_unicasts = true;
+        return traits;
+    }
     Hops initial_ttl() const { return protocol_.initial_ttl(Message{}); }
     Hops initial_ttl(const Message& message) const { return protocol_.initial_ttl(message); }
     void send(LinkLayer& link, NodeId node, MessageId message) {
@@ -60,9 +61,7 @@ class ToDestination {
 /// else `protocol` wrapped in ToDestination.
 inline Router to_destinations(Router protocol) {
     if (protocol.traits().routes_unicasts) return protocol;
-    const bool wants_levels = protocol.traits().wants_levels;
-    if (wants_levels) return ToDestination<true>(std::move(protocol));
-    return ToDestination<false>(std::move(protocol));
+    return ToDestination(std::move(protocol));
 }
 
 }  // namespace rovernet

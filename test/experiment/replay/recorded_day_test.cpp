@@ -99,6 +99,22 @@ TEST_CASE("a recorded day: a setting that is none is refused by its name") {
                          InputError);
 }
 
+TEST_CASE("a recorded day under its own radio: robots keep their roles in the protocol") {
+    std::string scenario =
+        "[scenario]\nduration = \"9 s\"\n[propagation]\nmodel = \"disc\"\nrange = \"9 m\"\n"
+        "[routing]\nprotocol = \"managed\"\n"
+        "[[traffic]]\nfrom = \"r0\"\npayload = \"F\"\nevery = \"1 s\"\n";
+    for (int i = 0; i < 4; ++i) {
+        scenario += "[[robot]]\nname = \"r" + std::to_string(i) + "\"\nat = [\"" +
+                    std::to_string(8 * i) + " m\", \"0 m\"]\n" +
+                    (i == 2 ? "role = \"mute\"\n" : "");
+    }
+    const TemporaryFolder folder;
+    const RecordedDay day(record(folder, scenario));
+    CHECK(day.play({}).metrics == day.recorded().metrics);
+    CHECK(day.recorded().metrics.deliveries > 0);
+}
+
 TEST_CASE("a recorded day without the legs of a robot: it stands where the scenario begins it") {
     const TemporaryFolder folder;
     RecordedReader trace(record(folder, busy_day));
