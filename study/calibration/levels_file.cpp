@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/build.hpp"
+#include "files/csv_table.hpp"
 #include "files/text_source.hpp"
 #include "files/word.hpp"
 #include "models/link_gain.hpp"
@@ -16,20 +17,6 @@
 namespace rovernet {
 namespace {
 
-/// Fields of a line, without the blanks around them.
-std::vector<Word> fields_of(std::string_view line) {
-    std::vector<Word> out;
-    for (std::size_t begin = 0;;) {
-        const std::size_t end = std::min(line.find(',', begin), line.size());
-        std::size_t first = begin, last = end;
-        while (first < last && (line[first] == ' ' || line[first] == '\t')) ++first;
-        while (last > first && (line[last - 1] == ' ' || line[last - 1] == '\t')) --last;
-        out.push_back({line.substr(first, last - first), static_cast<int>(first) + 1});
-        if (end == line.size()) return out;
-        begin = end + 1;
-    }
-}
-
 /// Reads the lines of a file of levels by the names of their columns.
 class LevelsReader {
   public:
@@ -41,7 +28,7 @@ class LevelsReader {
 
     void read(KnownLinks& out) {
         while (const auto line = next()) {
-            words_ = fields_of(*line);
+            words_ = csv_fields(*line);
             if (words_.size() != columns_) {
                 throw InputError(lines_.where(), fmt::format("found {} fields, expected {} as in "
                                                              "the first line",
@@ -71,7 +58,7 @@ class LevelsReader {
     void read_head(Receivers receivers) {
         const auto line = next();
         if (!line) throw InputError(lines_.where(), "an empty file");
-        const std::vector<Word> names = fields_of(*line);
+        const std::vector<Word> names = csv_fields(*line);
         columns_ = names.size();
         for (std::size_t i = 0; i < names.size(); ++i) {
             const auto at = std::find(known.begin(), known.end(), names[i].text);

@@ -2,7 +2,7 @@
 #include "study/validation/cases/measured_levels.hpp"
 
 #include "experiment/build.hpp"
-#include "files/text_source.hpp"
+#include "files/csv_table.hpp"
 #include "files/word.hpp"
 #include "models/link_gain.hpp"
 #include "scenario/document/toml.hpp"
@@ -18,72 +18,18 @@
 namespace rovernet {
 namespace {
 
-/// Comma-separated table, whose first line names the columns.
-class CsvTable {
-  public:
-    explicit CsvTable(const std::string& path) : path_(path) {
-        TextLines lines{TextSource(path)};
-        while (const auto line = lines.next()) {
-            if (line->empty() || line->front() == '#') continue;
-            (names_.empty() ? names_ : rows_.emplace_back()) = cells(*line);
-            if (!rows_.empty()) lines_.push_back(lines.where());
-            if (!rows_.empty() && rows_.back().size() != names_.size()) {
-                throw InputError(lines.where(), fmt::format("found {} fields, expected {}",
-                                                            rows_.back().size(), names_.size()));
-            }
-        }
-    }
-    std::size_t size() const { return rows_.size(); }
-    const std::string& text(std::size_t row, std::string_view name) const {
-        const auto at = std::find(names_.begin(), names_.end(), name);
-        if (at == names_.end())
-            throw InputError({path_, 1, 0}, fmt::format("no column \"{}\"", name));
-        return rows_[row][static_cast<std::size_t>(at - names_.begin())];
-    }
-    /// Coordinate [m].
-    double metres(std::size_t row, std::string_view name) const {
-        return coordinate(word(row, name), lines_[row]);
-    }
-    double number(std::size_t row, std::string_view name, double low, double high) const {
-        const std::string expected = fmt::format("{}, a number from {} to {}", name, low, high);
-        const double value = any_number(word(row, name), lines_[row], expected);
-        if (!(value >= low && value <= high)) fail_at(lines_[row], word(row, name), expected);
-        return value;
-    }
-    [[noreturn]] void fail(std::size_t row, std::string_view name,
-                           std::string_view expected) const {
-        fail_at(lines_[row], word(row, name), expected);
-    }
-
-  private:
-    static std::vector<std::string> cells(std::string_view line) {
-        std::vector<std::string> out(1);
-        for (const char c : line) {
-            if (c == ',') {
-                out.emplace_back();
-            } else if (c != '\r') {
-                out.back() += c;
-            }
-        }
-        return out;
-    }
-
-    /// A cell with its column in the line.
-    Word word(std::size_t row, std::string_view name) const {
-        const std::string& cell = text(row, name);
-        int column = 1;
-        for (const std::string& each : rows_[row]) {
-            if (&each == &cell) break;
-            column += static_cast<int>(each.size()) + 1;
-        }
-        return {cell, column};
-    }
-
-    std::string path_;
-    std::vector<std::string> names_;
-    std::vector<std::vector<std::string>> rows_;
-    std::vector<Location> lines_;  // of the rows
-};
+/// Coordinate [m] in a field.
+double metres(const CsvTable& table, std::size_t row, std::string_view column) {
+    return coordinate(table.word(row, column), table.where(row));
+}
+/// Number from `low` to `high` in a field.
+double number(const CsvTable& table, std::size_t row, std::string_view column, double low,
+              double high) {
+    const std::string expected = fmt::format("a number from {} to {}", low, high);
+    const double value = any_number(table.word(row, column), table.where(row), expected);
+    if (!(value >= low && value <= high)) table.fail(row, column, expected);
+    return value;
+}
 
 /// Building without its levels. @param map  line of [scene], or nothing
 MeasuredBuilding empty_building(const std::string& name, const std::string& map,
@@ -111,7 +57,7 @@ std::map<std::string, std::pair<std::uint32_t, Vec3>> receivers(const CsvTable& 
     for (std::size_t i = 0; i < table.size(); ++i) {
         out[table.text(i, name)] = {
             static_cast<std::uint32_t>(i),
-            {table.metres(i, "x_m"), table.metres(i, "y_m"), table.metres(i, "z_m")}};
+            {metres(table, i, "x_m"), metres(table, i, "y_m"), metres(table, i, "z_m")}};
     }
     return out;
 }
@@ -121,7 +67,7 @@ const std::pair<std::uint32_t, Vec3>& receiver_of(
     const CsvTable& levels, std::size_t row, std::string_view name,
     const std::map<std::string, std::pair<std::uint32_t, Vec3>>& known) {
     const auto found = known.find(levels.text(row, name));
-    if (found == known.end()) levels.fail(row, name, fmt::format("a known {}", name));
+    if (found == known.end()) levels.fail(row, name, "a known one");
     return found->second;
 }
 
@@ -159,8 +105,8 @@ MeasuredBuilding measured_flat(const std::string& folder) {
         KnownLinks& known = cells.text(i, "set") == "calibration" ? out.first : out.second;
         add_level(
             known, out.scenario.radio, cells.text(i, "cell_x") + " " + cells.text(i, "cell_y"),
-            {cells.metres(i, "x_m"), cells.metres(i, "y_m"), tag_height},
-            receiver_of(cells, i, "anchor", anchors), cells.number(i, "mean_rssi_dbm", -300, 100));
+            {metres(cells, i, "x_m"), metres(cells, i, "y_m"), tag_height},
+            receiver_of(cells, i, "anchor", anchors), number(cells, i, "mean_rssi_dbm", -300, 100));
     }
     return out;
 }
@@ -173,12 +119,13 @@ MeasuredBuilding measured_lab(const std::string& folder) {
         KnownLinks& known = set == "1" ? out.first : out.second;
         for (std::size_t i = 0; i < links.size(); ++i) {
             if (links.text(i, "set") != set) continue;
-            const Vec3 at{links.metres(i, "x_m"), links.metres(i, "y_m"), links.metres(i, "z_m")};
+            const Vec3 at{metres(links, i, "x_m"), metres(links, i, "y_m"),
+                          metres(links, i, "z_m")};
             const auto& sensor = receiver_of(links, i, "sensor", sensors);
             const std::string place = set == "1" ? fmt::format("{} {} {}", at.x, at.y, at.z)
                                                  : place_near(out.first, sensor.first, at);
             add_level(known, out.scenario.radio, place, at, sensor,
-                      links.number(i, "median_dbm", -300, 100));
+                      number(links, i, "median_dbm", -300, 100));
         }
     }
     return out;
