@@ -2,6 +2,7 @@
 #include "study/cells.hpp"
 
 #include "scenario/document/toml.hpp"
+#include "study/quotient.hpp"
 #include "study/statistics/summary.hpp"
 #include "study/study.hpp"
 
@@ -117,10 +118,10 @@ std::string Gaps::text() const {
 
 ValuesOfPoints values_of_points(const Store& store, const std::string& metric) {
     ValuesOfPoints values = stored_values(store, metric);
-    const auto slash = metric.find('/');
-    if (!values.empty() || slash == std::string::npos) return values;
-    values = stored_values(store, metric.substr(0, slash));
-    ValuesOfPoints under = stored_values(store, metric.substr(slash + 1));
+    const auto quotient = quotient_of(metric);
+    if (!values.empty() || !quotient) return values;
+    values = stored_values(store, quotient->over);
+    ValuesOfPoints under = stored_values(store, quotient->under);
     for (auto& [point, list] : values) {
         under[point].resize(list.size());
         for (std::size_t r = 0; r < list.size(); ++r) {

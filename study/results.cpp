@@ -3,6 +3,7 @@
 
 #include "scenario/document/toml.hpp"
 #include "sim/error.hpp"
+#include "study/quotient.hpp"
 
 #include <fmt/format.h>
 
@@ -106,12 +107,10 @@ std::vector<std::string> metrics_of(const Store& store, const Question& question
     if (metrics.empty()) metrics = usual_metrics;
     const std::vector<std::string> known = known_metrics(store);
     for (const auto& metric : metrics) {
-        const auto slash = metric.find('/');
         const bool is_known = std::find(known.begin(), known.end(), metric) != known.end();
-        check_known(is_known ? metric : metric.substr(0, slash), known, "the metric");
-        if (!is_known && slash != std::string::npos) {
-            check_known(metric.substr(slash + 1), known, "the metric");
-        }
+        const auto quotient = is_known ? std::nullopt : quotient_of(metric);
+        check_known(quotient ? quotient->over : metric, known, "the metric");
+        if (quotient) check_known(quotient->under, known, "the metric");
     }
     return metrics;
 }

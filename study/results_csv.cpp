@@ -3,6 +3,7 @@
 
 #include "files/csv_field.hpp"
 #include "scenario/document/toml.hpp"
+#include "study/quotient.hpp"
 
 #include <fmt/format.h>
 
@@ -54,7 +55,7 @@ void write_csv(const Store& store, const Question& question, const Write& write)
                std::find(metrics.begin(), metrics.end(), metric) != metrics.end();
     };
     for (const std::string& metric : question.metrics) {
-        if (metric.find('/') == std::string::npos || !store.values(metric).empty()) continue;
+        if (!quotient_of(metric) || !store.values(metric).empty()) continue;
         throw std::invalid_argument(
             fmt::format("--csv: {} is a quotient, which no run has; expected --group-by", metric));
     }

@@ -5,6 +5,7 @@
 #include "scenario/document/toml.hpp"
 #include "sim/error.hpp"
 #include "study/advise/marks_beside.hpp"
+#include "study/quotient.hpp"
 #include "study/statistics/metric_bounds.hpp"
 
 #include <fmt/format.h>
@@ -53,12 +54,12 @@ std::string label_of(const std::string& path, const std::string& unit) {
 /// Metrics in seconds end in _s, those in microseconds in _us. A quotient "A/B" is in the unit of A
 /// for each B.
 std::string metric_label(const std::string& metric) {
-    const auto slash = std::min(metric.find('/'), metric.size());
-    const std::string over = metric.substr(0, slash), under = metric.substr(slash);
+    const auto quotient = quotient_of(metric);
+    const std::string& over = quotient ? quotient->over : metric;
     for (const std::string unit : {"s", "us"}) {
         if (!over.ends_with("_" + unit)) continue;
         const std::string name = over.substr(0, over.size() - unit.size() - 1);
-        return fmt::format("{}{} [{}]", name, under, unit);
+        return fmt::format("{}{} [{}]", name, quotient ? "/" + quotient->under : "", unit);
     }
     return metric;
 }
