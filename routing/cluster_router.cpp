@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "routing/cluster_router.hpp"
 
+#include "routing/big_endian.hpp"
 #include "routing/relay.hpp"
 
 #include <algorithm>
@@ -14,17 +15,6 @@ constexpr std::string_view hello_kind = "SUPPRESSION HELLO";
 constexpr std::uint32_t hello_bytes = 28 + 8;
 /// HELLO periods after which a silent neighbour is forgotten.
 constexpr int memory = 3;
-
-std::string to_bytes(NodeId id) {
-    std::string bytes;
-    for (const int shift : {24, 16, 8, 0}) bytes.push_back(static_cast<char>(id.value >> shift));
-    return bytes;
-}
-NodeId id_of(std::string_view bytes) {
-    NodeId id;
-    for (const char byte : bytes) id.value = id.value << 8 | static_cast<std::uint8_t>(byte);
-    return id;
-}
 
 }  // namespace
 
@@ -60,8 +50,9 @@ void ClusterRouter::on_timer(LinkLayer& link, NodeId at, std::uint64_t /*tag*/) 
     link.timer(at, link.now() + from_seconds((0.75 + u / 2) * seconds(settings_.hello)), 0);
     if (!link.is_on(at)) return;
     join(link, at);
-    const MessageId hello =
-        link.originate(at, everyone, hello_kind, hello_bytes, to_bytes(head(at)));
+    std::string bytes;
+    big_endian::put(bytes, head(at).value);
+    const MessageId hello = link.originate(at, everyone, hello_kind, hello_bytes, bytes);
     link.send({.message = hello, .sender = at, .path = link.key(at), .ttl = 1, .hops = 1},
               std::nullopt, link.now());
     link.release(hello);
@@ -116,7 +107,7 @@ void ClusterRouter::on_receive(LinkLayer& link, const Frame& frame,
     if (message.kind == hello_kind) {
         for (Reception& r : receptions) {
             r.fate = Fate::arrived;
-            hear_hello(r.node, {frame.sender, id_of(message.payload), r.time});
+            hear_hello(r.node, {frame.sender, NodeId{big_endian::get(message.payload, 0)}, r.time});
         }
         return;
     }
