@@ -100,8 +100,6 @@ void Builder::add_robot(const RobotTable& table, const std::string& name,
     const Vec3 at = file ? file->start : motion_.start(table, name);
     const auto plan = MotionBuilder::from_the_start;
     const Movement move = file ? Fixed{} : motion_.movement(table.move, table, name, at, plan);
-    const std::string role = table.role.value_or("");
-    const bool has_role = std::find(roles_.begin(), roles_.end(), role) != roles_.end();
     const NodeId node = located(table.radio_where, [&] {
         return network_.add({.name = name,
                              .at = at,
@@ -112,7 +110,7 @@ void Builder::add_robot(const RobotTable& table, const std::string& name,
                              .heading = table.heading,
                              .top_speed = table.top_speed.value_or(Mover::any_speed),
                              .turn_rate = table.turn_rate,
-                             .role = has_role ? role : ""});
+                             .role = role_under(roles_, table.role)});
     });
     built_.push_back({node, &table, at});
     for (const Duration t : table.off) {

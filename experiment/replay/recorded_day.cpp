@@ -185,7 +185,7 @@ std::string RecordedDay::hears_farther(const std::vector<std::string>& set) cons
 void RecordedDay::add_robots(Network& network, const Scenario& scenario) const {
     std::map<std::string, const RobotTable*> tables;
     std::map<const RobotTable*, Propagation> models;
-    const std::vector<std::string> roles = roles_of(scenario.routing);
+    const auto roles = scenario.routing.make().traits().roles;
     for (const RobotTable& table : scenario.robots) {
         for (int i = 0; i < table.count.value_or(1); ++i) tables.emplace(table.name_of(i), &table);
         if (table.propagation) models.emplace(&table, table.propagation->make());
@@ -202,8 +202,7 @@ void RecordedDay::add_robots(Network& network, const Scenario& scenario) const {
             robot.radius = table.radius;
             robot.radio = table.radio;
             if (log_.legs[i].empty() && table.at) robot.at = *table.at;
-            const std::string role = table.role.value_or("");
-            if (std::find(roles.begin(), roles.end(), role) != roles.end()) robot.role = role;
+            robot.role = role_under(roles, table.role);
             if (table.propagation) robot.propagation = models.at(&table);
         }
         network.add(std::move(robot));

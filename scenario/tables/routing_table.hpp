@@ -5,7 +5,11 @@
 #include "scenario/tables/model_choice.hpp"
 #include "sim/router.hpp"
 
+#include <algorithm>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 // Routing protocols in a scenario file:
@@ -20,16 +24,6 @@ namespace rovernet {
 /// protocols. make() returns the protocol for Network::route().
 using RoutingTable = ModelChoice<RoutingProtocols, Router>;
 
-/// Names of the roles that robots may have in the chosen routing protocol, see RouterTraits::roles.
-inline std::vector<std::string> roles_of(const RoutingTable& routing) {
-    std::vector<std::string> roles;
-    routing.for_each([&]<class M>(const M&, bool chosen) {
-        if constexpr (requires { M::roles; }) {
-            if (chosen) roles.assign(M::roles.begin(), M::roles.end());
-        }
-    });
-    return roles;
-}
 /// Names of the roles of all routing protocols. The key `role` of a robot may have any of these
 /// values, whatever protocol the file chooses.
 inline std::vector<std::string> all_roles() {
@@ -40,6 +34,14 @@ inline std::vector<std::string> all_roles() {
         }
     });
     return roles;
+}
+
+/// Role of a robot under a protocol with these roles: `given`, or empty if it is not given or is a
+/// role of another protocol.
+inline std::string role_under(std::span<const std::string_view> roles,
+                              const std::optional<std::string>& given) {
+    const std::string role = given.value_or("");
+    return std::find(roles.begin(), roles.end(), role) == roles.end() ? "" : role;
 }
 
 }  // namespace rovernet
