@@ -192,6 +192,8 @@ std::uint32_t Capturing::ip_of(NodeId node) const {
 }
 
 arp::Station Capturing::station(NodeId node) const {
+    // The target of a damaged trace's packet may be everyone.
+    if (node.index() >= hosts_.size()) return {.mac = every_station, .ip = every_host};
     return {hosts_[node.index()].mac, hosts_[node.index()].ip};
 }
 

@@ -2,12 +2,15 @@
 #include "experiment/replay/recorded_air.hpp"
 #include "sim/error.hpp"
 #include "test/experiment/replay/captured_run.hpp"
+#include "traces/recorded/recorded_reader.hpp"
+#include "traces/recorded/recorded_trace.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -247,6 +250,28 @@ TEST_CASE("a capture of a trace that is cut or broken has what is left of it") {
     testing::write_file(run.folder / "text.tr",
                         "s 1.000000000 _0_ AGT  --- 0 cbr 512 [0 0 0 0] \n");
     CHECK_THROWS_AS(capture_recorded(run.folder / "text.tr", run.capture), InputError);
+}
+
+TEST_CASE("a capture of an ARP packet for everyone, which only a broken trace has, is written") {
+    const testing::TempFolder folder;
+    const CapturedRun run("[[robot]]\nname = \"A\"\nat = [\"0 m\", \"0 m\"]\n");
+    RecordedReader whole(run.trace);
+    testing::Stream stream;
+    const auto trace = std::make_shared<RecordedTrace>(
+        folder / "t.mcap", RecordedTrace::Contents{.version = "test", .scenario = {}});
+    trace->begin({.scenario = [&] { return whole.run().scenario; },
+                  .robots = 1,
+                  .name = [](NodeId) { return std::string_view("A"); },
+                  .seed = 1,
+                  .replication = 0});
+    stream.sinks.emplace_back(trace);
+    const NodeId a = stream.place(Vec3{});
+    const MessageId packet = stream.messages.add(
+        {.origin = a, .to = everyone, .size = 28, .payload = {}, .kind = "ARP REPLY"});
+    stream.transmit(start_of_run + 1s, testing::frame(packet, a, 1, 1));
+    trace->finish();
+    trace->close();
+    CHECK(capture_recorded(folder / "t.mcap", folder / "t.pcapng").packets == 1);
 }
 
 }  // namespace capture_test
