@@ -57,10 +57,11 @@ void bench_flood(const BenchArguments& a) {
     bench.access.model = choice("access", a.access, AccessTable::names());
     bench.mobility = static_cast<BenchMobility>(
         choice("mobility", a.mobility, EnumNames<BenchMobility>::values));
-    if (a.suppression != "none") {
-        bench.suppression = static_cast<SuppressionScheme>(
-            choice("suppression", a.suppression, EnumNames<SuppressionScheme>::values));
-    }
+    std::vector<std::string_view> schemes{"none"};
+    for (const std::string_view each : EnumNames<SuppressionScheme>::values)
+        schemes.push_back(each);
+    if (const std::size_t place = choice("suppression", a.suppression, schemes); place > 0)
+        bench.suppression = static_cast<SuppressionScheme>(place - 1);
     Array rows;
     if (!a.json) {
         fmt::print("{:>9} {:>13} {:>12} {:>16} {:>15} {:>14}\n", "nodes", "transmissions",
