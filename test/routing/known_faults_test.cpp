@@ -71,8 +71,8 @@ TEST_CASE("INET: equal ids of two originators are two requests") {
 }
 
 TEST_CASE("ns-2: two neighbours that repair a route at once do not send messages to each other") {
-    // Nodes 0 and 1 both lose 5 and have each other as next best: an answer of the neighbour has
-    // the number of the broken route, and is not accepted.
+    // Node 0 loses its route to 5 and repairs it. The answer of a neighbour whose own route went
+    // over node 0 has the number of the broken route, and is not accepted.
     AodvNode n({.local_repair = true});
     n.pass_reply(7, 2, 5, 1, 9);
     n.forward(7, 2, 5);
