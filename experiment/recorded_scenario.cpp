@@ -9,16 +9,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <optional>
 #include <set>
 #include <sstream>
-#include <stdlib.h>
 #include <utility>
 
 namespace rovernet {
@@ -117,16 +114,6 @@ RecordedScenario recorded_scenario(const Scenario& scenario, const std::string& 
     return recorded;
 }
 
-ReplayedScenario::Folder::Folder()
-    : path((fs::temp_directory_path() / "rovernet-replay-XXXXXX").string()) {
-    if (mkdtemp(path.data())) return;
-    throw RunError(fmt::format("{}: cannot be made: {}", path, std::strerror(errno)));
-}
-ReplayedScenario::Folder::~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-}
-
 std::string ReplayedScenario::find_file(const RecordedRun& run, const std::string& name) const {
     const auto has_its_name = [&](const AttachedFile& file) { return file.name == name; };
     if (std::any_of(run.files.begin(), run.files.end(), has_its_name)) return name;
@@ -152,7 +139,7 @@ ReplayedScenario::ReplayedScenario(const RecordedRun& run, const std::string& pa
     for (const AttachedFile& file : run.files) {
         if (!is_inside(file.name)) continue;
         try {
-            put_file(fs::path(folder_.path) / file.name, file.content);
+            put_file(fs::path(folder_.path()) / file.name, file.content);
         } catch (const fs::filesystem_error&) {  // a file is inside where another has its folder
             throw InputError({.source = path},
                              fmt::format("the file {} inside cannot be unpacked", file.name));
@@ -179,7 +166,7 @@ ReplayedScenario::ReplayedScenario(const RecordedRun& run, const std::string& pa
             if (each.string()) each = (home / *each.string()).string();
         }
     }
-    file_ = folder_.path + "/scenario.toml";
+    file_ = folder_.path() + "/scenario.toml";
     put_file(file_, to_toml(document));
 }
 
@@ -189,8 +176,8 @@ Scenario ReplayedScenario::with(const std::vector<std::string>& set) const {
     } catch (const InputError& error) {
         // The user does not know the temporary folder.
         Location where = error.where();
-        if (!where.source.starts_with(folder_.path + "/")) throw;
-        where.source.replace(0, folder_.path.size() + 1, trace_ + ": ");
+        if (!where.source.starts_with(folder_.path() + "/")) throw;
+        where.source.replace(0, folder_.path().size() + 1, trace_ + ": ");
         throw InputError(where, error.message());
     }
 }

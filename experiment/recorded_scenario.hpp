@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "files/temporary_folder.hpp"
 #include "scenario/scenario.hpp"
 #include "traces/recorded/recorded_reader.hpp"
 
@@ -38,22 +39,14 @@ class ReplayedScenario {
     Scenario with(const std::vector<std::string>& set) const;
 
   private:
-    /// Temporary folder of this process, removed by the destructor.
-    struct Folder {
-        Folder();
-        Folder(const Folder&) = delete;
-        ~Folder();
-        std::string path;
-    };
-
     /// Path of a file that the scenario names. If the file is attached to the trace, the path is
     /// relative to the temporary folder. Otherwise the path is absolute, of a file beside the
     /// trace.
     std::string find_file(const RecordedRun& run, const std::string& name) const;
 
-    std::string trace_;  // path of the trace
-    Folder folder_;      // temporary folder of the attached files
-    std::string file_;   // path of the scenario file in folder_
+    std::string trace_;       // path of the trace
+    TemporaryFolder folder_;  // folder of the attached files
+    std::string file_;        // path of the scenario file in folder_
 };
 
 /// Checks that the robots listed in a trace are the robots of its scenario, in the same order,

@@ -5,7 +5,6 @@
 
 #include <filesystem>
 #include <sqlite3.h>
-#include <stdlib.h>
 #include <system_error>
 
 namespace rovernet {
@@ -85,23 +84,14 @@ bool is_mended_by_copy(const SQLite::Exception& error) {
 
 }  // namespace
 
-StoreConnection::Copy::Copy(const std::string& path)
-    : folder((std::filesystem::temp_directory_path() / "rovernet-store-XXXXXX").string()) {
-    if (!mkdtemp(folder.data())) throw RunError(folder + ": no folder can be made there");
+StoreConnection::Copy::Copy(const std::string& path) {
     namespace fs = std::filesystem;
     try {
         for (const char* ending : {"", "-wal", "-journal"})
             if (fs::exists(path + ending)) fs::copy_file(path + ending, file() + ending);
     } catch (const fs::filesystem_error& error) {
-        std::error_code ignored;
-        fs::remove_all(folder, ignored);
         throw RunError(path + ": cannot be copied to be read (" + error.code().message() + ")");
     }
-}
-
-StoreConnection::Copy::~Copy() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder, ignored);
 }
 
 StoreConnection StoreConnection::to_write(const std::string& path) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "files/temporary_folder.hpp"
 #include "study/write_lock.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -27,14 +28,12 @@ struct StoreConnection {
     /// reading meanwhile; SQLite::Exception
     static StoreConnection to_read(const std::string& path);
 
-    /// Temporary folder with a copy of the store's file, removed by the destructor.
+    /// Copy of the store's file in a temporary folder.
     struct Copy {
+        /// @throws RunError if the file cannot be copied
         explicit Copy(const std::string& path);
-        ~Copy();
-        Copy(const Copy&) = delete;
-        Copy& operator=(const Copy&) = delete;
-        std::string file() const { return folder + "/store.db"; }
-        std::string folder;
+        std::string file() const { return folder.path() + "/store.db"; }
+        TemporaryFolder folder;
     };
 
     std::unique_ptr<Copy> copy = {};

@@ -3,13 +3,13 @@
 
 #include "cli/runs/run_commands.hpp"
 #include "cli/studies/advise_report.hpp"
-#include "cli/studies/passing_store.hpp"
 #include "cli/studies/study_run.hpp"
 #include "cli/terminal/diagnostics.hpp"
 #include "cli/terminal/picture_output.hpp"
 #include "cli/terminal/stop.hpp"
 #include "cli/terminal/study_display.hpp"
 #include "cli/terminal/waiting.hpp"
+#include "files/temporary_folder.hpp"
 #include "scenario/document/quantity.hpp"
 #include "scenario/scenario_file.hpp"
 #include "study/advise/advise_chart.hpp"
@@ -200,12 +200,12 @@ void advise(const AdviseArguments& a) {
     check_metric(a.metric, scenario, {"--metric " + a.metric, 0, 0, true});
     rule_for(a, scenario.study, 1);
     const HeldStop until_told;
-    const PassingStore passing;
+    const TemporaryFolder passing;
     try {
         const AdviceCandidates candidates = fitted_candidates(a, options, budget);
-        judge(a, options, candidates, budget, a.store.value_or(passing.file()));
+        judge(a, options, candidates, budget, a.store.value_or(passing.path() + "/study.db"));
     } catch (const FitEnded&) {
-        const Store none = Store::open_to_write(passing.file());
+        const Store none = Store::open_to_write(passing.path() + "/study.db");
         tell_advice(a, advice_of_nothing(a, options, scenario, none));
     }
 }

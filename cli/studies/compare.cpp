@@ -3,11 +3,11 @@
 
 #include "cli/runs/run_commands.hpp"
 #include "cli/studies/compare_report.hpp"
-#include "cli/studies/passing_store.hpp"
 #include "cli/studies/study_run.hpp"
 #include "cli/terminal/diagnostics.hpp"
 #include "cli/terminal/picture_output.hpp"
 #include "cli/terminal/stop.hpp"
+#include "files/temporary_folder.hpp"
 #include "scenario/document/toml.hpp"
 #include "scenario/scenario_file.hpp"
 #include "study/advise/compare_cost.hpp"
@@ -207,9 +207,9 @@ void compare(const CompareArguments& a) {
         check_margin(a, metric);
     }
     const HeldStop until_gone;
-    const PassingStore passing;
+    const TemporaryFolder passing;
     const bool is_part = a.store && takes_part_of(*a.store, study);
-    Store store = open_store(a.store && !is_part ? *a.store : passing.file(), study);
+    Store store = open_store(a.store && !is_part ? *a.store : passing.path() + "/study.db", study);
     if (is_part) take_part_of(*a.store, study, store);
     const SweepResult result = run_study(a, study, store, {.replication_on_one_worker = true},
                                          a.store ? Finished::is_kept : Finished::is_lost);

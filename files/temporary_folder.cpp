@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "files/temporary_folder.hpp"
+
+#include "sim/error.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <stdlib.h>
+#include <system_error>
+
+namespace rovernet {
+
+TemporaryFolder::TemporaryFolder()
+    : path_((std::filesystem::temp_directory_path() / "rovernet-XXXXXX").string()) {
+    if (mkdtemp(path_.data())) return;
+    throw RunError(fmt::format("{}: cannot be made: {}", path_, std::strerror(errno)));
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+}
+
+}  // namespace rovernet
