@@ -4,6 +4,7 @@
 #include "test/live/emulate/emulation.hpp"
 #include "test/live/live_command.hpp"
 #include "test/live/web_client.hpp"
+#include "test/sanitizer.hpp"
 
 #include <doctest/doctest.h>
 
@@ -29,11 +30,7 @@ namespace {
 constexpr std::size_t most_connections = 500;  // of all listeners
 
 /// Memory of the command [MiB], whatever comes in. The address sanitizer keeps what was freed.
-#ifdef __SANITIZE_ADDRESS__
-constexpr long most_memory = 1024;
-#else
-constexpr long most_memory = 256;
-#endif
+constexpr long most_memory = test::has_address_sanitizer ? 1024 : 256;
 
 /// Waits until something holds, 20 s at most. @return whether it does
 bool comes_true(const std::function<bool()>& holds) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "study/workers.hpp"
 
+#include "test/sanitizer.hpp"
+
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -37,12 +39,6 @@ std::map<std::uint64_t, TaskEnd> all(Workers& workers, std::uint64_t tasks) {
     }
     return ends;
 }
-
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool sanitized = true;
-#else
-constexpr bool sanitized = false;
-#endif
 
 }  // namespace
 
@@ -122,7 +118,7 @@ TEST_CASE("workers: a task that takes too long is ended, while others go on") {
 }
 
 TEST_CASE("workers: a task that wants too much memory dies alone") {
-    if (sanitized) return;  // whose shadow memory is more than any limit
+    if (test::has_address_sanitizer) return;  // whose shadow memory is more than any limit
     Workers workers(
         1,
         [](std::uint64_t task) {
