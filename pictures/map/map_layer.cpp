@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/map/map_layer.hpp"
 
+#include "pictures/map/map_style.hpp"
 #include "scene/rectangles.hpp"
 
 #include <fmt/format.h>
@@ -16,21 +17,6 @@ namespace {
 constexpr Color unknown_color{0xe2, 0xe2, 0xe2};
 constexpr double thin_line = 0.4;  // [px] around walls, so that the thinnest are seen
 constexpr double seam = 1.6;       // [px] the same, of the white below them
-
-/// Fill of the walls of a material; styles repeat if there are more materials.
-struct WallStyle {
-    Color color;
-    const char* hatch = nullptr;  ///< path of a tile of hatch_size; none: filled evenly
-};
-constexpr double hatch_size = 6;  // [px]
-constexpr std::array wall_styles{
-    WallStyle{{0x26, 0x26, 0x26}},
-    WallStyle{{0x99, 0x99, 0x99}},
-    WallStyle{{0x33, 0x33, 0x33}, "M-1 1L1 -1M0 6L6 0M5 7L7 5"},
-    WallStyle{{0x66, 0x66, 0x66}},
-    WallStyle{{0x33, 0x33, 0x33}, "M-1 5L1 7M0 0L6 6M5 -1L7 1"},
-    WallStyle{{0x33, 0x33, 0x33}, "M0 3H6M3 0V6"},
-};
 
 std::string fill_of(std::size_t material) {
     const std::size_t style = material % wall_styles.size();
@@ -151,8 +137,6 @@ std::vector<std::array<Vec3, 4>> unknown_rectangles(const Scene& scene) {
     }
     return out;
 }
-
-constexpr Color door_color{0xd5, 0x5e, 0x00}, stairs_color{0x00, 0x72, 0xb2};
 
 void draw_door(Svg& svg, const std::string& outline, bool closed) {
     svg.add("path", {{"d", outline},
