@@ -77,6 +77,8 @@ void add_in(Command app);
 void add_locate(Command app);
 /// Adds the command replay.
 void add_replay(Command app);
+/// Adds the command view.
+void add_view(Command app);
 /// Adds the commands models, loss, material, validate, trace, replay, bench, version, completion.
 void add_tool_commands(Command app);
 

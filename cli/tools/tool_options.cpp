@@ -122,6 +122,7 @@ void add_tool_commands(Command app) {
     add_validate(app);
     add_trace(app);
     add_replay(app);
+    add_view(app);
     add_bench(app);
     add_version(app);
     add_completion(app);

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-/// Commands that read traces: trace with its subcommands, and replay.
+/// Commands that read traces: trace with its subcommands, replay and view.
 namespace rovernet::cli {
 
 struct TraceStatsArguments {
@@ -64,5 +64,12 @@ struct ReplayArguments {
     bool json = false;
 };
 void replay(const ReplayArguments& arguments);
+
+struct ViewArguments {
+    std::string file, out;
+    std::optional<std::string> from, to, limit;
+    bool no_payloads = false, no_map = false;
+};
+void view(const ViewArguments& arguments);
 
 }  // namespace rovernet::cli

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+#include "pictures/viewer/frame_columns.hpp"
+
+#include "pictures/viewer/column.hpp"
+#include "pictures/viewer/view_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <variant>
+
+namespace rovernet {
+namespace {
+
+constexpr std::size_t outcomes = 2 * (static_cast<std::size_t>(last_fate) + 1);
+
+std::uint8_t up_to_255(unsigned n) { return static_cast<std::uint8_t>(std::min(n, 255U)); }
+std::uint32_t up_to_4_s(Duration d) {
+    return static_cast<std::uint32_t>(std::min<std::int64_t>(d.count(), no_index));
+}
+
+}  // namespace
+
+std::uint8_t FrameColumns::Names::index_of(std::string_view name) {
+    const auto at = std::find(list.begin(), list.end(), name);
+    if (at == list.end()) list.emplace_back(name);
+    return static_cast<std::uint8_t>(std::min<std::ptrdiff_t>(at - list.begin(), 255));
+}
+
+void FrameColumns::on(const Record& record, const RecordContext& context) {
+    if (const auto* air = std::get_if<AirSent>(&record)) return take(*air, context);
+    if (const auto* dropped = std::get_if<Dropped>(&record)) return take(*dropped, context);
+    if (const auto* sent = std::get_if<Sent>(&record)) {
+        index_of(sent->message, context);
+    } else if (const auto* received = std::get_if<Received>(&record)) {
+        const std::uint32_t message = index_of(received->frame.message, context);
+        for (const Reception& each : received->receptions)
+            take(flight_of(received->frame.sender, message, each.time), each);
+    } else if (const auto* control = std::get_if<ControlReceived>(&record)) {
+        const NodeId sender = control->air.frame.sender;
+        take(flight_of(sender, no_index, control->reception.time), control->reception);
+    }
+}
+
+std::uint32_t FrameColumns::index_of(MessageId id, const RecordContext& context) {
+    const Message& message = context.messages[id];
+    if (id.index() >= known_.size()) known_.resize(id.index() + 1);
+    Known& known = known_[id.index()];
+    if (known.uid == message.uid) return known.index;
+    MessageColumns& m = messages_;
+    known = {message.uid, static_cast<std::uint32_t>(m.uid.size())};
+    m.uid.push_back(static_cast<double>(message.uid));
+    m.created.push_back(static_cast<double>(whole_ns(message.created)));
+    m.origin.push_back(message.origin.value);
+    m.to.push_back(message.to.value);
+    m.size.push_back(message.size);
+    m.flow.push_back(static_cast<std::uint16_t>(std::min<std::uint32_t>(message.flow, 0xffff)));
+    m.kind.push_back(message_kinds_.index_of(message.kind));
+    m.payload.push_back(message.payload);
+    return known.index;
+}
+
+void FrameColumns::take(const AirSent& sent, const RecordContext& context) {
+    const AirFrame& air = sent.air;
+    const std::size_t sender = air.frame.sender.index();
+    if (sender >= last_flights_.size()) last_flights_.resize(sender + 1, no_index);
+    flights_.push_back({.start = whole_ns(sent.time),
+                        .airtime = up_to_4_s(sent.airtime),
+                        .sender = air.frame.sender.value,
+                        .to = air.frame.next_hop.value,
+                        .message = air.control ? no_index : index_of(air.frame.message, context),
+                        .before = last_flights_[sender],
+                        .kind = frame_kinds_.index_of(air.kind()),
+                        .ttl = air.control ? std::uint8_t{0} : up_to_255(air.frame.ttl),
+                        .hops = air.control ? std::uint8_t{0} : up_to_255(air.frame.hops)});
+    last_flights_[sender] = static_cast<std::uint32_t>(flights_.size() - 1);
+}
+
+/// Flight of a sender with a message, whose reception ends at a given time; no_index: none, as in a
+/// damaged trace.
+std::uint32_t FrameColumns::flight_of(NodeId sender, std::uint32_t message, Time received) const {
+    constexpr std::int64_t longest_delay = 10'000'000;  // [ns]: light travels 3,000 km
+    if (sender.index() >= last_flights_.size()) return no_index;
+    std::uint32_t flight = last_flights_[sender.index()];
+    while (flight != no_index && flights_[flight].message != message) {
+        const bool is_over = flights_[flight].end() + longest_delay < whole_ns(received);
+        flight = is_over ? no_index : flights_[flight].before;
+    }
+    return flight;
+}
+
+void FrameColumns::take(std::uint32_t flight, const Reception& reception) {
+    if (flight == no_index) return;
+    const auto outcome = static_cast<std::uint8_t>(2 * static_cast<int>(reception.fate) +
+                                                   static_cast<int>(reception.delivered));
+    receptions_.push_back({flight, reception.node.value, outcome});
+}
+
+void FrameColumns::take(const Dropped& dropped, const RecordContext& context) {
+    if (dropped.protocol_decides) return;
+    const LossReason loss = dropped.loss();
+    const auto at = std::find(reasons_.begin(), reasons_.end(), loss);
+    const auto reason = static_cast<std::uint8_t>(at - reasons_.begin());
+    if (at == reasons_.end()) reasons_.push_back(loss);
+    losses_.push_back({whole_ns(dropped.time), dropped.node.value,
+                       index_of(dropped.frame.message, context), reason});
+}
+
+/// Sorts the receptions by flight. @return index of the first reception of each flight, and the
+/// number of all
+std::vector<std::uint32_t> FrameColumns::sort_receptions() {
+    std::vector<std::uint32_t> first(flights_.size() + 1);
+    for (const RobotReception& r : receptions_) ++first[r.flight + 1];
+    for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+    std::vector<RobotReception> sorted(receptions_.size());
+    for (const RobotReception& r : receptions_) sorted[next[r.flight]++] = r;
+    receptions_ = std::move(sorted);
+    return first;
+}
+
+void FrameColumns::write(ViewFile& file, Table& head, std::size_t robots, Time end,
+                         const FrameChoice& choice) {
+    write_messages(file, robots, choice.payload_bytes);
+    head.set("message_kinds", Array(message_kinds_.list.begin(), message_kinds_.list.end()));
+    head.set("frame_kinds", Array(frame_kinds_.list.begin(), frame_kinds_.list.end()));
+    write_losses(file, head, robots);
+    write_density(file, head, end);
+    write_frames(file, head, robots, choice);
+}
+
+void FrameColumns::write_messages(ViewFile& file, std::size_t robots, std::size_t payload_bytes) {
+    const MessageColumns& m = messages_;
+    file.add("messages.uid", m.uid);
+    file.add("messages.created", m.created);
+    file.add_indices("messages.origin", m.origin, robots);
+    file.add_indices("messages.to", m.to, robots);
+    file.add("messages.size", m.size);
+    file.add("messages.flow", m.flow);
+    file.add("messages.kind", m.kind);
+    std::vector<std::string> payloads;
+    for (const std::string& payload : m.payload)
+        payloads.push_back(payload.substr(0, payload_bytes));
+    file.add_texts("messages.payload", payloads);
+}
+
+void FrameColumns::write_losses(ViewFile& file, Table& head, std::size_t robots) const {
+    const auto of = [&](auto number, auto member) {
+        return column<decltype(number)>(losses_, [&](const Loss& loss) { return loss.*member; });
+    };
+    file.add_times("drops.time", of(std::int64_t{}, &Loss::time));
+    file.add_indices("drops.robot", of(std::uint32_t{}, &Loss::robot), robots);
+    file.add_indices("drops.message", of(std::uint32_t{}, &Loss::message), messages_.uid.size());
+    file.add("drops.reason", of(std::uint8_t{}, &Loss::reason));
+    Array reasons;
+    for (const LossReason& each : reasons_) {
+        Table reason;
+        reason.set("code", each.code);
+        reason.set("layer", each.layer);
+        reasons.emplace_back(std::move(reason));
+    }
+    head.set("drops", std::move(reasons));
+}
+
+void FrameColumns::write_density(ViewFile& file, Table& head, Time end) const {
+    Array levels;
+    std::array<std::uint64_t, outcomes> all{};
+    for (const RobotReception& r : receptions_) ++all[r.outcome];
+    for (const std::size_t bins : {1U << 12U, 1U << 16U}) {
+        const std::int64_t width = std::max<std::int64_t>(
+            1, (whole_ns(end) + static_cast<std::int64_t>(bins)) / static_cast<std::int64_t>(bins));
+        std::vector<std::uint32_t> counts(bins * outcomes);
+        for (const RobotReception& r : receptions_) {
+            const auto bin = static_cast<std::size_t>(flights_[r.flight].end() / width);
+            ++counts[std::min(bin, bins - 1) * outcomes + r.outcome];
+        }
+        file.add(fmt::format("density.{}", levels.size()), counts);
+        Table level;
+        level.set("bins", std::uint64_t{bins});
+        level.set("width_ns", width);
+        levels.emplace_back(std::move(level));
+    }
+    head.set("density", std::move(levels));
+    Table counts;
+    counts.set("flights", std::uint64_t{flights_.size()});
+    counts.set("receptions", std::uint64_t{receptions_.size()});
+    counts.set("messages", std::uint64_t{messages_.uid.size()});
+    counts.set("outcomes", Array(all.begin(), all.end()));
+    head.set("counts", std::move(counts));
+}
+
+/// Writes the chosen frames as blocks, one behind the other.
+void FrameColumns::write_frames(ViewFile& file, Table& head, std::size_t robots,
+                                const FrameChoice& choice) {
+    constexpr std::size_t block_size = 1U << 18U;  // [receptions]
+    const std::vector<std::uint32_t> first = sort_receptions();
+    const auto starts_before = [](const Flight& f, std::int64_t t) { return f.start < t; };
+    const auto place = [&](std::int64_t t) {
+        const auto at = std::lower_bound(flights_.begin(), flights_.end(), t, starts_before);
+        return static_cast<std::size_t>(at - flights_.begin());
+    };
+    const std::size_t from = place(whole_ns(choice.from));
+    std::size_t to = choice.to == never ? flights_.size() : place(whole_ns(choice.to) + 1);
+    if (to - from > choice.most_frames) to = from + choice.most_frames;
+    Array blocks;
+    for (std::size_t begin = from, end = from; begin < to; begin = end) {
+        do ++end;
+        while (end < to && first[end + 1] - first[begin] <= block_size);
+        const std::string name = fmt::format("{}/", blocks.size());
+        write_block(file, name, {begin, end}, first, robots);
+        Table block;
+        block.set("begin_ns", flights_[begin].start);
+        block.set("end_ns", flights_[end - 1].end());
+        block.set("flights", std::uint64_t{end - begin});
+        block.set("receptions", std::uint64_t{first[end] - first[begin]});
+        blocks.emplace_back(std::move(block));
+    }
+    head.set("blocks", std::move(blocks));
+    left_out_ = flights_.size() - (to - from);
+}
+
+void FrameColumns::write_block(ViewFile& file, const std::string& name, const Block& block,
+                               const std::vector<std::uint32_t>& first, std::size_t robots) const {
+    const std::span flights(flights_.begin() + static_cast<std::ptrdiff_t>(block.begin),
+                            block.end - block.begin);
+    const auto of = [&](auto number, auto member) {
+        return column<decltype(number)>(flights, [&](const Flight& f) { return f.*member; });
+    };
+    constexpr std::uint32_t index = 0;
+    constexpr std::uint8_t small = 0;
+    file.add_times(name + "flights.start", of(std::int64_t{}, &Flight::start));
+    file.add(name + "flights.airtime", of(index, &Flight::airtime));
+    file.add_indices(name + "flights.sender", of(index, &Flight::sender), robots);
+    file.add_indices(name + "flights.to", of(index, &Flight::to), robots);
+    file.add_indices(name + "flights.message", of(index, &Flight::message), messages_.uid.size());
+    file.add(name + "flights.kind", of(small, &Flight::kind));
+    file.add(name + "flights.ttl", of(small, &Flight::ttl));
+    file.add(name + "flights.hops", of(small, &Flight::hops));
+    std::vector<std::uint32_t> counts;
+    for (std::size_t f = block.begin; f < block.end; ++f) counts.push_back(first[f + 1] - first[f]);
+    file.add(name + "flights.count", counts);
+    const std::span heard(receptions_.begin() + first[block.begin],
+                          first[block.end] - first[block.begin]);
+    file.add_indices(name + "receptions.robot",
+                     column<std::uint32_t>(heard, [](const RobotReception& r) { return r.robot; }),
+                     robots);
+    file.add(name + "receptions.outcome",
+             column<std::uint8_t>(heard, [](const RobotReception& r) { return r.outcome; }));
+}
+
+}  // namespace rovernet

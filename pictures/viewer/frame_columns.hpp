@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scenario/document/value.hpp"
+#include "sim/record.hpp"
+#include "sim/sink.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rovernet {
+
+class ViewFile;
+
+/// Choice of the frames in a view file.
+struct FrameChoice {
+    /// Times between which the frames start, both included.
+    Time from = start_of_run, to = never;
+    /// Largest number of frames; later frames are left out.
+    std::size_t most_frames = std::numeric_limits<std::size_t>::max();
+    /// Largest number of bytes of a message's content that are written.
+    std::size_t payload_bytes = 64;
+};
+
+/// Sink that collects messages, frames, receptions and losses as columns of a view file
+/// (docs/view-format.md). The records may come from a network, or from a recorded trace.
+///
+/// Memory: 40 bytes for each frame, 12 for each reception, 16 for each loss, and the messages.
+class FrameColumns {
+  public:
+    KindMask kinds() const {
+        return kind_of<Sent>() | kind_of<AirSent>() | kind_of<Received>() |
+               kind_of<ControlReceived>() | kind_of<Dropped>();
+    }
+    void on(const Record& record, const RecordContext& context);
+
+    std::size_t frames() const { return flights_.size(); }
+    std::size_t receptions() const { return receptions_.size(); }
+    std::size_t messages() const { return messages_.uid.size(); }
+    /// Number of frames that write() left out.
+    std::size_t left_out() const { return left_out_; }
+    /// Writes the columns of messages, frames, receptions, losses and density, and the entries of
+    /// the head that describe them.
+    /// @param robots  number of robots
+    /// @param end     end of the run
+    void write(ViewFile& file, Table& head, std::size_t robots, Time end,
+               const FrameChoice& choice);
+
+  private:
+    struct MessageColumns {
+        std::vector<double> uid, created;
+        std::vector<std::uint32_t> origin, to, size;
+        std::vector<std::uint16_t> flow;
+        std::vector<std::uint8_t> kind;
+        std::vector<std::string> payload;
+    };
+    /// Frame on air.
+    struct Flight {
+        std::int64_t start;  // [ns]
+        std::uint32_t airtime, sender, to, message;
+        std::uint32_t before;  // last earlier flight of the sender; no_index: none
+        std::uint8_t kind, ttl, hops;
+        std::int64_t end() const { return start + airtime; }
+    };
+    struct RobotReception {
+        std::uint32_t flight, robot;
+        std::uint8_t outcome;
+    };
+    struct Loss {
+        std::int64_t time;
+        std::uint32_t robot, message;
+        std::uint8_t reason;
+    };
+    /// Message in a slot of the message table, and its index in the columns.
+    struct Known {
+        std::uint64_t uid = ~std::uint64_t{0};
+        std::uint32_t index = 0;
+    };
+    /// Range of flights; `end` is not included.
+    struct Block {
+        std::size_t begin, end;
+    };
+    /// Different texts, in the order of first use.
+    struct Names {
+        std::vector<std::string> list;
+        std::uint8_t index_of(std::string_view name);
+    };
+
+    void take(const AirSent& sent, const RecordContext& context);
+    void take(const Dropped& dropped, const RecordContext& context);
+    void take(std::uint32_t flight, const Reception& reception);
+    std::uint32_t index_of(MessageId id, const RecordContext& context);
+    std::uint32_t flight_of(NodeId sender, std::uint32_t message, Time received) const;
+    std::vector<std::uint32_t> sort_receptions();
+    void write_messages(ViewFile& file, std::size_t robots, std::size_t payload_bytes);
+    void write_losses(ViewFile& file, Table& head, std::size_t robots) const;
+    void write_density(ViewFile& file, Table& head, Time end) const;
+    void write_frames(ViewFile& file, Table& head, std::size_t robots, const FrameChoice& choice);
+    void write_block(ViewFile& file, const std::string& name, const Block& block,
+                     const std::vector<std::uint32_t>& first, std::size_t robots) const;
+
+    MessageColumns messages_;
+    std::vector<Known> known_;  // by MessageId
+    std::vector<Flight> flights_;
+    std::vector<std::uint32_t> last_flights_;  // by NodeId; no_index: none
+    std::vector<RobotReception> receptions_;
+    std::vector<Loss> losses_;
+    std::vector<LossReason> reasons_;  // of losses_, in the order of first use
+    Names frame_kinds_, message_kinds_{{""}};
+    std::size_t left_out_ = 0;
+};
+
+}  // namespace rovernet

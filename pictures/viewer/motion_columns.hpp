@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/record.hpp"
+#include "sim/sink.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace rovernet {
+
+class ViewFile;
+
+/// Sink that collects the robots' motion as columns of a view file (docs/view-format.md): legs,
+/// states and link changes. The records may come from a network, or from a recorded trace.
+///
+/// Memory: 104 bytes for each leg, 16 for each change of a state, 24 for each link change.
+class MotionColumns {
+  public:
+    KindMask kinds() const {
+        return kind_of<Moved>() | kind_of<Switched>() | kind_of<Arrived>() | kind_of<NoWay>() |
+               kind_of<LinkUp>() | kind_of<LinkDown>();
+    }
+    void on(const Record& record, const RecordContext& context);
+
+    /// Writes the columns `legs`, `states` and `links`. @param robots  number of robots
+    void write(ViewFile& file, std::size_t robots);
+
+    /// Smallest axis-parallel rectangle [m].
+    struct Bounds {
+        double left = 0, bottom = 0, right = 0, top = 0;
+    };
+    /// Rectangle around the start and end of all legs; zeros without legs.
+    Bounds bounds() const;
+
+  private:
+    /// Leg of a robot.
+    struct RobotLeg {
+        std::uint32_t robot;
+        Leg leg;
+    };
+    /// Change of a robot's state: 0 off, 1 on, 2 arrived, 3 no way found.
+    struct State {
+        std::int64_t time;
+        std::uint32_t robot;
+        std::uint8_t what;
+    };
+    struct LinkChange {
+        std::int64_t time;
+        std::uint32_t from, to;
+        bool up;
+    };
+
+    void write_legs(ViewFile& file, std::size_t robots);
+    void write_states(ViewFile& file, std::size_t robots) const;
+    void write_links(ViewFile& file, std::size_t robots) const;
+
+    std::vector<RobotLeg> legs_;
+    std::vector<State> states_;
+    std::vector<LinkChange> links_;
+};
+
+}  // namespace rovernet

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace rovernet {
+
+// The page as it is built into the library, see cmake/viewer.cmake: HTML with the marks <!--CSP-->
+// and <!--DATA-->, and the Content-Security-Policy that allows its own script and style alone.
+extern const std::string_view viewer_html;
+extern const std::string_view viewer_policy;
+
+/// Page of the viewer as one HTML file that contains a view file. The page needs no network.
+std::string page_with(std::string_view view_file);
+
+/// Page of the viewer for a server: it loads the view file from the server's path /run.rvw.
+std::string served_page();
+
+}  // namespace rovernet

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "pictures/viewer/frame_columns.hpp"
+
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace rovernet {
+
+/// Choice of the content of a view file.
+struct ViewChoice {
+    FrameChoice frames = {};
+    bool map = true;  ///< walls, doors and stairs
+    /// Largest size of the view file [bytes]: later frames are left out. Robots, legs and messages
+    /// are always complete, so that a file without frames may be larger.
+    std::size_t most_bytes = std::numeric_limits<std::size_t>::max();
+};
+
+/// View file of a run, and its size.
+struct ViewedRun {
+    std::string name;   ///< name of the scenario
+    std::string bytes;  ///< the view file, see docs/view-format.md
+    std::size_t robots, messages;
+    std::size_t frames;                 ///< number of frames in the file
+    std::vector<std::string> left_out;  ///< sentences about what the file does not contain
+    std::vector<std::string> damage;    ///< sentences about broken or missing parts of the trace
+};
+
+/// Makes a view file of a recorded trace.
+/// @param path  recorded trace with a scenario
+/// @throws InputError if the file is no recorded trace, or its scenario cannot be loaded
+ViewedRun view_of_trace(const std::string& path, const ViewChoice& choice);
+
+}  // namespace rovernet

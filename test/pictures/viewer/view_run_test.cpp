@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+#include "pictures/viewer/view_run.hpp"
+
+#include "experiment/run.hpp"
+#include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
+#include "sim/error.hpp"
+#include "sim/legs.hpp"
+#include "test/pictures/viewer/view_reader.hpp"
+#include "test/scene/temporary_folder.hpp"
+#include "traces/recorded/recorded_reader.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <random>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace view_run_test {
+using namespace rovernet;
+
+namespace {
+
+/// Recorded trace of an example.
+struct Recorded {
+    explicit Recorded(const std::string& example, std::vector<std::string> set = {}) {
+        set.emplace_back("trace.record=true");
+        ScenarioOptions options;
+        options.set = std::move(set);
+        const Scenario scenario =
+            load_scenario(std::string(ROVERNET_EXAMPLES) + "/" + example, options);
+        RunOptions run;
+        run.folder = folder.path();
+        run_scenario(scenario, run);
+    }
+    std::string trace() const { return folder.path() + "/trace.mcap"; }
+    test::TemporaryFolder folder;
+};
+
+/// Place of a robot by the columns, as the page computes it.
+Vec3 place(const test::ViewReader& view, std::size_t robot, double t) {
+    const auto first = view.numbers("legs.first"), start = view.numbers("legs.start");
+    auto leg = static_cast<std::size_t>(first[robot]);
+    while (leg + 1 < static_cast<std::size_t>(first[robot + 1]) && start[leg + 1] <= t) ++leg;
+    const double passed = (std::min(t, view.numbers("legs.end")[leg]) - start[leg]) / 1e9;
+    const auto along = [&](const char* at, const char* speed) {
+        return view.numbers(at)[leg] + passed * view.numbers(speed)[leg];
+    };
+    const bool is_flat = !view.has("legs.z");
+    return {along("legs.x", "legs.vx"), along("legs.y", "legs.vy"),
+            is_flat ? 0 : along("legs.z", "legs.vz")};
+}
+
+/// Frame with its receptions: start, sender, uid of its message, and for each receiver, in the
+/// order of robots, its outcome. A control frame has no uid.
+struct SeenFrame {
+    double start, sender, uid;
+    std::map<double, double> outcomes;
+    friend bool operator==(const SeenFrame&, const SeenFrame&) = default;
+};
+
+std::vector<SeenFrame> frames_of(const test::ViewReader& view) {
+    std::vector<SeenFrame> frames;
+    const auto uids = view.numbers("messages.uid");
+    for (std::size_t block = 0; view.has(fmt::format("{}/flights.start", block)); ++block) {
+        const auto of = [&](const char* name) {
+            return view.numbers(fmt::format("{}/{}", block, name));
+        };
+        const auto start = of("flights.start"), sender = of("flights.sender"),
+                   message = of("flights.message"), count = of("flights.count"),
+                   robot = of("receptions.robot"), outcome = of("receptions.outcome");
+        std::size_t reception = 0;
+        for (std::size_t i = 0; i < start.size(); ++i) {
+            const auto index = static_cast<std::size_t>(message[i]);
+            frames.push_back({start[i], sender[i], index < uids.size() ? uids[index] : -1, {}});
+            for (double k = 0; k < count[i]; ++k, ++reception)
+                frames.back().outcomes[robot[reception]] = outcome[reception];
+        }
+    }
+    return frames;
+}
+
+/// The same from the records. Every reception belongs to the last frame of its sender and message.
+std::vector<SeenFrame> frames_of(const std::string& trace) {
+    std::vector<SeenFrame> frames;
+    std::map<std::pair<double, double>, std::size_t> last;
+    RecordedReader reader(trace);
+    const auto take = [&](NodeId sender, double uid, const Reception& r) {
+        frames[last.at({sender.value, uid})].outcomes[r.node.value] =
+            2 * static_cast<int>(r.fate) + static_cast<int>(r.delivered);
+    };
+    while (const Record* record = reader.next()) {
+        const auto uid = [&](MessageId id) {
+            return static_cast<double>(reader.context().messages[id].uid);
+        };
+        if (const auto* air = std::get_if<AirSent>(record)) {
+            const double message = air->air.control ? -1 : uid(air->air.frame.message);
+            const double sender = air->air.frame.sender.value;
+            last[{sender, message}] = frames.size();
+            const auto start = static_cast<double>((air->time - start_of_run).count());
+            frames.push_back({start, sender, message, {}});
+        } else if (const auto* got = std::get_if<Received>(record)) {
+            for (const Reception& r : got->receptions)
+                take(got->frame.sender, uid(got->frame.message), r);
+        } else if (const auto* control = std::get_if<ControlReceived>(record)) {
+            take(control->air.frame.sender, -1, control->reception);
+        }
+    }
+    return frames;
+}
+
+std::string error_of(const std::string& path) {
+    try {
+        view_of_trace(path, {});
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+constexpr std::array examples{"rescue/rescue.toml", "storeys/storeys.toml", "detour/detour.toml",
+                              "patrol/patrol.toml"};
+
+}  // namespace
+
+TEST_CASE("view of a run: frames and outcomes of receptions are those of the records") {
+    for (const char* example : examples) {
+        CAPTURE(example);
+        const Recorded run(example);
+        const ViewedRun viewed = view_of_trace(run.trace(), {});
+        const test::ViewReader view(viewed.bytes);
+        const auto seen = frames_of(view), recorded = frames_of(run.trace());
+        CHECK(seen == recorded);
+        CHECK(seen.size() == viewed.frames);
+        CHECK(seen.size() > 10);
+        std::vector<SeenFrame> wrong = recorded;  // negative control
+        wrong.back().start += 1;
+        CHECK_FALSE(seen == wrong);
+    }
+}
+
+TEST_CASE("view of a run: robots are where their legs are at any time") {
+    for (const char* example : examples) {
+        CAPTURE(example);
+        const Recorded run(example);
+        const test::ViewReader view(view_of_trace(run.trace(), {}).bytes);
+        const auto end = static_cast<double>(test::ViewReader::integer(view.head(), "duration_ns"));
+        std::mt19937_64 random(7);
+        std::vector<double> times;
+        for (int i = 0; i < 20; ++i)
+            times.push_back(std::uniform_real_distribution(0.0, end)(random));
+        std::sort(times.begin(), times.end());
+        RecordedReader reader(run.trace());
+        const Record* record = reader.next();
+        for (const double t : times) {
+            const Time now = start_of_run + Duration{static_cast<std::int64_t>(t)};
+            while (record && reader.now() <= now) record = reader.next();
+            // The context is one record ahead, so legs that begin later are skipped.
+            const Legs& legs = reader.context().legs;
+            for (std::uint32_t robot = 0; robot < legs.size(); ++robot) {
+                if (legs.leg(NodeId{robot}).start > now) continue;
+                const Vec3 expected = legs.position(NodeId{robot}, now);
+                const Vec3 found = place(view, robot, std::floor(t));
+                CHECK(distance(expected, found) < 1e-9);
+            }
+        }
+    }
+}
+
+TEST_CASE("view of a run: sums of the density are the receptions, by outcome") {
+    const Recorded run("detour/detour.toml");
+    const test::ViewReader view(view_of_trace(run.trace(), {}).bytes);
+    std::map<double, double> expected;
+    double all = 0;
+    for (const SeenFrame& frame : frames_of(run.trace())) {
+        for (const auto& [robot, outcome] : frame.outcomes) ++expected[outcome], ++all;
+    }
+    const std::size_t outcomes = view.head().find("outcomes")->array()->size();
+    for (const char* level : {"density.0", "density.1"}) {
+        const auto counts = view.numbers(level);
+        std::map<double, double> found;
+        for (std::size_t i = 0; i < counts.size(); ++i) {
+            if (counts[i] > 0) found[static_cast<double>(i % outcomes)] += counts[i];
+        }
+        CHECK(found == expected);
+    }
+    const Table& counts = *view.head().find("counts")->table();
+    CHECK(static_cast<double>(test::ViewReader::integer(counts, "receptions")) == all);
+}
+
+TEST_CASE("view of a run: less of it, as the choice says") {
+    const Recorded run("rescue/rescue.toml");
+    const auto all = frames_of(run.trace());
+    ViewChoice choice;
+    choice.frames.from = start_of_run + Duration{static_cast<std::int64_t>(all[10].start)};
+    choice.frames.to = start_of_run + Duration{static_cast<std::int64_t>(all[20].start)};
+    choice.frames.payload_bytes = 0;
+    choice.map = false;
+    const ViewedRun viewed = view_of_trace(run.trace(), choice);
+    const test::ViewReader view(viewed.bytes);
+    CHECK(frames_of(view) == std::vector(all.begin() + 10, all.begin() + 21));
+    CHECK(view.numbers("walls.x").empty());
+    for (const std::string& text : view.texts("messages.payload")) CHECK(text.empty());
+    CHECK(viewed.left_out.size() == 3);
+    const std::size_t whole = view_of_trace(run.trace(), {}).bytes.size();
+    choice = {};
+    choice.most_bytes = whole - 200;
+    const ViewedRun small = view_of_trace(run.trace(), choice);
+    CHECK(small.bytes.size() <= choice.most_bytes);
+    CHECK(small.frames > 0);
+    const auto kept = frames_of(test::ViewReader(small.bytes));
+    CHECK(kept == std::vector(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(kept.size())));
+    CHECK(test::ViewReader(small.bytes).numbers("legs.x") ==
+          test::ViewReader(view_of_trace(run.trace(), {}).bytes).numbers("legs.x"));
+}
+
+TEST_CASE("view of a run: map with storeys, doors and stairs") {
+    const Recorded run("storeys/storeys.toml");
+    const test::ViewReader view(view_of_trace(run.trace(), {}).bytes);
+    const Table& map = *view.head().find("map")->table();
+    CHECK(map.find("floors")->array()->size() > 1);
+    const auto storeys = view.numbers("walls.storey");
+    CHECK(*std::max_element(storeys.begin(), storeys.end()) ==
+          static_cast<double>(map.find("floors")->array()->size() - 1));
+    CHECK(view.numbers("walls.x").size() == 4 * storeys.size());
+}
+
+TEST_CASE("view of a run: what cannot be viewed is an error that says why") {
+    const test::TemporaryFolder folder;
+    CHECK(error_of(folder.write("a.mcap", "no trace")).find("a.mcap") != std::string::npos);
+    CHECK(error_of(folder.path() + "/missing.mcap").find("missing.mcap") != std::string::npos);
+}
+
+}  // namespace view_run_test
