@@ -24,8 +24,9 @@ const message_panel = (() => {
     /** Row of a robot without the message, with a button that asks. @param {Flood} flood @param {number} robot */
     function without(flood, robot) {
         const key = floods.outcome(own.run, flood, robot), number = signs.kinds.findIndex(k => k.key === key);
-        const text = dom.make("span", "reason", reason(flood, robot));
-        const out = dom.make("li", "", number >= 0 ? dom.sign(number) : dom.make("span", "icon"), dom.make("span", "", robot_button(robot), " ", text));
+        const name = own.run.name(robot), sentence = reason(flood, robot);
+        const text = dom.make("span", "reason", sentence.startsWith(name + " ") ? sentence.slice(name.length + 1) : sentence);
+        const out = dom.make("li", "", ...(number >= 0 ? [dom.sign(number)] : []), dom.make("span", "", robot_button(robot), " ", text));
         if (!server.is_served()) return out;
         out.append(dom.button("why?", "small", () => {
             text.textContent = "\u2026";

@@ -107,23 +107,25 @@ const robots = (() => {
         }
     }
 
-    /** Names that find room beside their robots. @param {CanvasRenderingContext2D} c @param {Run} r @param {number[]} shown */
+    /** Names that find room beside their robots: right, left, above or below. @param {CanvasRenderingContext2D} c @param {Run} r @param {number[]} shown */
     function names(c, r, shown) {
-        const size = shown.length > 60 ? 9 : 12, taken = new Set();
+        const size = shown.length > 60 ? 9 : 12;
+        /** @type {number[][]} */ const taken = shown.map(i => [at.x[i] - 5, at.y[i] - 5, at.x[i] + 5, at.y[i] + 5]);
         c.font = `${size}px ${font}`;
         c.textBaseline = "middle";
         c.lineJoin = "round";
         for (const i of shown) {
-            const text = words.shortened(words.visible(r.name(i)), 24), reach = radius(r, i) + 6;
-            const x = at.x[i] + reach, y = at.y[i], cells = [];
-            for (let k = 0; k <= text.length * size * 0.6; k += size) cells.push(`${Math.round((x + k) / size)} ${Math.round(y / size)}`);
-            if (cells.some(cell => taken.has(cell))) continue;
-            for (const cell of cells) taken.add(cell);
+            const text = words.shortened(words.visible(r.name(i)), 24), width = c.measureText(text).width, reach = radius(r, i) + 6, half = size / 2 + 1;
+            const { [i]: x } = at.x, { [i]: y } = at.y;
+            const places = [[x + reach, y], [x - reach - width, y], [x - width / 2, y - reach - half], [x - width / 2, y + reach + half]];
+            const free = places.find(([left, middle]) => taken.every(b => left >= b[2] || left + width <= b[0] || middle - half >= b[3] || middle + half <= b[1]));
+            if (!free) continue;
+            taken.push([free[0], free[1] - half, free[0] + width, free[1] + half]);
             c.strokeStyle = theme.colors().paper;
             c.lineWidth = 3.5;
-            c.strokeText(text, x, y);
+            c.strokeText(text, free[0], free[1]);
             c.fillStyle = theme.colors().ink;
-            c.fillText(text, x, y);
+            c.fillText(text, free[0], free[1]);
         }
     }
     const font = "'DejaVu Sans', Verdana, Helvetica, Arial, sans-serif";

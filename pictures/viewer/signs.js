@@ -6,7 +6,7 @@ const signs = (() => {
     /** @type {{key: string, mark: string, text: string, outcome: number}[]} */
     const kinds = [
         { key: "delivered", mark: "o", text: "delivered", outcome: 1 },
-        { key: "received", mark: "\u00b7", text: "received, passed on", outcome: 0 },
+        { key: "received", mark: "\u00b7", text: "received", outcome: 0 },
         { key: "duplicate", mark: "=", text: "duplicate", outcome: 4 },
         { key: "collided", mark: "\u00d7", text: "collided", outcome: 10 },
         { key: "busy", mark: "v", text: "receiver was sending", outcome: 12 },
