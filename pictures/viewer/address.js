@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// What is shown, in the address of the page: a copied address shows the same.
+const address = (() => {
+    "use strict";
+    const pause_ms = 300;
+    let timer = 0, last = "";
+
+    /** @returns {string} */
+    function text() {
+        const { t, speed, storey, view, span, robots: chosen, message, filter, panel, trails } = selection.state, p = new URLSearchParams();
+        p.set("t", words_of_time(t));
+        if (speed !== 1) p.set("speed", String(Number(speed.toPrecision(4))));
+        if (storey) p.set("storey", String(storey + 1));
+        if (view) p.set("view", [view.x, view.y, view.scale].map(v => Number(v.toPrecision(7))).join(","));
+        if (span) p.set("span", [span.from, span.to].map(words_of_time).join(","));
+        if (chosen.length) p.set("robots", chosen.join(","));
+        if (message >= 0) p.set("message", String(message));
+        if (panel !== "events") p.set("panel", panel);
+        if (!trails) p.set("trails", "0");
+        if (filter.robot >= 0) p.set("of", String(filter.robot));
+        if (filter.message >= 0) p.set("on", String(filter.message));
+        if (filter.signs !== selection.everything) p.set("signs", String(filter.signs));
+        if (filter.kinds !== selection.everything) p.set("kinds", String(filter.kinds));
+        return "#" + p.toString().replaceAll("%2C", ",");
+    }
+
+    /** Seconds with all nanoseconds. @param {number} ns */
+    function words_of_time(ns) {
+        const whole = Math.floor(ns / 1e9), rest = String(Math.round(ns - whole * 1e9)).padStart(9, "0").replace(/0+$/, "");
+        return rest ? `${whole}.${rest}` : String(whole);
+    }
+
+    /** @param {string} text @returns {number} [ns] */
+    function time_of(text) {
+        const [whole = "0", rest = ""] = text.split(".");
+        return Number(whole) * 1e9 + Number(rest.padEnd(9, "0").slice(0, 9));
+    }
+
+    /** @param {Run} r @param {string} hash @returns {Partial<State>} */
+    function parsed(r, hash) {
+        const p = new URLSearchParams(hash.replace(/^#/, ""));
+        /** @param {string} key @param {number} low @param {number} high @param {number} other */
+        const whole = (key, low, high, other) => {
+            const v = Number(p.get(key) ?? NaN);
+            return Number.isInteger(v) && v >= low && v <= high ? v : other;
+        };
+        /** @param {string} key @param {(text: string) => number} read @returns {number[]|null} */
+        const numbers = (key, read) => {
+            const out = p.get(key)?.split(",").map(read) ?? [];
+            return out.length && out.every(Number.isFinite) ? out : null;
+        };
+        const t = time_of(p.get("t") ?? "0"), speed = Number(p.get("speed") ?? 1), view = numbers("view", Number), span = numbers("span", time_of);
+        const panel = p.get("panel") ?? "events";
+        return {
+            t: t >= 0 ? Math.min(t, r.duration) : 0, speed: speed >= 1e-6 && speed <= 1e3 ? speed : 1,
+            storey: whole("storey", 1, r.head.map.floors.length, 1) - 1,
+            view: view?.length === 3 && view[2] > 0 ? { x: view[0], y: view[1], scale: view[2] } : null,
+            span: span?.length === 2 && span[1] > span[0] && span[0] >= 0 ? { from: span[0], to: span[1] } : null,
+            robots: (numbers("robots", Number) ?? []).filter(i => Number.isInteger(i) && i >= 0 && i < r.robots).slice(0, 2),
+            message: whole("message", 0, r.messages - 1, -1),
+            panel: ["events", "message", "robot", "pair"].includes(panel) ? panel : "events", trails: p.get("trails") !== "0",
+            filter: {
+                robot: whole("of", 0, r.robots - 1, -1), message: whole("on", 0, r.messages - 1, -1),
+                signs: whole("signs", 0, selection.everything, selection.everything), kinds: whole("kinds", 0, selection.everything, selection.everything)
+            }
+        };
+    }
+
+    /** @param {boolean} push */
+    function write(push) {
+        const next = text();
+        if (next === last) return;
+        last = next;
+        try {
+            if (push) history.pushState(null, "", next); else history.replaceState(null, "", next);
+        } catch {
+            // A browser may refuse more than some changes a second: the next one will do.
+        }
+    }
+
+    /** @param {Run} r */
+    function begin(r) {
+        if (location.hash.length > 1) selection.set(parsed(r, location.hash));
+        last = location.hash;
+        selection.listen(changed => {
+            clearTimeout(timer);
+            if (changed.has("robots") || changed.has("message")) write(true);
+            else if (!selection.state.playing) timer = setTimeout(() => write(false), pause_ms);
+        });
+        window.addEventListener("popstate", () => {
+            const { robots: chosen, message, panel } = parsed(r, location.hash);
+            last = location.hash;
+            selection.set({ robots: chosen, message, panel });
+        });
+        window.addEventListener("hashchange", () => {
+            if (location.hash !== last) selection.set(parsed(r, location.hash));
+        });
+    }
+
+    return { begin, text };
+})();

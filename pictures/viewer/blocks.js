@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// Frames and their receptions: blocks that are unpacked when they are needed.
+/** @typedef {InstanceType<typeof blocks.Block>} Block */
+/** @typedef {InstanceType<typeof blocks.Blocks>} Blocks */
+const blocks = (() => {
+    "use strict";
+    const most_kept = 8;
+
+    /** Frames of a part of the run, in order of their start. Frame i has the receptions first[i] to first[i + 1]. */
+    class Block {
+        /** @param {number} number @param {Numbers[]} c @param {Uint32Array} first */
+        constructor(number, c, first) {
+            this.number = number;
+            const none = new Uint8Array(0);
+            this.start = c[0] ?? none;
+            this.airtime = c[1] ?? none;
+            this.sender = c[2] ?? none;
+            this.to = c[3] ?? none;
+            this.message = c[4] ?? none;
+            this.kind = c[5] ?? none;
+            this.ttl = c[6] ?? none;
+            this.hops = c[7] ?? none;
+            this.robot = c[9] ?? none;
+            this.outcome = c[10] ?? none;
+            this.first = first;
+            this.flights = this.start.length;
+            this.longest = 0;
+            for (const airtime of this.airtime) if (airtime > this.longest) this.longest = airtime;
+        }
+        /** @param {number} flight */
+        end(flight) { return this.start[flight] + this.airtime[flight]; }
+    }
+
+    const names = ["flights.start", "flights.airtime", "flights.sender", "flights.to", "flights.message", "flights.kind",
+        "flights.ttl", "flights.hops", "flights.count", "receptions.robot", "receptions.outcome"];
+
+    /** @param {Run} r @param {number} number */
+    async function read(r, number) {
+        const columns = await Promise.all(names.map(name => rvw.column(r.file, `${number}/${name}`)));
+        const flights = columns[0]?.length ?? 0, count = columns[8] ?? new Uint32Array(0);
+        if (columns.slice(1, 9).some(c => c.length !== flights)) rvw.refuse(`The view file is damaged: block ${number} has frames of different numbers.`);
+        const first = new Uint32Array(flights + 1);
+        for (let i = 0; i < flights; i++) first[i + 1] = first[i] + count[i];
+        const receptions = columns[9]?.length ?? 0;
+        if (first[flights] !== receptions || columns[10]?.length !== receptions) {
+            rvw.refuse(`The view file is damaged: block ${number} has another number of receptions than its frames.`);
+        }
+        const block = new Block(number, columns, first);
+        run.check_below(block.sender, r.robots, "flights.sender");
+        run.check_below(block.kind, r.head.frame_kinds.length, "flights.kind");
+        run.check_below(block.robot, r.robots, "receptions.robot");
+        run.check_below(block.outcome, head_check.outcomes, "receptions.outcome");
+        return block;
+    }
+
+    /** The blocks of a run; the last ones used are kept. */
+    class Blocks {
+        /** @param {Run} r */
+        constructor(r) {
+            this.run = r;
+            this.info = r.head.blocks;
+            /** @type {Map<number, Block>} */ this.kept = new Map();
+            /** @type {Map<number, Promise<Block>>} */ this.coming = new Map();
+            /** Kinds of frames that were met. @type {Set<number>} */ this.kinds = new Set();
+            /** Called when a block has come. @type {() => void} */ this.arrived = () => {};
+            /** @type {(error: Error) => void} */ this.failed = () => {};
+            /** Latest end of the blocks up to each. @type {number[]} */
+            this.until = [];
+            for (const info of this.info) this.until.push(Math.max(info.end_ns, this.until.at(-1) ?? 0));
+        }
+
+        /** @param {number} number @returns {Promise<Block>} */
+        load(number) {
+            const there = this.kept.get(number);
+            if (there) {
+                this.kept.delete(number);
+                this.kept.set(number, there);
+                return Promise.resolve(there);
+            }
+            const coming = this.coming.get(number) ?? read(this.run, number).then(block => {
+                this.kept.set(number, block);
+                for (const kind of block.kind) this.kinds.add(kind);
+                const oldest = this.kept.keys().next().value;
+                if (this.kept.size > most_kept && oldest !== undefined) this.kept.delete(oldest);
+                return block;
+            }).finally(() => this.coming.delete(number));
+            this.coming.set(number, coming);
+            return coming;
+        }
+
+        /** A block, if it is there; else it is on its way. @param {number} number @returns {Block|undefined} */
+        get(number) {
+            const there = this.kept.get(number);
+            if (!there && !this.coming.has(number)) this.load(number).then(() => this.arrived(), error => this.failed(error));
+            return there;
+        }
+
+        /** Block whose frames a time is among. @param {number} t */
+        at(t) {
+            let low = 0, high = this.info.length;
+            while (low < high) {
+                const middle = (low + high) >>> 1;
+                if (this.info[middle].begin_ns <= t) low = middle + 1; else high = middle;
+            }
+            return Math.max(0, low - 1);
+        }
+
+        /** Visits the frames on air between two times; true if all blocks were there. @param {number} from @param {number} to @param {(block: Block, flight: number) => boolean|void} visit returns false to stop */
+        between(from, to, visit) {
+            let whole = true;
+            for (let n = this.at(to); n >= 0 && this.until[n] >= from; n--) {
+                if (!this.info[n]) break;
+                const block = this.get(n);
+                whole = whole && block !== undefined;
+                if (!block) continue;
+                for (let i = run.count_until(block.start, from - block.longest - 1); i < block.flights && block.start[i] <= to; i++) {
+                    if (block.end(i) >= from && visit(block, i) === false) return whole;
+                }
+            }
+            return whole;
+        }
+    }
+
+    return { Block, Blocks };
+})();

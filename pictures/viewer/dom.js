@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Elements of the page. Texts are set as text only: names and payloads are foreign.
+const dom = (() => {
+    "use strict";
+
+    /** Element that the page has. @param {string} id @returns {HTMLElement} */
+    function by_id(id) {
+        const out = document.getElementById(id);
+        if (!out) throw new Error(`the page has no ${id}`);
+        return out;
+    }
+
+    /** @param {string} id @returns {HTMLCanvasElement} */
+    function canvas(id) { return /** @type {HTMLCanvasElement} */ (by_id(id)); }
+
+    /** @param {string} id @returns {HTMLInputElement} */
+    function input(id) { return /** @type {HTMLInputElement} */ (by_id(id)); }
+
+    /** @param {string} tag @param {string} kind class @param {(Node|string)[]} parts @returns {HTMLElement} */
+    function make(tag, kind, ...parts) {
+        const out = document.createElement(tag);
+        if (kind) out.className = kind;
+        out.append(...parts);
+        return out;
+    }
+
+    /** @param {string} text @param {string} kind @param {() => void} act @param {string} [label] */
+    function button(text, kind, act, label) {
+        const out = make("button", kind, text);
+        out.setAttribute("type", "button");
+        if (label) out.setAttribute("aria-label", label);
+        out.addEventListener("click", act);
+        return out;
+    }
+
+    /** Table of names and values. @param {[string, Node|string][]} rows */
+    function facts(rows) {
+        return make("dl", "facts", ...rows.flatMap(([name, value]) => [make("dt", "", name), make("dd", "", value)]));
+    }
+
+    /** Picture of a sign beside a text. @param {number} width @param {(c: CanvasRenderingContext2D) => void} draw */
+    function icon(width, draw) {
+        const out = /** @type {HTMLCanvasElement} */ (make("canvas", "icon"));
+        out.setAttribute("aria-hidden", "true");
+        const c = sized(out, width, 16);
+        draw(c);
+        return out;
+    }
+
+    /** @param {number} sign */
+    function sign(sign) { return icon(16, c => signs.draw(c, sign, 8, 8, 4)); }
+
+    /** Context of a canvas of that size in CSS pixels, cleared. @param {HTMLCanvasElement} of @param {number} width @param {number} height */
+    function sized(of, width, height) {
+        const ratio = window.devicePixelRatio || 1;
+        const w = Math.max(1, Math.round(width * ratio)), h = Math.max(1, Math.round(height * ratio));
+        if (of.width !== w || of.height !== h) {
+            of.width = w;
+            of.height = h;
+        }
+        of.style.width = `${width}px`;
+        of.style.height = `${height}px`;
+        const c = /** @type {CanvasRenderingContext2D} */ (of.getContext("2d"));
+        c.setTransform(ratio, 0, 0, ratio, 0, 0);
+        c.clearRect(0, 0, width, height);
+        return c;
+    }
+
+    /** @param {string} name @param {Blob} content */
+    function save(name, content) {
+        const link = document.createElement("a");
+        link.href = URL.createObjectURL(content);
+        link.download = name;
+        link.click();
+        setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+    }
+
+    return { by_id, canvas, input, make, button, facts, icon, sign, sized, save };
+})();

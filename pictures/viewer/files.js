@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Files that the page saves: the map as a picture, the events as a table.
+const files = (() => {
+    "use strict";
+    const most_rows = 1000000, margin = 16, heading = 52;
+
+    /** Name of a file from the run's. @param {Run} r @param {string} end */
+    function name(r, end) { return `${r.head.name.replace(/[^A-Za-z0-9._-]+/g, "_").slice(0, 60) || "run"}${end}`; }
+
+    /** @param {Run} r @param {State} state */
+    function picture(r, state) {
+        const map_canvas = dom.canvas("map"), { width, height } = camera.now, out = document.createElement("canvas");
+        const c = dom.sized(out, width + 2 * margin, height + heading + margin);
+        c.fillStyle = theme.colors().paper;
+        c.fillRect(0, 0, width + 2 * margin, height + heading + margin);
+        c.fillStyle = theme.colors().ink;
+        c.font = `bold 16px ${robots.font}`;
+        c.fillText(words.shortened(words.visible(r.head.name), 80), margin, 24);
+        c.font = `12px ${robots.font}`;
+        c.fillStyle = theme.colors().muted;
+        const length = camera.round_number(width / 6 / camera.now.scale), bar = length * camera.now.scale;
+        c.fillText(`t = ${words.seconds(state.t)} s`, margin, 42);
+        c.fillText(`${length} m`, margin + width - c.measureText(`${length} m`).width, 42);
+        c.fillRect(margin + width - bar - 50, 37, bar, 2);
+        c.drawImage(map_canvas, margin, heading, width, height);
+        c.strokeStyle = theme.colors().line;
+        c.strokeRect(margin, heading, width, height);
+        out.toBlob(blob => {
+            if (blob) dom.save(name(r, `-${Number((state.t / 1e9).toFixed(6))}s.png`), blob);
+        });
+    }
+
+    /** @param {string} text */
+    function cell(text) {
+        const safe = /^[=+\-@\t\r]/.test(text) ? `'${text}` : text;  // no formula for a spreadsheet
+        return /[",\n\r]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;
+    }
+
+    /** Events of the whole run that the filter lets through. @param {Run} r @param {Blocks} all @param {Filter} filter */
+    async function rows(r, all, filter) {
+        const out = ["time_s,event,robot,other,message,outcome\n"];
+        for (let n = 0; n < Math.max(1, all.info.length) && out.length <= most_rows; n++) {
+            const block = all.info[n]?.flights ? await all.load(n) : null, before = n > 0 ? await all.load(n - 1) : null;
+            const w = events.window_of(r, n, block, before);
+            for (const i of events.filtered(r, w, filter)) {
+                const { who, other, message, sign } = events.about(r, w, i), ns = w.time[i];
+                const time = `${Math.floor(ns / 1e9)}.${String(ns % 1e9).padStart(9, "0")}`;
+                out.push([time, events.kind_names[w.kind[i]], who >= 0 ? cell(r.name(who)) : "", other >= 0 && other < r.robots ? cell(r.name(other)) : "",
+                    message >= 0 && message < r.messages ? String(r.col("messages.uid")[message]) : "", sign >= 0 ? cell(signs.kinds[sign].text) : ""].join(",") + "\n");
+                if (out.length > most_rows) break;
+            }
+        }
+        return out;
+    }
+
+    /** @param {Run} r @param {Blocks} all @param {State} state */
+    async function table(r, all, state) { dom.save(name(r, "-events.csv"), new Blob(await rows(r, all, state.filter), { type: "text/csv" })); }
+
+    return { picture, table, rows };
+})();

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// Frames on air: a ring that grows from the sender, lines to the receivers, signs where they end.
+const flights = (() => {
+    "use strict";
+    const most_lines = 4000;
+    /** Wall time that a frame stays after its end, and that its ring takes at least [s]. */
+    const kept_s = 0.35, least_ring_s = 0.15;
+    const shades = 3;
+    const shown = { lines: 0, left_out: 0, frames: 0 };
+    const kind_colors = [0, 5, 3, 6, 1, 4];
+
+    /** Colour of a kind of frame. @param {number} kind */
+    function kind_color(kind) { return theme.category(kind_colors[kind % kind_colors.length] ?? 0); }
+
+    /** Lines and signs of one look, drawn together. @typedef {{lines: Path2D|null, ends: number[]}} Batch */
+
+    /** Share of the way that a frame has made, and its shade. @param {Block} block @param {number} flight @param {State} state */
+    function progress(block, flight, state) {
+        const start = block.start[flight], airtime = Math.max(1, block.airtime[flight]);
+        const shown_ns = state.playing && !theme.is_still() ? Math.max(airtime, least_ring_s * state.speed * run.nanoseconds) : airtime;
+        const way = Math.min(1, (state.t - start) / shown_ns);
+        const age = Math.max(0, (state.t - start - Math.max(airtime, shown_ns)) / (kept_s * state.speed * run.nanoseconds));
+        return { way, age, ended: state.t >= start + airtime && way >= 1 };
+    }
+
+    /** @param {CanvasRenderingContext2D} c @param {Blocks} all @param {State} state */
+    function draw(c, all, state) {
+        const { at } = robots, kept_ns = (kept_s + least_ring_s) * state.speed * run.nanoseconds;
+        shown.lines = shown.left_out = shown.frames = 0;
+        /** @type {Map<number, Batch>} */ const batches = new Map();
+        /** @param {number} sign @param {number} shade */
+        const batch = (sign, shade) => {
+            const key = sign * shades + shade;
+            let out = batches.get(key);
+            if (!out) batches.set(key, out = { lines: new Path2D(), ends: [] });
+            return out;
+        };
+        const on_air = all.between(state.t - kept_ns, state.t, (block, i) => {
+            const message = block.message[i];
+            if (state.message >= 0 && message !== state.message) return;
+            const { way, age, ended } = progress(block, i, state);
+            if (age > 1) return;
+            shown.frames++;
+            const from = block.sender[i], shade = Math.min(shades - 1, Math.floor(age * shades));
+            const x = at.x[from], y = at.y[from];
+            let longest = 0;
+            for (let k = block.first[i]; k < block.first[i + 1]; k++) {
+                const to = block.robot[k];
+                if (at.storey[from] !== state.storey && at.storey[to] !== state.storey) continue;
+                if (shown.lines >= most_lines) {
+                    shown.left_out++;
+                    continue;
+                }
+                shown.lines++;
+                const dx = at.x[to] - x, dy = at.y[to] - y;
+                longest = Math.max(longest, Math.hypot(dx, dy));
+                const { lines, ends } = batch(ended ? signs.of(block.outcome[k]) : signs.count, shade);
+                lines?.moveTo(x, y);
+                lines?.lineTo(x + dx * way, y + dy * way);
+                if (ended) ends.push(at.x[to], at.y[to]);
+            }
+            if (at.storey[from] === state.storey) ring(c, x, y, way, longest, age, kind_color(block.kind[i]));
+        });
+        for (const [key, { lines, ends }] of [...batches].sort((a, b) => b[0] - a[0])) {
+            const sign = Math.floor(key / shades), strength = 1 - (key % shades) / shades;
+            stroke(c, lines, ends, sign, strength, shown.lines > 600);
+        }
+        return on_air;
+    }
+
+    /** @param {CanvasRenderingContext2D} c @param {number} x @param {number} y @param {number} way @param {number} longest @param {number} age @param {string} color */
+    function ring(c, x, y, way, longest, age, color) {
+        c.globalAlpha = 0.6 * (1 - age);
+        c.beginPath();
+        c.arc(x, y, 8 + Math.max(14, longest) * (theme.is_still() ? 0.1 : way), 0, 2 * Math.PI);
+        c.strokeStyle = color;
+        c.lineWidth = 1.2;
+        c.stroke();
+        c.globalAlpha = 1;
+    }
+
+    /** @param {CanvasRenderingContext2D} c @param {Path2D|null} lines @param {number[]} ends x and y of each @param {number} sign @param {number} strength @param {boolean} crowded */
+    function stroke(c, lines, ends, sign, strength, crowded) {
+        const under_way = sign >= signs.count;
+        const color = under_way ? theme.colors().muted : signs.color(sign);
+        if (lines) {
+            c.globalAlpha = strength * (crowded ? 0.5 : 0.85);
+            c.strokeStyle = color;
+            c.lineWidth = crowded ? 1 : 1.6;
+            c.setLineDash(under_way ? [4, 3] : []);
+            c.stroke(lines);
+            c.setLineDash([]);
+        }
+        if (under_way) return;
+        c.globalAlpha = strength;
+        for (const [style, width] of /** @type {[string, number][]} */ ([[theme.colors().paper, 4.5], [color, 2]])) {
+            c.beginPath();
+            for (let i = 0; i < ends.length; i += 2) signs.outline(c, sign, ends[i] + 9, ends[i + 1] - 9, 4);
+            c.strokeStyle = style;
+            c.lineWidth = width;
+            c.stroke();
+        }
+        c.globalAlpha = 1;
+    }
+
+    return { draw, shown, kind_color };
+})();

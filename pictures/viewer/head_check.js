@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Check of a view file's head: whatever passes can be drawn.
+/** @typedef {(v: any) => boolean} Test */
+const head_check = (() => {
+    "use strict";
+    const outcomes = 16;
+
+    /** @type {Test} */ const text = v => typeof v === "string";
+    /** @type {Test} */ const number = v => typeof v === "number" && Number.isFinite(v) && Math.abs(v) < 1e15;
+    /** @type {Test} */ const count = v => Number.isSafeInteger(v) && v >= 0;
+    /** @type {Test} */ const color = v => typeof v === "string" && /^#[0-9a-f]{6}$/i.test(v);
+    /** @param {Test} of @param {number} [least] @returns {Test} */
+    const list = (of, least = 0) => v => Array.isArray(v) && v.length >= least && v.every(of);
+    /** @param {Record<string, Test>} keys @returns {Test} */
+    const object = keys => v => v !== null && typeof v === "object" && Object.keys(keys).every(k => keys[k]?.(v[k]));
+
+    const door = object({ name: text, floor: number, x0: number, y0: number, x1: number, y1: number });
+    const stairs = object({ foot: list(number, 3), head: list(number, 3) });
+    /** @type {Record<string, Test>} */
+    const parts = {
+        name: text,
+        version: text,
+        duration_ns: count,
+        robots: list(object({ name: text, radius: number })),
+        map: object({
+            bounds: list(number, 4), floors: list(number, 1), materials: list(object({ name: text, style: count })),
+            doors: list(door), stairs: list(stairs)
+        }),
+        colors: object({
+            category: list(color, 1), lagoon: list(color, 2), ember: list(color, 2),
+            walls: list(object({ color, hatch: v => v === null || text(v) }), 1),
+            door: color, stairs: color, robot: color, outcomes: list(color, outcomes)
+        }),
+        outcomes: list(text, outcomes),
+        drops: list(object({ code: text, layer: text, text })),
+        frame_kinds: list(text, 1),
+        message_kinds: list(text, 1),
+        flows: list(text, 1),
+        blocks: list(object({ begin_ns: count, end_ns: count, flights: count, receptions: count })),
+        counts: object({ flights: count, receptions: count, messages: count, outcomes: list(count) }),
+        density: list(object({ bins: v => count(v) && v > 0, width_ns: v => count(v) && v > 0 })),
+        thinned: list(text),
+        damage: list(text),
+        follow: list(object({ message: count, robot: count, outcome: text, text })),
+        sections: list(object({ name: text }))
+    };
+
+    /** Name of the first part that is missing or wrong, or "". @param {any} head */
+    function fault(head) {
+        return Object.keys(parts).find(key => !parts[key]?.(head[key])) ?? "";
+    }
+
+    return { fault, outcomes };
+})();

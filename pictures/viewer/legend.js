@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Legend below the map: what is seen, and what it means.
+const legend = (() => {
+    "use strict";
+    let last = "";
+
+    /** @param {number} width @param {(c: CanvasRenderingContext2D) => void} draw @param {string} text @param {string} [hint] */
+    function item(width, draw, text, hint) {
+        const out = dom.make("span", "item", dom.icon(width, draw), text);
+        if (hint) out.title = hint;
+        return out;
+    }
+
+    function scale_bar() {
+        const { width, scale } = camera.now, length = camera.round_number(width / 6 / scale), px = Math.max(2, length * scale);
+        const text = length >= 1000 ? `${length / 1000} km` : length >= 1 ? `${length} m` : `${words.number(length * 100)} cm`;
+        return item(px + 2, c => {
+            c.strokeStyle = theme.colors().ink;
+            c.lineWidth = 2;
+            c.beginPath();
+            c.moveTo(1, 4);
+            c.lineTo(1, 12);
+            c.moveTo(1, 8);
+            c.lineTo(px + 1, 8);
+            c.moveTo(px + 1, 4);
+            c.lineTo(px + 1, 12);
+            c.stroke();
+        }, text);
+    }
+
+    /** @param {Run} r @param {number} storey @returns {HTMLElement[]} */
+    function places(r, storey) {
+        const out = [], place = r.head.map, used = new Set(r.col("walls.material"));
+        if (used.size > 1) {
+            for (const number of [...used].slice(0, 12)) {
+                const { name, style } = place.materials[number] ?? { name: "wall", style: 0 };
+                out.push(item(18, c => {
+                    c.fillStyle = map.wall_fill(c, style);
+                    c.fillRect(0.5, 3.5, 17, 9);
+                    c.strokeStyle = theme.colors().line;
+                    c.strokeRect(0.5, 3.5, 17, 9);
+                }, words.shortened(words.visible(name), 24)));
+            }
+        }
+        if (place.doors.length) {
+            out.push(item(20, c => map.door(c, 1, 8, 19, 8, false), "open door"), item(20, c => map.door(c, 1, 8, 19, 8, true), "closed door"));
+        }
+        if (place.stairs.length) out.push(item(26, c => map.stairs(c, 0, 8, 26, 8), "stairs, up"));
+        return out;
+    }
+
+    /** @param {Run} r @param {State} state @returns {HTMLElement[]} */
+    function marks(r, state) {
+        const ink = theme.colors().ink, out = [];
+        const some_off = r.col("states.what").includes(0);
+        out.push(item(20, c => robots.disc(c, 8, 8, 5, ink, true, false, 0), "robot and heading"));
+        if (some_off) out.push(item(16, c => robots.disc(c, 8, 8, 5, ink, false, false, null), "switched off"));
+        if (state.trails && r.robots <= 200) {
+            out.push(item(24, c => {
+                c.strokeStyle = theme.category(0);
+                c.lineWidth = 1.5;
+                c.beginPath();
+                c.moveTo(0, 11);
+                c.lineTo(10, 5);
+                c.lineTo(24, 8);
+                c.stroke();
+            }, "trail of 10 s"));
+        }
+        return out;
+    }
+
+    /** @param {Run} r @param {Blocks} all @returns {HTMLElement[]} */
+    function frames(r, all) {
+        /** @type {HTMLElement[]} */ const out = [];
+        const counts = new Array(signs.count).fill(0);
+        r.head.counts.outcomes.forEach((n, outcome) => counts[signs.of(outcome)] += n);
+        if (r.head.counts.flights === 0) return out;
+        for (const kind of [...all.kinds].sort((x, y) => x - y)) {
+            const name = r.head.frame_kinds[kind];
+            out.push(item(18, c => {
+                c.strokeStyle = flights.kind_color(kind);
+                c.lineWidth = 1.5;
+                c.beginPath();
+                c.arc(9, 8, 6, 0, 2 * Math.PI);
+                c.stroke();
+            }, `${name} on air`, "The ring grows from the sender while the frame is on the air"));
+        }
+        counts.forEach((n, sign) => {
+            if (n > 0) out.push(item(16, c => signs.draw(c, sign, 8, 8, 4), signs.kinds[sign].text, `${words.count(n)} receptions of the run`));
+        });
+        return out;
+    }
+
+    /** @param {Run} r @param {Blocks} all @param {State} state */
+    function draw(r, all, state) {
+        const key = [camera.now.scale, camera.now.width, state.storey, state.trails, theme.is_dark(), devicePixelRatio, all.kinds.size, coverage.version(), message_panel.version()].join(" ");
+        if (key === last) return;
+        last = key;
+        dom.by_id("legend").replaceChildren(scale_bar(), ...places(r, state.storey), ...marks(r, state), ...frames(r, all), ...message_panel.legend(item), ...coverage.legend(item));
+    }
+
+    return { draw };
+})();

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// List of events: only the rows that are in sight are elements. Its first row is the last event until now.
+const list = (() => {
+    "use strict";
+    const row_height = 22, spare = 6;
+    const highest = 8e6;  // [px] that browsers lay out exactly
+    /** @type {{run: Run, blocks: Blocks, window: EventList|null, rows: Uint32Array, filter: Filter|null, parts: string}} */
+    const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), window: null, rows: new Uint32Array(0), filter: null, parts: "" };
+
+    /** Takes the events around a time; false if they are still on their way. @param {number} t */
+    function update(t) {
+        const { run: r, blocks: all } = own, number = all.at(t), some = all.info.length > 0 && all.info[number].flights > 0;
+        const block = some ? all.get(number) : null, before = number > 0 ? all.get(number - 1) : null;
+        if (block === undefined || before === undefined) return false;
+        const parts = `${number}`;
+        if (own.parts !== parts || !own.window) {
+            own.window = events.window_of(r, number, block, before);
+            own.parts = parts;
+            own.filter = null;
+        }
+        if (own.filter !== selection.state.filter) {
+            own.filter = selection.state.filter;
+            own.rows = events.filtered(r, own.window, own.filter);
+            rendered.first = -1;
+        }
+        return true;
+    }
+
+    /** Index of the last row until a time, -1 if there is none. @param {number} t */
+    function row_at(t) {
+        const { rows, window: w } = own;
+        if (!w) return -1;
+        let low = 0, high = rows.length;
+        while (low < high) {
+            const middle = (low + high) >>> 1;
+            if (w.time[rows[middle]] <= t) low = middle + 1; else high = middle;
+        }
+        return low - 1;
+    }
+
+    const rendered = { first: -1, current: -2, shift: 0 };
+
+    /** @param {number} i row @param {number} current @param {number} shift [px] */
+    function row(i, current, shift) {
+        const { run: r, rows } = own, w = /** @type {EventList} */ (own.window), event = rows[i];
+        const { sign } = events.about(r, w, event);
+        const mark = dom.make("span", "mark", sign >= 0 ? signs.kinds[sign].mark : w.kind[event] === events.frame ? "\u2197" : "");
+        if (sign >= 0) mark.style.color = signs.color(sign);
+        const out = dom.make("div", "row", dom.make("span", "when", words.seconds(w.time[event])), mark,
+            dom.make("span", "what", events.text(r, w, event)));
+        out.setAttribute("role", "option");
+        out.id = `event${i}`;
+        out.setAttribute("aria-selected", String(i === current));
+        out.title = `${words.seconds(w.time[event], 9)} s: ${events.text(r, w, event)}`;
+        out.style.transform = `translateY(${i * row_height - shift}px)`;
+        if (w.time[event] > selection.state.t) out.classList.add("later");
+        return out;
+    }
+
+    /** @param {boolean} follow whether the current event comes to the top */
+    function draw(follow) {
+        const box = dom.by_id("events"), space = dom.by_id("events-space"), { t } = selection.state;
+        if (!update(t)) return;
+        const current = row_at(t), height = box.clientHeight, total = own.rows.length * row_height + Math.max(0, height - row_height);
+        const room = Math.min(highest, total), ratio = Math.max(1, total - height) / Math.max(1, room - height);
+        space.style.height = `${room}px`;
+        if (follow && current !== rendered.current) box.scrollTop = Math.max(0, current) * row_height / ratio;
+        const offset = box.scrollTop * ratio, shift = offset - box.scrollTop;
+        const first = Math.max(0, Math.floor(offset / row_height) - spare);
+        const last = Math.min(own.rows.length, first + Math.ceil(height / row_height) + 2 * spare);
+        if (first !== rendered.first || current !== rendered.current || shift !== rendered.shift) {
+            space.replaceChildren(...Array.from({ length: Math.max(0, last - first) }, (_, i) => row(first + i, current, shift)));
+            Object.assign(rendered, { first, current, shift });
+        }
+        if (current >= first && current < last) box.setAttribute("aria-activedescendant", `event${current}`);
+        else box.removeAttribute("aria-activedescendant");
+        const part = own.blocks.info.length > 1 ? `, part ${own.blocks.at(t) + 1} of ${own.blocks.info.length} of the run` : "";
+        dom.by_id("events-count").textContent = own.rows.length === 0
+            ? "no event passes the filter" + part
+            : `${words.counted(own.rows.length, "event")}${part}`;
+    }
+
+    /** Goes to the next event that passes, or to the one before. @param {1|-1} direction @param {(event: number, w: EventList) => boolean} [passes] */
+    async function step(direction, passes = () => true) {
+        const { run: r, blocks: all } = own, t = selection.state.t;
+        for (let n = all.at(t); n >= 0 && n < Math.max(1, all.info.length); n += direction) {
+            const block = all.info[n]?.flights ? await all.load(n) : null, before = n > 0 ? await all.load(n - 1) : null;
+            const w = own.window?.number === n ? own.window : events.window_of(r, n, block, before);
+            const rows = own.window === w ? own.rows : events.filtered(r, w, selection.state.filter);
+            for (let i = direction > 0 ? 0 : rows.length - 1; i >= 0 && i < rows.length; i += direction) {
+                const away = (w.time[rows[i]] - t) * direction;
+                if (away > 0 && passes(rows[i], w)) return clock.seek(w.time[rows[i]]);
+            }
+        }
+    }
+
+    /** @param {MouseEvent} event */
+    function clicked(event) {
+        const target = event.target instanceof Element ? event.target.closest(".row") : null;
+        if (!target || !own.window) return;
+        const at = own.rows[Number(target.id.slice(5))], { message, who } = events.about(own.run, own.window, at);
+        clock.seek(own.window.time[at]);
+        if (event.detail === 2 && message >= 0 && message < own.run.messages) selection.set({ message, panel: "message" });
+        else if (who >= 0) selection.choose(who);
+    }
+
+    /** @param {Run} r @param {Blocks} all */
+    function begin(r, all) {
+        own.run = r;
+        own.blocks = all;
+        dom.by_id("events").addEventListener("scroll", () => draw(false));
+        dom.by_id("events").addEventListener("click", clicked);
+    }
+
+    /** First row in sight and the one of the time, for tests. */
+    function seen() {
+        const current = row_at(selection.state.t), w = own.window;
+        return current < 0 || !w ? null : { time: w.time[own.rows[current]], text: events.text(own.run, w, own.rows[current]), rows: own.rows.length };
+    }
+
+    return { begin, draw, step, seen, own };
+})();

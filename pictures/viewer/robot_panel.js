@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// Inspector of a robot: where it is, its radio, what it did, whom it hears.
+const robot_panel = (() => {
+    "use strict";
+    const most_messages = 50;
+    /** @type {Pose} */ const pose = { x: 0, y: 0, z: 0, vx: 0, vy: 0, heading: 0 };
+    /** @type {{run: Run, blocks: Blocks, robot: number, counts: Uint32Array|null, sent: Uint32Array|null, read: number, messages: string, asked: HTMLElement|null}} */
+    const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), robot: -2, counts: null, sent: null, read: 0, messages: "", asked: null };
+
+    /** Counts frames and receptions of all robots, block by block. */
+    async function count() {
+        if (own.counts) return;
+        const n = own.run.robots, counts = own.counts = new Uint32Array(n * signs.count), sent = own.sent = new Uint32Array(n);
+        for (own.read = 0; own.read < own.blocks.info.length; own.read++) {
+            const block = await own.blocks.load(own.read);
+            for (const sender of block.sender) sent[sender]++;
+            for (let k = 0; k < block.robot.length; k++) counts[block.robot[k] * signs.count + signs.of(block.outcome[k])]++;
+        }
+        own.robot = -2;
+        update(selection.state);
+    }
+
+    /** @param {number} robot @param {State} state @returns {[string, Node|string][]} */
+    function place(robot, state) {
+        const r = own.run, { on, word } = r.state(robot, state.t);
+        r.pose(robot, state.t, pose);
+        const speed = Math.hypot(pose.vx, pose.vy), degrees = ((pose.heading * 180 / Math.PI) % 360 + 360) % 360;
+        const out = /** @type {[string, Node|string][]} */ ([
+            ["place", `${pose.x.toFixed(2)} m, ${pose.y.toFixed(2)} m${r.legs.z ? `, ${pose.z.toFixed(2)} m` : ""}`],
+            ["heading", `${degrees.toFixed(0)}\u00b0`],
+            ["speed", `${speed.toFixed(2)} m/s`],
+            ["state", [on ? "on" : "off", word].filter(Boolean).join(", ")]
+        ]);
+        if (r.head.map.floors.length > 1) out.splice(1, 0, ["storey", `${r.storey(pose.z) + 1} of ${r.head.map.floors.length}`]);
+        return out;
+    }
+
+    /** @param {number} robot @returns {[string, Node|string][]} */
+    function radio(robot) {
+        const { model, power_dbm, sensitivity_dbm, antenna_z } = own.run.head.robots[robot];
+        /** @type {[string, Node|string][]} */ const out = [["model", words.visible(String(model))]];
+        if (typeof power_dbm === "number") out.push(["power", `${words.number(power_dbm, 4)} dBm`]);
+        if (typeof sensitivity_dbm === "number") out.push(["sensitivity", `${words.number(sensitivity_dbm, 4)} dBm`]);
+        if (typeof antenna_z === "number") out.push(["antenna", `${words.number(antenna_z, 3)} m up`]);
+        return out;
+    }
+
+    /** @param {number} robot @returns {HTMLElement} */
+    function counters(robot) {
+        const { counts, sent } = own;
+        if (!counts || !sent) return dom.make("p", "muted", "counting \u2026");
+        if (own.read < own.blocks.info.length) return dom.make("p", "muted", `counting, part ${own.read + 1} of ${own.blocks.info.length} \u2026`);
+        const rows = signs.kinds.map((kind, sign) => ({ kind, sign, n: counts[robot * signs.count + sign] })).filter(row => row.n > 0);
+        return dom.make("ul", "plain", dom.make("li", "", dom.make("span", "icon", "\u2197"), `${words.counted(sent[robot], "frame")} sent`),
+            ...rows.map(({ kind, sign, n }) => dom.make("li", "", dom.sign(sign), `${words.count(n)} ${kind.text}`)));
+    }
+
+    /** Messages that this robot sent or got until now, the last first. @param {number} robot @param {number} t @returns {number[]} */
+    function recent(robot, t) {
+        const w = list.own.window;
+        if (!w) return [];
+        const out = new Set();
+        for (let i = run.count_until(w.time, t) - 1; i >= 0 && out.size < most_messages; i--) {
+            const { who, message } = events.about(own.run, w, i);
+            if (who === robot && message >= 0 && message < own.run.messages) out.add(message);
+        }
+        return [...out];
+    }
+
+    /** @param {number} robot @param {State} state */
+    function messages(robot, state) {
+        const some = recent(robot, state.t), key = `${robot} ${some.join(" ")}`;
+        if (key === own.messages) return;
+        own.messages = key;
+        const r = own.run, rows = some.map(message => dom.make("li", "",
+            dom.button(r.message_text(message), "link", () => selection.set({ message, panel: "message" })),
+            dom.make("span", "muted", ` of ${words.shortened(words.visible(r.name(r.col("messages.origin")[message])), 20)}, ${words.seconds(r.col("messages.created")[message], 3)} s`)));
+        dom.by_id("robot-messages").replaceChildren(...(rows.length ? rows : [dom.make("li", "muted", "none until now")]));
+    }
+
+    /** @param {number} robot */
+    function ask(robot) {
+        const place = dom.by_id("robot-neighbours");
+        place.textContent = "\u2026";
+        server.ask("robot", { robot, t_ns: selection.state.t }).then(answer => {
+            const rows = Array.isArray(answer.links) ? answer.links : [];
+            place.replaceChildren(rows.length ? tables.of(rows, ["robot", "level_dbm", "margin_db", "noise_dbm", "quality"]) : dom.make("p", "muted", "nobody hears it"));
+        }, error => place.textContent = error.message);
+    }
+
+    /** @param {number} robot */
+    function build(robot) {
+        const place = dom.make("div", "facts-place"), found = dom.make("ul", "plain"), neighbours = dom.make("div", "");
+        place.id = "robot-place";
+        found.id = "robot-messages";
+        neighbours.id = "robot-neighbours";
+        neighbours.append(dom.make("p", "muted", server.is_served() ? "asked at the time shown" : server.how));
+        const actions = dom.make("p", "actions", dom.button("its events", "", () => selection.set({ filter: { ...selection.state.filter, robot }, panel: "events" })),
+            dom.button("coverage", "", () => coverage.toggle(robot)));
+        const title = dom.make("h3", "", "Neighbours");
+        if (server.is_served()) title.append(" ", dom.button("ask", "small", () => ask(robot), "ask for neighbours"));
+        dom.by_id("robot-panel").replaceChildren(dom.make("h2", "", words.shortened(words.visible(own.run.name(robot)), 60)), place, actions,
+            dom.make("h3", "", "In the whole run"), counters(robot),
+            dom.make("h3", "", "Radio"), dom.facts(radio(robot)), title, neighbours,
+            dom.make("h3", "", `Last messages until now`), found);
+        own.messages = "";
+    }
+
+    /** @param {State} state */
+    function update(state) {
+        const robot = state.robots[state.robots.length - 1] ?? -1;
+        if (state.panel !== "robot") return;
+        if (robot !== own.robot) {
+            own.robot = robot;
+            if (robot < 0) {
+                dom.by_id("robot-panel").replaceChildren(dom.make("p", "", "Choose a robot: by a click on the map, or by its name in the search."));
+                return;
+            }
+            build(robot);
+            count();
+        }
+        if (robot < 0) return;
+        dom.by_id("robot-place").replaceChildren(dom.facts(place(robot, state)));
+        messages(robot, state);
+    }
+
+    /** @param {Run} r @param {Blocks} all */
+    function begin(r, all) {
+        own.run = r;
+        own.blocks = all;
+    }
+
+    return { begin, update };
+})();

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// Robots at the time shown, their names and trails.
+const robots = (() => {
+    "use strict";
+    const least_radius = 4, beyond = 5;                 // [px]
+    const most_named = 400, most_trails = 200, many = 1500;
+    const trail_ns = 10e9;
+    /** @type {Pose} */ const pose = { x: 0, y: 0, z: 0, vx: 0, vy: 0, heading: 0 };
+
+    /** Places of all robots [px] at the time of the last call of `place`. */
+    const at = { t: -1, x: new Float64Array(0), y: new Float64Array(0), heading: new Float64Array(0), storey: new Uint8Array(0), on: new Uint8Array(0) };
+
+    /** @param {Run} r @param {number} t */
+    function place(r, t) {
+        if (at.x.length !== r.robots) {
+            for (const key of /** @type {const} */ (["x", "y", "heading"])) at[key] = new Float64Array(r.robots);
+            at.storey = new Uint8Array(r.robots);
+            at.on = new Uint8Array(r.robots);
+        }
+        const storeys = r.head.map.floors.length > 1;
+        for (let i = 0; i < r.robots; i++) {
+            r.pose(i, t, pose);
+            at.x[i] = camera.to_x(pose.x);
+            at.y[i] = camera.to_y(pose.y);
+            at.heading[i] = pose.heading;
+            at.storey[i] = storeys ? r.storey(pose.z) : 0;
+            at.on[i] = 1;
+        }
+        for (const robot of r.states.keys()) at.on[robot] = r.state(robot, t).on ? 1 : 0;
+        at.t = t;
+    }
+
+    /** @param {Run} r @param {number} i */
+    function radius(r, i) { return Math.max(least_radius, r.head.robots[i].radius * camera.now.scale); }
+
+    /** @param {number} i @param {number} room [px] around it */
+    function in_view(i, room) {
+        return at.x[i] > -room && at.y[i] > -room && at.x[i] < camera.now.width + room && at.y[i] < camera.now.height + room;
+    }
+
+    /** Places of a robot in the seconds before, as a line. @param {CanvasRenderingContext2D} c @param {Run} r @param {number} robot @param {State} state */
+    function trail(c, r, robot, state) {
+        const from = Math.max(0, state.t - trail_ns), { start } = r.legs, first = r.leg(robot, from), last = r.leg(robot, state.t);
+        let drawn = false;
+        /** @param {number} t */
+        const go = t => {
+            r.pose(robot, t, pose);
+            const here = r.storey(pose.z) === state.storey, x = camera.to_x(pose.x), y = camera.to_y(pose.y);
+            if (here && drawn) c.lineTo(x, y); else c.moveTo(x, y);
+            drawn = here;
+        };
+        go(from);
+        for (let leg = first + 1; leg <= last; leg++) go(start[leg]);
+        go(state.t);
+    }
+
+    /** @param {CanvasRenderingContext2D} c @param {Run} r @param {State} state */
+    function trails(c, r, state) {
+        const shown = state.trails && r.robots <= most_trails ? [...Array(r.robots).keys()] : state.robots;
+        for (const robot of shown) {
+            c.beginPath();
+            trail(c, r, robot, state);
+            c.globalAlpha = 0.75;
+            c.strokeStyle = theme.category(robot);
+            c.lineWidth = 1.5;
+            c.stroke();
+            c.globalAlpha = 1;
+        }
+    }
+
+    /** @param {CanvasRenderingContext2D} c @param {number} x @param {number} y @param {number} r @param {string} rim @param {boolean} on @param {boolean} chosen @param {number|null} heading */
+    function disc(c, x, y, r, rim, on, chosen, heading) {
+        const colors = theme.colors();
+        c.beginPath();
+        c.arc(x, y, r, 0, 2 * Math.PI);
+        if (on || chosen) {
+            c.fillStyle = chosen ? colors.chosen : colors.disc;
+            c.fill();
+        }
+        c.strokeStyle = rim;
+        c.lineWidth = on ? 2.2 : 1.4;
+        c.setLineDash(on ? [] : [2, 2]);
+        c.stroke();
+        c.setLineDash([]);
+        if (!on || heading === null) return;
+        const tx = x + (r + beyond) * Math.cos(heading), ty = y - (r + beyond) * Math.sin(heading);
+        for (const [style, width] of /** @type {[string, number][]} */ ([[colors.paper, 4.2], [colors.ink, 2]])) {
+            c.beginPath();
+            c.moveTo(x, y);
+            c.lineTo(tx, ty);
+            c.strokeStyle = style;
+            c.lineWidth = width;
+            c.lineCap = "round";
+            c.stroke();
+        }
+        c.lineCap = "butt";
+    }
+
+    /** Thousands of robots as squares in one go. @param {CanvasRenderingContext2D} c @param {State} state */
+    function swarm(c, state) {
+        const size = 2 * least_radius - 2;
+        for (const on of [1, 0]) {
+            c.fillStyle = on ? theme.category(0) : theme.colors().off;
+            for (let i = 0; i < at.x.length; i++) {
+                if (at.on[i] === on && at.storey[i] === state.storey && in_view(i, size)) c.fillRect(at.x[i] - size / 2, at.y[i] - size / 2, size, size);
+            }
+        }
+    }
+
+    /** Names that find room beside their robots: right, left, above or below. @param {CanvasRenderingContext2D} c @param {Run} r @param {number[]} shown */
+    function names(c, r, shown) {
+        const size = shown.length > 60 ? 9 : 12;
+        /** @type {number[][]} */ const taken = shown.map(i => [at.x[i] - 5, at.y[i] - 5, at.x[i] + 5, at.y[i] + 5]);
+        c.font = `${size}px ${font}`;
+        c.textBaseline = "middle";
+        c.lineJoin = "round";
+        for (const i of shown) {
+            const text = words.shortened(words.visible(r.name(i)), 24), width = c.measureText(text).width, reach = radius(r, i) + 6, half = size / 2 + 1;
+            const { [i]: x } = at.x, { [i]: y } = at.y;
+            const places = [[x + reach, y], [x - reach - width, y], [x - width / 2, y - reach - half], [x - width / 2, y + reach + half]];
+            const free = places.find(([left, middle]) => taken.every(b => left >= b[2] || left + width <= b[0] || middle - half >= b[3] || middle + half <= b[1]));
+            if (!free) continue;
+            taken.push([free[0], free[1] - half, free[0] + width, free[1] + half]);
+            c.strokeStyle = theme.colors().paper;
+            c.lineWidth = 3.5;
+            c.strokeText(text, free[0], free[1]);
+            c.fillStyle = theme.colors().ink;
+            c.fillText(text, free[0], free[1]);
+        }
+    }
+    const font = "'DejaVu Sans', Verdana, Helvetica, Arial, sans-serif";
+
+    /** @param {CanvasRenderingContext2D} c @param {Run} r @param {State} state */
+    function draw(c, r, state) {
+        /** @type {number[]} */ const shown = [];
+        for (let i = 0; i < r.robots && shown.length <= many; i++) {
+            if (at.storey[i] === state.storey && in_view(i, 40)) shown.push(i);
+        }
+        const colored = state.trails && r.robots <= most_trails;
+        if (shown.length > many) {
+            swarm(c, state);
+        } else {
+            for (const i of shown) {
+                const rim = colored ? theme.category(i) : theme.colors().ink;
+                disc(c, at.x[i], at.y[i], radius(r, i), rim, at.on[i] === 1, false, at.heading[i]);
+            }
+        }
+        for (const i of state.robots) {
+            const rim = colored ? theme.category(i) : theme.colors().ink;
+            if (at.storey[i] === state.storey) disc(c, at.x[i], at.y[i], radius(r, i) + 1, rim, at.on[i] === 1, true, at.heading[i]);
+        }
+        const here = shown.length > many ? state.robots.filter(i => at.storey[i] === state.storey) : shown;
+        if (here.length <= most_named) names(c, r, [...state.robots.filter(i => here.includes(i)), ...here.filter(i => !state.robots.includes(i))]);
+    }
+
+    /** Robot at a pixel, or -1. @param {Run} r @param {number} px @param {number} py @param {number} storey */
+    function near(r, px, py, storey) {
+        let best = -1, nearest = Infinity;
+        for (let i = 0; i < at.x.length; i++) {
+            if (at.storey[i] !== storey) continue;
+            const away = Math.hypot(at.x[i] - px, at.y[i] - py);
+            if (away < nearest && away <= radius(r, i) + 6) [best, nearest] = [i, away];
+        }
+        return best;
+    }
+
+    return { at, place, trails, draw, near, disc, font };
+})();

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+// Run as data: places and states of robots and doors at any time.
+/** @typedef {{x: number, y: number, z: number, vx: number, vy: number, heading: number}} Pose */
+/** @typedef {InstanceType<typeof run.Run>} Run */
+const run = (() => {
+    "use strict";
+
+    const nanoseconds = 1e9;
+    /** Height above which a robot counts to the storey above [m] below its floor. */
+    const floor_slack = 0.01;
+
+    /** Number of values at or before v in a sorted column. @param {Numbers} sorted @param {number} v @param {number} low @param {number} high */
+    function count_until(sorted, v, low = 0, high = sorted.length) {
+        while (low < high) {
+            const middle = (low + high) >>> 1;
+            if (sorted[middle] <= v) low = middle + 1; else high = middle;
+        }
+        return low;
+    }
+
+    /** @param {Numbers} column @param {number} below @param {string} what */
+    function check_below(column, below, what) {
+        for (let i = 0; i < column.length; i++) {
+            if (column[i] >= below) rvw.refuse(`The view file is damaged: ${what} ${i} is out of range.`);
+        }
+    }
+
+    class Run {
+        /** @param {ViewFile} file @param {Record<string, Numbers>} columns @param {(i: number) => string} payload */
+        constructor(file, columns, payload) {
+            this.file = file;
+            this.head = file.head;
+            this.columns = columns;
+            this.payload = payload;
+            this.robots = file.head.robots.length;
+            this.nobody = this.robots < 65535 ? 65535 : 4294967295;
+            this.messages = this.col("messages.uid").length;
+            this.no_message = this.messages < 65535 ? 65535 : 4294967295;
+            this.duration = file.head.duration_ns;
+            this.legs = {
+                first: this.col("legs.first"), start: this.col("legs.start"), end: this.col("legs.end"),
+                x: this.col("legs.x"), y: this.col("legs.y"), vx: this.col("legs.vx"), vy: this.col("legs.vy"),
+                heading: this.col("legs.heading"), turning: this.col("legs.turning"),
+                z: columns["legs.z"] ?? null, vz: columns["legs.vz"] ?? null
+            };
+            /** Last leg asked for of each robot, from its first. */
+            this.hint = new Uint32Array(this.robots);
+            this.states = this.changes_by_robot();
+            /** @type {Map<number, number>} */ this.by_uid = new Map();
+            this.col("messages.uid").forEach((uid, i) => this.by_uid.set(uid, i));
+        }
+
+        /** @param {string} name @returns {Numbers} */
+        col(name) {
+            return this.columns[name] ?? rvw.refuse(`The view file is damaged: the column ${name} is missing.`);
+        }
+
+        changes_by_robot() {
+            const robot = this.col("states.robot"), what = this.col("states.what"), time = this.col("states.time");
+            /** @type {Map<number, {at: number, what: number}[]>} */
+            const out = new Map();
+            for (let i = 0; i < robot.length; i++) {
+                const r = robot[i];
+                const of_robot = out.get(r) ?? [];
+                of_robot.push({ at: time[i], what: what[i] });
+                out.set(r, of_robot);
+            }
+            return out;
+        }
+
+        /** Index of the leg of a robot at a time. @param {number} robot @param {number} t */
+        leg(robot, t) {
+            const { first, start } = this.legs;
+            const low = first[robot], high = first[robot + 1];
+            let leg = low + this.hint[robot];
+            const fits = leg < high && start[leg] <= t && (leg + 1 >= high || start[leg + 1] > t);
+            if (!fits) leg = Math.max(low, count_until(start, t, low, high) - 1);
+            this.hint[robot] = leg - low;
+            return leg;
+        }
+
+        /** Place of a robot at a time [ns]. @param {number} robot @param {number} t @param {Pose} out */
+        pose(robot, t, out) {
+            const legs = this.legs, leg = this.leg(robot, t);
+            const start = legs.start[leg], end = legs.end[leg];
+            const passed = Math.max(0, Math.min(t, end) - start) / nanoseconds;
+            const moves = t >= start && t < end;
+            out.x = legs.x[leg] + legs.vx[leg] * passed;
+            out.y = legs.y[leg] + legs.vy[leg] * passed;
+            out.z = legs.z && legs.vz ? legs.z[leg] + legs.vz[leg] * passed : 0;
+            out.heading = legs.heading[leg] + legs.turning[leg] * passed;
+            out.vx = moves ? legs.vx[leg] : 0;
+            out.vy = moves ? legs.vy[leg] : 0;
+            return out;
+        }
+
+        /** What became of a robot until a time. @param {number} robot @param {number} t */
+        state(robot, t) {
+            let on = true, word = "";
+            for (const change of this.states.get(robot) ?? []) {
+                if (change.at > t) break;
+                if (change.what <= 1) on = change.what === 1; else word = change.what === 2 ? "arrived" : "found no way";
+            }
+            return { on, word };
+        }
+
+        /** @param {number} z */
+        storey(z) {
+            const floors = this.head.map.floors;
+            let n = 0;
+            while (n + 1 < floors.length && floors[n + 1] <= z + floor_slack) n++;
+            return n;
+        }
+
+        /** Which doors are closed at a time. @param {number} t @returns {boolean[]} */
+        doors(t) {
+            const closed = this.head.map.doors.map(door => Boolean(door.closed));
+            const time = this.col("doors.time"), until = count_until(time, t);
+            for (let i = 0; i < until; i++) closed[this.col("doors.door")[i]] = this.col("doors.closed")[i] === 1;
+            return closed;
+        }
+
+        /** @param {number} robot */
+        name(robot) { return this.head.robots[robot]?.name ?? "nobody"; }
+
+        /** Name of a message as people say it. @param {number} message */
+        message_text(message) {
+            if (message >= this.messages) return "";
+            const kind = this.head.message_kinds[this.col("messages.kind")[message]];
+            return kind ? `${kind} ${this.col("messages.uid")[message]}` : `message ${this.col("messages.uid")[message]}`;
+        }
+    }
+
+    const needed = ["walls.x", "walls.y", "walls.material", "walls.storey", "legs.first", "legs.start", "legs.end", "legs.x",
+        "legs.y", "legs.vx", "legs.vy", "legs.heading", "legs.turning", "states.time", "states.robot", "states.what",
+        "doors.time", "doors.door", "doors.closed", "messages.uid", "messages.created", "messages.origin", "messages.to",
+        "messages.size", "messages.flow", "messages.kind", "drops.time", "drops.robot", "drops.message", "drops.reason"];
+    const optional = ["legs.z", "legs.vz", "links.time", "links.from", "links.to", "links.up"];
+
+    /** @param {Run} r */
+    function check(r) {
+        /** @param {string[]} names */
+        const same_length = names => {
+            for (const name of names) {
+                if (r.col(name).length !== r.col(names[0]).length) rvw.refuse(`The view file is damaged: ${name} has a wrong length.`);
+            }
+        };
+        for (const group of ["legs.", "states.", "doors.", "messages.", "drops.", "links."]) {
+            same_length([...needed, ...optional].filter(name => name.startsWith(group) && name !== "legs.first" && r.columns[name]));
+        }
+        const walls = r.col("walls.material").length;
+        if (r.col("walls.x").length !== 4 * walls || r.col("walls.y").length !== 4 * walls || r.col("walls.storey").length !== walls) {
+            rvw.refuse("The view file is damaged: its walls have wrong lengths.");
+        }
+        const first = r.col("legs.first"), legs = r.col("legs.x").length;
+        if (first.length !== r.robots + 1) rvw.refuse("The view file is damaged: legs.first has a wrong length.");
+        for (let i = 0; i < r.robots; i++) {
+            if (first[i] >= first[i + 1] || first[i + 1] > legs) rvw.refuse(`The view file is damaged: robot ${i} has no legs.`);
+        }
+        check_below(r.col("states.robot"), r.robots, "states.robot");
+        check_below(r.col("doors.door"), r.head.map.doors.length, "doors.door");
+        check_below(r.col("messages.origin"), r.robots, "messages.origin");
+        check_below(r.col("messages.kind"), r.head.message_kinds.length, "messages.kind");
+        check_below(r.col("messages.flow"), r.head.flows.length, "messages.flow");
+        check_below(r.col("drops.robot"), r.robots, "drops.robot");
+        for (const { message, robot } of r.head.follow) {
+            if (message >= r.messages || robot >= r.robots) rvw.refuse("The view file is damaged: follow names nobody.");
+        }
+    }
+
+    /** @param {ViewFile} file @returns {Promise<Run>} */
+    async function load(file) {
+        /** @type {Record<string, Numbers>} */
+        const columns = {};
+        for (const name of needed) columns[name] = await rvw.column(file, name);
+        for (const name of optional) if (file.sections.has(name)) columns[name] = await rvw.column(file, name);
+        for (let level = 0; level < file.head.density.length; level++) {
+            const name = `density.${level}`;
+            columns[name] = await rvw.column(file, name, "u32");
+            if (columns[name].length !== file.head.density[level].bins * head_check.outcomes) {
+                rvw.refuse(`The view file is damaged: ${name} has a wrong length.`);
+            }
+        }
+        const out = new Run(file, columns, await rvw.texts(file, "messages.payload"));
+        check(out);
+        return out;
+    }
+
+    return { Run, load, count_until, check_below, nanoseconds };
+})();
