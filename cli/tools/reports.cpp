@@ -17,51 +17,6 @@
 namespace rovernet::cli {
 namespace {
 
-Table as_table(const LinkReport& report) {
-    Table table;
-    table.set("from", report.from);
-    table.set("to", report.to);
-    table.set("model", report.model);
-    table.set("at_s", seconds(report.at));
-    table.set("distance_m", report.distance_m);
-    Array walls;
-    for (std::size_t i = 0; i < report.walls.size(); ++i) {
-        Table crossing;
-        crossing.set("entry_m", report.walls[i].entry);
-        crossing.set("exit_m", report.walls[i].exit);
-        crossing.set("length_m", report.walls[i].length);
-        crossing.set("material", report.materials[i]);
-        const bool counts = !report.wall_losses.empty();
-        crossing.set("loss_db", counts ? report.wall_losses[i].value : 0.0);
-        walls.emplace_back(std::move(crossing));
-    }
-    table.set("walls", std::move(walls));
-    table.set("wall_m", report.wall_m);
-    if (report.ceilings > 0) {
-        table.set("ceilings", static_cast<std::uint64_t>(report.ceilings));
-        table.set("ceiling_loss_db", report.ceiling_loss.value);
-    }
-    table.set("floors", static_cast<std::uint64_t>(report.floors));
-    table.set("floor_loss_db", report.floor_loss.value);
-    if (const auto& rays = report.rays) {
-        table.set("paths", static_cast<std::uint64_t>(rays->found));
-        table.set("paths_left_out", static_cast<std::uint64_t>(rays->left_out));
-        table.set("left_out_db", rays->too_high.value);
-    }
-    const auto in_db = [&](double value) { return report.range ? Value() : Value(value); };
-    if (report.range) table.set("range_m", report.range->value);
-    table.set("path_loss_db", in_db(report.path_loss.value));
-    if (report.shadowing) table.set("shadowing_db", report.shadowing->value);
-    if (report.sender.is_directional()) table.set("sender_pattern_db", report.sender_pattern.value);
-    if (report.receiver.is_directional())
-        table.set("receiver_pattern_db", report.receiver_pattern.value);
-    table.set("rx_power_dbm", in_db(report.received.value));
-    table.set("margin_db", in_db(report.margin.value));
-    table.set("up", report.up);
-    table.set("why_down", report.up ? Value() : Value(report.why_down));
-    return table;
-}
-
 void print_paths(const Rays::Paths& paths) {
     fmt::print("  {} paths", paths.found);
     if (paths.left_out > 0) {
@@ -192,7 +147,7 @@ void link(const LinkArguments& a) {
         return report_link(scenario, a.from, a.to, at, playing.tell());
     }();
     if (a.json) {
-        fmt::print("{}", to_json(as_table(report)));
+        fmt::print("{}", to_json(link_document(report)));
     } else {
         print_budget(report);
     }

@@ -66,7 +66,9 @@ struct ReplayArguments {
 void replay(const ReplayArguments& arguments);
 
 struct ViewArguments {
-    std::string file, out;
+    std::string file;
+    std::optional<std::string> out;  ///< file of the page; none: the page is served
+    std::string address = "127.0.0.1:0";
     std::optional<std::string> from, to, limit;
     bool no_payloads = false, no_map = false;
 };

@@ -132,11 +132,6 @@ std::string others_text(const FrameAtRobot& frame, const MessageAtRobot& message
     return text.empty() ? "-" : text;
 }
 
-std::string outcome_text(const FrameAtRobot& frame) {
-    const bool is_far = frame.outcome == Outcome::too_weak && frame.range;
-    return is_far ? "too far" : std::string(name_of(frame.outcome));
-}
-
 void print_frames(const MessageAtRobot& message) {
     if (!message.frames.empty()) {
         fmt::print("\nits frames, as they came to {}:\n", message.robot);
@@ -172,39 +167,6 @@ Table robot_table(const FollowedRobot& r, const FollowedMessage& way, const Trac
     return table;
 }
 
-std::string in_lower_case(std::string_view text) {
-    std::string lower(text);
-    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return lower;
-}
-
-Table frame_table(const FrameAtRobot& frame, const MessageAtRobot& message) {
-    Array others;
-    for (const OverlappingFrame& other : frame.others) {
-        const std::string& from = message.names[other.from.index()];
-        Table table;
-        table.set("from", from);
-        table.set("kind", in_lower_case(other.kind));
-        const bool has_level = other.has_level && from != message.robot;
-        table.set("level_dbm", has_level ? Value(other.level.value) : Value());
-        others.emplace_back(std::move(table));
-    }
-    Table table;
-    table.set("from", message.names[frame.from.index()]);
-    table.set("after_s", seconds(frame.begin - message.sent));
-    table.set("level_dbm", frame.range ? Value() : Value(frame.level.value));
-    table.set("margin_db", frame.range ? Value() : Value(frame.margin.value));
-    if (frame.range) {
-        table.set("distance_m", frame.distance_m);
-        table.set("range_m", frame.range->value);
-    }
-    table.set("walls", static_cast<std::uint64_t>(frame.walls));
-    table.set("wall_m", frame.wall_m);
-    table.set("outcome", outcome_text(frame));
-    table.set("also_on_air", std::move(others));
-    return table;
-}
-
 Table way_table(const FollowedMessage& way, const TraceNames& names) {
     Array robots, lost, without;
     for (const FollowedRobot& robot : way.robots)
@@ -236,15 +198,7 @@ Table way_table(const FollowedMessage& way, const TraceNames& names) {
 void print_json(const FollowedMessage& way, const TraceNames& names,
                 const std::optional<MessageAtRobot>& there) {
     Table table = way_table(way, names);
-    if (there) {
-        Array frames;
-        for (const FrameAtRobot& f : there->frames) frames.emplace_back(frame_table(f, *there));
-        Table at_robot;
-        at_robot.set("robot", there->robot);
-        at_robot.set("frames", std::move(frames));
-        at_robot.set("answer", sentence(*there));
-        table.set("at_robot", std::move(at_robot));
-    }
+    if (there) table.set("at_robot", document_of(*there));
     fmt::print("{}", to_json(table));
 }
 

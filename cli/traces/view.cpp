@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "cli/terminal/diagnostics.hpp"
 #include "cli/terminal/options.hpp"
+#include "cli/terminal/stop.hpp"
 #include "cli/terminal/waiting.hpp"
 #include "cli/traces/trace_commands.hpp"
 #include "cli/traces/trace_notices.hpp"
+#include "experiment/reports/loss_table.hpp"
 #include "experiment/run.hpp"
 #include "files/part_file.hpp"
 #include "files/temporary_folder.hpp"
+#include "live/viewer/answers.hpp"
+#include "live/viewer/view_server.hpp"
 #include "pictures/viewer/view_page.hpp"
 #include "pictures/viewer/view_run.hpp"
 #include "traces/recorded/recorded_reader.hpp"
@@ -14,8 +18,10 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 namespace rovernet::cli {
 namespace {
@@ -92,34 +98,58 @@ ViewChoice choice_of(const ViewArguments& a) {
 
 }  // namespace
 
+namespace {
+
+void write_page(const ViewArguments& a, const ViewedRun& run) {
+    const std::string page = page_with(run.bytes);
+    PartFile file(*a.out);
+    file.write(page);
+    file.give_name();
+    fmt::print("{}: {} robots, {} messages, {} frames; {:.0f} kB\n", *a.out, run.robots,
+               run.messages, run.frames, static_cast<double>(page.size()) / 1e3);
+}
+
+/// Serves the page until Ctrl-C.
+void serve_page(const ViewArguments& a, const std::string& trace, ViewedRun run) {
+    ViewerAnswers answers(trace);
+    ViewServer server(read_loopback(a.address), std::move(run.bytes),
+                      [&](std::string_view question) { return answers.answer(question); });
+    fmt::print("{} at {} until Ctrl-C\n", run.name, server.url());
+    std::fflush(stdout);
+    const HeldStop until_told;
+    server.serve([] { return stops_asked() == 0; });
+}
+
+}  // namespace
+
 void view(const ViewArguments& a) {
     const ViewChoice choice = choice_of(a);
     const TraceToView trace(a.file);
-    const ViewedRun run = [&] {
+    ViewedRun run = [&] {
         const Waiting waiting("reading " + trace.path());
         return view_of_trace(trace.path(), choice);
     }();
     tell_damage(trace.path(), run.damage);
-    const std::string page = page_with(run.bytes);
-    PartFile file(a.out);
-    file.write(page);
-    file.give_name();
-    fmt::print("{}: {} robots, {} messages, {} frames; {:.0f} kB\n", a.out, run.robots,
-               run.messages, run.frames, static_cast<double>(page.size()) / 1e3);
     for (const std::string& what : run.left_out) notice(fmt::format("left out: {}", what));
+    if (a.out) return write_page(a, run);
+    serve_page(a, trace.path(), std::move(run));
 }
 
 void add_view(Command app) {
     const auto [view, a] = add_command(app, "view", "Show a run in a browser", cli::view);
     view.add_examples(
-        {"rovernet view examples/rescue/rescue.toml -o rescue.html",
+        {"rovernet view examples/rescue/rescue.toml",
+         "rovernet view examples/rescue/rescue.toml -o rescue.html",
          "rovernet run examples/patrol/patrol.toml --record",
          "rovernet view runs/patrol-s3 -o patrol.html --from \"10 s\" --to \"20 s\""});
     view.add_option("RUN", a.file,
                     "folder of a run with --record, its trace.mcap, or a scenario, which is run")
         .required();
-    view.add_option("-o,--output", a.out, "page to write: one file, which needs no network")
-        .required();
+    view.add_option("-o,--output", a.out,
+                    "write the page as one file, which needs no network, "
+                    "instead of serving it");
+    view.add_option("--address", a.address, "address of this machine to serve at; port 0: any")
+        .shows_default();
     view.add_option("--from", a.from, "time of the first frame");
     view.add_option("--to", a.to, "time of the last frame");
     view.add_option("--limit", a.limit,

@@ -266,4 +266,57 @@ std::string sentence(const MessageAtRobot& message) {
     return all + (message.frames.size() == 1 ? " was" : " were") + " sent, for another robot.";
 }
 
+std::string outcome_text(const FrameAtRobot& frame) {
+    const bool is_far = frame.outcome == Outcome::too_weak && frame.range;
+    return is_far ? "too far" : std::string(name_of(frame.outcome));
+}
+
+namespace {
+
+std::string in_lower_case(std::string_view text) {
+    std::string lower(text);
+    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return lower;
+}
+
+Table frame_table(const FrameAtRobot& frame, const MessageAtRobot& message) {
+    Array others;
+    for (const OverlappingFrame& other : frame.others) {
+        const std::string& from = message.names[other.from.index()];
+        Table table;
+        table.set("from", from);
+        table.set("kind", in_lower_case(other.kind));
+        const bool has_level = other.has_level && from != message.robot;
+        table.set("level_dbm", has_level ? Value(other.level.value) : Value());
+        others.emplace_back(std::move(table));
+    }
+    Table table;
+    table.set("from", message.names[frame.from.index()]);
+    table.set("after_s", seconds(frame.begin - message.sent));
+    table.set("level_dbm", frame.range ? Value() : Value(frame.level.value));
+    table.set("margin_db", frame.range ? Value() : Value(frame.margin.value));
+    if (frame.range) {
+        table.set("distance_m", frame.distance_m);
+        table.set("range_m", frame.range->value);
+    }
+    table.set("walls", static_cast<std::uint64_t>(frame.walls));
+    table.set("wall_m", frame.wall_m);
+    table.set("outcome", outcome_text(frame));
+    table.set("also_on_air", std::move(others));
+    return table;
+}
+
+}  // namespace
+
+Table document_of(const MessageAtRobot& message) {
+    Array frames;
+    for (const FrameAtRobot& frame : message.frames)
+        frames.emplace_back(frame_table(frame, message));
+    Table table;
+    table.set("robot", message.robot);
+    table.set("frames", std::move(frames));
+    table.set("answer", sentence(message));
+    return table;
+}
+
 }  // namespace rovernet

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scenario/document/value.hpp"
 #include "sim/ids.hpp"
 #include "sim/message.hpp"
 #include "sim/time.hpp"
@@ -89,5 +90,10 @@ MessageAtRobot message_at_robot(const std::string& path, std::uint64_t uid, Node
 ///   E never was within reach: the strongest of 7 frames came 12.3 dB below its sensitivity,
 ///   through 2 walls.
 std::string sentence(const MessageAtRobot& message);
+
+/// Outcome of a frame in words: "collided"; "too far" if a range decided, not a level.
+std::string outcome_text(const FrameAtRobot& frame);
+/// Frames and sentence as a document, the entry `at_robot` of `rovernet trace follow --json`.
+Table document_of(const MessageAtRobot& message);
 
 }  // namespace rovernet

@@ -4,6 +4,7 @@
 #include "experiment/playing.hpp"
 #include "models/propagation/rays.hpp"
 #include "models/radio.hpp"
+#include "scenario/document/value.hpp"
 #include "scene/scene.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
@@ -55,5 +56,8 @@ struct LinkReport {
 /// @throws std::invalid_argument if a robot does not exist, or if both are the same robot
 LinkReport report_link(const Scenario& scenario, const std::string& from, const std::string& to,
                        Time at, const TellTime& tell = {});
+
+/// Link report as a document, the output of `rovernet link --json`.
+Table link_document(const LinkReport& report);
 
 }  // namespace rovernet

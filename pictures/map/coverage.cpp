@@ -52,6 +52,18 @@ Transmitter transmitter(const Network& network, NodeId robot, Time at) {
             .replication = settings.replication};
 }
 
+Transmitter transmitter(const Network& network, NodeId robot, NodeId receiver, std::size_t storey,
+                        Time at) {
+    Transmitter out = transmitter(network, robot, at);
+    const Transmitter there = transmitter(network, receiver, at);
+    const Storeys& storeys = network.scene().storeys();
+    const std::size_t its_own = storeys.number_at(network.position(receiver).z);
+    const double above_floor = there.antenna.z - storeys.floor(its_own);
+    out.receiver = there.radio;
+    out.receivers_above = storeys.floor(storey) + above_floor - out.antenna.z;
+    return out;
+}
+
 void received_levels(const Transmitter& transmitter, std::span<const Vec3> antennas,
                      std::span<double> out_dbm) {
     const Radio& radio = transmitter.radio;

@@ -34,6 +34,12 @@ struct Transmitter {
 /// depends on positions. The network must outlive the transmitter.
 Transmitter transmitter(const Network& network, NodeId robot, Time at);
 
+/// Transmitter of a robot at time `at`, for receivers on a storey with the radio of the robot
+/// `receiver`, at its height above the floor.
+/// @param storey  number of the storey; the lowest is 0
+Transmitter transmitter(const Network& network, NodeId robot, NodeId receiver, std::size_t storey,
+                        Time at);
+
 /// Computes the levels [dBm] at receivers; a directional receiver antenna points to the
 /// transmitter.
 /// @param antennas  positions of the receivers' antennas [m]

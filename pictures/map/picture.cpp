@@ -161,14 +161,8 @@ void Painter::run() {
         if (is_here(each.foot) || is_here(each.head)) map_->add_stairs(each.foot, each.head);
     }
     if (source_) {
-        transmitter_ = transmitter(network_, *source_, options_.at);
-        const NodeId receiver = receiver_.value_or(*source_);
-        const Transmitter there = transmitter(network_, receiver, options_.at);
-        const std::size_t its_own = scene.storeys().number_at(network_.position(receiver).z);
-        const double above_floor = there.antenna.z - scene.storeys().floor(its_own);
-        transmitter_->receiver = there.radio;
-        transmitter_->receivers_above =
-            scene.storeys().floor(storey()) + above_floor - transmitter_->antenna.z;
+        transmitter_ =
+            transmitter(network_, *source_, receiver_.value_or(*source_), storey(), options_.at);
     }
     if (options_.links) links_.emplace(network_, options_.at, storey());
     if (options_.trails) ways_.emplace(*trails_, network_, options_.at, storey());

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <span>
 #include <variant>
 
@@ -24,9 +25,9 @@ std::uint32_t up_to_4_s(Duration d) {
 }  // namespace
 
 std::uint8_t FrameColumns::Names::index_of(std::string_view name) {
-    const auto at = std::find(list.begin(), list.end(), name);
-    if (at == list.end()) list.emplace_back(name);
-    return static_cast<std::uint8_t>(std::min<std::ptrdiff_t>(at - list.begin(), 255));
+    const auto index = std::find(list.begin(), list.end(), name) - list.begin();
+    if (index == std::ssize(list)) list.emplace_back(name);
+    return static_cast<std::uint8_t>(std::min<std::ptrdiff_t>(index, 255));
 }
 
 void FrameColumns::on(const Record& record, const RecordContext& context) {

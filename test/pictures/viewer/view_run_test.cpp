@@ -35,10 +35,10 @@ struct Recorded {
         const Scenario scenario =
             load_scenario(std::string(ROVERNET_EXAMPLES) + "/" + example, options);
         RunOptions run;
-        run.folder = folder.path();
+        run.folder = folder.path("run");
         run_scenario(scenario, run);
     }
-    std::string trace() const { return folder.path() + "/trace.mcap"; }
+    std::string trace() const { return folder.path("run/trace.mcap"); }
     test::TemporaryFolder folder;
 };
 
@@ -233,7 +233,7 @@ TEST_CASE("view of a run: map with storeys, doors and stairs") {
 TEST_CASE("view of a run: what cannot be viewed is an error that says why") {
     const test::TemporaryFolder folder;
     CHECK(error_of(folder.write("a.mcap", "no trace")).find("a.mcap") != std::string::npos);
-    CHECK(error_of(folder.path() + "/missing.mcap").find("missing.mcap") != std::string::npos);
+    CHECK(error_of(folder.path("missing.mcap")).find("missing.mcap") != std::string::npos);
 }
 
 }  // namespace view_run_test

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "live/carriers/address.hpp"
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace rovernet {
+
+/// Server of the viewer's page for one recorded run: the page at /, its view file at /run.rvw, and
+/// answers by WebSocket (ViewerAnswers). Nobody can change the run.
+class ViewServer {
+  public:
+    /// @param address    address of this machine; port 0: any free port
+    /// @param view_file  bytes of the view file
+    /// @param answer     gives the answer to a question, both as JSON
+    /// @throws RunError if the address is in use
+    ViewServer(const Address& address, std::string view_file,
+               std::function<std::string(std::string_view)> answer);
+    ~ViewServer();
+
+    /// Address of the page for a browser, "http://127.0.0.1:7007/".
+    std::string url() const;
+    /// Serves until `go_on` returns false; it is called at least every 0.1 s.
+    void serve(const std::function<bool()>& go_on);
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace rovernet
