@@ -2,7 +2,7 @@
 // What is shown, in the address of the page: a copied address shows the same.
 const address = (() => {
     "use strict";
-    const pause_ms = 300;
+    const pause_ms = 300, ours = "rovernet";
     let timer = 0, last = "";
 
     /** @returns {string} */
@@ -72,7 +72,7 @@ const address = (() => {
         if (next === last) return;
         last = next;
         try {
-            if (push) history.pushState(null, "", next); else history.replaceState(null, "", next);
+            if (push) history.pushState(ours, "", next); else history.replaceState(ours, "", next);
         } catch {
             // A browser may refuse more than some changes a second: the next one will do.
         }
@@ -84,16 +84,14 @@ const address = (() => {
         last = location.hash;
         selection.listen(changed => {
             clearTimeout(timer);
-            if (changed.has("robots") || changed.has("message")) write(true);
+            if (text() === location.hash) last = location.hash;
+            else if (changed.has("robots") || changed.has("message")) write(true);
             else if (!selection.state.playing) timer = setTimeout(() => write(false), pause_ms);
         });
-        window.addEventListener("popstate", () => {
-            const { robots: chosen, message, panel } = parsed(r, location.hash);
+        window.addEventListener("popstate", event => {
+            const wanted = parsed(r, location.hash), { robots: chosen, message, panel } = wanted;
             last = location.hash;
-            selection.set({ robots: chosen, message, panel });
-        });
-        window.addEventListener("hashchange", () => {
-            if (location.hash !== last) selection.set(parsed(r, location.hash));
+            selection.set(event.state === ours ? { robots: chosen, message, panel } : wanted);
         });
     }
 

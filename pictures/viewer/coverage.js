@@ -4,8 +4,8 @@
 const coverage = (() => {
     "use strict";
     const cells = 60000;
-    /** @type {{heat: HeatMap|null, version: number, changed: () => void, say: (text: string) => void}} */
-    const own = { heat: null, version: 0, changed: () => {}, say: () => {} };
+    /** @type {{heat: HeatMap|null, version: number, changed: () => void, say: (text: string) => void, name: (robot: number) => string}} */
+    const own = { heat: null, version: 0, changed: () => {}, say: () => {}, name: () => "" };
 
     /** @param {any} a answer @param {number} robot @param {number} t @param {number} storey @returns {HeatMap} */
     function heat_of(a, robot, t, storey) {
@@ -71,11 +71,11 @@ const coverage = (() => {
                 c.fillStyle = theme.on_scale(signs.look.colors.lagoon, x / 89);
                 c.fillRect(x, 3, 1, 10);
             }
-        }, `coverage, ${words.number(Math.round(h.low))} to ${words.number(Math.round(h.high))} dBm, at ${words.seconds(h.t, 3)} s`)];
+        }, `coverage of ${words.shortened(words.visible(own.name(h.robot)), 24)}, ${words.number(Math.round(h.low))} to ${words.number(Math.round(h.high))} dBm, at ${words.seconds(h.t, 3)} s`)];
     }
 
-    /** @param {() => void} changed @param {(text: string) => void} say */
-    function begin(changed, say) { Object.assign(own, { changed, say }); }
+    /** @param {(robot: number) => string} name @param {() => void} changed @param {(text: string) => void} say */
+    function begin(name, changed, say) { Object.assign(own, { name, changed, say }); }
 
     return { begin, toggle, paint, level_at, legend, version: () => own.version };
 })();

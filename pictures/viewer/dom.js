@@ -62,6 +62,8 @@ const dom = (() => {
         of.style.height = `${height}px`;
         const c = /** @type {CanvasRenderingContext2D} */ (of.getContext("2d"));
         c.setTransform(ratio, 0, 0, ratio, 0, 0);
+        c.globalAlpha = 1;
+        c.setLineDash([]);
         c.clearRect(0, 0, width, height);
         return c;
     }

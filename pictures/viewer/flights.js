@@ -91,8 +91,7 @@ const flights = (() => {
             c.stroke(lines);
             c.setLineDash([]);
         }
-        if (under_way) return;
-        c.globalAlpha = strength;
+        c.globalAlpha = under_way ? 0 : strength;
         for (const [style, width] of /** @type {[string, number][]} */ ([[theme.colors().paper, 4.5], [color, 2]])) {
             c.beginPath();
             for (let i = 0; i < ends.length; i += 2) signs.outline(c, sign, ends[i] + 9, ends[i + 1] - 9, 4);

@@ -110,7 +110,7 @@ const main = (() => {
         for (const part of [search, keys, filters]) part.begin(r);
         message_panel.begin(r, all, redraw);
         pair_panel.begin(r, redraw);
-        coverage.begin(redraw, controls.say);
+        coverage.begin(robot => r.name(robot), redraw, controls.say);
         address.begin(r);
         selection.listen(changed => {
             if (changed.has("t")) timeline.keep();

@@ -21,26 +21,27 @@ const message_panel = (() => {
         return parts.join("; ") + (lost.length > 3 ? `; and ${lost.length - 3} more` : "") + ".";
     }
 
+    /** Sentence without the robot's name, which stands before it. @param {string} sentence @param {number} robot */
+    function after_name(sentence, robot) {
+        const name = `${own.run.name(robot)} `;
+        return sentence.startsWith(name) ? sentence.slice(name.length) : sentence;
+    }
+
     /** Row of a robot without the message, with a button that asks. @param {Flood} flood @param {number} robot */
     function without(flood, robot) {
         const key = floods.outcome(own.run, flood, robot), number = signs.kinds.findIndex(k => k.key === key);
-        const name = own.run.name(robot), sentence = reason(flood, robot);
-        const text = dom.make("span", "reason", sentence.startsWith(name + " ") ? sentence.slice(name.length + 1) : sentence);
-        const out = dom.make("li", "", ...(number >= 0 ? [dom.sign(number)] : []), dom.make("span", "", robot_button(robot), " ", text));
+        const text = dom.make("span", "", after_name(reason(flood, robot), robot)), line = dom.make("span", "", robot_button(robot), " ", text, " ");
+        const out = dom.make("li", "", ...(number >= 0 ? [dom.sign(number)] : []), line);
         if (!server.is_served()) return out;
-        out.append(dom.button("why?", "small", () => {
+        line.append(dom.button("why?", "small", () => {
             text.textContent = "\u2026";
-            server.ask("why", { message: flood.message, robot }).then(
-                answer => text.replaceChildren(why(answer)), error => text.textContent = error.message);
+            server.ask("why", { message: flood.message, robot }).then(answer => {
+                text.textContent = after_name(String(answer.answer ?? ""), robot);
+                const frames = Array.isArray(answer.frames) ? answer.frames : [];
+                if (frames.length) out.after(dom.make("li", "wide", tables.of(frames)));
+                line.querySelector(".small")?.remove();
+            }, error => text.textContent = error.message);
         }, `why ${own.run.name(robot)} does not have it`));
-        return out;
-    }
-
-    /** Answer of the server: its sentence, and a row for each frame. @param {any} answer */
-    function why(answer) {
-        const out = dom.make("span", "", String(answer.answer ?? answer.text ?? ""));
-        const frames = Array.isArray(answer.frames) ? answer.frames : answer.at_robot?.frames;
-        if (Array.isArray(frames)) out.append(tables.of(frames));
         return out;
     }
 

@@ -72,15 +72,26 @@ const pair_panel = (() => {
         };
         part(0, 1, 1.4);
         c.font = `10px ${robots.font}`;
+        c.textBaseline = "middle";
+        /** @type {number[][]} */ const taken = [];
         for (const wall of link.walls ?? []) {
-            const from = wall.entry_m / link.distance_m, to = wall.exit_m / link.distance_m, text = `${words.number(wall.loss_db, 3)} dB`;
+            const from = wall.entry_m / link.distance_m, to = wall.exit_m / link.distance_m;
             part(from, to, 7);
-            c.strokeStyle = theme.colors().paper;
-            c.lineWidth = 3.5;
-            c.strokeText(text, x0 + to * (x1 - x0) + 6, y0 + to * (y1 - y0) - 8);
-            c.fillStyle = theme.colors().ink;
-            c.fillText(text, x0 + to * (x1 - x0) + 6, y0 + to * (y1 - y0) - 8);
+            label(c, `${words.number(wall.loss_db, 3)} dB`, x0 + (from + to) / 2 * (x1 - x0), y0 + (from + to) / 2 * (y1 - y0), taken);
         }
+    }
+
+    /** Text beside a place, where no other is. @param {CanvasRenderingContext2D} c @param {string} text @param {number} x @param {number} y @param {number[][]} taken */
+    function label(c, text, x, y, taken) {
+        const width = c.measureText(text).width + 4, half = 7;
+        const places = [[8, -9], [8, 10], [-8 - width, 10], [-8 - width, -9], [8, -24], [-8 - width, 24]].map(([dx, dy]) => [x + dx, y + dy]);
+        const free = places.find(([left, middle]) => taken.every(b => left >= b[2] || left + width <= b[0] || middle - half >= b[3] || middle + half <= b[1])) ?? places[0];
+        taken.push([free[0], free[1] - half, free[0] + width, free[1] + half]);
+        c.strokeStyle = theme.colors().paper;
+        c.lineWidth = 3.5;
+        c.strokeText(text, free[0], free[1]);
+        c.fillStyle = theme.colors().ink;
+        c.fillText(text, free[0], free[1]);
     }
 
     /** @param {Run} r @param {() => void} done */
