@@ -122,6 +122,26 @@ std::vector<std::uint32_t> FrameColumns::sort_receptions() {
     return first;
 }
 
+std::vector<FrameColumns::Missed> FrameColumns::missed(std::size_t robots, std::size_t most) const {
+    const MessageColumns& m = messages_;
+    std::vector<bool> got(m.uid.size() * robots);
+    for (const RobotReception& r : receptions_) {
+        const std::uint32_t message = flights_[r.flight].message;
+        if (message != no_index && r.outcome % 2 == 1) got[message * robots + r.robot] = true;
+    }
+    std::vector<Missed> all;
+    for (std::uint32_t message = 0; message < m.uid.size(); ++message) {
+        for (std::uint32_t robot = 0; robot < robots && m.kind[message] == 0; ++robot) {
+            const bool concerns =
+                m.to[message] == robot || (m.to[message] == no_index && m.origin[message] != robot);
+            if (!concerns || got[message * robots + robot]) continue;
+            if (all.size() == most) return all;
+            all.push_back({message, static_cast<std::uint64_t>(m.uid[message]), robot});
+        }
+    }
+    return all;
+}
+
 void FrameColumns::write(ViewFile& file, Table& head, std::size_t robots, Time end,
                          const FrameChoice& choice) {
     write_messages(file, robots, choice.payload_bytes);

@@ -43,6 +43,15 @@ class FrameColumns {
     std::size_t messages() const { return messages_.uid.size(); }
     /// Number of frames that write() left out.
     std::size_t left_out() const { return left_out_; }
+    /// Message that an application of a robot did not get, although the message was for it.
+    struct Missed {
+        std::uint32_t message;  ///< index in the columns
+        std::uint64_t uid;
+        std::uint32_t robot;
+    };
+    /// Messages of applications that robots missed, in order of messages, at most `most`.
+    /// @param robots  number of robots
+    std::vector<Missed> missed(std::size_t robots, std::size_t most) const;
     /// Writes the columns of messages, frames, receptions, losses and density, and the entries of
     /// the head that describe them.
     /// @param robots  number of robots

@@ -35,7 +35,7 @@ const message_panel = (() => {
         if (!server.is_served()) return out;
         line.append(dom.button("why?", "small", () => {
             text.textContent = "\u2026";
-            server.ask("why", { message: flood.message, robot }).then(answer => {
+            server.ask("why", { uid: own.run.col("messages.uid")[flood.message], robot }).then(answer => {
                 text.textContent = after_name(String(answer.answer ?? ""), robot);
                 const frames = Array.isArray(answer.frames) ? answer.frames : [];
                 if (frames.length) out.after(dom.make("li", "wide", tables.of(frames)));

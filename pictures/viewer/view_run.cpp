@@ -3,6 +3,7 @@
 
 #include "experiment/build.hpp"
 #include "experiment/recorded_scenario.hpp"
+#include "experiment/replay/message_at_robot.hpp"
 #include "experiment/summary.hpp"
 #include "pictures/viewer/motion_columns.hpp"
 #include "pictures/viewer/view_file.hpp"
@@ -41,6 +42,7 @@ Array robot_list(const RecordedRun& run, const Scenario& scenario) {
     for (const RobotTable& table : scenario.robots) {
         for (int i = 0; i < table.count.value_or(1); ++i) tables.emplace(table.name_of(i), &table);
     }
+    const Propagation common = scenario.propagation.make();
     Array list;
     for (const std::string& name : run.robots) {
         const auto found = tables.find(name);
@@ -49,6 +51,8 @@ Array robot_list(const RecordedRun& run, const Scenario& scenario) {
         Table robot;
         robot.set("name", name);
         robot.set("radius", (is_listed ? found->second->radius : Robot{}.radius).value);
+        const bool has_own = is_listed && found->second->propagation;
+        robot.set("model", has_own ? found->second->propagation->make().name() : common.name());
         robot.set("power_dbm", radio.power.value);
         robot.set("sensitivity_dbm", radio.sensitivity.value);
         robot.set("antenna_z", radio.antenna_height.value);
@@ -89,7 +93,8 @@ Array flow_list(const Scenario& scenario) {
 class Viewed {
   public:
     explicit Viewed(const std::string& path)
-        : reader_(path),
+        : path_(path),
+          reader_(path),
           replayed_(reader_.run(), path),
           scenario_(replayed_.with({})),
           settings_(network_settings(scenario_)),
@@ -100,8 +105,10 @@ class Viewed {
 
   private:
     Table head() const;
+    Array follow_list() const;
     std::vector<std::string> left_out(const ViewChoice& choice) const;
 
+    std::string path_;
     RecordedReader reader_;
     ReplayedScenario replayed_;
     Scenario scenario_;
@@ -125,9 +132,26 @@ Table Viewed::head() const {
     Table metrics;
     append_metrics(metrics, columns_.metrics.values());
     head.set("metrics", std::move(metrics));
-    head.set("follow", Array{});
+    head.set("follow", follow_list());
     head.set("damage", texts(reader_.damage()));
     return head;
+}
+
+/// Reasons why robots missed messages, for a short run: each is found by reading the trace again.
+Array Viewed::follow_list() const {
+    constexpr std::size_t most = 100, most_frames = 5000;
+    Array list;
+    if (columns_.frames.frames() > most_frames) return list;
+    for (const auto& missed : columns_.frames.missed(reader_.run().robots.size(), most)) {
+        const MessageAtRobot there = message_at_robot(path_, missed.uid, NodeId{missed.robot});
+        Table entry;
+        entry.set("message", missed.message);
+        entry.set("robot", missed.robot);
+        entry.set("outcome", there.frames.empty() ? "not sent" : outcome_text(there.frames.back()));
+        entry.set("text", sentence(there));
+        list.emplace_back(std::move(entry));
+    }
+    return list;
 }
 
 std::vector<std::string> Viewed::left_out(const ViewChoice& choice) const {
