@@ -17,6 +17,28 @@ namespace {
 
 constexpr std::size_t outcomes = 2 * (static_cast<std::size_t>(last_fate) + 1);
 
+/// Reason of a loss in the words of the page.
+constexpr std::string_view words_of(DropReason reason) {
+    switch (reason) {
+        case DropReason::off: return "robot was switched off";
+        case DropReason::queue_full: return "queue was full";
+        case DropReason::retries: return "no acknowledgement";
+        case DropReason::end: return "robot was switched off, with a queue";
+        case DropReason::unheard: return "destination out of range";
+        case DropReason::cut_off: return "the run ended";
+        case DropReason::held: return "the run ended, before it was sent";
+        case DropReason::no_route: return "no route";
+        case DropReason::loop: return "came back to this robot";
+        case DropReason::broken: return "route broke";
+        case DropReason::buffer_full: return "too many messages waited for a route";
+        case DropReason::timeout: return "waited too long for a route";
+        case DropReason::salvaged: return "tried too many routes";
+        case DropReason::own: return "dropped by the routing protocol";
+        case DropReason::unresolved: return "address of the next hop not resolved";
+    }
+    return "";
+}
+
 std::uint8_t up_to_255(unsigned n) { return static_cast<std::uint8_t>(std::min(n, 255U)); }
 std::uint32_t up_to_4_s(Duration d) {
     return static_cast<std::uint32_t>(std::min<std::int64_t>(d.count(), no_index));
@@ -101,12 +123,12 @@ void FrameColumns::take(std::uint32_t flight, const Reception& reception) {
 
 void FrameColumns::take(const Dropped& dropped, const RecordContext& context) {
     if (dropped.protocol_decides) return;
-    const LossReason loss = dropped.loss();
-    const auto at = std::find(reasons_.begin(), reasons_.end(), loss);
-    const auto reason = static_cast<std::uint8_t>(at - reasons_.begin());
-    if (at == reasons_.end()) reasons_.push_back(loss);
+    const Reason why{dropped.reason, dropped.loss()};
+    const auto reason = std::find(reasons_.begin(), reasons_.end(), why) - reasons_.begin();
+    if (reason == std::ssize(reasons_)) reasons_.push_back(why);
     losses_.push_back({whole_ns(dropped.time), dropped.node.value,
-                       index_of(dropped.frame.message, context), reason});
+                       index_of(dropped.frame.message, context),
+                       static_cast<std::uint8_t>(reason)});
 }
 
 /// Sorts the receptions by flight. @return index of the first reception of each flight, and the
@@ -176,10 +198,11 @@ void FrameColumns::write_losses(ViewFile& file, Table& head, std::size_t robots)
     file.add_indices("drops.message", of(std::uint32_t{}, &Loss::message), messages_.uid.size());
     file.add("drops.reason", of(std::uint8_t{}, &Loss::reason));
     Array reasons;
-    for (const LossReason& each : reasons_) {
+    for (const Reason& each : reasons_) {
         Table reason;
-        reason.set("code", each.code);
-        reason.set("layer", each.layer);
+        reason.set("code", each.loss.code);
+        reason.set("layer", each.loss.layer);
+        reason.set("text", words_of(each.reason));
         reasons.emplace_back(std::move(reason));
     }
     head.set("drops", std::move(reasons));

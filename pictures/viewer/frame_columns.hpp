@@ -84,6 +84,12 @@ class FrameColumns {
         std::uint32_t robot, message;
         std::uint8_t reason;
     };
+    /// Reason of a loss, with its code.
+    struct Reason {
+        DropReason reason;
+        LossReason loss;
+        friend bool operator==(const Reason&, const Reason&) = default;
+    };
     /// Message in a slot of the message table, and its index in the columns.
     struct Known {
         std::uint64_t uid = ~std::uint64_t{0};
@@ -118,7 +124,7 @@ class FrameColumns {
     std::vector<std::uint32_t> last_flights_;  // by NodeId; no_index: none
     std::vector<RobotReception> receptions_;
     std::vector<Loss> losses_;
-    std::vector<LossReason> reasons_;  // of losses_, in the order of first use
+    std::vector<Reason> reasons_;  // of losses_, in the order of first use
     Names frame_kinds_, message_kinds_{{""}};
     std::size_t left_out_ = 0;
 };
