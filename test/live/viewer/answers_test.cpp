@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "live/viewer/answers.hpp"
+
+#include "experiment/replay/message_at_robot.hpp"
+#include "experiment/reports/link_report.hpp"
+#include "experiment/run.hpp"
+#include "live/viewer/view_server.hpp"
+#include "scenario/document/json.hpp"
+#include "scenario/scenario_file.hpp"
+#include "test/live/web_client.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <chrono>
+#include <string>
+#include <thread>
+
+namespace answers_test {
+using namespace rovernet;
+using namespace std::chrono_literals;
+
+namespace {
+
+const std::string rescue = std::string(ROVERNET_EXAMPLES) + "/rescue/rescue.toml";
+
+/// Recorded trace of the rescue.
+struct Recorded {
+    Recorded() {
+        ScenarioOptions options;
+        options.set = {"trace.record=true"};
+        RunOptions run;
+        run.folder = folder.path("run");
+        run_scenario(load_scenario(rescue, options), run);
+    }
+    std::string path() const { return folder.path("run/trace.mcap"); }
+    test::TemporaryFolder folder;
+};
+
+Value ask(ViewerAnswers& answers, const std::string& question) {
+    return parse_json(answers.answer(question));
+}
+std::string error_of(ViewerAnswers& answers, const std::string& question) {
+    const Value answer = ask(answers, question);
+    const Value* error = answer.table()->find("error");
+    return error ? *error->string() : "";
+}
+
+std::string json(const Table& table) { return to_json(parse_json(to_json_line(table))); }
+std::string json(const Value* value) { return to_json(*value); }
+
+}  // namespace
+
+TEST_CASE("viewer answers: they are what the command line prints") {
+    const Recorded run;
+    ViewerAnswers answers(run.path());
+    const Scenario scenario = load_scenario(rescue, {});
+    const Value pair =
+        ask(answers, R"({"id": 7, "op": "pair", "a": 0, "b": 4, "t_ns": 10000000000})");
+    const Array& links = *pair.table()->find("links")->array();
+    REQUIRE(links.size() == 2);
+    CHECK(json(&links[0]) == json(link_document(report_link(scenario, "A", "E", Time(10s)))));
+    CHECK(json(&links[1]) == json(link_document(report_link(scenario, "E", "A", Time(10s)))));
+    CHECK(json(&links[0]) != json(&links[1]));
+    CHECK(json(pair.table()->find("id")) == "7\n");
+
+    const Value why = ask(answers, R"({"id": 8, "op": "why", "uid": 0, "robot": 4})");
+    const Table expected = document_of(message_at_robot(run.path(), 0, NodeId{4}));
+    for (const char* key : {"robot", "frames", "answer"})
+        CHECK(json(why.table()->find(key)) == json(parse_json(json(expected)).table()->find(key)));
+
+    const Value robot =
+        ask(answers, R"({"id": 9, "op": "robot", "robot": 0, "t_ns": 10000000000})");
+    CHECK(*robot.table()->find("robot")->string() == "A");
+    CHECK(robot.table()->find("links")->array()->size() == 2);
+
+    const Value map =
+        ask(answers,
+            R"({"id": 1, "op": "coverage", "robot": 1, "t_ns": 0, "storey": 0, "cells": 1000})");
+    const auto number = [&](const char* key) {
+        return std::get<std::int64_t>(map.table()->find(key)->data);
+    };
+    CHECK(number("columns") * number("rows") > 500);
+    CHECK(map.table()->find("dbm")->array()->size() ==
+          static_cast<std::size_t>(number("columns") * number("rows")));
+}
+
+TEST_CASE("viewer answers: a wrong question has an error and its id, and the next is answered") {
+    const Recorded run;
+    ViewerAnswers answers(run.path());
+    CHECK(error_of(answers, "no json") != "");
+    CHECK(error_of(answers, "[]") != "");
+    CHECK(error_of(answers, R"({"id": 1})") != "");
+    CHECK(error_of(answers, R"({"id": 1, "op": "stop"})").find("expected why, pair") !=
+          std::string::npos);
+    CHECK(error_of(answers, R"({"id": 1, "op": "pair", "a": 0, "b": 0, "t_ns": 0})") != "");
+    CHECK(error_of(answers, R"({"id": 1, "op": "pair", "a": 0, "b": 5, "t_ns": 0})") != "");
+    CHECK(error_of(answers, R"({"id": 1, "op": "robot", "robot": 0, "t_ns": 90000000001})") != "");
+    CHECK(error_of(answers, R"({"id": 1, "op": "why", "uid": -1, "robot": 0})") != "");
+    const char* many = R"({"id": 1, "op": "coverage", "robot": 0, "t_ns": 0, "storey": 0,
+                           "cells": 250001})";
+    CHECK(error_of(answers, many) != "");
+    CHECK(error_of(answers, "{\"id\": 1, \"op\": \"" + std::string(70'000, 'x') + "\"}")
+              .find("64 KiB") != std::string::npos);
+    const Value last = ask(answers, R"({"id": 3, "op": "robot", "robot": 9, "t_ns": 0})");
+    CHECK(json(last.table()->find("id")) == "3\n");
+    CHECK(error_of(answers, R"({"id": 1, "op": "robot", "robot": 0, "t_ns": 0})").empty());
+}
+
+TEST_CASE("view server: the page, the view file and answers, and nothing else") {
+    const std::string file("RVW1\0\xff data", 12);
+    ViewServer server({"127.0.0.1", 0}, file,
+                      [](std::string_view question) { return "to " + std::string(question); });
+    const std::string url = server.url();
+    const int port = std::stoi(url.substr(url.rfind(':') + 1));
+    std::atomic<bool> goes_on = true;
+    std::thread serving([&] { server.serve([&] { return goes_on.load(); }); });
+    const auto get = [&](const std::string& path, const std::string& host) {
+        test::LineClient client(port);
+        client.send_bytes("GET " + path + " HTTP/1.1\r\nHost: " + host +
+                          "\r\nConnection: close\r\n\r\n");
+        return client.bytes(1 << 20);
+    };
+    const std::string own = "127.0.0.1:" + std::to_string(port);
+    const std::string page = get("/", own);
+    CHECK(page.find("HTTP/1.1 200") == 0);
+    CHECK(page.find("connect-src 'self'") != page.npos);
+    CHECK(get("/run.rvw", own).find(file) != std::string::npos);
+    CHECK(get("/etc/passwd", own).find("HTTP/1.1 404") == 0);
+    CHECK(get("/", "example.org").find("HTTP/1.1 403") == 0);
+    test::WebClient client(port);
+    REQUIRE(client.is_in());
+    client.send("{}");
+    CHECK(client.message() == "to {}");
+    goes_on = false;
+    serving.join();
+}
+
+}  // namespace answers_test
