@@ -37,7 +37,7 @@ void add_walls(const Scene& scene, ViewFile& file) {
 }
 
 /// Doors as they are when the run starts. Adds their changes to the file.
-Array add_doors(const Scenario& scenario, const Scene& scene, ViewFile& file) {
+Array add_doors(const Scenario& scenario, ViewFile& file) {
     struct Change {
         std::int64_t time;
         std::uint16_t door;
@@ -49,7 +49,7 @@ Array add_doors(const Scenario& scenario, const Scene& scene, ViewFile& file) {
     for (std::size_t i = 0; i < doors.size(); ++i) {
         Table door;
         door.set("name", scenario.scene.doors[i].name.value_or(fmt::format("{}", i + 1)));
-        door.set("floor", std::uint64_t{scene.storeys().number_at(doors[i].from.z)});
+        door.set("floor", doors[i].from.z);
         door.set("x0", doors[i].from.x);
         door.set("y0", doors[i].from.y);
         door.set("x1", doors[i].to.x);
@@ -126,7 +126,7 @@ Table view_map(const Scenario& scenario, const NetworkSettings& settings,
     map.set("open_field", scene.open_field());
     map.set("floors", std::move(floors));
     map.set("materials", std::move(materials));
-    map.set("doors", add_doors(scenario, scene, file));
+    map.set("doors", add_doors(scenario, file));
     map.set("stairs", stairs_list(scenario, scene));
     return map;
 }
