@@ -210,10 +210,11 @@ void Channel::garble(Flight& flight) const {
 }
 
 /// Last time up to which receptions can be served together, the first of which is now, by `key`. A
-/// reaction to a reception is at least least_reaction later; other events in the queue come first.
+/// reaction to a reception, at least least_reaction later, is after all of them; other events in
+/// the queue come first.
 Time Channel::served_until(EventKey key) const {
     if (world_.settings.reference) return key.time();
-    const Time most = std::min(key.time() + least_reaction, world_.end_of_run);
+    const Time most = std::min(key.time() + least_reaction - Duration{1}, world_.end_of_run);
     const EventKey next = world_.events.next_key();
     if (next.time() > most) return most;
     return key.at(next.time()) < next ? next.time() : next.time() - Duration{1};
