@@ -67,23 +67,16 @@ Channel::Channel(World& world, ChannelUser& user) : world_(world), user_(user) {
 }
 
 std::span<const Reception> Channel::transmit(const AirFrame& air, const Transmission& how,
-                                             bool is_sensed) {
+                                             Audience audience) {
     const Frame& frame = air.frame;
     ++world_.transmissions;
     const std::size_t slot = flights_.take();
     Flight& flight = flights_[slot];
     flight.air = air;
     flight.served = 0;
-    const Time end = world_.now + how.airtime();
-    if (is_sensed) {
-        find_sensors(flight, how);
-    } else {
-        world_.medium.find_receivers(frame.sender, how.coding, world_.now, end, world_.legs,
-                                     flight.receivers);
-        sort(flight.receivers);
-    }
+    find_receivers(flight, how, audience);
     flight.levels.clear();
-    if (world_.wants_levels()) find_levels(flight, end);
+    if (world_.wants_levels()) find_levels(flight, world_.now + how.airtime());
     if (interference_) put_on_air(slot, how);
     const bool errors = world_.medium.stations().radio(frame.sender).success_rate < 1;
     if (errors) garble(flight);
@@ -97,6 +90,20 @@ std::span<const Reception> Channel::transmit(const AirFrame& air, const Transmis
     world_.events.schedule(flight.receivers.first, Priority::frame_end,
                            {Occurrence::Kind::frame, frame.sender, slot});
     return all;
+}
+
+/// Finds the receivers that matter: all of them where frames interfere, as others may depend on
+/// them.
+void Channel::find_receivers(Flight& flight, const Transmission& how, Audience audience) {
+    if (audience == Audience::sensors) return find_sensors(flight, how);
+    const Frame& frame = flight.air.frame;
+    const Time now = world_.now, end = now + how.airtime();
+    if (audience == Audience::next_hop && !interference_ && !world_.settings.reference) {
+        return world_.medium.find_receiver(frame.sender, frame.next_hop, how.coding, now, end,
+                                           world_.legs, flight.receivers);
+    }
+    world_.medium.find_receivers(frame.sender, how.coding, now, end, world_.legs, flight.receivers);
+    sort(flight.receivers);
 }
 
 /// Finds the receivers, and reports all nodes that sense the frame to the user.
@@ -210,10 +217,11 @@ void Channel::garble(Flight& flight) const {
 }
 
 /// Last time up to which receptions can be served together, the first of which is now, by `key`. A
-/// reaction to a reception is at least least_reaction later; other events in the queue come first.
+/// reaction to a reception, at least least_reaction later, is after all of them; other events in
+/// the queue come first.
 Time Channel::served_until(EventKey key) const {
     if (world_.settings.reference) return key.time();
-    const Time most = std::min(key.time() + least_reaction, world_.end_of_run);
+    const Time most = std::min(key.time() + least_reaction - Duration{1}, world_.end_of_run);
     const EventKey next = world_.events.next_key();
     if (next.time() > most) return most;
     return key.at(next.time()) < next ? next.time() : next.time() - Duration{1};

@@ -34,6 +34,13 @@ struct Arriving {
     bool error_free;
 };
 
+/// Nodes that matter for a frame.
+enum class Audience {
+    next_hop,   ///< next hop of a unicast: no other node does anything about the frame
+    receivers,  ///< nodes that can decode the frame
+    sensors,    ///< nodes that can sense the frame, for an access model that listens
+};
+
 /// Interface of the layer above the channel. Mac implements it.
 class ChannelUser {
   public:
@@ -66,12 +73,11 @@ class Channel {
 
     /// Starts to transmit a frame now. The frame holds a reference to its message until the last
     /// reception.
-    /// @param is_sensed  whether the access model uses carrier sensing: then ChannelUser::sensed is
-    ///                   called
-    /// @return receptions at the nodes that can decode the frame, in order of time and then of
-    ///         node; valid until the next call
+    /// @param audience  nodes that matter; for `sensors`, ChannelUser::sensed is called
+    /// @return receptions at the nodes of the audience that can decode the frame, in order of time
+    ///         and then of node; possibly others, too; valid until the next call
     std::span<const Reception> transmit(const AirFrame& frame, const Transmission& how,
-                                        bool is_sensed);
+                                        Audience audience);
     /// Serves the event of a frame: passes the receptions that end before the next event in the
     /// queue to the layer above, and queues the event again for the remaining receptions.
     void arrive(const Event& event);
@@ -107,6 +113,8 @@ class Channel {
         bool error_free = false;
     };
 
+    // Finds the receivers of the frame that matter.
+    void find_receivers(Flight& flight, const Transmission& how, Audience audience);
     // Finds the receivers of the frame and all nodes that sense the frame; reports the sensing
     // nodes by ChannelUser::sensed.
     void find_sensors(Flight& flight, const Transmission& how);

@@ -26,7 +26,7 @@ Time Mac::transmit(const AirFrame& air) {
     if (world_.records.wants<AirSent>()) {
         world_.emit(AirSent{world_.now, air, how.bytes, data ? header_ : 0, how.airtime()});
     }
-    const auto receptions = channel_.transmit(air, how, listens_);
+    const auto receptions = channel_.transmit(air, how, audience_of(air.frame));
     const Time end = world_.now + how.airtime();
     if (world_.now >= start_of_run + world_.settings.warmup) airtime_so_far_ += how.airtime();
     const auto is_next_hop = [&](const Reception& r) { return r.node == air.frame.next_hop; };
@@ -35,6 +35,13 @@ Time Mac::transmit(const AirFrame& air) {
         miss(air, end);
     }
     return end;
+}
+
+Audience Mac::audience_of(const Frame& frame) const {
+    if (listens_) return Audience::sensors;
+    if (frame.next_hop == everyone) return Audience::receivers;
+    const bool is_overheard = world_.router && world_.router->traits().overhears;
+    return is_overheard ? Audience::receivers : Audience::next_hop;
 }
 
 void Mac::miss(const AirFrame& air, Time end) {

@@ -28,9 +28,8 @@ Time AodvRouter::RateLimit::take(Time now) {
     return now;
 }
 
-AodvRouter::Node& AodvRouter::node(NodeId id) {
-    while (nodes_.size() <= id.index()) nodes_.emplace_back().number = rules_.first_number;
-    return nodes_[id.index()];
+void AodvRouter::make_room(NodeId node) {
+    while (nodes_.size() <= node.index()) nodes_.emplace_back().number = rules_.first_number;
 }
 
 Route* AodvRouter::route(NodeId at, NodeId destination, Time now) {
@@ -153,22 +152,22 @@ void AodvRouter::lose(LinkLayer& link, NodeId at, const SendBuffer::Packet& pack
 void AodvRouter::on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions) {
     const Message& message = link.message(frame.message);
     if (message.kind.empty()) {
-        for (Reception* each : in_order(link, receptions)) receive_message(link, frame, *each);
-        return;
+        return in_order(link, receptions,
+                        [&](Reception& each) { receive_message(link, frame, each); });
     }
     const bool message_is_hello = message.kind == aodv::hello_kind;
     const aodv::Packet packet = aodv::packet_of(message.payload);
-    for (Reception* each : in_order(link, receptions)) {
-        each->fate = Fate::arrived;
-        hear(each->node, frame.sender, each->time, message_is_hello);
+    in_order(link, receptions, [&](Reception& each) {
+        each.fate = Fate::arrived;
+        hear(each.node, frame.sender, each.time, message_is_hello);
         if (const auto* request = std::get_if<aodv::Request>(&packet)) {
-            each->fate = receive_request(link, frame, *request, *each);
+            each.fate = receive_request(link, frame, *request, each);
         } else if (const auto* reply = std::get_if<aodv::Reply>(&packet)) {
-            each->fate = receive_reply(link, frame, *reply, *each);
+            each.fate = receive_reply(link, frame, *reply, each);
         } else if (const auto* error = std::get_if<aodv::Error>(&packet)) {
-            receive_error(link, frame, *error, *each);
+            receive_error(link, frame, *error, each);
         }
-    }
+    });
 }
 
 void AodvRouter::receive_message(LinkLayer& link, const Frame& frame, Reception& r) {

@@ -116,7 +116,12 @@ class AodvRouter {
         bool was_off = false;
     };
 
-    Node& node(NodeId id);
+    Node& node(NodeId id) {
+        if (id.index() >= nodes_.size()) [[unlikely]]
+            make_room(id);
+        return nodes_[id.index()];
+    }
+    [[gnu::noinline]] void make_room(NodeId node);
     Route* route(NodeId at, NodeId destination, Time now);
     Route* valid_route(NodeId at, NodeId destination, Time now);
     void refresh(NodeId at, NodeId destination, Time now);

@@ -148,12 +148,12 @@ void AodvRouter::give_up(LinkLayer& link, NodeId at, Search& search) {
 /// Ends the search for a destination to which there is a route, and sends what waited for it.
 void AodvRouter::end_search(LinkLayer& link, NodeId at, NodeId destination, Time when) {
     Node& here = node(at);
-    const Route* found = valid_route(at, destination, when);
-    if (!found) return;
-    const Route known = *found;  // the entry may move
     const auto ended = std::find_if(here.searches.begin(), here.searches.end(),
                                     [&](const auto& s) { return s.destination == destination; });
     if (ended == here.searches.end()) return;
+    const Route* found = valid_route(at, destination, when);
+    if (!found) return;
+    const Route known = *found;  // the entry may move
     const Hops before = ended->repaired_hops;
     here.searches.erase(ended);
     Time then = when;

@@ -180,14 +180,14 @@ void DsrRouter::lose(LinkLayer& link, NodeId at, const SendBuffer::Packet& packe
 void DsrRouter::on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions) {
     const Message& message = link.message(frame.message);
     if (message.kind.empty()) {
-        for (Reception* each : in_order(link, receptions)) receive_message(link, frame, *each);
-        return;
+        return in_order(link, receptions,
+                        [&](Reception& each) { receive_message(link, frame, each); });
     }
     const dsr::Packet packet = dsr::packet_of(message);
-    for (Reception* each : in_order(link, receptions)) {
-        each->fate = Fate::arrived;
-        receive_control(link, frame, packet, *each);
-    }
+    in_order(link, receptions, [&](Reception& each) {
+        each.fate = Fate::arrived;
+        receive_control(link, frame, packet, each);
+    });
 }
 
 void DsrRouter::receive_message(LinkLayer& link, const Frame& frame, Reception& r) {

@@ -60,8 +60,7 @@ void Medium::look_from(NodeId from, Time t, const Legs& legs) {
         choose_cells();
     }
     index_.refresh(t, legs);
-    origin_ = index_.position_of(from, t, legs);
-    origin_.z += stations_.kinds().height(stations_.kind(from));
+    origin_ = antenna(from, stations_.kind(from), t, legs);
 }
 
 /// Visitor for the index: calls use(entry, antenna, squared distance and, if the index returns it,
@@ -243,28 +242,52 @@ void Medium::put_arrivals(Time end, Receivers& out) const {
     out.last = end + arrivals_.delay(out.heard_within);
 }
 
+void Medium::find_receiver(NodeId from, NodeId to, Coding coding, Time start, Time end,
+                           const Legs& legs, Receivers& out) {
+    const Kind mine = stations_.kind(from, coding);
+    last_.reset();
+    found_.clear();
+    origin_ = antenna(from, mine, start, legs);
+    const auto found = link(from, mine, origin_, to, start, legs, links_.frame_key(from, start));
+    if (found) found_.put(*found, true);
+    put_arrivals(end, out);
+}
+
 bool Medium::hears(NodeId from, NodeId to, Time t, const Legs& legs) {
-    if (from == to || !stations_.is_on(to) || !stations_.may_link(from, to)) return false;
-    const Kind mine = stations_.kind(from), theirs = stations_.kind(to);
-    Vec3 here = index_.position_of(from, t, legs), there = index_.position_of(to, t, legs);
-    here.z += stations_.kinds().height(mine);
-    there.z += stations_.kinds().height(theirs);
+    const Kind mine = stations_.kind(from);
+    return link(from, mine, antenna(from, mine, t, legs), to, t, legs, 0).has_value();
+}
+
+Vec3 Medium::antenna(NodeId node, Kind kind, Time t, const Legs& legs) const {
+    Vec3 place = index_.position_of(node, t, legs);
+    place.z += stations_.kinds().height(kind);
+    return place;
+}
+
+std::optional<Medium::Found> Medium::link(NodeId from, Kind mine, Vec3 here, NodeId to, Time t,
+                                          const Legs& legs, std::uint64_t frame) {
+    if (from == to || !stations_.is_on(to) || !stations_.may_link(from, to)) return {};
+    const Kind theirs = stations_.kind(to);
+    const Vec3 there = antenna(to, theirs, t, legs);
     const double d2 = squared_distance(here, there);
     stations_.measure(legs);  // decision and reach depend on it
-    if (d2 > stations_.kinds().squared_reach(mine, Strength::decodable)) return false;
+    if (d2 > stations_.kinds().squared_reach(mine, Strength::decodable)) return {};
     stations_.kinds().prepare(mine);
-    switch (stations_.kinds().decision(mine)) {
-        case Decision::by_range:
-            return d2 <= stations_.kinds().squared_range(mine, theirs, Strength::decodable);
-        case Decision::by_table:
-            return stations_.kinds()
-                .table(mine, theirs, Strength::decodable)
-                .in_range(d2, draws_.bits(stations_.key(from), stations_.key(to)));
-        case Decision::by_loss: break;
-    }
-    const Db budget = stations_.kinds().budget(Strength::decodable, mine, theirs,
-                                               stations_.gain(from, to, t, legs));
-    return links_.of_frame(from, to, here, there, t, 0, budget) <= budget.value;
+    const auto is_strong_enough = [&] {
+        switch (stations_.kinds().decision(mine)) {
+            case Decision::by_range:
+                return d2 <= stations_.kinds().squared_range(mine, theirs, Strength::decodable);
+            case Decision::by_table:
+                return stations_.kinds()
+                    .table(mine, theirs, Strength::decodable)
+                    .in_range(d2, draws_.bits(stations_.key(from), stations_.key(to)));
+            case Decision::by_loss: break;
+        }
+        const Db budget = stations_.kinds().budget(Strength::decodable, mine, theirs,
+                                                   stations_.gain(from, to, t, legs));
+        return links_.of_frame(from, to, here, there, t, frame, budget) <= budget.value;
+    };
+    return is_strong_enough() ? std::optional<Found>{{to, d2}} : std::nullopt;
 }
 
 }  // namespace rovernet

@@ -117,6 +117,9 @@ class Medium {
     /// @param end     end of the frame at the transmitter
     void find_receivers(NodeId from, Coding coding, Time start, Time end, const Legs& legs,
                         Receivers& out);
+    /// Finds `to` alone, if it can decode the frame.
+    void find_receiver(NodeId from, NodeId to, Coding, Time start, Time end, const Legs&,
+                       Receivers& out);
     /// Finds the receivers as find_receivers(). @return nodes that sense the frame but cannot
     /// decode it, unsorted; valid until the next call
     std::span<const Found> find_sensors(NodeId from, Coding coding, Time start, Time end,
@@ -152,12 +155,14 @@ class Medium {
     // Search for find() by the model's losses of all nodes within reach.
     void find_in_reach(NodeId from, Kind mine, Strength strength, Time t, const Legs& legs,
                        std::uint64_t frame);
+    // Node `to`, if it can decode a signal of `from` from `here`.
+    std::optional<Found> link(NodeId from, Kind mine, Vec3 here, NodeId to, Time, const Legs&,
+                              std::uint64_t frame);
+    Vec3 antenna(NodeId node, Kind kind, Time t, const Legs& legs) const;
     // Puts the nodes of found_ into `out`, for a frame that ends at `end` at its sender.
     void put_arrivals(Time end, Receivers& out) const;
-    // Prepares the index for queries about `from` at `t`.
-    void look_from(NodeId from, Time t, const Legs& legs);
-    // Fills shares_ with the contributions of all nodes to the draws of their pairs.
-    void share_draws();
+    void look_from(NodeId from, Time t, const Legs& legs);  // prepares index and origin_
+    void share_draws();                                     // fills shares_
     // Visitor for the index: calls use(entry, antenna, squared distance and, if the index returns
     // it, place) for nodes within reach that are on and may have a link.
     template <class Use>
@@ -177,15 +182,12 @@ class Medium {
     // Index of nodes by position, and path losses of pairs at rest.
     NeighbourIndex index_;
     PairCache pairs_;
-    // Scene of the losses in pairs_.
-    const Scene* pairs_of_ = nullptr;
-    // Contributions of nodes to draws_, by place in the index, for Decision::by_table; and value of
-    // NeighbourIndex::bins() when they were computed.
+    const Scene* pairs_of_ = nullptr;  // scene of the losses in pairs_
+    // Contributions of nodes to draws_, by place in the index; and NeighbourIndex::bins() then.
     std::vector<std::uint64_t> shares_;
     std::uint64_t shares_of_bin_ = 0;
     // Whether the cell size of the index was set.
     bool cells_chosen_ = false;
-
     // Parameters of the last search (from, kind, strength, time, changes_), and position of its
     // antenna.
     std::optional<std::tuple<NodeId, Kind, Strength, Time, std::uint64_t>> last_;

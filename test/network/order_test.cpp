@@ -170,4 +170,18 @@ TEST_CASE("order: receivers that are light seconds away are in order, too") {
     CHECK(order == std::vector{NodeId{4}, NodeId{2}, NodeId{3}, NodeId{1}});
 }
 
+TEST_CASE("order: a robot reacts at the time at which the frame ends at another one") {
+    constexpr double microsecond = 299.792458;  // [m] at the speed of light
+    Network net({.propagation = Disc{.range = Meters{1000}}});
+    auto log = std::make_shared<ReceptionLog>();
+    net.add_sink(Sink{log});
+    net.route(Flood{.ttl = 2, .jitter = 0us});
+    for (const double x : {0.0, microsecond, 2 * microsecond}) {
+        net.add({.name = {}, .at = {x, 0, 0}});
+    }
+    net.send({0}, everyone, "hello");
+    net.run_for(1s);
+    CHECK(log->receptions.size() == 6);
+}
+
 }  // namespace order_test
