@@ -173,6 +173,31 @@ void AodvRouter::hear(NodeId at, NodeId neighbour, Time now, bool is_hello) {
     }
 }
 
+/// Whether a neighbour is on the blacklist: it does not hear this node (6.8).
+bool AodvRouter::is_blacklisted(NodeId at, NodeId neighbour, Time now) {
+    std::vector<Neighbour>& all = node(at).one_way;
+    std::erase_if(
+        all, [&](const Neighbour& each) { return now - each.last >= rules_.blacklist_timeout; });
+    return std::any_of(all.begin(), all.end(),
+                       [&](const Neighbour& each) { return each.node == neighbour; });
+}
+
+/// Drops a packet to a destination without a route, and sends a RERR to its sender (6.11 (ii)).
+void AodvRouter::refuse(LinkLayer& link, const Frame& frame, NodeId to, const Reception& r) {
+    const NodeId at = r.node;
+    // The sender has a route over this node, so that the number must not be forgotten.
+    Route* broken = route(at, to, r.time);
+    if (broken) {
+        broken->number += broken->has_number ? 1 : 0;
+        broken->until = r.time + rules_.delete_period;
+    }
+    if (r.time < node(at).silent_until) node(at).silent_until = r.time + rules_.silence;  // 6.13
+    const aodv::Error::Lost lost{to, broken && broken->has_number ? broken->number : 0};
+    send_errors(link, at, {&lost, 1}, r.time + least_reaction,
+                {.asker = frame.sender, .is_first = true});
+    link.drop(at, frame, DropReason::no_route);
+}
+
 /// Sends a HELLO if routes carry messages and nothing was broadcast meanwhile, and looks for
 /// neighbours that have fallen silent (6.9, 6.10).
 void AodvRouter::send_hello(LinkLayer& link, NodeId at) {

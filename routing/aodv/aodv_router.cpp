@@ -11,7 +11,6 @@ namespace {
 
 // Tags of timers.
 constexpr std::uint64_t searches = 0, hello = 1;
-// Time that a packet waits for a route, as ns-2 and ns-3 have it.
 
 }  // namespace
 
@@ -209,18 +208,7 @@ void AodvRouter::receive_message(LinkLayer& link, const Frame& frame, Reception&
         keep(link, at, to, onward, r.time);
         return set_timer(link, at);
     }
-    // 6.11 (ii): no route, and none is repaired. The sender has a route over this node, so that the
-    // number must not be forgotten.
-    Route* broken = route(at, to, r.time);
-    if (broken) {
-        broken->number += broken->has_number ? 1 : 0;
-        broken->until = r.time + rules_.delete_period;
-    }
-    if (r.time < node(at).silent_until) node(at).silent_until = r.time + rules_.silence;  // 6.13
-    const aodv::Error::Lost lost{to, broken && broken->has_number ? broken->number : 0};
-    send_errors(link, at, {&lost, 1}, r.time + least_reaction,
-                {.asker = frame.sender, .is_first = true});
-    link.drop(at, frame, DropReason::no_route);
+    refuse(link, frame, to, r);
 }
 
 void AodvRouter::on_sent(LinkLayer& link, const QueuedFrame& queued, SendResult result) {

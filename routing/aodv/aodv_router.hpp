@@ -147,6 +147,8 @@ class AodvRouter {
     void receive_error(LinkLayer& link, const Frame& frame, const aodv::Error& error,
                        const Reception& reception);
     void hear(NodeId at, NodeId neighbour, Time now, bool is_hello);
+    bool is_blacklisted(NodeId at, NodeId neighbour, Time now);
+    void refuse(LinkLayer& link, const Frame& frame, NodeId to, const Reception& reception);
     void send_hello(LinkLayer& link, NodeId at);
 
     // Searches (aodv_search.cpp).
@@ -154,6 +156,8 @@ class AodvRouter {
                          const Reception& reception);
     Fate receive_reply(LinkLayer& link, const Frame& frame, const aodv::Reply& reply,
                        const Reception& reception);
+    bool answer(LinkLayer& link, NodeId from, const aodv::Request& request,
+                const Reception& reception);
     void forward_request(LinkLayer& link, const Frame& frame, aodv::Request request,
                          const Reception& reception);
     void meet(NodeId at, NodeId neighbour, Time now);

@@ -228,19 +228,12 @@ Fate AodvRouter::receive_request(LinkLayer& link, const Frame& frame, const aodv
                                  const Reception& r) {
     const NodeId at = r.node, from = frame.sender;
     const Time when = r.time + least_reaction;
-    if (is_silent(at, r.time)) return Fate::arrived;  // 6.13
-    Node& here = node(at);
-    std::erase_if(here.one_way, [&](const Neighbour& each) {
-        return r.time - each.last >= rules_.blacklist_timeout;
-    });
-    if (std::any_of(here.one_way.begin(), here.one_way.end(),
-                    [&](const Neighbour& each) { return each.node == from; })) {
-        return Fate::arrived;  // 6.8: it would not hear the reply
-    }
+    if (is_silent(at, r.time)) return Fate::arrived;             // 6.13
+    if (is_blacklisted(at, from, r.time)) return Fate::arrived;  // 6.8: it would not hear the reply
     meet(at, from, r.time);
     end_search(link, at, from, when);
     if (request.originator == at ||
-        !here.seen.note(request.originator, request.id, r.time, rules_.path_discovery_time())) {
+        !node(at).seen.note(request.originator, request.id, r.time, rules_.path_discovery_time())) {
         return Fate::duplicate;
     }
     // 6.5: the reverse route.
@@ -259,6 +252,18 @@ Fate AodvRouter::receive_request(LinkLayer& link, const Frame& frame, const aodv
     // it from here would have a route over this node, which has none.
     if (!valid_route(at, request.originator, r.time)) return Fate::arrived;
     end_search(link, at, request.originator, when);
+    if (answer(link, from, request, r)) return Fate::arrived;
+    if (frame.ttl <= 1) return Fate::ttl;
+    forward_request(link, frame, request, r);
+    return Fate::waiting;
+}
+
+/// Answers a request as its destination, or with a route to it (6.6). @return whether it did
+bool AodvRouter::answer(LinkLayer& link, NodeId from, const aodv::Request& request,
+                        const Reception& r) {
+    const NodeId at = r.node;
+    const Time when = r.time + least_reaction;
+    Node& here = node(at);
     if (request.destination == at) {
         here.number = newest(here.number, request.number.value_or(here.number));  // 6.1, 6.6.1
         reply(link, at,
@@ -267,28 +272,24 @@ Fate AodvRouter::receive_request(LinkLayer& link, const Frame& frame, const aodv
                .originator = request.originator,
                .lifetime = rules_.my_route_timeout},
               when);
-        return Fate::arrived;
+        return true;
     }
     const Route* known = valid_route(at, request.destination, r.time);
-    const bool answers = known && known->has_number && !request.destination_only &&
-                         (!request.number || !is_newer(*request.number, known->number));
-    if (answers) {  // 6.6.2
-        const Route there = *known;
-        here.routes.add_precursor(there.destination, from);
-        here.routes.add_precursor(request.originator, there.next_hop);
-        reply(link, at,
-              {.hops = static_cast<std::uint8_t>(std::min<int>(there.hops, 255)),
-               .destination = there.destination,
-               .number = there.number,
-               .originator = request.originator,
-               .lifetime = there.until - r.time},
-              when);
-        if (request.gratuitous) tell_way_back(link, r, request);
-        return Fate::arrived;
-    }
-    if (frame.ttl <= 1) return Fate::ttl;
-    forward_request(link, frame, request, r);
-    return Fate::waiting;
+    const bool is_new_enough = known && known->has_number && !request.destination_only &&
+                               (!request.number || !is_newer(*request.number, known->number));
+    if (!is_new_enough) return false;
+    const Route there = *known;  // 6.6.2
+    here.routes.add_precursor(there.destination, from);
+    here.routes.add_precursor(request.originator, there.next_hop);
+    reply(link, at,
+          {.hops = static_cast<std::uint8_t>(std::min<int>(there.hops, 255)),
+           .destination = there.destination,
+           .number = there.number,
+           .originator = request.originator,
+           .lifetime = there.until - r.time},
+          when);
+    if (request.gratuitous) tell_way_back(link, r, request);
+    return true;
 }
 
 /// Forwards a request, with the larger one of its number of the destination and that of the node
