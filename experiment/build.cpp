@@ -229,7 +229,7 @@ void send_and_repeat(const std::shared_ptr<Source>& source) {
     const auto size = table.size ? std::optional(table.size->value) : std::nullopt;
     if (table.saturate) {
         const auto length = static_cast<std::uint32_t>(table.payload.size());
-        return network.saturate(sender, to, size.value_or(length), flow);
+        return network.saturate(sender, to, size.value_or(length), flow, table.payload);
     }
     const Time end = table.stop ? start_of_run + *table.stop : never;
     if (network.now() >= end) return;  // "arrival" may come as late

@@ -163,6 +163,11 @@ void Session::set_hearing(ClientId client, bool hears) {
     radios_->set_hearing(client, hears);
 }
 
+std::string Session::why_not(NodeId robot, const RobotCommand& command) const {
+    const auto* place = std::get_if<PlaceCommand>(&command);
+    return place ? why_not_at(robot, place->at) : "";
+}
+
 std::string Session::why_not_at(NodeId robot, Vec3 at) const {
     const Scene& storey = network_->scene().storey_at(at.z);
     const Vec3 low = storey.lower_left(), high = storey.upper_right();

@@ -118,9 +118,10 @@ class Session {
     bool is_stalled(NodeId robot) const;
     /// Whether the robot stands still since no path reaches the goal of its command.
     bool has_no_way(NodeId robot) const;
-    /// Sentence that explains why a robot does not fit at a position [m]: off the map, in a wall,
-    /// or nearer to a wall than the robot's radius. Empty if the robot fits.
-    std::string why_not_at(NodeId robot, Vec3 at) const;
+    /// Sentence that explains why a robot cannot carry out a command: it does not fit at the
+    /// position [m] of a PlaceCommand, off the map, in a wall, or nearer to a wall than its radius.
+    /// Empty if the robot can.
+    std::string why_not(NodeId robot, const RobotCommand& command) const;
     /// Velocity of a robot in its own frame. While a drive command is active, this is the velocity
     /// of the drive; otherwise that of the current leg (piece of movement).
     Twist twist(NodeId robot) const;
@@ -147,6 +148,7 @@ class Session {
     const Client& client_of(ClientId client) const;
     /// Checks that the client drives the robot. @throws std::invalid_argument if it does not
     void check_robot(ClientId client, NodeId robot) const;
+    std::string why_not_at(NodeId robot, Vec3 at) const;
 
     std::string file_;  // path of the scenario file, for error messages
     std::shared_ptr<Network> network_;

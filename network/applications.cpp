@@ -81,12 +81,13 @@ std::optional<std::uint64_t> Applications::send(NodeId from, NodeId to, std::str
     return uid;
 }
 
-void Applications::saturate(NodeId node, NodeId to, const SendOptions& options) {
+void Applications::saturate(NodeId node, NodeId to, std::string payload,
+                            const SendOptions& options) {
     if (!mac_.queues()) {
         throw std::invalid_argument("saturated traffic needs an access model: aloha or csma");
     }
-    saturated_[node] = {to, options};
-    for (int waiting = 0; waiting < 2; ++waiting) send(node, to, {}, options);
+    saturated_[node] = {to, payload, options};
+    for (int waiting = 0; waiting < 2; ++waiting) send(node, to, payload, options);
 }
 
 /// Sends the next frame of a node with saturated traffic, 1 us after the last one.
@@ -95,7 +96,7 @@ void Applications::has_room(NodeId id) {
     const auto found = saturated_.find(id);
     if (found == saturated_.end()) return;
     world_.schedule(world_.now + least_reaction, Callback<>([this, id, traffic = found->second] {
-                        send(id, traffic.to, {}, traffic.options);
+                        send(id, traffic.to, traffic.payload, traffic.options);
                     }));
 }
 

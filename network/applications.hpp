@@ -37,7 +37,7 @@ class Applications final : public RoutingUser {
     /// Starts saturated traffic of a node; implements Network::saturate. Two messages are queued at
     /// the start, and each message that has left the queue is followed by a new message.
     /// @throws std::invalid_argument without an access model, because sending would be unlimited
-    void saturate(NodeId node, NodeId to, const SendOptions& options);
+    void saturate(NodeId node, NodeId to, std::string payload, const SendOptions& options);
     /// Whether any message was sent so far. If so, the error at the event limit advises the user to
     /// send fewer messages.
     bool has_sent() const { return has_sent_; }
@@ -60,9 +60,10 @@ class Applications final : public RoutingUser {
     void has_room(NodeId node) override;
 
   private:
-    /// Saturated traffic of a node: destination and options of the node's messages.
+    /// Saturated traffic of a node: destination, payload and options of the node's messages.
     struct Saturated {
         NodeId to;
+        std::string payload;
         SendOptions options;
     };
     /// Callback of a node for received messages, and the callback's options.

@@ -126,6 +126,15 @@ void Channel::find_sensors(Flight& flight, const Transmission& how) {
     user_.sensed(sensed_);
 }
 
+/// Frame that starts now, as it leaves its sender.
+Emission Channel::emission_of(const Flight& flight, Time end) const {
+    return {.begin = world_.now,
+            .end = end,
+            .origin = flight.receivers.origin,
+            .from = flight.air.frame.sender,
+            .heard_within = flight.receivers.heard_within};
+}
+
 /// Computes the received power of each reception at a node that asks for it; NaN at the others.
 void Channel::find_levels(Flight& flight, Time end) {
     Medium& medium = world_.medium;
@@ -133,12 +142,8 @@ void Channel::find_levels(Flight& flight, Time end) {
     const auto is_wanted = [&](const Reception& r) { return world_.wants_level_at(r.node); };
     if (std::none_of(all.begin(), all.end(), is_wanted)) return;
     const NodeId sender = flight.air.frame.sender;
-    const Emission frame{.begin = world_.now,
-                         .end = end,
-                         .origin = flight.receivers.origin,
-                         .from = sender,
-                         .heard_within = flight.receivers.heard_within,
-                         .squared_reach = std::numeric_limits<double>::infinity()};
+    Emission frame = emission_of(flight, end);
+    frame.squared_reach = std::numeric_limits<double>::infinity();
     const auto level_at = [&](NodeId node) {
         const Vec3 there = medium.position(node, world_.now, world_.legs);
         const Headings headings{{world_.legs.leg(sender).heading_at(world_.now)},
@@ -159,14 +164,10 @@ void Channel::find_levels(Flight& flight, Time end) {
 void Channel::put_on_air(std::size_t slot, const Transmission& how) {
     Flight& flight = flights_[slot];
     forget_frames();
-    flight.emission = interference_->add({.begin = world_.now,
-                                          .end = world_.now + how.airtime(),
-                                          .origin = flight.receivers.origin,
-                                          .from = flight.air.frame.sender,
-                                          .heard_within = flight.receivers.heard_within,
-                                          .flight = static_cast<std::uint32_t>(slot),
-                                          .coding = how.coding},
-                                         how, flight.receivers.all());
+    Emission frame = emission_of(flight, world_.now + how.airtime());
+    frame.flight = static_cast<std::uint32_t>(slot);
+    frame.coding = how.coding;
+    flight.emission = interference_->add(frame, how, flight.receivers.all());
 }
 
 /// Removes frames that cannot affect receptions any more, and frees their flights.

@@ -118,6 +118,8 @@ class Channel {
     // Finds the receivers of the frame and all nodes that sense the frame; reports the sensing
     // nodes by ChannelUser::sensed.
     void find_sensors(Flight& flight, const Transmission& how);
+    // Frame of a Flight that starts now, for levels and interference; without its reach.
+    Emission emission_of(const Flight& flight, Time end) const;
     // Adds the frame of the Flight in `slot` to the frames that may interfere with other frames.
     void put_on_air(std::size_t slot, const Transmission& how);
     // Computes the received power of the frame at each receiver for which the power is requested.

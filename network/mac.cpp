@@ -76,8 +76,7 @@ void Mac::judge(const AirFrame& air, std::span<const Reception> receptions) {
 
 std::uint32_t Mac::bytes(const AirFrame& frame) const {
     if (frame.control) return frame.control->bytes;
-    const std::uint32_t above = frame.frame.bytes;
-    return (above > 0 ? above : world_.messages[frame.frame.message].size) + header();
+    return frame.frame.size_of(world_.messages[frame.frame.message]) + header();
 }
 
 BitRate Mac::rate_of(const AirFrame& frame) const {

@@ -25,8 +25,10 @@ std::optional<std::uint64_t> Network::send(NodeId from, NodeId to, std::string p
                                            SendOptions options) {
     return engine_->applications.send(engine_->known(from), to, std::move(payload), options);
 }
-void Network::saturate(NodeId node, NodeId to, std::uint32_t size, std::uint32_t flow) {
-    engine_->applications.saturate(node, to, {.size = size, .flow = flow, .one_hop = true});
+void Network::saturate(NodeId node, NodeId to, std::uint32_t size, std::uint32_t flow,
+                       std::string payload) {
+    engine_->applications.saturate(node, to, std::move(payload),
+                                   {.size = size, .flow = flow, .one_hop = true});
 }
 
 Subscription Network::on_receive(NodeId node, std::function<void(const Message&)> react) {

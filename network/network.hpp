@@ -43,8 +43,7 @@ class Engine;
 class Legs;
 class Medium;
 
-/// Robots, their radios and their messages in one simulated world. Network is the main class of the
-/// library:
+/// Simulated world of robots, their radios and their messages: the main class of the library.
 ///
 ///   Network network({.seed = 1});
 ///   const NodeId a = network.add({.name = "A", .at = {0, 0}});
@@ -86,10 +85,11 @@ class Network {
     ///         for a message to everyone that is not limited to one hop
     std::optional<std::uint64_t> send(NodeId from, NodeId to, std::string payload,
                                       SendOptions options = {});
-    /// Starts saturated traffic: from now on `node` always has another message of `size` [bytes] to
-    /// send to `to`, or to everyone, over one hop.
+    /// Starts saturated traffic: from now on `node` always has another message of `size` [bytes],
+    /// with this payload, to send to `to`, or to everyone, over one hop.
     /// @throws std::invalid_argument without an access model, because sending would be unlimited
-    void saturate(NodeId node, NodeId to, std::uint32_t size, std::uint32_t flow = 0);
+    void saturate(NodeId node, NodeId to, std::uint32_t size, std::uint32_t flow = 0,
+                  std::string payload = {});
     // Callbacks: each callback is called until its Subscription is ended.
 
     /// Calls `react` whenever a message is delivered to `node`, 1 us after its reception.

@@ -32,7 +32,7 @@ void FloodRouter::send(LinkLayer& link, NodeId node, MessageId message) {
     link.send({.message = message,
                .sender = node,
                .path = link.key(node),
-               .ttl = flood_.ttl_in_payload ? initial_ttl(link.message(message)) : initial_ttl(),
+               .ttl = initial_ttl(link.message(message)),
                .hops = 1},
               std::nullopt, link.now());
 }

@@ -243,6 +243,15 @@ bool placed_by_file(const Value& robot, const std::set<std::string_view>& names)
     return name && name->string() && names.contains(*name->string());
 }
 
+/// Reads [[robot]]; robots that the movement file places need no place there.
+void read_robots(TableReader& document, Scenario& out) {
+    std::set<std::string_view> in_file;
+    for (const FileRobot& robot : out.movement.robots) in_file.insert(robot.name);
+    out.robots = read_list<RobotTable>(document, "robot", [&](const Value& v) {
+        return read_robot(v, out, !placed_by_file(v, in_file));
+    });
+}
+
 }  // namespace
 
 void read_value(const Value& value, std::string_view key, EifsRule& out) {
@@ -293,11 +302,7 @@ Scenario read_scenario(const Value& value, const std::string& file, bool needs_r
     read_choice_of(document, "reception", "model", out.reception);
     read_section(document, "links", out.links);
     read_movement(document, out);
-    std::set<std::string_view> in_file;
-    for (const FileRobot& robot : out.movement.robots) in_file.insert(robot.name);
-    out.robots = read_list<RobotTable>(document, "robot", [&](const Value& v) {
-        return read_robot(v, out, !placed_by_file(v, in_file));
-    });
+    read_robots(document, out);
     read_choice_of(document, "routing", "protocol", out.routing);
     read_all_traffic(document, out);
     name_flows(out.traffic);

@@ -23,8 +23,7 @@ inline constexpr std::uint32_t longest_message = 65'507;  ///< [bytes] in a UDP 
 struct Message {
     /// Node that created the message.
     NodeId origin;
-    /// Number that is unique in the run, from 0 in the order of sending; World::new_message assigns
-    /// it.
+    /// Unique number in the run, from 0 in the order of sending; World::new_message assigns it.
     std::uint64_t uid = 0;
     /// Number of the message among the messages of its origin, from 0; control packets of protocols
     /// are counted separately.
@@ -52,8 +51,7 @@ struct Message {
 
     /// Protocol of a control packet, the first word of its kind: its type in ns-2 traces.
     std::string_view protocol() const { return kind.substr(0, kind.find(' ')); }
-    /// Whether the message is a packet of the link layer, below routing: "ARP REQUEST" or "ARP
-    /// REPLY".
+    /// Whether the message is of the link layer, below routing: "ARP REQUEST" or "ARP REPLY".
     bool is_link_packet() const { return kind.starts_with("ARP "); }
     /// Whether the message is a control packet of the routing protocol.
     bool is_routing_packet() const { return !kind.empty() && !is_link_packet(); }
@@ -83,9 +81,11 @@ struct Frame {
     NodeId next_hop = everyone;
     /// Size [bytes] at this hop, without the bytes that the access model adds; 0: Message::size.
     std::uint32_t bytes = 0;
-    /// Header of this copy: number of an entry in the routing protocol's own table, from 1; 0 for
-    /// none. See LinkLayer::send.
+    /// Header of this copy: entry in its protocol's table, from 1; 0: none. See LinkLayer::send.
     std::uint32_t header = 0;
+
+    /// Size [bytes] of this frame of the message `content`, see `bytes`.
+    std::uint32_t size_of(const Message& content) const { return bytes > 0 ? bytes : content.size; }
 };
 
 /// Header that the routing protocol puts before the message in a frame, with the bytes that go on

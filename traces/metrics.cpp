@@ -106,7 +106,7 @@ void Metrics::on(const Record& record, const RecordContext& context) {
 void Metrics::count_packet(const Frame& frame, const Message& message, Time time) {
     if (time < begin_) return;
     ++routing_.packets;
-    routing_.bytes += frame.bytes > 0 ? frame.bytes : message.size;
+    routing_.bytes += frame.size_of(message);
     const std::string_view kind = message.kind.substr(message.kind.rfind(' ') + 1);
     if (kind == "REQUEST") ++routing_.requests;
     if (kind == "REPLY") ++routing_.replies;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/replay/capture.hpp"
 
+#include "experiment/replay/packet_on_air.hpp"
 #include "experiment/replay/recorded_air.hpp"
 #include "experiment/reports/link_table.hpp"
 #include "experiment/reports/range_of_model.hpp"
 #include "network/arp_packet.hpp"
-#include "routing/packet_on_air.hpp"
 #include "traces/pcapng/wifi_packet.hpp"
 
 #include <charconv>

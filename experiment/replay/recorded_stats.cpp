@@ -148,7 +148,7 @@ bool RecordedCounter::count_routed(const Frame& frame, Time time) {
         counter_.transmitted(frame.sender, message->sending.flow, time);
     } else if (const Message& packet = context_->messages[frame.message];
                packet.is_routing_packet()) {
-        counter_.routed(frame.bytes > 0 ? frame.bytes : packet.size);
+        counter_.routed(frame.size_of(packet));
     }
     return add_packets(1);
 }

@@ -174,8 +174,7 @@ void Lockstep::handle(Connection from, StepRequest& step) {
         throw RequestError("done", "type", "the run is at its end; expected reset or bye");
     }
     for (const auto& [robot, command] : step.commands) {
-        const auto* place = std::get_if<PlaceCommand>(&command);
-        const std::string why = place ? session_->why_not_at(robot, place->at) : "";
+        const std::string why = session_->why_not(robot, command);
         if (!why.empty())
             throw RequestError("no_room", "do." + session_->network().name(robot) + ".place", why);
     }

@@ -71,10 +71,8 @@ ScenarioRun& SteppedRun::run() const {
 
 void SteppedRun::command(std::size_t row, RobotCommand command) {
     check(command, name(row));
-    if (const auto* place = std::get_if<PlaceCommand>(&command)) {
-        const std::string why = session().why_not_at(robots_[row], place->at);
-        if (!why.empty()) throw std::invalid_argument("place: " + why);
-    }
+    const std::string why = session().why_not(robots_[row], command);
+    if (!why.empty()) throw std::invalid_argument("place: " + why);
     if (const auto* send = std::get_if<SendCommand>(&command)) {
         if (send->to == robots_[row]) {
             throw std::invalid_argument("send: expected another robot, or none for everyone");

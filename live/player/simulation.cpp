@@ -44,7 +44,7 @@ PlaceCommand read_place3d(XdrReader& payload) {
 
 /// Puts a robot there; refused where there is no room.
 std::optional<std::string> put(PlayerRobot& robot, const PlaceCommand& place) {
-    if (!robot.session().why_not_at(robot.id(), place.at).empty()) return std::nullopt;
+    if (!robot.session().why_not(robot.id(), place).empty()) return std::nullopt;
     robot.carry_out(place);
     return "";
 }

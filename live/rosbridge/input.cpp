@@ -125,6 +125,9 @@ NodeId read_robot(const JsonElement& name, const Network& network) {
 
 SendCommand read_send(const JsonElement& message, NodeId robot, const Network& network) {
     constexpr std::array<std::string_view, 4> keys = {"dst_address", "dst_port", "data", "size"};
+    // These are the keys of its fields in their order; "one_hop" is in no message.
+    static_assert(keys_of<SendCommand>() ==
+                  std::array<std::string_view, 5>{"to", "port", "data", "size", "one_hop"});
     SendCommand send;
     RosSend(robot, network).read(send, message, keys, members(message, keys));
     return send;

@@ -31,10 +31,8 @@ void RosRobots::take(NodeId robot) {
 
 std::optional<std::uint64_t> RosRobots::carry_out(NodeId robot, const RobotCommand& command,
                                                   Front::Connection by) {
-    if (const auto* place = std::get_if<PlaceCommand>(&command)) {
-        const std::string why = session_.why_not_at(robot, place->at);
-        if (!why.empty()) throw RequestError("no_room", "args.pose.position", why);
-    }
+    const std::string why = session_.why_not(robot, command);
+    if (!why.empty()) throw RequestError("no_room", "args.pose.position", why);
     take(robot);
     if (is_movement(command)) drivers_[robot] = by;
     return session_.carry_out(clients_.at(robot), robot, command, ++commands_);

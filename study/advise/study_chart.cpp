@@ -110,6 +110,17 @@ std::string note_of(const Answers& all, const ChartQuestion& q, double confidenc
                        percent(confidence), methods_text(all.list), rest);
 }
 
+/// Checks that a kind of chart has the keys that its axes need.
+void check_axes(const ChartQuestion& q) {
+    const bool cdf = q.kind == ChartKind::cdf;
+    if (q.x.empty() && !cdf) throw std::invalid_argument("-x: expected a key that varies");
+    if (cdf && !q.x.empty())
+        throw std::invalid_argument("-x: a cdf has its metric on the x axis; give it with -y");
+    if (q.kind == ChartKind::heat_map && q.by.empty()) {
+        throw std::invalid_argument("--by: a heat map needs a key for its rows");
+    }
+}
+
 /// A chart of no points, with its axes.
 Chart frame_of(const ChartQuestion& q, const std::string& unit) {
     Chart chart{.kind = *q.kind, .log_x = q.log_x, .log_y = q.log_y};
@@ -192,15 +203,10 @@ std::vector<Condition> conditions_of(const std::vector<std::string>& paths,
 }
 
 Chart study_chart(const Store& store, const ChartQuestion& question) {
+    check_axes(question);
     ChartQuestion q = question;
     const std::vector<std::string> paths = varied_paths(store);
     const bool cdf = q.kind == ChartKind::cdf;
-    if (q.x.empty() && !cdf) throw std::invalid_argument("-x: expected a key that varies");
-    if (cdf && !q.x.empty())
-        throw std::invalid_argument("-x: a cdf has its metric on the x axis; give it with -y");
-    if (q.kind == ChartKind::heat_map && q.by.empty()) {
-        throw std::invalid_argument("--by: a heat map needs a key for its rows");
-    }
     std::vector<std::string> group_by;
     for (std::string* word : {&q.x, &q.by}) {
         if (word->empty()) continue;

@@ -120,4 +120,26 @@ TEST_CASE("build: a scenario under a protocol of a program, which routes what ha
     }
 }
 
+TEST_CASE("build: a robot reacts to the payload of saturated traffic") {
+    const std::string two =
+        "[access]\nmodel = \"csma\"\n"
+        "[[robot]]\nname = \"A\"\nat = [\"0 m\", \"0 m\"]\n"
+        "on_receive = { payload = \"go\", send = \"coming\" }\n"
+        "[[robot]]\nname = \"B\"\nat = [\"5 m\", \"0 m\"]\n"
+        "[[traffic]]\nfrom = \"B\"\npayload = \"go\"\nsaturate = true\n";
+    for (const auto& [key, size] : {std::pair{"", 2U}, std::pair{"size = \"500 B\"\n", 500U}}) {
+        Built built(two + key);
+        Network& network = built.network;
+        int answers = 0, others = 0;
+        network.on_receive(*network.find("A"), [&](const Message& message) {
+            others += message.payload != "go" || message.size != size;
+        });
+        network.on_receive(*network.find("B"),
+                           [&](const Message& message) { answers += message.payload == "coming"; });
+        network.run_for(std::chrono::milliseconds(100));
+        CHECK(answers == 1);
+        CHECK(others == 0);
+    }
+}
+
 }  // namespace build_test

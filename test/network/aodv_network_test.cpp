@@ -6,7 +6,7 @@
 #include "models/reception/list.hpp"
 #include "network/network.hpp"
 #include "routing/aodv.hpp"
-#include "routing/aodv_packets.hpp"
+#include "routing/aodv/aodv_packets.hpp"
 #include "traces/metrics.hpp"
 
 #include <doctest/doctest.h>

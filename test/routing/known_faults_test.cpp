@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Faults that are known of other simulators' AODV and DSR, one test each: what they do wrong is
 // done right here. Names begin with the simulator.
-#include "test/routing/aodv_node.hpp"
-#include "test/routing/dsr_node.hpp"
+#include "test/routing/aodv/aodv_node.hpp"
+#include "test/routing/dsr/dsr_node.hpp"
 
 #include <doctest/doctest.h>
 

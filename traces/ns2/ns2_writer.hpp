@@ -58,7 +58,7 @@ struct Ns2PacketFields : Ns2LineFields {
     const Frame* frame = nullptr;  ///< frame of the packet, if it has one yet
 
     std::uint32_t size(const Message& m) const {
-        return (frame && frame->bytes > 0 ? frame->bytes : m.size) + added;
+        return (frame ? frame->size_of(m) : m.size) + added;
     }
     /// Source in the IP header: each forwarder of a protocol's broadcast writes itself.
     NodeId source(const Message& m) const {

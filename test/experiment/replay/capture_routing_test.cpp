@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Packets of ARP and of routing protocols in captures: tshark, which has read the RFCs by itself,
 // is to print what the recorded trace says.
-#include "routing/aodv_packets.hpp"
-#include "routing/dsr_packets.hpp"
+#include "routing/aodv/aodv_packets.hpp"
+#include "routing/dsr/dsr_packets.hpp"
 #include "test/experiment/replay/captured_run.hpp"
 #include "traces/recorded/recorded_reader.hpp"
 

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "routing/aodv/aodv_router.hpp"
+#include "test/routing/fake_link_layer.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rovernet::test {
+
+/// One node, 0, among neighbours that the test plays.
+struct AodvNode {
+    explicit AodvNode(Aodv aodv = {}, std::size_t nodes = 10)
+        : link(nodes), router(AodvRules::of(aodv)) {
+        link.on_forgotten = [this](MessageId id) { router.forget(id); };
+    }
+
+    /// A packet of a neighbour arrives. @return its fate
+    Fate hear(std::uint32_t from, const std::string& bytes, std::string_view kind, Hops hops = 1,
+              Hops ttl = 10) {
+        const MessageId id = link.originate(NodeId{from}, everyone, kind, 24, bytes);
+        const auto got = link.arrive(
+            router, {.message = id, .sender = NodeId{from}, .ttl = ttl, .hops = hops}, {0});
+        link.release(id);
+        return got[0].fate;
+    }
+    Fate hear(std::uint32_t from, const aodv::Request& r, Hops hops = 1, Hops ttl = 10) {
+        return hear(from, aodv::to_bytes(r), aodv::request_kind, hops, ttl);
+    }
+    Fate hear(std::uint32_t from, const aodv::Reply& r, Hops hops = 1) {
+        return hear(from, aodv::to_bytes(r), aodv::reply_kind, hops);
+    }
+    Fate hear(std::uint32_t from, const aodv::Error& e) {
+        return hear(from, aodv::to_bytes(e), aodv::error_kind);
+    }
+    /// A route to `to` over a neighbour, by a reply to node 0.
+    void learn(std::uint32_t to, std::uint32_t over, std::uint32_t number, std::uint8_t hops = 1) {
+        hear(over, aodv::Reply{.hops = hops,
+                               .destination = NodeId{to},
+                               .number = number,
+                               .originator = NodeId{0},
+                               .lifetime = std::chrono::seconds{3}});
+    }
+    /// A message of another node, from a neighbour, for `to`.
+    Fate forward(std::uint32_t origin, std::uint32_t from, std::uint32_t to, Hops ttl = 10) {
+        const MessageId id = link.message_from(NodeId{origin}, NodeId{to});
+        const auto got = link.arrive(
+            router,
+            {.message = id, .sender = NodeId{from}, .ttl = ttl, .hops = 2, .next_hop = NodeId{0}},
+            {0});
+        link.release(id);
+        return got[0].fate;
+    }
+    void send(std::uint32_t to) {
+        const MessageId id = link.message_from(NodeId{0}, NodeId{to});
+        router.send(link, NodeId{0}, id);
+        link.release(id);
+    }
+    /// The timer that is due next rings.
+    void wait() {
+        const auto next =
+            std::min_element(link.timers.begin(), link.timers.end(),
+                             [](const auto& a, const auto& b) { return a.at < b.at; });
+        REQUIRE(next != link.timers.end());
+        const auto timer = *next;
+        link.timers.erase(next);
+        link.time = timer.at;
+        router.on_timer(link, timer.node, timer.tag);
+    }
+    /// All timers ring that are due until `end`.
+    void run(Time end) {
+        while (std::any_of(link.timers.begin(), link.timers.end(),
+                           [&](const auto& each) { return each.at <= end; }))
+            wait();
+        link.time = end;
+    }
+    /// The last frame that was sent fails: its next hop does not answer.
+    void fail_last() {
+        link.go();
+        link.end(router, link.sent.size() - 1, SendResult::retries);
+    }
+    /// A route of node `origin` to `to` over node 0, whose neighbours are `from` and `over`.
+    void pass_reply(std::uint32_t origin, std::uint32_t from, std::uint32_t to, std::uint32_t over,
+                    std::uint32_t number = 9) {
+        hear(from,
+             aodv::Request{.id = ++last_id,
+                           .destination = NodeId{to},
+                           .number = std::nullopt,
+                           .originator = NodeId{origin},
+                           .originator_number = 5},
+             3);
+        hear(over,
+             aodv::Reply{.hops = 1,
+                         .destination = NodeId{to},
+                         .number = number,
+                         .originator = NodeId{origin},
+                         .lifetime = std::chrono::seconds{6}},
+             2);
+    }
+    std::optional<RouteState> route(std::uint32_t to) const {
+        for (const RouteState& each : router.routes(NodeId{0}, link.time)) {
+            if (each.destination == NodeId{to}) return each;
+        }
+        return {};
+    }
+    /// Packets of a kind that were sent so far.
+    template <class Packet>
+    std::vector<std::pair<Frame, Packet>> sent() const {
+        std::vector<std::pair<Frame, Packet>> all;
+        for (const auto& each : link.sent) {
+            const Frame& frame = each.queued.frame;
+            if (link.message(frame.message).uid != each.uid) continue;
+            const auto packet = aodv::packet_of(link.message(frame.message).payload);
+            if (const auto* p = std::get_if<Packet>(&packet)) all.emplace_back(frame, *p);
+        }
+        return all;
+    }
+    /// Messages of applications that were sent so far.
+    std::vector<Frame> data() const {
+        std::vector<Frame> all;
+        for (const auto& each : link.sent) {
+            const Message& message = link.message(each.queued.frame.message);
+            if (message.uid == each.uid && message.kind.empty()) all.push_back(each.queued.frame);
+        }
+        return all;
+    }
+
+    FakeLinkLayer link;
+    AodvRouter router;
+    std::uint32_t last_id = 1000;
+};
+
+/// Request for a destination whose number is not known.
+inline aodv::Request request(std::uint32_t from, std::uint32_t to, std::uint32_t id = 1,
+                             std::uint32_t number = 5) {
+    return {.id = id,
+            .destination = NodeId{to},
+            .number = std::nullopt,
+            .originator = NodeId{from},
+            .originator_number = number};
+}
+
+}  // namespace rovernet::test
