@@ -15,7 +15,7 @@ NetworkSettings network_settings(const Scenario& scenario);
 /// network_settings(scenario).
 /// @throws InputError for errors that need the map: a robot in a wall, a goal that no path reaches
 void populate(Network& network, const Scenario& scenario);
-/// Puts a scenario into a Network made with network_settings(scenario). The routing protocol is
+/// Puts a scenario into a Network made with network_settings(scenario), with the routing protocol
 /// `router` instead of the scenario's protocol.
 void populate(Network& network, const Scenario& scenario, Router router);
 

@@ -18,7 +18,7 @@
 
 namespace rovernet {
 
-/// List of the command types in a std::variant, without the type `Left`, as a std::tuple.
+/// std::tuple of the command types in a std::variant, except the type `Left`.
 template <class Variant, class Left = void>
 struct CommandList;
 template <class... Commands, class Left>

@@ -22,7 +22,7 @@ class DrivenRobots {
     DrivenRobots(const DrivenRobots&) = delete;
     DrivenRobots& operator=(const DrivenRobots&) = delete;
 
-    // Actions of the robot commands, called by the function carry_out() of each command.
+    // Actions of robot commands; the function carry_out() of a command calls its action.
 
     /// Makes a robot drive ahead and turn. @param timeout  time until the robot stops [ns]; none:
     /// no limit
@@ -31,7 +31,7 @@ class DrivenRobots {
     /// Lets a robot drive to a point, around the walls.
     void go(NodeId robot, Vec3 to, MetersPerSecond speed);
     void stop(NodeId robot);
-    /// Moves a robot to another position [m] in zero time, where it rests.
+    /// Moves a robot to the position `at` [m] in zero time; the robot then rests.
     void place(NodeId robot, Vec3 at, Radians heading);
     Network& network() { return network_; }
 
@@ -43,8 +43,8 @@ class DrivenRobots {
     bool is_stalled(NodeId robot) const;
     /// Whether the robot stands still since no path reaches the goal of its command.
     bool has_no_way(NodeId robot) const;
-    /// Velocity of a robot in its own frame. While a drive command is active, this is the velocity
-    /// of the drive; otherwise that of the current leg (piece of movement).
+    /// Velocity of a robot in the robot's coordinate frame: the commanded velocity while a drive
+    /// command is active; otherwise the velocity of the current leg (piece of movement).
     Twist twist(NodeId robot) const;
 
   private:

@@ -73,7 +73,7 @@ struct StopCommand {
     void carry_out(auto& robots, NodeId robot) const { robots.stop(robot); }
 };
 
-/// Command that moves the robot to another position in zero time (teleport), where it rests.
+/// Command that moves the robot to a new position in zero time (teleport); the robot then rests.
 struct PlaceCommand {
     static constexpr std::string_view name = "place";
 
@@ -149,7 +149,7 @@ struct HeardMessage {
     friend bool operator==(const HeardMessage&, const HeardMessage&) = default;
 };
 
-/// Velocity of a robot in its own frame, as its odometry would measure it.
+/// Velocity of a robot in the robot's coordinate frame, as odometry would measure it.
 struct Twist {
     double speed = 0;      ///< speed ahead [m/s], < 0: backwards
     double turn_rate = 0;  ///< turn rate [rad/s], counter-clockwise

@@ -71,8 +71,8 @@ class Session {
     /// @param hears  whether messages are queued for heard(), as set_hearing()
     ClientId attach(const std::vector<NodeId>& robots, std::string name = {}, bool hears = true);
     /// Adds a client that uses the radios of `robots` without driving the robots. The client sends
-    /// messages from these robots, and gets the messages that they receive. Each robot is listed
-    /// once.
+    /// messages from these robots, and gets the messages received by these robots. Each robot is
+    /// listed once.
     ClientId attach_radios(const std::vector<NodeId>& robots, std::string name = {},
                            bool hears = true);
     /// Removes a client and its queued messages. Robots that the client drives stop.
@@ -85,8 +85,8 @@ class Session {
     /// each robot that a leaving client drives.
     void on_input(std::function<void(const Input&)> tell) { tell_ = std::move(tell); }
 
-    // Commands of a client to robots that it drives, and SendCommands to robots whose radios it
-    // uses. @throws std::invalid_argument for any other robot
+    // Commands of a client to robots driven by the client, and SendCommands to robots whose radios
+    // the client uses. @throws std::invalid_argument for any other robot
 
     /// Executes a command of a client now.
     /// @param number  number that the client gave to the command, for on_input()
@@ -122,8 +122,8 @@ class Session {
     /// position [m] of a PlaceCommand, off the map, in a wall, or nearer to a wall than its radius.
     /// Empty if the robot can.
     std::string why_not(NodeId robot, const RobotCommand& command) const;
-    /// Velocity of a robot in its own frame. While a drive command is active, this is the velocity
-    /// of the drive; otherwise that of the current leg (piece of movement).
+    /// Velocity of a robot in the robot's coordinate frame: the commanded velocity while a drive
+    /// command is active; otherwise the velocity of the current leg (piece of movement).
     Twist twist(NodeId robot) const;
 
     /// Range finders of a robot, in the order of the scenario; valid as long as the session.

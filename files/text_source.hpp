@@ -20,7 +20,7 @@ namespace rovernet {
 
 /// Kind of a file that is not UTF-8 text, for an error, such as "the file is packed by xz"; "" for
 /// UTF-8 text.
-/// @param begin  first 512 bytes of the file, or all of it
+/// @param begin  first 512 bytes of the file, or the whole file if shorter
 std::string_view foreign_kind(std::string_view begin);
 
 /// Reader of the bytes of a text file in portions, so that memory does not grow with the file. gzip
@@ -76,7 +76,7 @@ class TextSource {
         std::vector<char> bytes;
         std::size_t begin = 0;
         std::size_t end = 0;
-        bool in_frame = false;  ///< true inside a zstd frame; it is an error if the file ends here
+        bool in_frame = false;  ///< true inside a zstd frame; the file must not end inside a frame
     };
     std::string name_;
     std::function<std::string_view()> next_;  ///< generates the text; empty if file_ is the source

@@ -47,8 +47,8 @@ class InputLog {
     /// @param folder  folder of the run
     /// @throws RunError if a file cannot be written
     InputLog(const std::string& folder, const Scenario& scenario);
-    /// Has no effect after finish(). Otherwise the part file and scenario.toml are kept if inputs
-    /// were added and discard() was not called, and else removed.
+    /// Without finish(), keeps the part file and scenario.toml if inputs were added and discard()
+    /// was not called; otherwise removes these files. No effect after finish().
     ~InputLog();
     InputLog(const InputLog&) = delete;
     InputLog& operator=(const InputLog&) = delete;

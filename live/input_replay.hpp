@@ -18,7 +18,7 @@ struct InputReplay {
 
     std::string log;                  ///< path of the input log
     std::vector<std::string> others;  ///< incomplete logs (part files) beside the log
-    /// Line number of the last line of the log if that line is incomplete; none: it is complete.
+    /// Number of the log's last line, from 1, if this line is incomplete; none: it is complete.
     std::optional<int> torn;
     /// True: scenario.toml is missing, or differs from the scenario of the run.
     bool is_other_scenario = false;

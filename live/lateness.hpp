@@ -8,11 +8,11 @@
 
 namespace rovernet {
 
-/// Delays of a paced run behind the clock. They are measured at each simulated time that a front
-/// (protocol server) requested, and at each late poll of clients. External programs see this delay
+/// Delays of a paced run behind the clock, measured at each simulated time that a front (protocol
+/// server) requested, and at each late poll of clients. External programs see this delay
 /// as an additional delay of the radio.
 struct Lateness {
-    static constexpr Duration much{1'000'000};  ///< 1 ms: delay above which a delay is `late`
+    static constexpr Duration much{1'000'000};  ///< 1 ms: limit above which a delay counts as late
 
     Duration most{0};         ///< largest delay of the run behind the clock, in real time
     std::uint64_t times = 0;  ///< number of delays: one per requested time, one per late poll

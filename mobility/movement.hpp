@@ -100,7 +100,7 @@ struct Fixed {
 /// the reaction by a static member `at_doors`; the default is `waits`.
 enum class AtDoors {
     waits,   ///< the robot stops at the door, and continues the leg once the door opens
-    looks,   ///< the robot stops at the door, and the model is asked for another leg
+    looks,   ///< the robot stops at the door, and the model returns a new leg
     drives,  ///< like `looks`; a standing robot also gets a new leg whenever a door closes or opens
     passes   ///< the robot moves on, also through walls
 };

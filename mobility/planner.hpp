@@ -19,8 +19,8 @@ namespace rovernet {
 ///
 /// A path is found by A* over the cells whose centres are at least the radius away from every
 /// obstacle (8 neighbours, no corner is cut). The path is then shortened along lines of sight.
-/// Start and goal are connected to nearby cells by passable straight lines, so they may lie where
-/// no cell centre is free. The path is near the shortest one, but not the shortest: its corners are
+/// Start and goal are connected to nearby cells by passable straight lines, so start and goal may
+/// lie where no cell centre is free. The path is slightly longer than the shortest: its corners are
 /// about a cell away from the walls. Every part of a path is Scene::passable. A path depends only
 /// on its two ends, not on earlier calls: see CellSearch for ties. Recent paths are cached, so
 /// paths between places of a list are searched once.

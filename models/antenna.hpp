@@ -14,8 +14,8 @@ namespace rovernet {
 /// from that direction, in the horizontal plane. Height differences do not change the gain.
 ///
 /// - isotropic: 0 dB everywhere
-/// - cosine: 10 n log10((1 + cos phi) / 2), limited to -front_to_back from below; n is chosen so
-///   that the gain is -3 dB at half the beamwidth
+/// - cosine: 10 n log10((1 + cos phi) / 2), at least -front_to_back [dB]; the exponent n is chosen
+///   so that the gain is -3 dB at half the beamwidth
 /// - table: linear interpolation in dB between the points of a table, periodic
 ///
 /// The cosine shape is cos(phi / 2) to the power 2 n, the sector antenna of C. Li, Efficient

@@ -53,11 +53,11 @@ struct Emission {
     Vec3 origin = {};
     /// Node that transmits the frame.
     NodeId from;
-    /// Distance [m] from the sender's antenna within which all receivers of the frame are.
+    /// Distance [m] from the sender's antenna to the farthest receiver of the frame.
     double heard_within = 0;
-    /// Squared distance [m^2] beyond which the frame interferes at no node; may be infinite.
+    /// Square of the largest distance [m^2] at which the frame interferes; may be infinite.
     double squared_reach = 0;
-    /// Index of the frame among the frames in flight of the Channel.
+    /// Index of the frame in the Channel's list of frames on air.
     std::uint32_t flight = 0;
     /// Modulation and coding of the frame.
     Coding coding{};
@@ -96,8 +96,8 @@ struct Arrival {
     Time end;
     /// Received power [dBm]; NaN until the power is computed.
     double level_dbm;
-    /// Squared distance [m^2] from the sender's antenna when the frame began; NaN unless it was
-    /// computed.
+    /// Squared distance [m^2] from the sender's antenna to the node's antenna when the frame began;
+    /// NaN if not computed.
     double squared_distance;
     /// Node that transmits the frame.
     NodeId from;

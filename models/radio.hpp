@@ -41,9 +41,9 @@ struct EnumNames<WifiMode> {
         "auto", "adhoc", "infrastructure", "master", "repeater", "secondary"};
 };
 
-/// Radio of a robot. The defaults are those of a 2007 thesis (docs/worlds.md) if known (45 mW, 2450
-/// MHz, -75 dBm), otherwise those of IEEE 802.11b (11 Mb/s, long preamble). In free space two
-/// default radios hear each other up to 367 m.
+/// Radio of a robot. Power, frequency and sensitivity have the defaults of a 2007 thesis
+/// (docs/worlds.md): 45 mW, 2450 MHz, -75 dBm. Other defaults are from IEEE 802.11b (11 Mb/s, long
+/// preamble). In free space two default radios hear each other up to 367 m.
 struct Radio {
     /// Output power of the transmitter [dBm]; the default is 45 mW.
     Dbm power{16.532125137753436};
@@ -87,7 +87,7 @@ struct Radio {
 
     /// Name of the radio's network (essid); "any" matches all.
     std::string essid = "any";
-    /// Channel number, which both ends of a link must share; 0 if not used.
+    /// Channel number, which must be equal at both ends of a link; 0 if not used.
     int channel = 0;
     /// Gate of the radio: links only with radios of its own network, or with any radio.
     Gate gate = Gate::network;

@@ -48,8 +48,8 @@ class Applications final : public RoutingUser {
     /// is still on. Nodes that receive messages at the same time react in the order of their keys.
     /// @param slot  slot of the delivery in deliveries_
     void react(NodeId node, std::size_t slot);
-    /// Records each message of which no frame has ended at a receiver as dropped, at the end of the
-    /// run; implements Network::finish.
+    /// Emits Dropped, at the end of the run, for each message of which no frame has ended at a
+    /// receiver; implements Network::finish.
     void cut_off();
 
     /// Implements RoutingUser: queues the callbacks of nodes to which the message of a frame is
@@ -97,8 +97,8 @@ class Applications final : public RoutingUser {
     World& world_;
     Routing& routing_;
     const Mac& mac_;
-    // Number of messages sent by each node, and callbacks of each node, by node id. Each list ends
-    // at the last node with an entry.
+    // Number of messages sent by each node, and callbacks of each node, by node id. Each of these
+    // two lists ends at the last node with an entry.
     std::vector<std::uint32_t> messages_sent_;
     std::vector<Few<Reaction>> reactions_;
     // Deliveries whose events are queued.

@@ -84,7 +84,7 @@ class Arp {
     // Sends a request for the entry's address; after three requests, drops the waiting frame
     // instead.
     void ask(NodeId node, Entry& entry);
-    // Marks the address of the entry's neighbour as known to `node` since `time`.
+    // Records that `node` knows the address of the entry's neighbour from `time` on.
     void learn(Entry& entry, NodeId node, Time time);
     void set_event(Entry& entry, NodeId node, Time due);
     void send(NodeId from, NodeId to, NodeId next_hop, std::string_view kind);

@@ -8,16 +8,16 @@
 #include <string>
 #include <string_view>
 
-// ARP packets for IPv4 in the format of RFC 826. In the simulation an ARP packet is a Message with
-// one of these kinds and no payload: its origin is the sender, Message::to the target.
+// ARP packets for IPv4 in the format of RFC 826. In the simulation an ARP packet is a Message of
+// kind request_kind or reply_kind without payload, from its origin to the target Message::to.
 
 namespace rovernet::arp {
 
-/// Type of the packets behind LLC and SNAP.
+/// EtherType of ARP packets, in the SNAP header.
 inline constexpr std::uint16_t ethertype = 0x0806;
-/// Kinds of packets: the type in ns-2 traces, and the name.
+/// Kinds of ARP packets: values of Message::kind, and types of these packets in ns-2 traces.
 inline constexpr std::string_view request_kind = "ARP REQUEST", reply_kind = "ARP REPLY";
-/// Size of a packet [bytes].
+/// Size of an ARP packet [bytes].
 inline constexpr std::uint32_t packet_bytes = 28;
 
 /// Addresses of a station.
@@ -26,8 +26,8 @@ struct Station {
     /// IPv4 address, in host order.
     std::uint32_t ip = 0;
 };
-/// Bytes of a packet as they are on the air. A request has zeros for the MAC of its target, which
-/// it asks for.
+/// Bytes of an ARP packet on air. A request has zeros in place of the target's MAC address, which
+/// the sender does not know yet.
 std::string on_air(const Message& packet, const Station& sender, const Station& target);
 
 }  // namespace rovernet::arp

@@ -23,8 +23,8 @@ namespace rovernet {
 template <class... Arguments>
 class Callback {
   public:
-    /// Callback without a function. It is an error to call the Callback before another one is
-    /// assigned.
+    /// Callback without a function. It is an error to call this Callback before a Callback with a
+    /// function is assigned.
     Callback() = default;
     /// Callback with a function, which must not be empty.
     explicit Callback(std::function<void(Arguments...)> call)

@@ -128,8 +128,8 @@ class Channel {
     void forget_frames();
     // Marks random receptions as garbled, according to the sender's success rate.
     void garble(Flight& flight) const;
-    // Last time up to which the event with this key can serve receptions before the next event in
-    // the queue.
+    // Time up to which the event with this key may serve receptions: the next event in the queue is
+    // not before this time.
     Time served_until(EventKey key) const;
     // Receptions of a Flight that the event with this key serves next; sets World::now to the time
     // of the last of these receptions.

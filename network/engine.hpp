@@ -24,8 +24,8 @@ namespace rovernet {
 /// Implementation of a Network: its parts, and the event loop.
 ///
 /// A message goes down from Applications through Routing and Mac to Channel, which finds the
-/// receivers that can decode it; receptions go up in the reverse order. Motion and LinkMonitor work
-/// beside these layers. Network is the public interface: it passes calls on to the parts.
+/// receivers that can decode the message; receptions go up in the reverse order. Motion and
+/// LinkMonitor work beside these layers. Network is the public interface and calls these parts.
 /// docs/inside.md has a picture.
 class Engine {
   public:
@@ -33,8 +33,8 @@ class Engine {
     /// @throws std::invalid_argument if a setting is out of its range
     explicit Engine(NetworkSettings settings);
 
-    /// Functions of Network with the same names; add_sink() also configures the parts for the
-    /// records that the sink wants.
+    /// Implementations of Network::reserve() and the functions below. add_sink() also configures
+    /// the parts of the network for the records that the sink wants.
     void reserve(std::size_t robots);
     NodeId add(Robot robot);
     SinkId add_sink(Sink sink);
@@ -77,8 +77,8 @@ class Engine {
   private:
     // Passes an event to the part of the network that serves events of its kind.
     void serve(const Event& event);
-    // Changes to the scene that is due now, and notifies LinkMonitor and Motion. Not inlined,
-    // because inlining would cost registers in serve().
+    // Replaces the scene by the scene that is due now; notifies LinkMonitor and Motion. Not
+    // inlined, because inlining would cost registers in serve().
     [[gnu::noinline]] void change_scene();
     // Description of the run for sinks: scenario, number and names of the robots, seed,
     // replication.

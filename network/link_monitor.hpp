@@ -14,9 +14,9 @@ namespace rovernet {
 
 struct World;
 
-/// Monitor of the links between robots that go up or down. The monitor works only if a sink wants
-/// LinkUp or LinkDown, or if a callback for lost links exists; otherwise it only costs the test of
-/// a bit.
+/// Monitor of link changes: detects when a link between two robots goes up or down. The monitor
+/// works only if a sink wants LinkUp or LinkDown, or if a callback for lost links exists. Otherwise
+/// the cost is the test of a bit.
 ///
 /// The monitor predicts the next link change (LinkWatch) and queues an event for the change.
 /// Changes of legs and radios cause a new prediction. LinkUp and LinkDown are emitted at the time
@@ -38,8 +38,8 @@ class LinkMonitor {
     /// Updates all links after a scene change now.
     void scene_changed();
     /// Handles the queued event of a link change. Emits LinkUp and LinkDown. Queues the callbacks
-    /// of on_link_lost() for 1 us later, in the order of the key of the node that lost the link,
-    /// then of the key of the node that it cannot hear any more (see World::key).
+    /// of on_link_lost() for 1 us later: ordered by the key (see World::key) of the node that lost
+    /// the link, then by the key of the node at the transmitting end.
     void change_links();
     /// Calls react(from) 1 us after `node` has lost the link from `from`: `node` cannot hear `from`
     /// any more.

@@ -18,7 +18,7 @@ namespace rovernet {
 
 class Medium;
 
-/// Change of a link: from `time` on, node `to` can hear node `from` (up), or cannot hear it (down).
+/// Change of a link: from `time` on, node `to` can hear node `from` (up) or cannot (down).
 struct LinkChange {
     Time time;
     NodeId from;
@@ -109,7 +109,7 @@ class LinkWatch {
 
     // Allocates memory for the pairs of this many robots.
     void grow(std::size_t robots);
-    // Repeat the search for the next change: of all pairs, of all pairs of a robot, or of one pair.
+    // Search again for the next change: of all pairs, of all pairs of a robot, or of one pair.
     void look_at_all(Time now);
     void look_at(NodeId node, Time now);
     void look_at(NodeId from, NodeId to, Time now);
@@ -120,7 +120,8 @@ class LinkWatch {
     void expect(NodeId from, NodeId to, Time time, bool change);
     // Whether an entry is stale: the pair's pending time has changed since the entry was made.
     bool stale(const Entry& entry) const { return next_[pair(entry.from, entry.to)] != entry.time; }
-    // Removes stale entries from the top of the heap, and all stale entries if there are too many.
+    // Removes stale entries from the top of the heap. If the heap has too many stale entries,
+    // removes all stale entries.
     void drop_stale();
     // Walls for the search of links from `from`; an empty set if the sender's path loss does not
     // depend on walls.
@@ -138,8 +139,8 @@ class LinkWatch {
     std::vector<Entry> heap_;
     // Number of pairs with a pending time.
     std::size_t pending_ = 0;
-    // Corners of the scene's walls, collected when first a sender's path loss depends on walls; and
-    // an empty set for all other senders.
+    // Walls for senders whose path loss depends on walls, built at the first such sender.
+    // no_walls_: the empty set for all other senders.
     std::optional<WallPassages> walls_;
     const WallPassages no_walls_ = {};
 };

@@ -92,8 +92,8 @@ class Mac final : public Air, public ChannelUser {
     std::uint32_t bytes(const AirFrame& frame) const override;
     void access_timer(NodeId node, Time at, std::uint32_t tag) override;
     double access_draw(NodeId node, std::uint64_t index) const override;
-    /// Reports the result of a transmitted frame to the user; not of a unicast whose result the MAC
-    /// finds itself when the frame ends (see judges()).
+    /// Reports the result of a transmitted frame to the user. For a frame with judges() true, the
+    /// MAC instead reports the result when the frame ends.
     void sent(const QueuedFrame& frame) override {
         if (judges(frame.frame)) return;
         user_.sent(frame, listens_ && frame.frame.next_hop != everyone);
@@ -105,8 +105,8 @@ class Mac final : public Air, public ChannelUser {
     void sensed(std::span<const Sensing> nodes) override { access_->sensed(*this, nodes); }
 
   private:
-    // Bit rate [bit/s] of a frame: of the sender's radio, unless the access model sets another
-    // rate.
+    // Bit rate [bit/s] of a frame: the rate chosen by the access model, by default the rate of the
+    // sender's radio.
     BitRate rate_of(const AirFrame& frame) const;
     // Whether the MAC itself finds the result of a unicast: the access model has no
     // acknowledgements, so that the MAC acts as an ideal MAC.
@@ -134,8 +134,8 @@ class Mac final : public Air, public ChannelUser {
     // Size [bytes] of the header that the access model adds to a message.
     std::uint32_t header_;
     Duration airtime_so_far_{0};
-    // Transmission computed last, and radio kind of its sender: reused for a frame of the same
-    // size, rate and kind.
+    // Last computed Transmission, and radio kind of its sender; reused for the next frame if size,
+    // bit rate and kind are equal.
     mutable Transmission last_{};
     mutable std::uint32_t last_kind_ = ~std::uint32_t{0};
     // Unicasts on air to a next hop out of range, if the layer above needs their results.

@@ -61,7 +61,7 @@ class Motion {
     /// was replaced since the event was queued.
     void on_leg_end(NodeId node, std::uint64_t version);
 
-    /// Replaces the node's movement by another one, which begins now.
+    /// Replaces the node's movement by `movement`, which begins now.
     void move(NodeId node, Movement movement);
     /// Moves a robot immediately to the position `at` [m], where it rests; its movement ends.
     /// @param heading  heading at the new position [rad]; unchanged if not given
@@ -107,8 +107,8 @@ class Motion {
     void begin_leg(NodeId node, const Leg& leg);
     // Ends the robot's movement, and removes its interrupted and waiting legs.
     void end_movement(NodeId node);
-    // Begins a leg, which ends at the first closed door; go_to_doors() if the scene has closed
-    // doors.
+    // Begin a leg. If the scene has closed doors, go() calls go_to_doors(), which ends the leg at
+    // the first closed door.
     void go(NodeId node, const Leg& leg);
     void go_to_doors(NodeId node, const Leg& leg);
     // Continues the motion of a robot that waited for a door.
@@ -117,12 +117,12 @@ class Motion {
     bool is_held(NodeId node);
     // Whether a closed door touches the robot and stops it.
     bool is_caught(NodeId node);
-    // Whether no closed door stops the robot at its position.
+    // Whether the robot can move: no closed door touches the robot or stops its waiting leg.
     bool is_free(NodeId node);
     // Whether the robot stands and waits for a door.
     bool waits(NodeId node) const;
-    // Remaining part of a leg, joined with the part behind a door that waits in held_. Removes the
-    // latter from held_.
+    // Remaining part of a leg, joined with the part behind a door that waits in held_. Removes that
+    // waiting part from held_.
     Leg rest_of(NodeId node, const Leg& leg);
     // Replaces the robot's current leg, notifies channel, medium and link monitor, and emits Moved.
     void take(NodeId node, const Leg& leg);
@@ -145,8 +145,8 @@ class Motion {
     std::map<NodeId, Leg> interrupted_;
     // Legs that begin when the robot's current leg, a turn in place, ends; by node.
     std::map<NodeId, Leg> after_turn_;
-    // Legs that continue once a closed door opens, from the robot's stop on, by node; empty: the
-    // movement is asked for a new leg.
+    // Rests of legs of robots that wait for doors, by node; each continues when the doors let the
+    // robot pass. Empty: the movement model then returns a new leg.
     std::map<NodeId, std::optional<Leg>> held_;
     // Callbacks of on_arrival(), by node.
     std::map<NodeId, std::vector<Callback<>>> on_arrival_;

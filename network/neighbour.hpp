@@ -15,8 +15,8 @@ namespace rovernet {
 class Legs;
 class Medium;
 
-/// Neighbour of a robot: another robot whose signals the robot can receive. Received powers are
-/// local means, without errors or interference.
+/// Neighbour of a robot: a second robot whose signals the first robot can receive. Received powers
+/// are local means, without errors or interference.
 struct Neighbour {
     NodeId node;
     /// Received power [dBm] of the neighbour's signal at the robot.

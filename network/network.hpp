@@ -67,7 +67,7 @@ class Network {
     /// Adds a robot, switched on. Its movement begins with the run, or now if the run has begun.
     /// @throws std::invalid_argument for a name in use or a parameter out of its range
     NodeId add(Robot robot);
-    /// Sets the routing protocol of all robots. @throws std::invalid_argument if one is already set
+    /// Sets the routing protocol of all robots. @throws std::invalid_argument if already set
     void route(Router router);
     /// Adds a sink: it gets every record of the kinds that it wants from now on. Its begin() is
     /// called at the start of the run, or now if the run has begun.
@@ -102,7 +102,7 @@ class Network {
     /// Calls `react(from)` 1 us after `node` has lost the link from `from`, and cannot hear it any
     /// more. Link monitoring costs a search whenever a robot begins a new leg.
     Subscription on_link_lost(NodeId node, std::function<void(NodeId from)> react);
-    /// Replaces the node's movement by another one, which begins now.
+    /// Replaces the node's movement by `movement`, which begins now.
     void move(NodeId node, Movement movement);
     /// Moves a robot immediately to the position `at` [m], where it rests; its movement ends.
     /// @param heading  heading at the new position [rad]; unchanged if not given
@@ -112,7 +112,7 @@ class Network {
     /// Sets the bit rate of a robot's radio, and with it the coding of its frames, from now on.
     /// @throws std::invalid_argument if the reception model cannot judge frames at this rate
     void set_rate(NodeId node, BitRate rate);
-    /// Switches a robot off: it stops, and its radio neither transmits nor receives.
+    /// Switches a robot off: the robot stops, and its radio neither transmits nor receives.
     void switch_off(NodeId node);
     /// Switches a robot off and marks the robot as absent until switch_on().
     /// @param why  reason of the absence: not_departed or left
@@ -136,9 +136,9 @@ class Network {
     /// @return whether `end` is reached
     bool advance(Time end, std::uint64_t most_events);
 
-    /// Ends the run, then the sinks finish. Messages of which no frame has ended at a receiver are
-    /// recorded as dropped ("END"); metrics() leaves these messages out, unless the routing
-    /// protocol still held them. Call once, after the last run_until().
+    /// Ends the run, then calls finish() of all sinks. A message is recorded as dropped ("END") if
+    /// none of its frames has ended at a receiver. metrics() excludes these messages, except
+    /// messages that the routing protocol still holds. Call once, after the last run_until().
     /// @throws std::logic_error in a debug build if the protocol still holds messages that it does
     ///         not keep
     void finish();
@@ -177,10 +177,10 @@ class Network {
     void find_hearers(NodeId node, std::vector<NodeId>& out);
     /// Current state of a robot.
     RobotState robot(NodeId node) const;
-    /// Settings of the network, as given; and current legs of all robots.
+    /// Settings passed to the constructor; below, current legs of all robots.
     const NetworkSettings& settings() const;
     const Legs& legs() const;
-    /// Radio medium, which stores radios and propagation models; and current scene.
+    /// Radio medium, which stores radios and propagation models; below, current scene.
     const Medium& medium() const;
     const Scene& scene() const;
     /// Planners of paths around the scene's walls.

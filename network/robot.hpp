@@ -47,8 +47,8 @@ struct Robot {
     std::string role = {};
 };
 
-/// Presence of a robot: whether it takes part in the simulation. Robots of movement files appear
-/// and disappear; other robots are on or off.
+/// Presence of a robot in the simulation. Robots of movement files can be absent before they appear
+/// and after they disappear. All other robots are on or off.
 enum class Presence {
     /// Present, with its radio on.
     on,
@@ -65,8 +65,8 @@ struct EnumNames<Presence> {
     static constexpr std::array<std::string_view, 4> values = {"on", "off", "not_departed", "left"};
 };
 
-/// Current state of a robot, for tables and pictures. The references are valid until the next robot
-/// is added; the other members are copies.
+/// Current state of a robot, for tables and pictures. Members that are references are valid until
+/// the next robot is added; all other members are copies.
 struct RobotState {
     std::string name;
     /// Current position [m].

@@ -18,13 +18,13 @@ namespace rovernet {
 
 struct World;
 
-/// Interface of the layer above routing. Applications implements it; layers are connected only by
-/// such small interfaces, so that each can be tested alone.
+/// Interface of the layer above routing, implemented by Applications. Layers are connected only by
+/// such small interfaces, so that each layer can be tested alone.
 class RoutingUser {
   public:
     /// Called for receptions of a frame. Reception::delivered is true if the reception's node
     /// passes the message to its application.
-    /// @param levels  received power of each reception [dBm], NaN at nodes for which it is not
+    /// @param levels  received power of each reception [dBm], NaN at nodes for which no power is
     ///                requested; may be empty
     virtual void delivered(const Frame& frame, std::span<const Reception> receptions,
                            std::span<const Dbm> levels) = 0;
@@ -156,7 +156,7 @@ class Routing final : public LinkLayer, public MacUser, public ArpUser {
 
     // World of the network.
     World& world_;
-    // MAC layer, below; and user of the routing layer, above.
+    // Layer below routing (MAC), and layer above routing (applications).
     Mac& mac_;
     RoutingUser& user_;
     // Address resolution (ARP); empty unless the settings enable ARP.
@@ -176,7 +176,7 @@ class Routing final : public LinkLayer, public MacUser, public ArpUser {
     std::vector<Reception> heard_;
     std::vector<Dbm> heard_levels_;
     std::vector<std::size_t> places_;
-    // Roles of nodes, by index; nodes beyond the end have none.
+    // Roles of nodes, by index; nodes beyond the end of the list have no role.
     std::vector<std::string> roles_;
     // Number of control packets that each node has made so far.
     std::vector<std::uint32_t> packets_;

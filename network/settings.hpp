@@ -37,8 +37,8 @@ struct NetworkSettings {
     std::uint32_t replication = 0;
     /// Propagation model of robots without a model of their own.
     Propagation propagation = Friis{};
-    /// Shadowing, added to the propagation models of all robots; these models must not be random
-    /// themselves.
+    /// Shadowing, added to the propagation models of all robots. It is an error if such a model has
+    /// a random part of its own.
     Shadowing shadowing = {};
     /// Fading of frames: random variation of the power of each frame.
     Fading fading = {};

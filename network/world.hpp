@@ -64,7 +64,7 @@ struct World {
     void release(MessageId id) {
         if (messages.release(id) && on_forgotten) on_forgotten(id);
     }
-    /// Adds a reference to the message of a frame and one to the frame's header; or removes both.
+    /// Adds (hold) or removes a reference to the message and a reference to the header of a frame.
     void hold(const Frame& frame) {
         messages.hold(frame.message);
         if (frame.header != 0) [[unlikely]]
@@ -109,7 +109,7 @@ struct World {
     Medium medium;
     /// Physical layer of the access model's frames.
     const Phy phy;
-    /// Messages to which frames in flight or waiting copies refer.
+    /// Messages in use: a frame on air, a queue or the routing protocol refers to each message.
     MessageTable messages;
     /// Sinks, which get the records of emit().
     Recorder records;
@@ -123,7 +123,7 @@ struct World {
     std::uint64_t next_uid = 0;
     /// Number of frames transmitted so far.
     std::uint64_t transmissions = 0;
-    /// True if a sink or the routing protocol asks for the received powers at all nodes.
+    /// True if a sink or the routing protocol requests the received powers at all nodes.
     bool levels_wanted = false;
     /// Flag of each node, by id; true: an application of the node requests received powers. Empty
     /// if no application requests received powers.

@@ -6,14 +6,13 @@
 
 #include <cstdint>
 
-// Detection of messages of several robots that start at the same time, so that their frames
-// collide.
+// Detection of colliding traffic: messages of several robots that start at the same time.
 
 namespace rovernet {
 
-/// Least time between the starts of two frames [ns] with which the frames do not collide. Under
-/// csma the second sender then senses the first frame, or both senders back off. Under other access
-/// models the first frame has ended. The result is 0 if frames never collide.
+/// Shortest time [ns] between the starts of two frames at which the frames do not collide; 0 if
+/// frames never collide. After this time, under csma the second sender senses the first frame, or
+/// both senders back off. Under other access models the first frame has ended.
 /// @param bytes  size of a message [bytes]
 Duration collision_free_gap(const Scenario& scenario, std::uint32_t bytes);
 

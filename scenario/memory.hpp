@@ -19,8 +19,8 @@ std::uint64_t available_memory();
 /// messages is not included.
 std::uint64_t robots_memory(const Scenario& scenario);
 
-/// Checks the memory that the scenario's robots need, before any robot is created. It is an error
-/// if they need more than `available`. Above 1 GB a notice is added to the scenario. Robots that
+/// Checks the memory needed by the scenario's robots, before any robot is created. It is an error
+/// if this memory exceeds `available`. Above 1 GB a notice is added to the scenario. Robots that
 /// only a movement file names are not counted.
 /// @param available  memory that the process may use [bytes]
 /// @throws InputError at the [[robot]] that needs the most memory

@@ -52,19 +52,19 @@ struct EnumNames<PlaceTable::Model> {
     static constexpr std::array<std::string_view, 2> values = {"uniform", "choice"};
 };
 
-/// Trigger of a reaction: the event to which the robot reacts. Each trigger has the name of its
-/// key.
+/// Trigger of a reaction: the event to which the robot reacts. Each enumerator has the name of its
+/// key in [[robot]].
 enum class Trigger {
     /// The robot receives a message.
     on_receive,
     /// The robot comes to rest at the end of a movement.
     on_arrival,
-    /// The link from another robot to this robot is lost.
+    /// The link from any other robot to the reacting robot is lost.
     on_link_lost,
     /// A given time of the run is reached.
     on_time
 };
-/// Keys of [[robot]] for each Trigger, in the order in which they are printed.
+/// Key of a [[robot]] table for each Trigger, in the order of printing.
 template <>
 struct EnumNames<Trigger> {
     static constexpr std::array<std::string_view, 4> values = {"on_receive", "on_arrival",
@@ -88,9 +88,10 @@ struct ReactionTable {
     /// True if the robot reacts only to the first event of the trigger; false: to all events. Not
     /// used by on_time, which happens once.
     bool once = true;
-    /// Movement that the robot starts as its reaction; none: the robot starts no movement.
+    /// Movement that the robot starts in reaction to the event `trigger`; none: no movement.
     std::optional<MoveTable> move = {};
-    /// Payload of the message that the robot sends as its reaction; none: no message is sent.
+    /// Payload of the message that the robot sends in reaction to the event `trigger`; none: no
+    /// message is sent.
     std::optional<std::string> send = {};
     /// Destination of the message that the robot sends: a robot's name, or "sender"; none:
     /// everyone.
@@ -102,7 +103,7 @@ struct ReactionTable {
     /// File positions of the reaction's table, and of its keys `from` and `to`.
     Location where = {}, from_where = {}, to_where = {};
 
-    /// Value of `to` that means the origin of the received message, even if a robot has this name.
+    /// Value of `to` for the origin of the received message, even if a robot is named "sender".
     static constexpr std::string_view sender = "sender";
 };
 

@@ -75,8 +75,8 @@ struct MediumTable {
 struct LinksTable {
     /// Largest error [ns] of the computed time at which a link through walls comes up or goes down.
     Duration tolerance = LinkSearch{}.tolerance;
-    /// Shortest up or down time of a link [ns] that the search does not miss, for propagation
-    /// models whose loss is not a known function of distance.
+    /// Sampling interval of links [ns], for propagation models whose loss is not a known function
+    /// of distance. The search may miss up or down times that are shorter.
     Duration min_dwell = LinkSearch{}.min_dwell;
 
     static constexpr auto fields() {
@@ -93,13 +93,13 @@ struct LinksTable {
 /// network_settings() and populate() of experiment/build.hpp make a Network of a Scenario. Each
 /// member has the name of its table in the scenario file.
 struct Scenario {
-    /// Path of the scenario file, as the user typed it. Paths in it are relative to its folder.
+    /// Path of the scenario file, as typed. Paths in the file are relative to the file's folder.
     std::string file;
     ScenarioTable scenario;
     SceneTable scene;
     /// Scene with the walls; null: not yet loaded, or an open field.
     std::shared_ptr<const Scene> walls;
-    /// Changes of the scene `walls` by its doors, if a Study has computed them; null: not computed.
+    /// Changes of the scene `walls` by its doors, computed by a Study; null: not computed.
     std::shared_ptr<const std::vector<SceneChange>> changes;
     /// [radio]: default radio of all robots, and the file positions of the keys in [radio].
     Radio radio;
@@ -113,7 +113,7 @@ struct Scenario {
     Fading fading;
     ReceptionTable reception;
     AccessTable access;
-    /// Settings of address resolution (ARP): keys of [access] that belong to no access model.
+    /// Settings of address resolution (ARP): keys of [access] for any access model.
     ArpSettings arp;
     /// File position of the key basic_rates of [access], or of the table [access] without this key.
     Location access_where;

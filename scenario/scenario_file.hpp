@@ -38,7 +38,8 @@ class ScenarioFile {
   public:
     /// @param path  file; "-": a scenario from standard input, whose paths are relative to the
     ///              current folder
-    /// @throws InputError if the file is no scenario; the message names its kind and the remedy
+    /// @throws InputError if the file is no scenario; the message names the kind of file and the
+    ///         remedy
     ScenarioFile(const std::string& path, const ScenarioOptions& options);
     /// Makes a ScenarioFile of a document that was made in code.
     /// @param path  file that the document replaces: paths in the document are relative to its

@@ -40,7 +40,7 @@ struct MaterialTable {
     std::optional<std::vector<int>> greys;
     /// Colour of walls of this material in a Stage world.
     std::optional<std::string> color;
-    /// Loss of a wall [dB], whatever its thickness.
+    /// Loss of a wall [dB], for any thickness.
     std::optional<Db> per_crossing;
     /// Loss per length of path inside a wall [dB/m].
     std::optional<DbPerMeter> per_metre;
@@ -75,8 +75,8 @@ struct MaterialTable {
     }
 };
 
-/// [scene]: the map, the floors or the Stage world, and the materials of walls. Without these the
-/// scene is an open field.
+/// [scene]: the map, the floors or the Stage world, and the materials of walls. Without map, floors
+/// and Stage world the scene is an open field.
 struct SceneTable {
     /// Path of the map, relative to the scenario file: a ROS map.yaml, or a picture with a `size`.
     std::optional<std::string> map;

@@ -41,12 +41,12 @@ void note_walls_twice(Scenario& scenario, const Scene* scene);
 void note_coherent_slants(Scenario& scenario, const Scene* scene);
 
 /// Adds one notice about walls without a material that are thicker than 0.5 m, the limit of the
-/// model `rays`: they may be furniture, pillars or shafts. The notice names the first such wall.
+/// model `rays`: thick walls may be furniture, pillars or shafts. The notice names the first one.
 /// @param scene  scene of the scenario; null: an open field
 void note_thick_walls(Scenario& scenario, const Scene* scene);
 
-/// Adds a notice about robots with their own propagation model if [study] varies [propagation],
-/// since the study does not change the models of these robots.
+/// Adds a notice if [study] varies [propagation] and some robots have a propagation model of their
+/// own, since the study does not change the models of these robots.
 void note_own_models(Scenario& scenario);
 
 /// Checks that the propagation model is not disc. Used by commands that compare received power

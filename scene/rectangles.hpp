@@ -8,7 +8,7 @@
 
 namespace rovernet {
 
-/// Block of cells, half open: columns [column0, column1), rows [row0, row1).
+/// Block of map cells, half open: columns [column0, column1), rows [row0, row1).
 struct CellRectangle {
     int column0 = 0;
     int row0 = 0;
@@ -17,7 +17,7 @@ struct CellRectangle {
     friend constexpr bool operator==(CellRectangle, CellRectangle) = default;
 };
 
-/// Kind of cells to cover with rectangles.
+/// Kind of map cells that solid_rectangles() covers with rectangles.
 enum class Solid {
     walls,     ///< occupied cells, which attenuate radio
     obstacles  ///< occupied and unknown cells, which block robots

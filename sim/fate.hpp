@@ -37,7 +37,7 @@ enum class Fate : std::uint8_t {
     arrived,
 };
 
-/// Whether a frame with this fate was decoded, no matter whether it is forwarded. The function has
+/// Whether a frame with this fate was decoded (forwarded or not). The function has
 /// no branch, because it is called for every reception.
 constexpr bool is_decoded(Fate fate) {
     constexpr auto bit = [](Fate f) { return 1U << static_cast<unsigned>(f); };

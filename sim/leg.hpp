@@ -17,8 +17,8 @@ namespace rovernet {
 struct Leg {
     /// Start of the leg.
     Time start = start_of_run;
-    /// End of the leg, at which the movement model is asked for the next one; `never` if the leg
-    /// lasts until it is replaced.
+    /// End of the leg, at which the movement model returns the next leg; `never` if the leg lasts
+    /// until it is replaced.
     Time end = never;
     /// Position at `start` [m].
     Vec3 from = {};

@@ -78,8 +78,8 @@ class Legs {
   private:
     // Value of Place::motion for a leg at rest.
     static constexpr std::uint32_t at_rest = 0xffffffff;
-    // Bit of Place::motion that is set if the other bits are an index into motions_, and not set if
-    // they are an index into level_motions_.
+    // Bit of Place::motion. Set: the other bits are an index into motions_. Not set: the other bits
+    // are an index into level_motions_.
     static constexpr std::uint32_t not_level = 0x80000000;
     // Whether a moving leg's Place::motion is an index into level_motions_.
     static bool is_level(std::uint32_t motion) { return !(motion & not_level); }

@@ -20,8 +20,8 @@
 
 namespace rovernet {
 
-/// Shortest time [ns] between a reception and the node's reaction to it: 1 us. Therefore one event
-/// can serve all receptions of a transmission.
+/// Shortest time [ns] between a reception and the receiving node's reaction: 1 us. Therefore one
+/// event can serve all receptions of a transmission.
 inline constexpr Duration least_reaction{1000};
 
 /// Handle of a frame that waits for its send time, see LinkLayer::waiting.
@@ -89,11 +89,12 @@ class LinkLayer {
     /// @param content  content of the packet, for the protocol at the receiver
     virtual MessageId originate(NodeId from, NodeId to, std::string_view kind, std::uint32_t bytes,
                                 std::string content) = 0;
-    /// Transmits a frame from frame.sender at `at`, to frame.next_hop or to everyone. `at` = now
-    /// means as soon as the router's function has returned; in reaction to a reception it is at
-    /// least `least_reaction` later. If the sender is off by then, a Dropped record is emitted. The
-    /// frame holds a reference to its message, and to its header if it has one: the protocol must
-    /// not change the entry of its own table that frame.header names until forget_header().
+    /// Transmits a frame from frame.sender at the time `at`, to frame.next_hop or to everyone. If
+    /// `at` is now(), the frame is sent when the protocol's current function has returned. A frame
+    /// in reaction to a reception is sent at least `least_reaction` after the reception. If the
+    /// sender is off at the send time, a Dropped record is emitted. The frame holds a reference to
+    /// its message, and to its header if frame.header names an entry of the protocol's own header
+    /// table. The protocol must not change that entry until forget_header() is called.
     /// @param heard_from  node from which the sender received the frame; empty if the sender
     ///     originates it
     /// @return handle of the waiting frame; empty if `at` is now

@@ -89,7 +89,7 @@ struct Frame {
 };
 
 /// Header that the routing protocol puts before the message in a frame, with the bytes that go on
-/// air; an address in them is the id of a node.
+/// air; an address in these bytes is the id of a node.
 struct FrameHeader {
     /// Protocol whose header it is, as in Message::protocol.
     std::string_view protocol;

@@ -11,48 +11,53 @@
 namespace rovernet {
 
 /// Purpose of a random number. Results depend on the values: append enumerators, never renumber.
-/// Each comment ends with the fields a and b of the keys.
+/// Each comment ends with the fields a and b of its keys.
 enum class Purpose : std::uint16_t {
-    /// Delay before a flood forwards a copy. a = robot key, b = message key.
+    /// Delay before a flood forwards a copy. Key::a = robot key, Key::b = message key.
     flood_jitter = 1,
-    /// Shadowing of a pair of robots [standard normal]. a = smaller robot key, b = larger one.
+    /// Shadowing of a pair of robots [standard normal]. Key::a = smaller robot key, Key::b =
+    /// larger robot key.
     link_shadowing = 2,
-    /// Start position of a robot in an area. a = robot key.
+    /// Start position of a robot in an area. Key::a = robot key.
     placement = 3,
-    /// Order of a robot's shuffled waypoints. a = robot key, b = number of its movement plan.
+    /// Order of a robot's shuffled waypoints. Key::a = robot key, Key::b = number of the
+    /// robot's movement plan.
     order = 4,
-    /// Choice of a robot's goal among several. a = robot key, b = number of its movement plan.
+    /// Choice of a robot's goal among several. Key::a = robot key, Key::b = number of the
+    /// robot's movement plan.
     destination = 5,
-    /// Draws of movement models. a = robot key, b = number of the robot's movement.
+    /// Draws of movement models. Key::a = robot key, Key::b = number of the robot's movement.
     movement = 6,
-    /// Loss of a frame by its sender's success rate. a = key of the robot pair, b = key of message
-    /// and path.
+    /// Loss of a frame by its sender's success rate. Key::a = key of the robot pair, Key::b = key
+    /// of message and path.
     link_success = 7,
-    /// Number of backoff slots of the DCF. a = robot key.
+    /// Number of backoff slots of the DCF. Key::a = robot key.
     backoff = 8,
-    /// Loss of a frame by its error rate. a = key of the robot pair, b = number of the frame.
+    /// Loss of a frame by its error rate. Key::a = key of the robot pair, Key::b = number of the
+    /// frame.
     bit_errors = 9,
-    /// Choice of the sender of a message, for a flow whose messages may start at any robot. a = key
-    /// of the flow's name.
+    /// Choice of the sender of a message, for a flow whose messages may start at any robot.
+    /// Key::a = key of the flow's name.
     traffic_source = 10,
-    /// Delays and choices of a routing protocol that has no purposes of its own. a = robot key, b =
-    /// message key.
+    /// Delays and choices of a routing protocol that has no purposes of its own. Key::a = robot
+    /// key, Key::b = message key.
     routing_jitter = 11,
     /// Time at which links are sampled for a fit [fraction of the duration].
     sample_time = 15,
-    /// Waves of the shadowing field. a = number of the wave.
+    /// Random waves whose sum is the shadowing field. Key::a = number of the wave.
     field_shadowing = 16,
-    /// Fading of a frame at a receiver. a = frame key, b = receiver key.
+    /// Fading of a frame at a receiver. Key::a = frame key, Key::b = receiver key.
     frame_fading = 17,
-    /// Waves of the fading field. a = number of the wave.
+    /// Random waves whose sum is the fading field. Key::a = number of the wave.
     place_fading = 18,
-    /// Times of a routing protocol's HELLO packets. a = robot key.
+    /// Times of a routing protocol's HELLO packets. Key::a = robot key.
     hello = 19,
-    /// Time that a flood waits to assess whether to forward. a = robot key, b = message key.
+    /// Time that a flood waits to assess whether to forward. Key::a = robot key, Key::b = message
+    /// key.
     assessment = 20,
-    /// Slot in which a relay forwards. a = robot key, b = message key.
+    /// Slot in which a relay forwards. Key::a = robot key, Key::b = message key.
     relay_slot = 21,
-    /// Choice among several routes. a = robot key, b = message key.
+    /// Choice among several routes. Key::a = robot key, Key::b = message key.
     route_choice = 22,
 };
 

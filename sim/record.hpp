@@ -85,7 +85,7 @@ struct Received {
     Duration reserved{0};
     /// Bytes that the access model adds to the message.
     std::uint32_t header = 0;
-    /// Received power [dBm] of each reception; empty unless a sink asks for it (see kind_levels).
+    /// Received power [dBm] of each reception; empty unless a sink wants kind_levels.
     std::span<const Dbm> levels = {};
 
     static constexpr std::string_view name = "Received";

@@ -55,7 +55,7 @@ consteval KindMask kind_of() {
 /// sink wants them.
 inline constexpr KindMask kind_links = kind_of<LinkUp>() | kind_of<LinkDown>();
 /// Kinds of records that are in no fingerprint, because they follow from other records or depend on
-/// the sinks. Fingerprints contain all other kinds, with all fields but those marked not_hashed.
+/// the sinks. Fingerprints contain all other kinds, without the fields marked not_hashed.
 inline constexpr KindMask kind_unhashed = kind_links | kind_of<Arrived>() | kind_of<NoWay>() |
                                           kind_of<Switched>() | kind_of<AirSent>() |
                                           kind_of<ControlReceived>() | kind_of<Routed>();

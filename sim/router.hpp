@@ -105,7 +105,7 @@ class Router {
         virtual std::string notice() const = 0;
         virtual Hops initial_ttl(const Message&) const = 0;
     };
-    // Protocol of type T; functions that it lacks do nothing.
+    // Protocol of type T; functions that T lacks do nothing.
     template <class T>
     struct Holder final : Concept {
         explicit Holder(T p) : protocol(std::move(p)) {}

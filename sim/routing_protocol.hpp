@@ -96,7 +96,7 @@ template <class T>
 concept KeepsMessages = requires(const T router, MessageId message) {
     { router.keeps(message) } -> std::convertible_to<bool>;
 };
-/// Style of a packet's content in ns-2 traces: that of the old or of the new trace format.
+/// Style of a packet's content in ns-2 traces: old or new trace format.
 enum class PacketStyle {
     /// Style of the old trace format: "[0x2 1 1 [3 0] [0 4]] (REQUEST)"
     brackets,
@@ -170,8 +170,8 @@ struct RouterTraits {
     /// True if the protocol routes messages to one node, not only to everyone. If false,
     /// Network::send() sends unicasts over one hop.
     bool routes_unicasts = false;
-    /// True if on_receive also gets unicasts for other nodes (overhearing). The fates that it sets
-    /// for these unicasts are not recorded.
+    /// True if on_receive also gets unicasts for other nodes (overhearing). The fates that
+    /// on_receive sets for these unicasts are not recorded.
     bool overhears = false;
     /// True if the protocol calls LinkLayer::level, which needs a path loss for each reception.
     bool wants_levels = false;

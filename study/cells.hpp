@@ -34,7 +34,7 @@ struct Rows {
 /// Groups the points of a study into result rows. @param group_by  paths of varied keys
 Rows rows_of(const std::vector<StoredPoint>& points, const std::vector<std::string>& group_by);
 
-/// Number of runs that have no value in a row of the results table, by reason.
+/// Numbers of runs without a value in a row of the results table, by reason.
 struct Gaps {
     std::uint64_t failed = 0;
     std::uint64_t undefined = 0;  ///< number of finished runs in which the metric is undefined
@@ -68,8 +68,8 @@ class Cells {
     std::uint64_t count() const;   ///< number of cells of one row: combinations times replications
     std::uint64_t common() const;  ///< number of cells for which every row has a value
 
-    /// Text that lists, line by line, the rows that lack a value which some other row has; empty if
-    /// all rows have values in the same cells.
+    /// Text that lists, line by line, the rows without a value in a cell in which a different row
+    /// has a value; empty if all rows have values in equal cells.
     std::string unbalanced() const;
 
   private:
@@ -81,9 +81,9 @@ class Cells {
     const Inventory& inventory_;
     ValuesOfPoints values_;
     std::size_t replications_ = 0;
-    // Whether every row has a value, by combination and replication.
+    // Flag of each cell, by combination and replication; true: every row has a value.
     std::vector<std::vector<bool>> in_every_row_;
-    // Whether any row has a value for any combination, by replication.
+    // Flag of each replication; true: at least one row has a value for at least one combination.
     std::vector<bool> in_any_row_;
 };
 

@@ -68,8 +68,8 @@ void check_metric(const std::string& name, const Scenario& scenario, const Locat
 /// @throws InputError, RunError
 Measurement measure(const Scenario& scenario, KeptPlanners& kept);
 
-/// Conversion of a measurement to a text, and of a text to a measurement. The text is used to send
-/// measurements between processes.
+/// Conversion of a measurement to a text; below, the inverse. Processes exchange measurements as
+/// such texts.
 std::string to_text(const Measurement& measurement);
 Measurement measurement_of(std::string_view text);
 

@@ -9,8 +9,8 @@
 
 namespace rovernet {
 
-/// Copies runs of points that both stores have. A run is copied if it is missing in `to`, or if it
-/// failed in `to` and finished in `from`.
+/// Copies runs of those parameter combinations (points of a study) that both stores have. A run is
+/// copied if it is missing in `to`, or if it failed in `to` and finished in `from`.
 /// @param below  copies only replications below this number
 void copy_runs(const Store& from, Store& to,
                std::uint32_t below = std::numeric_limits<std::uint32_t>::max());

@@ -16,7 +16,7 @@ class OnlyReading {
     OnlyReading(const OnlyReading&) = delete;
     OnlyReading& operator=(const OnlyReading&) = delete;
 
-    /// Whether an SQL statement was denied, since it would do more than read.
+    /// Whether an SQL statement was denied, because the statement would not only read.
     bool denied() const { return denied_; }
 
   private:

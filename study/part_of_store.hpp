@@ -15,8 +15,8 @@ namespace rovernet {
 /// or if its runs are of a different code version.
 bool takes_part_of(const std::string& path, const Study& study);
 
-/// Number of replications in a store, at the points of a study, if it is larger than the number in
-/// the study. None otherwise, or if the study has a `precision`.
+/// Number of replications in a store at the points (parameter combinations) of a study. None if it
+/// is not larger than the study's number of replications, or if the study has a `precision`.
 std::optional<std::uint32_t> more_replications(const Store& store, const Study& study);
 
 /// Copies the runs that the study requests from the store `whole` into the store `part`.

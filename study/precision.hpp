@@ -25,8 +25,8 @@ struct ReachedPrecision {
 
 /// Precision reached by values of the study's main metric (see first_metric()) at one point.
 ///
-/// For a metric with two bounds, the default is the betting interval. It is valid after any number
-/// of replications, so that a point needs no more runs once its interval is narrow enough.
+/// For a metric with two bounds, the default is the betting interval, which is valid after any
+/// number of replications. A point therefore needs no more runs once its interval is narrow enough.
 /// Student's t interval is valid only for a fixed number of replications: values that are close by
 /// chance would end a point too early. With t, at least 10 values are needed, and equal values
 /// never suffice.
@@ -34,9 +34,9 @@ struct ReachedPrecision {
 ReachedPrecision reached_precision(const StudyTable& study, std::span<const double> values);
 
 /// Estimated number of replications that a point needs for [study] precision. If the precision is
-/// reached or not given, the result is `made`. Otherwise the result is that of
-/// replications_for_width(), limited to between 17/16 and 2 times `made` (estimates from few values
-/// are rough) and to max_replications.
+/// reached or not given, the result is `made`. Otherwise replications_for_width() gives the result,
+/// limited to between 17/16 and 2 times `made` (estimates from few values are rough) and to
+/// max_replications.
 /// @param made  number of replications so far, >= 1, with these values
 std::uint32_t replications_for(const StudyTable& study, std::span<const double> values,
                                std::uint32_t made);

@@ -23,7 +23,7 @@ struct Condition {
 
 /// Query of a study's results.
 struct Question {
-    /// Names of the metrics to compute, or quotients "A/B" of two of them, run by run; empty: the
+    /// Names of the metrics to compute, or quotients "A/B" of two metrics, run by run; empty: the
     /// metrics of [study] metrics, or else the default metrics.
     std::vector<std::string> metrics = {};
     /// Paths of varied keys. Points with equal values of these keys form a row of the table. Not
@@ -70,8 +70,8 @@ struct Answers {
 /// The replication is the unit of statistics: points of a row are first averaged in each
 /// replication, with equal weights. All averaged rows must have the same cells (a cell is a
 /// combination of values of the averaged keys, in one replication). A row lacks a cell if a run
-/// failed, is missing or has no value. Such a row would differ from other rows for that reason
-/// alone.
+/// failed, is missing or has no value; the lacking cell alone would make the row differ from other
+/// rows.
 /// @throws std::invalid_argument for an unknown metric or path, if no point meets the conditions,
 ///         or if rows have different cells and `common` is false
 Answers answers(const Store& store, const Question& question);

@@ -30,7 +30,7 @@ std::string array_ranges(std::span<const std::uint64_t> numbers);
 
 /// Sweep (all runs of a study) on a Slurm cluster. Each task of a job array makes one chunk of the
 /// runs and writes a separate store, a shard. A second job merges the shards after all tasks, even
-/// if tasks failed. The store determines which runs are finished; Slurm is not asked.
+/// if tasks failed. The store, not Slurm, determines which runs are finished.
 ///
 /// Scripts and logs are in the folder STORE.slurm: job.sh, merge.sh, shards/ and logs/. File names
 /// may contain any character except a line break.

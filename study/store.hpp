@@ -72,7 +72,7 @@ class Store {
 
     /// Runs of the study in order of point and replication, without their metrics.
     std::vector<StoredRun> runs() const;
-    /// Stores a run of the study. If a failed run with the same id exists, it is replaced.
+    /// Stores a run of the study, in place of a failed run with an equal id, if any.
     void record(const StoredRun& run);
 
     /// Names of the metrics of stored runs, in the order of first occurrence.

@@ -46,7 +46,7 @@ struct SweepOptions {
     /// Number of replications of each point, by point number, in place of [study] replications and
     /// precision. None: as in [study].
     std::optional<std::vector<std::uint32_t>> replications = {};
-    std::set<std::string> elsewhere = {};  ///< ids of runs to skip, since another store has them
+    std::set<std::string> elsewhere = {};  ///< ids of runs to skip: runs that other stores have
     /// Function that returns whether to stop the sweep; called at least every 0.2 s.
     std::function<Stop()> stop = [] { return Stop::no; };
     /// Function that receives the progress; called after every run, and at least every 0.2 s.

@@ -27,8 +27,8 @@ namespace rovernet {
 /// rounded to nearest. Data that depends on the sinks (`reachable`), and the division of a
 /// transmission's receptions into records, are not included.
 ///
-/// The table follows from the fields of the records (sim/record.hpp), in their order: all kinds but
-/// those of kind_unhashed, all fields but those that are marked not_hashed. Other real numbers are
+/// The table follows from the fields of the records (sim/record.hpp), in their order: all kinds
+/// except kind_unhashed, and all fields except the fields marked not_hashed. Other real numbers are
 /// rounded as positions; an optional begins with a byte that is 1 if it has a value.
 /// Example: examples/fingerprint.cpp.
 class Fingerprint {

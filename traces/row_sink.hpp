@@ -46,7 +46,7 @@ class RowSink {
     }
     void on(const Record& record, const RecordContext& context);
 
-    /// Table of the records of one kind. @param kind  bit of the kind, one of those stored
+    /// Table of the records of one kind. @param kind  bit of a stored kind
     Table table(KindMask kind) const;
     /// Removes all rows of all tables.
     void clear();

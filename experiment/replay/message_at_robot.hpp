@@ -15,8 +15,8 @@
 #include <string_view>
 #include <vector>
 
-// Explanation why a robot received a message or did not receive it. It is derived from the records
-// of a trace and from received power levels that are computed with the trace's scenario.
+// Explanation why a robot received a message or did not receive it. The explanation uses records of
+// a trace, and received power levels that are computed with the trace's scenario.
 
 namespace rovernet {
 

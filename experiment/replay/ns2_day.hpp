@@ -8,8 +8,8 @@
 
 namespace rovernet {
 
-/// Routing of the messages of an ns-2 trace when they are simulated again. The routing protocol of
-/// the ns-2 run is not simulated.
+/// Routing in a new simulation of the messages of an ns-2 trace. The routing protocol of the ns-2
+/// run is not simulated.
 enum class DayRouting {
     /// Flood: every robot forwards every message. A message for one robot is delivered only at that
     /// robot.

@@ -22,9 +22,9 @@ namespace rovernet {
 /// Frame that was on air in a recorded run.
 struct RecordedFrame {
     AirFrame air;
-    /// Uid of the frame's message; 0 for a frame that is no data frame.
+    /// Uid of the frame's message; 0 for a control frame.
     std::uint64_t uid = 0;
-    /// Header of the routing protocol before the message; without bytes: none.
+    /// Header of the routing protocol before the message; a header without bytes stands for none.
     FrameHeader header = {};
     /// Size of the frame on air [bytes].
     std::uint32_t bytes = 0;
@@ -38,9 +38,9 @@ struct RecordedFrame {
 
 /// Frames on air in a recorded run, and their levels at every robot.
 ///
-/// A recorded trace does not store received power levels. They are computed again from the scenario
-/// in the trace and the recorded legs (pieces of movement), with the shadowing and fading of the
-/// run:
+/// A recorded trace does not store received power levels. RecordedAir computes the levels from the
+/// scenario in the trace and the recorded legs (pieces of movement), with the shadowing and fading
+/// of the run:
 ///
 ///   level = power + gains - max(0, L - g)   [dBm]
 ///
@@ -66,7 +66,7 @@ class RecordedAir {
     const std::deque<RecordedFrame>& frames() const { return frames_; }
     /// Transmitted frame to which a reception belongs. Must be called when take() has processed the
     /// record of the reception, and no later record.
-    /// @param uid  uid of the message; 0 for a frame that is no data frame
+    /// @param uid  uid of the message; 0 for a control frame
     /// @return null if the record of the frame's start is missing
     const RecordedFrame* frame_of(const AirFrame& air, std::uint64_t uid,
                                   const Reception& reception) const;
@@ -79,7 +79,7 @@ class RecordedAir {
 
     /// Number of robots of the scenario.
     std::size_t robots() const { return names_.size(); }
-    /// Medium with the radios of all robots. A radio is on or off as after the last record.
+    /// Medium with the radios of all robots, switched on or off as the records so far state.
     const Medium& medium() const { return medium_; }
     /// Scene of the run with all doors open.
     const Scene& scene() const { return *scene_; }

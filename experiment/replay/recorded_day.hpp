@@ -27,8 +27,8 @@ struct DeliveryChange {
 DeliveryChange change_of(const PlayedDay& before, const PlayedDay& after, std::size_t robots);
 
 /// Recorded run (movements and messages) that can be simulated again with other radio models.
-/// Robots move, send and are switched on and off as recorded. They do not react to messages that
-/// they receive in the new simulation. To simulate reactions, run the scenario with other settings
+/// Robots move, send and are switched on and off as recorded. Robots do not react to messages
+/// received in the new simulation. To simulate reactions, run the scenario with other settings
 /// instead.
 ///
 ///     const RecordedDay day("runs/rescue-s7/trace.mcap");

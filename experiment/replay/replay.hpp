@@ -46,8 +46,8 @@ Verification verify_replay(const std::string& path, const std::function<bool(dou
 /// @throws InputError if the scenario of the trace cannot be loaded
 Metrics metrics_of(const RecordedRun& run, const std::string& path);
 
-/// Metrics of a recorded trace, without the warm-up. They equal the metrics of the run that wrote
-/// the trace.
+/// Metrics of a recorded trace, without the warm-up: equal to the metrics of the run that wrote the
+/// trace.
 /// @param damage  receives sentences about broken or missing parts of the trace
 /// @throws InputError
 MetricValues recorded_metrics(const std::string& path, std::vector<std::string>& damage);

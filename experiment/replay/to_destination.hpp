@@ -12,7 +12,7 @@
 namespace rovernet {
 
 /// Adapter that lets a flooding protocol carry messages for one robot. All robots receive and
-/// forward such a message. Only the destination delivers the message to its application.
+/// forward the message. Only the destination delivers the message to its application.
 class ToDestination {
   public:
     explicit ToDestination(Router protocol) : protocol_(std::move(protocol)) {}

@@ -16,8 +16,8 @@ struct TracePlay {
     std::function<bool()> goes_on;
 };
 
-/// Plays a trace. Its events are shown one after the other, paced by the clock, from the first
-/// event.
+/// Plays a trace from its first event on: shows the events of the trace one by one, paced by the
+/// clock.
 /// @param speed  ratio of trace time to real time [-], > 0
 /// @return false if the callback `goes_on` stopped the playback
 /// @throws InputError as Ns2File

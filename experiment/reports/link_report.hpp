@@ -51,7 +51,7 @@ struct LinkReport {
 };
 
 /// Runs the scenario until the time `at`, then reports the link from robot `from` to robot `to`. If
-/// no robot has reactions, only these two robots and the robots that they follow move, to save
+/// no robot has reactions, only `from`, `to` and the robots that these two follow move, to save
 /// computing time.
 /// @throws std::invalid_argument if a robot does not exist, or if both are the same robot
 LinkReport report_link(const Scenario& scenario, const std::string& from, const std::string& to,

@@ -22,7 +22,7 @@ struct Device {
     bool encryption;
 };
 
-/// Link table of a robot's wireless device: a list of the neighbours whose frames it can receive.
+/// Link table of a robot's wireless device: neighbours whose frames the device can receive.
 struct LinkTable {
     struct Row {
         Device neighbour;

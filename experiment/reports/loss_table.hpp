@@ -41,8 +41,8 @@ Duration option_time(const std::string& option, const std::string& text);
 /// List of all propagation models: for each model its name, and the name, default, range and
 /// meaning of each parameter.
 Array list_models();
-/// List of shadowing and fading models, which vary the loss of any propagation model; in the form
-/// of list_models().
+/// List of shadowing and fading models, which vary the loss of any propagation model. Each entry
+/// has the keys of list_models().
 Array list_variations();
 
 }  // namespace rovernet

@@ -9,7 +9,7 @@
 
 namespace rovernet {
 
-/// Path that messages from one robot to another robot take now, according to the robots' routing
+/// Current path of messages from one robot to a second robot, according to the robots' routing
 /// tables.
 struct RouteWay {
     /// Hop of the path, according to the routing table of the robot `from`.
@@ -20,8 +20,8 @@ struct RouteWay {
     };
     NodeId from, to;
     std::vector<Hop> hops;
-    /// Robot at which the path breaks off: the robot has no valid route, its next hop does not
-    /// receive its frames, or its route is a loop. None: the path reaches the destination.
+    /// Robot at which the path breaks off. Either this robot has no valid route, or its next hop
+    /// does not receive its frames, or its route is a loop. None: the path is complete.
     std::optional<NodeId> broken_at;
     std::string reason;  ///< reason, such as "it has no route to B"; empty if the path does not
                          ///< break off

@@ -57,7 +57,7 @@ class CommandReader {
     }
 
   protected:
-    /// Robot with this name.
+    /// Robot with the given name.
     virtual NodeId robot(const JsonElement& name) const = 0;
     /// Duration > 0, read from a text such as "100 ms".
     virtual Duration time(const JsonElement& element) const;

@@ -23,7 +23,7 @@ struct ListenerId {
 };
 
 /// Protocol server for external programs in a live run: parses the clients' messages, commands the
-/// session, and sends messages to clients at simulated times that it chooses.
+/// session, and sends messages to clients at simulated times chosen by the server.
 ///
 /// A front uses neither sockets nor clocks: run_paced() calls it, from one thread. At each call the
 /// session has processed all events of its current time. If programs send packets, each robot's
@@ -38,11 +38,11 @@ class Front {
     using Connection = std::uint32_t;
 
     /// Functions by which a front (protocol server) reaches its clients. The functions do not call
-    /// the front: a connection that they end is reported to closed() later.
+    /// the front directly: a connection ended by a function is reported to closed() later.
     struct Carrier {
         /// Sends one message to a client. A client that does not read its messages is disconnected.
         std::function<void(Connection to, std::string_view message)> send;
-        /// Closes a connection, once all messages to it are sent.
+        /// Closes a connection after all messages to the client are sent.
         std::function<void(Connection which)> close;
         /// Sends one binary message to a client; for protocols with text and binary messages.
         std::function<void(Connection to, std::string_view message)> send_binary = {};
@@ -77,7 +77,7 @@ class Front {
     virtual bool is_done() const { return false; }
     /// Whether the run continues at the end of the scenario, until its clients end it.
     virtual bool holds_end() const { return false; }
-    /// Seed with which the run must start again; none: the run continues.
+    /// Seed of the new run, if the run must start again; none: the run continues.
     virtual std::optional<std::uint64_t> new_seed() const { return std::nullopt; }
     /// Called once the results are written. Messages sent in this call still reach the clients.
     /// @param metrics  metrics of the run, as in summary.json

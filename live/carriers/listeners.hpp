@@ -23,8 +23,8 @@ namespace rovernet {
 /// input and output of started programs. Connections carry lines or bytes. Only this class and
 /// WebSockets use sockets (Boost.Asio); all work is done in the calling thread.
 ///
-/// The next line of a client is read after the previous line is answered and the answer is sent. So
-/// a client that sends without reading does not fill the memory, and lines may be sent ahead. A
+/// The next line of a client is read after the answer to the previous line is sent. So a client
+/// that sends without reading does not fill the memory, and may send several lines in advance. A
 /// byte stream is read as it arrives, and messages to its client may be sent at any time.
 ///
 /// If a client's first line is no JSON object, the client gets an error and is disconnected, after

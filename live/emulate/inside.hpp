@@ -17,10 +17,10 @@ struct ProgramEnd {
 /// Runs a program in the network of a robot, and waits for its end. Signals to this process are
 /// forwarded to the program. Signals from the terminal reach the program directly.
 ///
-/// When the run ends for any reason, this process ends the program and its descendants, since they
-/// have no network any more (end_processes). The keeper, the process that owns the networks of the
-/// run, reports the end by a message. If the keeper was killed, this process detects the broken
-/// connection.
+/// When the run ends for any reason, this process ends the program and the program's descendants,
+/// since their network no longer exists (end_processes). The keeper, the process that owns the
+/// networks of the run, reports the end by a message. If the keeper was killed, this process
+/// detects the broken connection.
 /// @param words  command line of the program, at least one word
 /// @throws RunError if the program cannot be started
 ProgramEnd run_inside(const RobotNetwork& network, const std::vector<std::string>& words);

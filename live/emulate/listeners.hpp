@@ -23,7 +23,7 @@ FrontListeners udp_relay(const Address& first);
 void check_udp_ports(const Address& first, std::size_t robots);
 
 /// Network devices for unmodified programs: each robot has a network namespace with a TAP device
-/// that has its addresses (EthernetFormat, Namespaces).
+/// that has the robot's addresses (EthernetFormat, Namespaces).
 /// @param folder  folder of the run's results, by which programs find the run
 /// @param go_on   called repeatedly during the setup of the devices; returning false stops it
 FrontListeners tap_devices(const std::string& folder, std::function<bool()> go_on);

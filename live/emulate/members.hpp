@@ -14,7 +14,7 @@ class NamespaceSet {
   public:
     /// @param descriptor  open file descriptor of a namespace
     void add(int descriptor);
-    /// All other processes in the namespaces, as far as they are visible to this process.
+    /// Processes in the namespaces that are visible to this process, without this process.
     std::vector<pid_t> members() const;
 
   private:
@@ -24,9 +24,9 @@ class NamespaceSet {
 /// Descendants of this process: its children, their children, and so on.
 std::vector<pid_t> descendants();
 
-/// Ends processes, including processes that they start meanwhile: by SIGTERM, after 1 s by SIGHUP
-/// (an interactive shell ignores SIGTERM), after 2 s by SIGKILL. Returns once no process is left,
-/// or only processes that cannot be killed.
+/// Ends processes, and processes started by these until then: by SIGTERM, after 1 s by SIGHUP (an
+/// interactive shell ignores SIGTERM), after 2 s by SIGKILL. Returns once no process is left, or
+/// only processes that cannot be killed.
 /// @param find  function that lists the current processes
 void end_processes(const std::function<std::vector<pid_t>()>& find);
 

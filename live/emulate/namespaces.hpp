@@ -17,7 +17,7 @@ namespace rovernet {
 /// A separate process, the keeper (run_keeper), holds the namespaces, so that this process stays in
 /// its own network. The keeper passes a namespace to processes of this user on request
 /// (RobotNetwork). When this process ends for any reason, the keeper ends the programs in the
-/// namespaces, then itself, so that nothing is left behind.
+/// namespaces, and then itself: no process remains.
 class Namespaces {
   public:
     /// @param folder  folder of the run's results, by which programs find the run

@@ -12,10 +12,10 @@ namespace rovernet {
 
 /// Front (protocol server) for programs that exchange packets by robots' radios: each robot has a
 /// port. Packets from a program are sent over one hop; messages that the robot receives are passed
-/// to the program. Any other program may drive the robot.
+/// to the program. The robot may be driven by a different program.
 ///
 /// A packet is sent at the time of its arrival, and a message is delivered at the time of its
-/// reception. So next() is the time of the network's next event.
+/// reception. Therefore next() returns the time of the network's next event.
 class PacketFront : public Front {
   public:
     PacketFront(std::unique_ptr<PacketFormat> format, Carrier carrier);

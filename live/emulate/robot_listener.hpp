@@ -11,7 +11,7 @@ namespace rovernet {
 /// Listener for a robot's namespace: the abstract Unix socket "rovernet/PID/ROBOT", where PID is
 /// the process id of the run. The socket has no file, and vanishes with its process.
 ///
-/// Any user may bind any such name. So client and server both check the user of the peer
+/// Any user may bind any such name. Therefore client and server check the user of the peer
 /// (user_behind). If the name is taken, the listener is at "rovernet/PID.NUMBER/ROBOT".
 struct RobotListener {
     pid_t run;

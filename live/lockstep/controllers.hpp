@@ -48,8 +48,8 @@ struct Controller {
     std::string last_state = {};  ///< last "state" line, sent again if the controller reconnects
 };
 
-/// Controllers of a lock-step run, in the order of their "hello" requests, and the execution of
-/// their steps. References to controllers are valid until a controller joins or leaves.
+/// Controllers of a lock-step run, in the order of their "hello" requests. Executes the steps that
+/// controllers request. References to controllers are valid until a controller joins or leaves.
 class Controllers {
   public:
     using Connection = Controller::Connection;

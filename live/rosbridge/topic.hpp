@@ -39,7 +39,7 @@ struct RosTopicType {
     std::string_view name;
     std::string_view type;  ///< message type of the topic
     bool is_of_robot = true;
-    bool is_input = false;  ///< true: clients publish to the topic; false: clients subscribe to it
+    bool is_input = false;  ///< true: clients publish to the topic; false: clients subscribe
     /// Interval between messages of the topic; 0: one message on subscription, or one for each
     /// event.
     Duration period = {};

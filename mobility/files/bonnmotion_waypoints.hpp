@@ -73,7 +73,7 @@ struct Waypoint {
 };
 
 /// First layout of `candidates` that fits the whole file, and the number of waypoints in the file.
-/// @throws InputError if none fits; it reports the error of the candidate that fits longest
+/// @throws InputError if none fits, with the error of the candidate that fits longest
 std::pair<PlaceColumns, std::uint64_t> columns_of(BonnMotionNumbers& numbers,
                                                   const std::vector<PlaceColumns>& candidates);
 

@@ -21,8 +21,8 @@ struct SetdestLine {
     std::uint32_t node = 0;
     Time time = {};
     std::uint8_t axis = 0;  ///< coordinate that `place` or `jump` sets: 0 = X_, 1 = Y_, 2 = Z_
-    double x = 0;           ///< goal [m]; for `place` and `jump` the value of the coordinate
-    double y = 0;           ///< goal [m]
+    double x = 0;           ///< x of the goal [m]; `place`, `jump`: value for `axis` [m]
+    double y = 0;           ///< y of the goal [m]
     double speed = 0;       ///< speed [m/s]
 };
 

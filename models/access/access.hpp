@@ -62,8 +62,8 @@ class Air {
 /// are not pure virtual have a default, which suits simple models.
 ///
 /// A listening model (carrier sensing) is notified of every frame at every station that senses the
-/// frame. When the frame starts, the model gets its begin and end there; when the frame ends,
-/// whether it was received.
+/// frame. When the frame starts, sensed() passes its begin and end at the station. When the frame
+/// ends, the call of received() or missed() reports whether the station received the frame.
 class Access {
   public:
     /// Virtual destructor, because the Mac owns the model by a pointer to Access.
@@ -76,9 +76,9 @@ class Access {
     virtual void send(Air& air, const QueuedFrame& frame) = 0;
     /// Called when a timer that the model set by Air::access_timer is due, with the timer's tag.
     virtual void on_timer(Air& /*air*/, NodeId /*node*/, std::uint32_t /*tag*/) {}
-    /// Removes the frames for `next_hop` from the node's queue, except a frame that is on air or
-    /// waits for its acknowledgement. Removed frames count as neither sent nor lost: the routing
-    /// protocol sends them on another path.
+    /// Removes and returns the frames for `next_hop` in the node's queue, except a frame that is on
+    /// air or waits for its acknowledgement. Removed frames count as neither sent nor lost:
+    /// the routing protocol may send these frames to a different next hop.
     virtual std::vector<QueuedFrame> take(NodeId /*node*/, NodeId /*next_hop*/) { return {}; }
     /// Clears the queue of a node that was switched off; its frames are lost.
     virtual void switch_off(Air& /*air*/, NodeId /*node*/) {}
@@ -153,9 +153,9 @@ class AccessModel {
     std::function<std::unique_ptr<Access>()> make_;
 };
 
-/// Settings of address resolution (ARP, RFC 826), keys of [access] beside those of the access
-/// model. With ARP a robot asks for the MAC address of a next hop by a broadcast before its first
-/// unicast to it; without ARP all addresses are known.
+/// Settings of address resolution (ARP, RFC 826): keys of [access], like the access model's keys.
+/// With ARP a robot requests the MAC address of a next hop by a broadcast before its first unicast
+/// to this next hop. Without ARP all addresses are known.
 struct ArpSettings {
     /// Whether robots resolve addresses.
     bool arp = false;

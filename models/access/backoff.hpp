@@ -56,8 +56,8 @@ class Backoff {
         not_before_ = from;
         busy_since_ = never;
     }
-    /// Time at which the slots have run out if the medium stays idle: the station may send then. A
-    /// timer due at that time must call grant() again, because the medium may have been busy since.
+    /// Time at which the station may send: end of its last slot, if the medium stays idle. A timer
+    /// due at that time must call grant() again, because the medium may have become busy.
     Time grant() const {
         if (busy_since_ == never) return anchor() + slots_ * timing_->slot;
         if (!was_busy()) return counted_from_ + slots_ * timing_->slot;
@@ -80,8 +80,8 @@ class Backoff {
     Time anchor() const {
         return std::max({not_before_, busy_until_ + timing_->difs, eifs_until_});
     }
-    // Number of slots left when the medium became busy. Slots that were complete by then are
-    // subtracted, the current slot is not.
+    // Number of slots left when the medium became busy: slots_ minus the slots that were complete
+    // at that time. The interrupted slot is not subtracted.
     int left() const {
         if (busy_since_ == never) return slots_;
         const Duration idle = busy_since_ + timing_->turnaround + timing_->cca_time - counted_from_;

@@ -18,11 +18,11 @@ namespace rovernet {
 /// Rule for the EIFS: a waiting time after a frame that a station did not decode, longer than a
 /// DIFS because it includes time for an acknowledgement.
 ///
-/// - standard: after a frame that the station had locked onto, until a frame without errors ends;
-///   802.11-2020, 10.3.2.3.7
-/// - ns2: after each sensed frame, decodable or not, unless the station is transmitting. The EIFS
-///   is a reservation: a DIFS follows, and no other frame ends it
-/// - none: never
+/// - standard: EIFS after a frame that the station had locked onto; a received frame without errors
+///   ends the EIFS (802.11-2020, 10.3.2.3.7)
+/// - ns2: EIFS after each sensed frame, decodable or not, unless the station is transmitting. No
+///   frame ends the EIFS early (like a NAV), and a DIFS follows the EIFS
+/// - none: no EIFS
 enum class EifsRule { standard, ns2, none };
 /// Names of the values of [access] eifs in scenario files.
 template <>
@@ -59,7 +59,7 @@ struct Csma {
     std::optional<int> cw_min = std::nullopt, cw_max = std::nullopt;
     /// Basic rates [bit/s], at least one, in any order; by default the mandatory rates of the
     /// standard. Broadcasts and RTS use the lowest basic rate. A response (CTS, ACK) uses the
-    /// highest that is not above the rate of the frame it answers, or the lowest if all are above.
+    /// highest basic rate up to the rate of the answered frame, or else the lowest basic rate.
     std::optional<std::vector<BitRate>> basic_rates = std::nullopt;
     /// Rule for the EIFS, a longer waiting time after a frame that was not decoded. With `ns2`, the
     /// default timing is that of ns-2, see ns2_timing().
@@ -119,8 +119,8 @@ struct Csma {
     WifiTiming timing() const;
     /// Whether a station that finds the medium idle for a DIFS sends without a backoff.
     bool sends_at_once() const { return immediate_access.value_or(eifs != EifsRule::ns2); }
-    /// Default radio, for keys of [radio] that a scenario file does not give: that of 802.11b, or
-    /// for OFDM one with 54 Mbit/s and a preamble of 20 us.
+    /// Default radio, for keys of [radio] that a scenario file does not give: Radio{} for 802.11b;
+    /// for OFDM the bit rate is 54 Mbit/s and the preamble 20 us.
     Radio usual_radio() const {
         if (standard == WifiStandard::b) return {};
         return {.rate = {54e6}, .preamble = std::chrono::microseconds{20}};

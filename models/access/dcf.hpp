@@ -71,7 +71,7 @@ class Dcf final : public Access {
   private:
     /// State of a station: without a frame, contending for access, or waiting for a response.
     enum class State : std::uint8_t { idle, contending, awaiting_cts, awaiting_ack };
-    /// Tag of a timer: for access, for an expected response, and for a response to send.
+    /// Purpose of a timer: channel access, timeout of an expected response, sending of a response.
     enum Tag : std::uint32_t { access, answer, response };
 
     /// Carrier sensing of a station, updated by every sensed frame; fills one cache line.
@@ -86,7 +86,7 @@ class Dcf final : public Access {
         State state = State::idle;
         /// True if a backoff was drawn since the station's last frame.
         bool backing_off = false;
-        /// True if the station contends without a backoff: the medium was idle (immediate access).
+        /// True if the station contends without a backoff, since the medium was idle.
         bool fresh = false;
         /// True if a CTS has answered the station's RTS.
         bool asked = false;
@@ -138,7 +138,8 @@ class Dcf final : public Access {
     void answer_missing(Air& air, NodeId node);
     // Handles a frame addressed to `node` that has ended there, and schedules its response.
     void answer_to(Air& air, NodeId node, const AirFrame& frame);
-    // Removes the first frame of the queue: sent, or lost if there is a reason. A backoff follows.
+    // Removes the first frame of the queue and starts a backoff. The frame was sent; if `reason` is
+    // given, the frame was lost.
     void finish(Air& air, NodeId node, Time end, std::optional<DropReason> reason);
     // Sets the NAV: the station does not send until reservations by other stations end.
     void reserve(NodeId node, Time from, Time until);

@@ -50,14 +50,14 @@ class TransmitQueue {
     /// Removes the first frame and returns it; the queue must not be empty.
     QueuedFrame pop() {
         const QueuedFrame first = frames_[begin_++];
-        // The space of removed frames is reused once they are half of all: a constant cost a frame.
+        // Removed entries are erased when they are half of all entries: O(1) per frame on average.
         if (begin_ * std::size_t{2} >= frames_.size()) {
             frames_.erase(frames_.begin(), frames_.begin() + offset());
             begin_ = 0;
         }
         return first;
     }
-    /// Removes the frames for `next_hop` and returns them; the order of the others is kept.
+    /// Removes the frames for `next_hop` and returns them; other frames keep their order.
     /// @param keeps_first  whether the first frame stays, because it is on air
     std::vector<QueuedFrame> take(NodeId next_hop, bool keeps_first) {
         const auto first = frames_.begin() + offset() + (keeps_first && !empty() ? 1 : 0);

@@ -70,8 +70,8 @@ class WallPassages {
     // wall.
     void pass_edges(const StraightMotion& end, double z, double duration,
                     std::vector<double>& out) const;
-    // Appends the times at which the line of sight, or one of its ends, passes tops, bottoms or
-    // ceilings.
+    // Appends the times at which the line of sight passes an edge of a wall's top or bottom, and
+    // the times at which an antenna passes the height of a wall's top or bottom or of a ceiling.
     void pass_levels(const Sight& sight, std::vector<double>& out) const;
 
     const Scene* scene_ = nullptr;

@@ -9,10 +9,11 @@
 
 namespace rovernet {
 
-/// Heights (z) of all antennas of a medium, on all legs so far. They bound the range of some
-/// models, and a loss of LossShape::by_heights depends on distance alone while all are equal.
+/// Heights (z) of all antennas of a medium, on all legs so far. The range of some propagation
+/// models depends on the largest height. If all heights are equal, a loss of shape by_heights
+/// depends on distance alone.
 struct AntennaHeights {
-    /// Upper bound [m]; minus infinity if there are no antennas.
+    /// Upper bound of the antenna heights [m]; minus infinity if there are no antennas.
     Meters highest{-std::numeric_limits<double>::infinity()};
     /// Height of the first antenna [m].
     Meters first{0};

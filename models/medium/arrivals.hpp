@@ -32,7 +32,7 @@ class Arrivals {
         const double nearest_ns = distance * (1e9 / speed_of_light) + 0.5;
         return Duration{static_cast<std::int64_t>(nearest_ns)};
     }
-    /// Squared distance [m^2] beyond which `node` interferes at no other node; may be infinite.
+    /// Square of the largest distance [m^2] at which `node` interferes; may be infinite.
     double squared_reach(NodeId node) {
         return stations_.kinds().squared_reach(stations_.kind(node), Strength::interfering);
     }
@@ -46,23 +46,23 @@ class Arrivals {
     /// Arrival of a frame at `to`, as by of() without headings, but with directional antennas.
     /// @param headings  headings of sender and receiver when the frame begins
     std::optional<Arrival> of(const Emission& frame, NodeId to, Vec3 at, const Headings& headings);
-    /// Received power [dBm] at `to` of a frame whose level was not computed.
+    /// Computes the received power [dBm] at `to` for an Arrival without a level (NaN).
     Dbm level(const Arrival& arrival, NodeId to) const;
     /// Whether the level of `frame` at `to` exceeds the level of `other` by `by` [dB] or more.
     /// Levels are computed only if bounds on them do not decide.
     bool is_stronger(Arrival& frame, Arrival& other, Db by, NodeId to);
 
   private:
-    // Arrival at `to` of a frame whose antennas are within its reach, at squared distance d2 [m^2].
+    // Arrival of a frame at `to`, a node within the frame's reach at squared distance d2 [m^2].
     std::optional<Arrival> within_reach(const Emission& frame, double d2, NodeId to, Vec3 there);
-    // Arrival of a frame between nodes that may have a link, by computing the path loss.
+    // Arrival of a frame at `to`, with the path loss by the model; the gates must allow the link.
     std::optional<Arrival> by_loss(const Emission& frame, double d2, NodeId to, Vec3 there,
                                    const Headings& headings);
     // Kind of station of the frame's sender, for the frame's coding (see RadioKinds).
     Stations::Kind sender_kind(const Emission& frame) const {
         return stations_.kind(frame.from, frame.coding);
     }
-    // Arrival of a frame over the squared distance d2 [m^2], with this level [dBm].
+    // Arrival of a frame at the squared distance d2 [m^2] with the received power level_dbm.
     Arrival at_level(const Emission& frame, double d2, double level_dbm) const;
 
     const MediumSettings& settings_;

@@ -32,10 +32,10 @@ struct IndexTable {
         Time start, end;
     };
     std::vector<IndexEntry> entries;
-    /// Velocity [m/s] and times of the entries' legs, by index of entry; empty if no node moves.
+    /// Velocity [m/s], start and end of the leg of each entry, by index; empty if no node moves.
     std::vector<Motion> motions;
 
-    /// Writes entry `i` of the table, from a leg or from another table.
+    /// Writes entry `i` of this table, from a leg or from an entry of a second IndexTable.
     void put(std::size_t i, NodeId node, std::uint32_t label, const Leg& leg);
     void put(std::size_t i, const IndexEntry& entry, const Motion& motion);
     /// Velocity [m/s] and times of the leg of entry `i`; all zero if the node does not move.

@@ -72,8 +72,8 @@ class LinkLosses {
     /// Largest gain by fading [dB]; 0 if frames do not fade.
     Db most_fade() const { return fades_ ? fades_->most() : Db{0}; }
 
-    /// Whether losses of a propagation model of this shape are stored in RecentLosses, for judging
-    /// frames. A loss without walls is computed as fast as it is looked up.
+    /// Whether losses of a model of this shape are stored in RecentLosses, for judging frames. A
+    /// loss that depends on distance alone is not: it is computed as fast as it is looked up.
     bool keeps(LossShape shape) const {
         return settings_.interference_cut && settings_.keep_losses && !settings_.all_pairs &&
                (shape == LossShape::by_walls || shape == LossShape::unknown);

@@ -13,9 +13,9 @@ namespace rovernet {
 /// @param height  z of both antennas; matters with shape by_heights only
 double loss_at(const Propagation& model, Hertz frequency, double distance, Meters height = {});
 
-/// Squared range of a link [m^2]: the loss is within `budget` if and only if the squared distance
-/// of the antennas is not larger. Negative if the loss exceeds the budget even at 0 m; infinite if
-/// it never does.
+/// Squared range of a link [m^2]: the largest squared distance of the antennas at which the loss is
+/// at most `budget`. Negative if the loss exceeds the budget at 0 m; infinite if the loss is within
+/// the budget at any distance.
 ///
 /// The range is found by bisection over the representable distances, so that it agrees exactly with
 /// the model's loss.

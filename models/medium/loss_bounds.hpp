@@ -7,15 +7,15 @@
 #include <limits>
 #include <vector>
 
-// Bounds of path losses, for comparing two levels without computing them: if two frames overlap,
-// usually one is much stronger.
+// Bounds of path losses. If two frames overlap, usually one is much stronger: the bounds then show
+// which one, without computing the levels.
 
 namespace rovernet {
 
 /// Bounds of a path loss that never decreases with distance: the exact loss at a few distances,
 /// each computed when first needed.
 ///
-/// A comparison of two levels that differ by more than the bounds needs no logarithm. RadioKinds
+/// If the bounds of two losses do not overlap, comparing them needs no logarithm. RadioKinds
 /// has a LossBounds for each kind of station; Arrivals::is_stronger uses it.
 ///
 ///   const auto [low, high] = bounds.at(d2, [&](double d) { return loss_at(model, f, d); });

@@ -87,8 +87,8 @@ class Medium {
     }
     /// Number of changes so far: replaced legs, set bit rates, switched radios and added nodes.
     std::uint64_t changes() const { return changes_; }
-    /// Position of a node [m], equal to that in `legs`. It is read from memory that is in the
-    /// processor's cache if the node's neighbours transmitted recently.
+    /// Position of a node [m] by its leg. The position is computed from a copy of the leg, which is
+    /// in the processor's cache if the node's neighbours transmitted recently.
     Vec3 position(NodeId node, Time t, const Legs& legs) const {
         return index_.position_of(node, t, legs);
     }
@@ -148,7 +148,7 @@ class Medium {
               std::uint64_t frame);
     // Search for find() by distance alone, if the loss only depends on the distance.
     void find_in_range(NodeId from, Kind mine, Strength strength, Time t, const Legs& legs);
-    // Search as find_in_range(), if all stations are of one kind, for nodes that can decode.
+    // Search of find_in_range() for decoding nodes only, used if all stations are of one kind.
     void find_alike(NodeId from, Kind mine, Time t, const Legs& legs);
     // Search for find() by distance and the shadowing draw of each pair.
     void find_in_table(NodeId from, Kind mine, Strength strength, Time t, const Legs& legs);
@@ -162,9 +162,10 @@ class Medium {
     // Puts the nodes of found_ into `out`, for a frame that ends at `end` at its sender.
     void put_arrivals(Time end, Receivers& out) const;
     void look_from(NodeId from, Time t, const Legs& legs);  // prepares index and origin_
-    void share_draws();                                     // fills shares_
-    // Visitor for the index: calls use(entry, antenna, squared distance and, if the index returns
-    // it, place) for nodes within reach that are on and may have a link.
+    // Fills shares_ with the contributions of all nodes to the draws of their pairs.
+    void share_draws();
+    // Visitor for the index: calls use(entry, antenna, squared distance, place) for nodes within
+    // reach that are on and may have a link. `place` is omitted if the index returns no place.
     template <class Use>
     auto within(NodeId from, Kind mine, double reach2, Use use) const;
     // Visits the nodes within reach: calls use() as described at within().
@@ -182,8 +183,10 @@ class Medium {
     // Index of nodes by position, and path losses of pairs at rest.
     NeighbourIndex index_;
     PairCache pairs_;
-    const Scene* pairs_of_ = nullptr;  // scene of the losses in pairs_
-    // Contributions of nodes to draws_, by place in the index; and NeighbourIndex::bins() then.
+    // Scene of the losses in pairs_.
+    const Scene* pairs_of_ = nullptr;
+    // shares_: contributions of nodes to draws_, by place in the index, for Decision::by_table.
+    // Second member: value of NeighbourIndex::bins() when shares_ was computed.
     std::vector<std::uint64_t> shares_;
     std::uint64_t shares_of_bin_ = 0;
     // Whether the cell size of the index was set.

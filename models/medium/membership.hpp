@@ -11,9 +11,9 @@ namespace rovernet {
 /// Network of a radio, as numbers: equal numbers stand for equal settings. Comparing numbers is
 /// faster than comparing names. RadioKinds assigns the numbers.
 struct Membership {
-    /// Number of the network's name (essid); 0 for "any", which matches every name.
+    /// Number that stands for the network's name (essid); 0: "any", which matches every name.
     std::uint32_t essid;
-    /// Number of the combination of channel and frequency.
+    /// Number that stands for the radio's pair of channel and frequency.
     std::uint32_t channel;
     /// True if the radio has a gate. Two radios with gates need the same network for a link.
     bool gated;

@@ -30,7 +30,7 @@ class NeighbourIndex {
   public:
     using Entry = IndexEntry;
 
-    /// Value of an index into entries() that stands for no entry.
+    /// Index that stands for "no entry" where an index into entries() is expected.
     static constexpr std::uint32_t nowhere = 0xffffffff;
 
     /// Adds the next node, with a number (label) that queries return.
@@ -59,8 +59,8 @@ class NeighbourIndex {
                                 : binned_.position(place, t, legs);
     }
     void prefetch(NodeId node) const { __builtin_prefetch(place_.data() + node.index()); }
-    /// Indices into entries() of nodes within `radius` [m] of `centre` at `t`, and possibly of some
-    /// more; valid until the next call. `t` must not decrease from call to call.
+    /// Indices into entries() of all nodes within `radius` [m] of `centre` at `t`, and of some
+    /// nodes farther away. Valid until the next call. `t` must not decrease from call to call.
     std::span<const std::uint32_t> near(Vec3 centre, double radius, Time t) {
         return look_around<false>(centre, radius + slack(t));
     }
@@ -78,8 +78,8 @@ class NeighbourIndex {
             for (const std::uint32_t i : places) visit(entries[i], binned_.position(i, t, legs));
         }
     }
-    /// Calls visit(entry, position) for every node within `radius` [m] of `centre` at `t`, and
-    /// possibly for some more, in any order. `t` must not decrease from call to call.
+    /// Calls visit(entry, position) for every node within `radius` [m] of `centre` at `t` and for
+    /// some nodes farther away, in any order. `t` must not decrease from call to call.
     template <class Visit>
     void visit(Vec3 centre, double radius, Time t, const Legs& legs, Visit visit) {
         this->visit(near(centre, radius, t), t, legs, visit);
@@ -104,14 +104,14 @@ class NeighbourIndex {
             visit(binned_.entries[i], binned_.position(i, t, legs), i);
         }
     }
-    /// Entries of the nodes in grid cells, sorted by cell. Nodes outside the grid, see apart(), are
-    /// not among them. The span is valid until refresh() sorts the nodes again.
+    /// Entries of the nodes in grid cells, sorted by cell; without the nodes that are stored
+    /// separately (see apart()). The span is valid until refresh() sorts the nodes again.
     std::span<const Entry> entries() const { return binned_.entries; }
     /// Number of times that the nodes were sorted into cells.
     std::uint64_t bins() const { return bins_; }
 
   private:
-    // Bit of place_ that marks an index into apart_.
+    // Bit of an element of place_: set if the element is an index into apart_.
     static constexpr std::uint32_t is_apart = 0x80000000;
 
     template <class Visit>
@@ -129,7 +129,7 @@ class NeighbourIndex {
         /// Sum of position jumps between consecutive legs [m].
         double jumped = 0;
 
-        /// Largest distance of a node from its position when it was sorted into a cell [m].
+        /// Largest distance [m] that a node may have moved at `t` since it was sorted into a cell.
         double at(Time t) const {
             return top_speed_per_ns * static_cast<double>((t - since).count()) + jumped;
         }
@@ -144,8 +144,8 @@ class NeighbourIndex {
     static double rounding(Vec3 centre, double reach) {
         return 1e-6 * (std::abs(centre.x) + std::abs(centre.y) + reach);
     }
-    /// Finds the entries sorted into cells within `reach` [m] of `centre`, and possibly some more;
-    /// writes their squared distances into distance2_, if requested.
+    /// Finds the entries sorted into cells within `reach` [m] of `centre`, and some entries farther
+    /// away. If distances_too, writes the squared distances of the found entries into distance2_.
     template <bool distances_too>
     std::span<std::uint32_t> look_around(Vec3 centre, double reach);
     // Lower bounds of the squared distances [m^2] between `centre` and the entries that

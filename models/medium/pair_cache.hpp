@@ -91,7 +91,7 @@ class PairCache {
     // Allocates the state of a node.
     void make_room(NodeId node);
 
-    // Largest number of pairs, and number of pairs with memory.
+    // Largest number of pairs, and number of pairs for which memory is allocated.
     std::size_t most_pairs_;
     std::size_t pairs_ = 0;
     // Transmitter selected by open().

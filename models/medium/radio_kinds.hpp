@@ -47,7 +47,7 @@ class RadioKinds {
     Kind add(const Radio& radio, const Propagation& model);
     /// Whether the sensitivity of receivers depends on the coding of a frame.
     bool depend_on_coding() const { return phy_.has_sensitivities(); }
-    /// Kind that stands for stations of `kind` while they transmit frames of this coding.
+    /// Kind used instead of `kind` for the links of a station that transmits with this coding.
     Kind of_coding(Kind kind, Coding coding);
 
     /// Number of kinds.
@@ -85,7 +85,7 @@ class RadioKinds {
     bool heights_matter() const { return heights_matter_; }
     /// Whether any antenna is directional.
     bool is_directional() const { return directional_; }
-    /// Squared distance [m^2] beyond which a signal has this strength at no node; may be infinite.
+    /// Upper bound of the squared distance [m^2] to nodes that `from` reaches with this strength.
     double squared_reach(Kind from, Strength strength);
 
     /// Method by which receivers of stations of a kind are determined.
@@ -97,7 +97,7 @@ class RadioKinds {
         return pays && !varies_ ? cheapest : Decision::by_loss;
     }
     /// Squared distance [m^2] up to which a signal has this strength at nodes of kind `to`, for
-    /// Decision::by_range; negative: at none.
+    /// Decision::by_range; negative if the signal is too weak even at 0 m.
     double squared_range(Kind from, Kind to, Strength strength) {
         const double range2 = kinds_[from].range2[to][strength];
         return std::isnan(range2) ? compute_range(from, to, strength) : range2;
@@ -189,7 +189,7 @@ class RadioKinds {
     // True if a link varies with the frame (fading) or with headings: ranges do not decide links.
     bool varies_;
     bool directional_ = false;
-    // True if there are two kinds whose gates forbid links.
+    // True if the gates forbid links between at least two kinds.
     bool gated_ = false;
     bool heights_matter_ = false;
     AntennaHeights antennas_;

@@ -31,9 +31,9 @@ class Scene;
 /// first query.
 class Reachability {
   public:
-    /// Number of searches for receivers that counts as cheap, in addition to one search for each
-    /// transmitted frame. With fewer searches, a run spends about 0.1 s on reachability, and not
-    /// more than on its frames.
+    /// Limit of cheap use: number of searches for receivers, in addition to one search for each
+    /// transmitted frame. Below this limit, a run spends at most about 0.1 s on reachability more
+    /// than on its frames.
     static constexpr std::uint64_t cheap_searches = 10'000;
 
     /// Number of nodes other than `from` to which a chain of links leads from `from` at `t`, which
@@ -60,7 +60,8 @@ class Reachability {
         Time t;
         NodeId from;
     };
-    // State of a node in a search: not checked; link from parent checked; reached; not reachable.
+    // State of a node in a search. open: not checked. tried: link from its parent checked. reached:
+    // a chain of links leads to the node. cut: no chain leads to the node.
     enum class State : std::uint32_t { open, tried, reached, cut };
 
     // Whether no robot moves at the time of the query.
@@ -97,7 +98,7 @@ class Reachability {
 
     // Results of count() by node, while no robot moves; `unknown` if not computed.
     std::vector<std::uint32_t> answers_;
-    // Medium::changes() and the scene when the results in answers_ were computed.
+    // Value of Medium::changes(), and scene, at the time when answers_ was computed.
     std::pair<std::uint64_t, const Scene*> answers_of_{~std::uint64_t{0}, nullptr};
     // Whether no robot moved when the results in answers_ were computed.
     bool at_rest_ = false;
@@ -111,7 +112,7 @@ class Reachability {
     std::uint64_t searches_ = 0;
     // Reached nodes, in the order in which they were reached.
     std::vector<NodeId> reached_;
-    // Number of reached nodes from which the search has continued.
+    // Number of nodes in reached_ whose receivers were searched, from the first on.
     std::size_t expanded_ = 0;
     // Nodes that are on and not reached.
     std::vector<NodeId> open_;

@@ -14,11 +14,11 @@ namespace rovernet {
 
 class Scene;
 
-/// Cache of the last path losses, one for each pair of sender and receiver. At the end of a frame,
-/// its judge uses the losses that the search for receivers computed at its start.
+/// Cache of the last path losses, one for each pair of sender and receiver. The search for
+/// receivers stores the losses at the start of a frame. The frame's judge reads them at its end.
 ///
-/// The cache stores up to 1024 pairs; if two pairs share a slot, the later one is kept. A loss is
-/// found only for exactly the same positions in the same scene: it equals the model's result.
+/// The cache stores up to 1024 pairs. If two pairs share a slot, the later pair is kept. A loss is
+/// found only for exactly equal positions in the same scene, so that it equals the model's result.
 class RecentLosses {
   public:
     /// Link from one antenna to another, in a scene.

@@ -13,8 +13,8 @@
 
 namespace rovernet {
 
-/// Propagation model with added shadowing: L = max(0, L_model + X), see Shadowing. Medium makes one
-/// for each of its models if its settings have shadowing with sigma > 0. All losses then include X.
+/// Propagation model with added shadowing X: L = max(0, L_model + X) [dB], see Shadowing. If its
+/// settings have shadowing with sigma > 0, Medium replaces each of its models by a Shadowed.
 ///
 ///   const Propagation model = Shadowed(Friis{}, {.model = ShadowingModel::link}, seed, 0);
 class Shadowed {

@@ -72,7 +72,7 @@ class Stations {
     Kind kind(NodeId node) const {
         return kinds_.size() == 1 ? Kind{0} : Kind{stations_[node.index()].kind};
     }
-    /// Kind of a node while it sends this coding; kind(node) unless sensitivities depend on it.
+    /// Kind of a node while it sends this coding; kind(node) if sensitivities ignore the coding.
     Kind kind(NodeId node, Coding coding) {
         return kinds_.depend_on_coding() ? kind_of_coding(node, coding) : kind(node);
     }
@@ -133,7 +133,7 @@ class Stations {
     Kind kind_of_coding(NodeId node, Coding coding);
     // Fills stations_, up to the last node; new entries have the first radio and kind, and are on.
     void list_stations();
-    // Model with the shadowing of the settings; for copies of one Propagation the same object.
+    // Model with the shadowing of the settings; copies of one Propagation give one object.
     Propagation shadowed(const Propagation& model);
     // Reports the antenna heights on the legs of nodes `begin` to `end` to kinds_.
     void measure(std::size_t begin, std::size_t end, const Legs& legs);

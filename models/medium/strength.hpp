@@ -3,7 +3,7 @@
 
 namespace rovernet {
 
-/// Strength of a signal at a station, by its effect there; strongest first.
+/// Strength of a signal at a station, by the signal's effect on the station; strongest first.
 ///
 /// - decodable: the frame is received, without interference
 /// - detectable: the station senses that the medium is busy

@@ -72,7 +72,7 @@ class WrappedAxis {
     // Cell that represents interval number `cell`.
     std::size_t wrapped(std::int64_t cell) const {
         const auto n = static_cast<std::int64_t>(cells_);
-        // Most intervals need no division, which would take longer than all other work here.
+        // Most intervals need no division, which would take longer than the rest of this class.
         const std::int64_t rest = cell >= 0 && cell < n ? cell : cell % n;
         return static_cast<std::size_t>(rest < 0 ? rest + n : rest);
     }

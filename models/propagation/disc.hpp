@@ -20,7 +20,7 @@ struct Disc {
     /// Loss beyond the range [dB], larger than any link budget.
     static constexpr double outside_db = 1000;
 
-    /// Radius of the disc [m], >= 0; there is no default.
+    /// Radius of the disc [m], >= 0; required (no default).
     Meters range{unset};
 
     static constexpr auto fields() {

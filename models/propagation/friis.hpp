@@ -25,9 +25,9 @@ inline double free_space_db(double d, Hertz f) {
 
 /// Free space (Friis):  L(d) = max(0, 20 log10(4 pi d f / c)), and 0 dB at d = 0.
 ///
-/// Valid in the far field, d > max(lambda, 2 D^2 / lambda), without objects between or near the
-/// antennas. Ground, walls and all obstacles are neglected. Friis is the default propagation model.
-/// At 2450 MHz `rovernet loss friis` prints
+/// Valid in the far field, d > max(lambda, 2 D^2 / lambda) with the antenna diameter D, without
+/// objects between or near the antennas. Ground, walls and all obstacles are neglected. Friis is
+/// the default propagation model. At 2450 MHz `rovernet loss friis` prints
 ///
 ///   1 m   40.23 dB
 ///   10 m  60.23 dB

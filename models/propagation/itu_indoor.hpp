@@ -41,9 +41,10 @@ struct ItuIndoor {
     static constexpr std::string_view name = "itu_indoor";
     static constexpr bool is_indoor = true;
 
-    /// Distance power loss coefficient N [-], > 0; 30 if `environment` is not given, either.
+    /// Distance power loss coefficient N [-], > 0. If not given: by `environment`, or else 30.
     std::optional<double> coefficient = std::nullopt;
-    /// Kind of building: determines N (unless `coefficient` is given) and the floor loss.
+    /// Kind of building. It determines the floor loss and, unless `coefficient` is given, the
+    /// distance power loss coefficient N.
     std::optional<Environment> environment = std::nullopt;
     /// Number of floors n between the antennas [-]; counted from antenna heights if not given.
     std::optional<int> floors = std::nullopt;
@@ -69,7 +70,7 @@ struct ItuIndoor {
     ///         `floors` floors
     void check_frequency(Hertz f) const;
 
-    /// Distance [m] beyond which the loss is more than `loss`, whatever the number of floors.
+    /// Distance [m] beyond which the loss is more than `loss`, for any number of floors.
     Meters reach(Db loss, Hertz f) const;
     /// Fills out_db[i] with the loss [dB] to receiver i; never negative.
     void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const;

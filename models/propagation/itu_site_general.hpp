@@ -41,7 +41,7 @@ struct EnumNames<LineOfSight> {
 ///
 /// The coefficients include walls: a wall or a ceiling in the path only selects the row of the
 /// table, so the loss jumps when a wall obstructs the line of sight. The Recommendation's standard
-/// deviation of 3 to 9 dB is left to shadowing.
+/// deviation of 3 to 9 dB is not included: use shadowing.
 ///
 /// In an office with line of sight, at 2450 MHz, `rovernet loss itu_site_general` prints
 ///

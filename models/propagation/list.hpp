@@ -19,8 +19,8 @@ namespace rovernet {
 
 /// Propagation models that scenario files can name, in the order of detail. For a model in this
 /// list the reader, range checks, printing, documentation, conformance tests and sweeps follow from
-/// its fields(). Among the compared models, `rovernet compare` takes the last one in this list as
-/// the most detailed.
+/// its fields(). `rovernet compare` treats the compared model with the last place in this list as
+/// the most detailed one.
 using PropagationModels = std::tuple<Disc, Friis, TwoRay, ItuIndoor, LogDistance, ItuSiteGeneral,
                                      MultiWall, Raytrace2007, Rays>;
 

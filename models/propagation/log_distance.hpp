@@ -13,9 +13,9 @@ namespace rovernet {
 ///
 /// X is a function of seed, replication and the unordered pair of robots: X is equal in both
 /// directions, at all times and for any number of samples. The cut (5.7e-7 of draws) bounds the
-/// range; ShadowedRange uses it to decide links fast. Valid in the far field of the transmitter; n
-/// and sigma include walls, single walls have no effect. Median with the defaults at 2450 MHz, by
-/// `rovernet loss log_distance`:
+/// range; ShadowedRange uses this bound to decide links fast. Valid in the far field of the
+/// transmitter. n and sigma include walls: single walls have no effect. Median with the defaults at
+/// 2450 MHz, by `rovernet loss log_distance`:
 ///
 ///   1 m   40.23 dB
 ///   10 m  65.23 dB
@@ -24,7 +24,7 @@ namespace rovernet {
 struct LogDistance {
     static constexpr std::string_view name = "log_distance";
 
-    /// Path loss exponent n [-], > 0; 2 free space, about 4 an obstructed office.
+    /// Path loss exponent n [-], > 0: 2 in free space, about 4 in an obstructed office.
     double exponent = 2.5;
     /// Standard deviation of the shadowing X [dB], >= 0; with 0 the loss is the median.
     Db sigma{5};

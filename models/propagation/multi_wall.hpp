@@ -15,14 +15,14 @@ namespace rovernet {
 /// and k floors between the antennas.
 ///
 /// The loss of a wall is that of its material. A wall whose material has no loss of its own has the
-/// loss `light_wall` or `heavy_wall`: the wall is light if its drawn thickness at the middle of the
-/// ray inside the wall is below 10 cm. A wall counts once, however it is drawn and at any angle of
-/// crossing, see Scene::walls(). A ceiling in a scene of several storeys has the loss of its
-/// material, or else counts in k; in other scenes k counts the storeys of [scene] floor_height, if
-/// that is given. The wall loss does not grow with the angle of crossing, unless the material has a
-/// loss per metre. The loss jumps where a wall obstructs the ray, and where the thickness at the
-/// ray's middle passes 10 cm. Reflection and diffraction are neglected: behind many walls the loss
-/// is an upper estimate.
+/// loss `light_wall` or `heavy_wall`. A wall is light if its drawn thickness, at the midpoint of
+/// the ray's path inside the wall, is below 10 cm. A wall counts once, at any angle of crossing and
+/// for any number of drawn parts, see Scene::walls(). A ceiling in a scene of several storeys has
+/// the loss of its material, or else counts in k; in other scenes k counts the storeys of [scene]
+/// floor_height, if given. The wall loss does not grow with the angle of crossing, unless the
+/// material has a loss per metre. The loss jumps where a wall obstructs the ray, and where the
+/// thickness at the midpoint passes 10 cm. Reflection and diffraction are neglected: behind many
+/// walls the loss is an upper estimate.
 ///
 /// With the defaults at 2450 MHz `rovernet loss multi_wall` prints
 ///
@@ -37,7 +37,7 @@ struct MultiWall {
     static constexpr std::string_view name = "multi_wall";
     static constexpr bool is_indoor = true;
 
-    /// Path loss exponent n [-], > 0; 2 free space.
+    /// Path loss exponent n [-], > 0: 2 in free space.
     double exponent = 2;
     /// Loss at 1 m in addition to free space [dB]; may be negative.
     Db excess{0};
@@ -47,7 +47,7 @@ struct MultiWall {
     Db heavy_wall{6.9};
     /// Loss of one floor, Lf [dB], >= 0.
     Db floor_loss{18.3};
-    /// Parameter b of the exponent [-], 0 to 1: further floors have less loss than the first.
+    /// Parameter b of the floor term [-], 0 to 1: if b > 0, further floors add less than the first.
     double floor_saving = 0.46;
 
     static constexpr auto fields() {
@@ -74,7 +74,7 @@ struct MultiWall {
 
     /// Distance [m] beyond which the loss is more than `loss`, for any walls and floors.
     Meters reach(Db loss, Hertz f) const;
-    /// Fills out_db[i] with the loss [dB] to receiver i; walls and floors are the scene's.
+    /// Fills out_db[i] with the loss [dB] to receiver i, with walls and floors of links.scene.
     void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const;
     /// Loss of one crossed wall [dB]. @param material  material of the wall
     Db wall_loss(const Wall& wall, const Material& material, Hertz f) const;

@@ -30,7 +30,7 @@ namespace rovernet {
 ///   model.shape();                  // LossShape::by_distance
 class Propagation {
   public:
-    /// Infinite bound on antenna heights, for reach(): antennas may have any height.
+    /// Value of `highest` in reach() for antennas of any height: infinity.
     static constexpr Meters anything{std::numeric_limits<double>::infinity()};
 
     /// @throws std::invalid_argument if a parameter is out of its range
@@ -71,7 +71,7 @@ class Propagation {
     /// Checks a scene. @throws std::invalid_argument if the propagation model cannot work in the
     /// scene
     void check_scene(const Scene& scene) const { self_->check_scene(scene); }
-    /// Shape of the loss when the ends of a link move.
+    /// Shape of the path loss as a function of antenna positions.
     LossShape shape() const { return self_->shape(); }
     /// Loss as a function of distance and shadowing draw, for a ShadowedRange; empty if the model
     /// is not a ShadowedModel.
@@ -80,7 +80,7 @@ class Propagation {
     }
     /// Whether the loss has a random part for each pair of nodes.
     bool is_random() const { return self_->is_random(); }
-    /// Propagation model without its random part; the same model if it has none.
+    /// Propagation model without its random part; a copy of this model if it has no random part.
     Propagation median() const { return is_random() ? self_->median() : *this; }
     /// Propagation model as type T; null if the model is of another type.
     template <class T>

@@ -123,19 +123,19 @@ concept BoundedByHeight = requires(const T& model, Db loss, Hertz frequency, Met
     { model.reach(loss, frequency, highest) } -> std::same_as<Meters>;
 };
 
-/// Shape of the loss when the ends of a link move. The shape determines how receivers and link
-/// changes are searched for.
+/// Shape of the path loss as a function of antenna positions. The shape determines how the medium
+/// searches for receivers and link changes.
 enum class LossShape {
-    /// Non-decreasing function of the distance between the antennas.
+    /// Path loss is a non-decreasing function of the distance between the antennas.
     by_distance,
-    /// Non-decreasing function of the distance, a different one for each pair of nodes.
+    /// Path loss of each pair of nodes is its own non-decreasing function of the distance.
     by_pair,
-    /// Non-decreasing function of the distance while both antennas keep their heights.
+    /// Path loss is a non-decreasing function of the distance if both antenna heights are constant.
     by_heights,
-    /// Function of the distance plus the losses of walls: the loss jumps where the line of sight
-    /// passes a wall's corner, and is smooth elsewhere.
+    /// Path loss is a function of the distance plus the losses of walls: the loss jumps where the
+    /// line of sight passes a wall's corner, and is smooth elsewhere.
     by_walls,
-    /// Any function of the positions.
+    /// Path loss may be any function of the positions.
     unknown,
 };
 /// Shape of the loss while two antennas move with velocities a and b [m/s]; never by_heights.

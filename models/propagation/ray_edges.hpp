@@ -34,8 +34,8 @@ struct WallEdge {
     double n;
     /// Height of the wall at the edge [m].
     double height;
-    /// Largest distance of the drawn outline from the lines of the edge's two faces [m]; 0 if the
-    /// outline follows the map's grid.
+    /// Largest distance [m] of the outline as drawn (in steps of pixels) from the straight lines of
+    /// the edge's two faces; 0 if the faces are parallel to the map's grid.
     double steps;
     /// Indices of the neighbouring edges: `previous` at the other end of the face before the edge,
     /// `next` at the other end of the face behind it; no_edge if there is no such edge.
@@ -72,11 +72,11 @@ struct TautString {
     std::optional<std::size_t> touches(const EdgeCorner& corner) const;
 };
 
-/// Flags of the faces of an edge, true if a straight path crosses the face: the face before the
-/// edge, and the face behind it.
+/// Flags of the faces of an edge. A flag is true if a straight path crosses the face before the
+/// edge, the face behind the edge, or a face between the edge's corners.
 struct CrossedAt {
     bool before = false, behind = false;
-    bool between = false;  ///< whether a short face between `before` and `behind` is crossed
+    bool between = false;  ///< true: the path crosses a short face between `before` and `behind`
     bool any() const { return before || behind || between; }
 };
 
@@ -84,17 +84,17 @@ struct CrossedAt {
 struct WayAround {
     std::array<std::size_t, 2> edges;  ///< indices of the first and the last edge of the path
     std::array<Vec3, 2> corners;       ///< first and last corner of the path [m]
-    RayEdge edge;                      ///< edge or pair of edges, with lengths in 3 dimensions
+    RayEdge edge;                      ///< edge, or pair of edges, with 3-D lengths of the path
     double length;                     ///< length of the path around the edge [m]
     double detour;                     ///< `length` minus the straight distance of the ends [m]
 };
 
-/// Edges of a scene's walls at one wavelength.
+/// Edges of a scene's walls at one wavelength. Each wall has an outline, a closed chain of faces.
 ///
-/// Faces that are shorter than five wavelengths and shorter than 0.4 of the outline's longest face
-/// do not separate corners. Everything between the longer faces before and behind is one edge, if
-/// the outline turns left there by more than 20 degrees in total. Therefore the end of a wall is
-/// one edge, and a pillar has four edges.
+/// A face is short if its length is below five wavelengths and below 0.4 of the longest face of its
+/// outline. The corners between two consecutive long faces form one edge, with all short faces
+/// between these two, if the outline turns left by more than 20 degrees from the first long face to
+/// the second. Therefore the end of a wall is one edge, and a pillar has four edges.
 class RayEdges {
   public:
     RayEdges() = default;
@@ -102,13 +102,13 @@ class RayEdges {
     RayEdges(std::span<const Face> faces, double wavelength);
     std::span<const WallEdge> all() const { return edges_; }
 
-    /// Path from a around the edge to b, with linearly changing height; empty if an end is on the
-    /// wall's side of the edge, or if the path passes above the wall.
+    /// Path from a around the edge to b, with linearly changing height. Empty if a or b lies behind
+    /// the planes of both faces of the edge, or if the path passes above the wall.
     std::optional<WayAround> around(std::size_t edge, Vec3 a, Vec3 b) const;
 
     /// Path from a around a body to b: a taut string over the edges from `first`, where the
-    /// straight path enters the body, to the edge where the straight path leaves it. Of more than
-    /// two corners only the first and the last count.
+    /// straight path enters the body, to the edge where the straight path leaves the body. The
+    /// result contains only the first and the last corner that the string touches.
     /// @param crossed  faces that the straight path crosses, by edge
     /// @param corners  the path's corners are appended, in the order of the outline
     /// @return empty if the outline does not turn left all the way, or no corner obstructs the path

@@ -17,13 +17,14 @@ namespace rovernet {
 /// Factor by which a wall changes the field of a path: `field` times e^-decay.
 struct RayFactor {
     math::Complex field;
-    /// Decay [Np], >= 0; separate from the field, which would be 0 for metal.
+    /// Exponential decay inside the wall [Np], >= 0; not part of `field`, which would be 0 for
+    /// metal.
     double decay;
 
     double loss() const;  ///< loss of the wall for the path [dB], finite
 };
 
-/// Losses at a slab [dB]: of the wave that crosses the slab, and of the reflected wave.
+/// Losses at a slab [dB]: loss of the transmitted wave, and loss of the reflected wave.
 struct HitLosses {
     double crossing, reflection;
 };

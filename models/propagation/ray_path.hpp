@@ -46,19 +46,19 @@ inline constexpr std::size_t no_face = static_cast<std::size_t>(-1);
 struct RayEdge {
     /// Path lengths before and after the edge [m], in three dimensions.
     double before, after;
-    /// Detour [m]: length of the path around the edge minus that of the straight path.
+    /// Detour [m]: length of the path around the edge minus length of the straight path.
     double detour;
     /// Exterior angle of the edge over pi [-], 1 to 2, and the directions from the edge to the
-    /// path's ends [rad], measured from its first face: see WedgePath.
+    /// path's ends [rad], measured from the edge's first face: see WedgePath.
     double n, phi_before, phi_after;
-    /// Wall at the edge: its material (index into Scene::materials()), its thickness [m], and the
-    /// cosine of the angle between the straight path and its normal [-].
+    /// Wall at the edge: material (index into Scene::materials()), thickness [m], and cosine of the
+    /// angle between the straight path and the wall's normal [-].
     std::size_t material;
     double thickness, cosine;
     /// True if the straight path crosses a face at the edge.
     bool shadowed = false;
-    /// Pair of edges, if the path also passes a second edge of the same body. The other members of
-    /// RayEdge are then for the path around both edges.
+    /// Pair of edges, if the path also goes around a second edge of this edge's body. All other
+    /// members of RayEdge then describe the path around the pair.
     std::optional<EdgePair> pair = std::nullopt;
     /// Field past the edge, relative to free space; set if the field also depends on other bodies.
     std::optional<math::Complex> field = std::nullopt;
@@ -79,9 +79,9 @@ struct RayPaths {
     std::vector<RayPath> paths;
     std::vector<RayHit> all_hits;
     std::vector<RayEdge> all_edges;
-    /// Edge beside the straight path that does not obstruct this path: of all such edges the one
-    /// with the smallest detour (RayEdge::detour). Empty if there is no such edge, or if paths are
-    /// traced without edges.
+    /// Edge with the smallest detour (RayEdge::detour) among the edges beside the straight path
+    /// that do not obstruct this path. Empty without such an edge, and if paths are traced without
+    /// edges.
     std::optional<RayEdge> beside = std::nullopt;
 
     std::span<const RayHit> hits(const RayPath& path) const {

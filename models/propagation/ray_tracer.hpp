@@ -50,8 +50,8 @@ struct RayLimit {
 /// Walls are as drawn, with one exception: for a path reflected by a slanting face, and for a path
 /// that touches the face and leaves on the same side, the steps of the face's outline are no walls.
 ///
-/// All numbers of a path are exactly the same in both directions: its points are computed from the
-/// end that comes first by its coordinates.
+/// All numbers of a path are equal to the last bit in both directions of the link: points of a path
+/// are computed from the antenna whose coordinates come first in lexicographic order.
 class RayTracer {
   public:
     /// @param scene       scene with the walls; must outlive the tracer
@@ -63,7 +63,7 @@ class RayTracer {
               bool few = false);
 
     /// Writes the paths to a receiver into `out`.
-    /// @param limit  null: all paths; otherwise the strongest path and those within the limit
+    /// @param limit  null: all paths; otherwise the strongest path and the paths within the limit
     void trace(Vec3 to, const RayLimit* limit, RayPaths& out);
     /// Losses [dB] of the paths that the last trace() found, in the order of the paths; only with a
     /// limit.

@@ -82,7 +82,7 @@ struct Rays {
     RayDiffraction diffraction = RayDiffraction::knife_edge;
     /// Method of adding the paths of a link: sum of their powers or of their fields.
     RaySum sum = RaySum::power;
-    /// Material of walls without a loss of their own.
+    /// Material of walls whose material in the scene has no loss.
     ItuMaterial wall = ItuMaterial::concrete;
     /// Loss of crossing a wall whose material has no loss of its own [dB], >= 0, at any angle. A
     /// given `wall_loss` replaces the slab of `wall`. `rovernet fit` estimates this parameter.
@@ -126,10 +126,10 @@ struct Rays {
     /// Checks a scene. @throws std::invalid_argument if it has several storeys
     void check_scene(const Scene& scene) const;
 
-    /// Distance [m] beyond which the loss is more than `loss`: no path is shorter than the straight
-    /// path or stronger than in free space. Therefore P paths are at most 10 log10 P dB stronger
-    /// than free space, 3 dB more with utd, and 20 log10 P dB if coherent. P is max_paths, or 1 if
-    /// there is only the straight path.
+    /// Distance [m] beyond which the loss is more than `loss`. Every path is at least as long as
+    /// the straight path, and at most as strong as in free space. Therefore P paths are at most
+    /// 10 log10 P dB stronger than free space, 3 dB more with utd, and 20 log10 P dB if coherent. P
+    /// is max_paths, or 1 if only the straight path is traced.
     Meters reach(Db loss, Hertz f) const;
     /// Fills out_db[i] with the loss [dB] to receiver i; walls come from the batch's scene.
     void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const;

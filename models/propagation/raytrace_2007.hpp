@@ -10,9 +10,9 @@ namespace rovernet {
 ///
 ///   L = 20 log10 f + N log10 d - 28 + 100 w l      (f in MHz, d in m, l metres of wall)
 ///
-/// There is only the straight ray, without reflection and diffraction. The computation stops before
-/// the search for walls if the loss without walls exceeds the cut-off, and during the search once
-/// the sum does.
+/// There is only the straight ray, without reflection and diffraction. The computation stops once
+/// the loss exceeds the cut-off: before the search for walls if the loss without walls does, or
+/// else at the wall that raises the sum above the cut-off.
 ///
 /// The wall factor w is in dB per centimetre; real walls have 0.15 (wood) to 0.9 (chipboard), so
 /// the values of old world files (6 to 100) only fit walls drawn a few pixels thin. N already

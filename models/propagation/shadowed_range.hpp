@@ -67,8 +67,8 @@ class ShadowedRange {
     static constexpr std::uint64_t most_cells = 2048;
 
     /// Cell of the table: an interval of squared distances. Draws 0, 1 ... 2^31 - 1 are in
-    /// ascending order of loss: the first `sure` are in range everywhere in the cell, the next
-    /// `open` only in a part of it.
+    /// ascending order of loss: the first `sure` draws are in range in the whole cell, the next
+    /// `open` draws only in a part of the cell.
     struct Cell {
         std::uint32_t sure;
         std::uint32_t open;
@@ -93,8 +93,8 @@ class ShadowedRange {
     ShadowedLoss loss_;
     // Largest loss at which a link is up [dB].
     double budget_;
-    // Number of low bits that are dropped from the bits of a squared distance (a double): the
-    // remaining bits are the number of its cell.
+    // Number of low bits that are dropped from the bits of a squared distance (a double). The
+    // remaining bits are the number of the table's cell.
     int shift_ = 0;
     // Number of the first cell, which begins at distance 0, and of the last cell, which has no
     // upper end.
@@ -105,12 +105,12 @@ class ShadowedRange {
 };
 
 /// First test that excludes most pairs out of range: coarser and faster than ShadowedRange, with
-/// one table for all kinds of receivers of a sender. Under shadowing, many more robots are near
-/// enough for the most favourable draw than are receivers. Most of them are excluded by a
-/// comparison of two integers.
+/// one table for all kinds of receivers of a sender. Under shadowing, only few of the robots within
+/// the range of the most favourable draw are receivers. A comparison of two integers excludes most
+/// of the remaining robots.
 class FirstLook {
   public:
-    /// @param squared_reach  squared distance [m^2] beyond which no receiver is in range
+    /// @param squared_reach  square of the largest distance [m^2] at which a receiver is in range
     explicit FirstLook(double squared_reach) : scale_(static_cast<float>(cells / squared_reach)) {}
 
     /// Extends the test: pairs that may be in range by `range` now pass the test, too.

@@ -61,7 +61,7 @@ struct EnumNames<Polarization> {
 struct TwoRay {
     static constexpr std::string_view name = "two_ray";
 
-    /// Smallest antenna height above the ground [m], > 0; lower antennas count as being this high.
+    /// Smallest antenna height in the equations [m], > 0; lower antennas count as this high.
     Meters lowest_antenna{0.1};
     /// Form of the model: equation of the loss.
     TwoRayForm form = TwoRayForm::ns2;

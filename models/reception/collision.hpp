@@ -21,7 +21,7 @@ namespace rovernet {
 enum class CaptureOrder {
     /// Only the first frame, which the receiver is already receiving, can survive, as in ns-2.
     first,
-    /// Either frame can survive: the first one, or the one that begins later.
+    /// The first frame or the frame that begins later can survive, whichever is stronger.
     later,
 };
 /// Names of the values of [reception] capture in scenario files.
@@ -40,7 +40,7 @@ struct EnumNames<CaptureOrder> {
 /// CaptureOrder::first: a free receiver receives the first frame that it senses, until that frame
 /// ends. A later frame that is weaker by the capture ratio is ignored: it is lost and has no
 /// effect, even if it lasts longer than the first. Any other later frame collides with the received
-/// frame, and both are lost; the receiver is free again when both have ended. Of two frames that
+/// frame: both are lost, and the receiver is free again when both have ended. Of two frames that
 /// begin together the stronger one is received. Whether a frame is ignored depends on all frames on
 /// air at its beginning, including ignored ones.
 ///
@@ -65,7 +65,8 @@ struct Collision {
                               "which of two frames may survive: the first, or also the later one"));
     }
 
-    /// Whether `frame` survives the overlap with `other` at a node, if `other` was not ignored.
+    /// Whether `frame` survives the overlap with `other` at a node. The result is valid if the
+    /// receiver did not ignore `other`.
     /// @param is_stronger  is_stronger(frame, other, capture_ratio), called only if needed, because
     ///                     a level requires the computation of a path loss
     template <class IsStronger>
@@ -74,7 +75,8 @@ struct Collision {
         if (other.own || finds_receiver_at(frame, other)) return false;
         return is_stronger(frame, other, capture_ratio);
     }
-    /// Whether the receiver was receiving `other` when `frame` began, if `other` was not ignored.
+    /// Whether the receiver was receiving `other` when `frame` began. The result is valid if the
+    /// receiver did not ignore `other`.
     bool finds_receiver_at(const Arrival& frame, const Arrival& other) const {
         return capture == CaptureOrder::first && frame.begin > other.begin;
     }

@@ -24,9 +24,9 @@ namespace rovernet {
 /// the frames began. The Channel of a network has an Interference if the reception model has a
 /// Judge.
 ///
-/// Levels are fixed when a frame begins, and computed only if a judge needs them. For a receiver
-/// that has moved or was switched since, its state at the beginning of the frame counts. The
-/// Channel calls, in this order:
+/// Levels are computed only if a judge needs them, for the positions and radio states at the
+/// beginning of the frame: later movements and switching have no effect on levels. The Channel
+/// calls, in this order:
 ///
 ///   add(frame)                         when a frame starts
 ///   before_change(node), goes(node)    whenever a leg or a radio changes
@@ -55,7 +55,8 @@ class Interference {
 
     /// Reports a new leg of the node, which begins now.
     void goes(NodeId node, const Leg& leg);
-    /// Stores the state of a node before its leg or radio changes; its radio is `on` until now.
+    /// Stores the state of a node before its leg or radio changes.
+    /// @param on  whether the node's radio was on until now
     void before_change(NodeId node, bool on) {
         on_air_.changes(node, settings_.legs->leg(node), on);
     }
@@ -69,16 +70,16 @@ class Interference {
     /// Removes the frames that cannot affect a reception from `now` on; calls use(frame) for each.
     template <class Use>
     void forget(Time now, Use use) {
-        // A reception that is still to be judged began at most one longest airtime and delay ago. A
-        // frame that affects the reception began at most as long before.
+        // Let T be the longest airtime plus the longest delay. A reception that is still to be
+        // judged began at most T ago. A frame that affects it began at most T before it.
         const Duration matters = 2 * (on_air_.longest() + longest_delay());
         on_air_.forget(now - matters, [&](const Emission& frame) {
             judge_->is_forgotten(frame);
             use(frame);
         });
     }
-    /// Sets the fate of the receptions that end by `now`, of the frame with serial number `serial`.
-    /// Receptions at nodes that are off are left unchanged.
+    /// Sets the fate of the receptions of frame number `serial` that end at or before `now`.
+    /// Receptions at nodes that are off are not changed.
     void judge(std::uint64_t serial, std::span<Reception> receptions, Time now);
 
     /// Judge of the reception model.
@@ -90,7 +91,7 @@ class Interference {
     /// node: the node is too far away, off, or in another network. A node's own frame arrives
     /// without a delay.
     std::optional<Arrival> arrival(const Emission& frame, NodeId node);
-    /// Received power [dBm] at `node` of a frame whose level was not computed.
+    /// Computes the received power [dBm] at `node` for an Arrival without a level (NaN).
     Dbm level(const Arrival& arrival, NodeId node) const {
         return settings_.medium->arrivals().level(arrival, node);
     }

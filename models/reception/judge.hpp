@@ -21,7 +21,7 @@
 //
 //     begins(frame)              when a frame starts
 //     judge(frame, others, r)    when a frame ends at a receiver that could decode it
-//     is_forgotten(frame)        when a frame cannot affect other frames any more
+//     is_forgotten(frame)        when a frame can no longer affect other frames
 
 namespace rovernet {
 
@@ -52,8 +52,8 @@ class Judge {
     /// Virtual destructor, because Interference owns the judge by a pointer to Judge.
     virtual ~Judge() = default;
 
-    /// Whether the fate of a frame may depend on frames that ended before the frame began; judge()
-    /// then also gets such earlier frames.
+    /// Whether the fate of a frame may depend on frames that ended before the frame began. If true,
+    /// the argument `others` of judge() includes such earlier frames.
     virtual bool looks_back() const = 0;
     /// Determines the fate of a reception that ends now, at a node that is on. Sets reception.fate
     /// if the frame is lost, and leaves it unchanged if the frame is received. A judge that models

@@ -44,8 +44,8 @@ class OnAir {
     /// Adds a frame, which must not begin before the previously added frame.
     /// @return serial number of the frame, one more than that of the previous frame
     std::uint64_t add(Emission frame);
-    /// Removes the oldest frames that ended at or before `t`, up to the first that did not. Calls
-    /// use(frame) for each removed frame.
+    /// Removes the oldest frames in the order of their serial numbers, until the first frame that
+    /// ends after `t`. Calls use(frame) for each removed frame.
     template <class Use>
     void forget(Time t, Use use) {
         while (!frames_.empty() && frames_.front().end <= t) {
@@ -63,8 +63,8 @@ class OnAir {
     /// Stored frames, in the order of their serial numbers.
     const std::deque<Emission>& frames() const { return frames_; }
     /// Frames that end after `since` and begin before `until`, and may interfere at a receiver of
-    /// `frame` by `now`; possibly some more, without `frame` itself. Frames may be missing for
-    /// receivers with recent changes, see has_changed().
+    /// `frame` by `now`. The result may contain further frames, but not `frame` itself. Frames may
+    /// be missing for receivers with recent changes, see has_changed().
     /// @return frames in any order; valid until the next call
     std::span<const Emission* const> near(const Emission& frame, Time since, Time until, Time now);
 
@@ -79,8 +79,8 @@ class OnAir {
         /// changes of all nodes are numbered together, from 1.
         std::uint64_t previous;
     };
-    /// Whether the node's leg or radio has changed since the start of any stored frame: near() is
-    /// then not complete for the node.
+    /// Whether the node's leg or radio has changed since the start of the oldest stored frame. If
+    /// true, the result of near() may lack frames for this node.
     bool has_changed(NodeId node) const {
         return !changes_.empty() && last_change(node) >= first_change_;
     }
@@ -89,8 +89,8 @@ class OnAir {
 
     /// Longest time on air of a frame so far [ns].
     Duration longest() const { return longest_; }
-    /// Distance [m] beyond which no frame interferes, or beyond which there is no node. This
-    /// distance bounds propagation delays.
+    /// Upper bound [m] of the distance from a sender to the nodes at which its frames interfere:
+    /// the interference range, or the diagonal of the box of all antennas. Bounds the delays.
     double reach() const {
         constexpr double anywhere = 4e15;
         return std::min({reach_, distance(low_, high_), anywhere});

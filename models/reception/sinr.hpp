@@ -38,7 +38,8 @@ namespace rovernet {
 struct Sinr {
     static constexpr std::string_view name = "sinr";
 
-    /// Ratio below the sensitivity [dB], >= 0, beyond which weaker frames are neglected.
+    /// Cut-off of interference [dB], >= 0: frames weaker than the sensitivity by more than this
+    /// ratio are neglected.
     Db interference_cut{20};
     /// Smallest SINR [dB] at which a preamble is detected.
     Db preamble_threshold{4};

@@ -17,7 +17,7 @@ namespace rovernet {
 
 /// Data of a frame that determine its fate, in addition to the frames on air.
 struct SinrFrame {
-    /// Physical layer of all frames; then coding and bit rate [bit/s] of the frame's payload.
+    /// Physical layer of all frames. Below: coding and bit rate [bit/s] of the frame's payload.
     const Phy* phy;
     Coding coding;
     double rate;
@@ -30,16 +30,16 @@ struct SinrFrame {
 /// Receiver of the model "sinr": judges one frame at a time. A SinrReceiver has no state of nodes,
 /// only memory for reuse; SinrJudge passes the frames on air to it.
 ///
-/// A judgement determines three facts, in this order: the frames onto which the receiver locked, up
-/// to this one; whether the node transmits during the frame; whether all bits are right under the
-/// varying interference.
+/// A judgement determines three facts, in this order: onto which of the frames up to the judged one
+/// the receiver locked; whether the node transmits during the judged frame; whether all bits of the
+/// judged frame are right under the varying interference.
 class SinrReceiver {
   public:
     explicit SinrReceiver(const Sinr& settings = {}) : settings_(settings) {}
 
-    /// Determines the fate of `signal`, which the receiver can decode, after its end: `waiting` if
-    /// the frame is decoded. Also determines and stores the locks of frames that began before
-    /// `signal`.
+    /// Determines the fate of the frame `signal` after its end; the frame must be strong enough to
+    /// be decoded. Returns `waiting` if the frame is decoded. Also determines and stores whether
+    /// the receiver locked onto frames that began before `signal`.
     ///
     /// @param arrivals  frames on air at the receiver, including `signal`, as far back as they can
     ///                  affect the lock of a frame that overlaps `signal`
@@ -134,8 +134,8 @@ class SinrReceiver {
     // Times at which the interference changes during the payload of the judged frame, with begin
     // and end of the payload.
     std::vector<Time> changes_;
-    // Interference power of each frame of here_ [mW]: received power times the fraction that
-    // Phy::rejection() lets pass.
+    // Interference power of each frame of here_ [mW]: received power times the fraction
+    // Phy::rejection() of the power that interferes.
     std::vector<double> power_mw_;
 };
 

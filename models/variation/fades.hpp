@@ -14,8 +14,8 @@
 
 namespace rovernet {
 
-/// Fading of a run: the gain g of each frame at each receiver (received power over its local mean),
-/// the same for all calls.
+/// Fading of a run: the gain g of each frame at each receiver (received power over its local mean).
+/// Repeated calls for a frame and a receiver give equal gains.
 ///
 /// The gain g follows from a complex normal random number z, see Fading. With coherence `frame`, z
 /// is a draw for the frame and the receiver. With `place`, z is a random field over the positions a
@@ -57,7 +57,7 @@ class Fades {
     Db most() const { return most_; }
 
   private:
-    // Scale of a field at two positions: turns of its waves per metre, and amplitude.
+    // Scale of a field of plane waves: wave number [turns/m], and factor of the amplitude [-].
     struct Scale {
         double per_metre, size;
     };
@@ -75,7 +75,7 @@ class Fades {
     double parts_ = 2;
     // Table of gamma variates, for nakagami if the power is not only a sum of fields.
     std::optional<GammaTable> gamma_;
-    // Amplitudes of the line of sight and of the other waves [-].
+    // Amplitude of the line of sight, and amplitude of the sum of all other waves [-].
     double direct_ = 0, scattered_ = 1;
     Db most_{};
 };

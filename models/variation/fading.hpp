@@ -29,7 +29,7 @@ struct EnumNames<FadingModel> {
 };
 
 /// Coherence of fading. `frame`: an independent value for each frame at each receiver. `place`: a
-/// function of the positions of both ends, so that a robot which returns finds the same value.
+/// function of the positions of both ends, so that equal positions give equal values at any time.
 enum class Coherence { frame, place };
 /// Names of the values of [fading] coherence in scenario files.
 template <>
@@ -71,8 +71,8 @@ struct Fading {
                   "theory if 2 m is whole"));
     }
 
-    /// Quantile of the power g [-] relative to its local mean: g is below it with probability p,
-    /// 1e-9 <= p <= 1 - 1e-9. Not for the model `none`.
+    /// Quantile of the power g relative to its local mean [-]: g is below the quantile with
+    /// probability p, 1e-9 <= p <= 1 - 1e-9. Not for the model `none`.
     double quantile(double p) const;
 };
 

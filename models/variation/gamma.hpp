@@ -24,8 +24,9 @@ double minus_log_gamma_q(double m, double y);
 /// function transforms a standard exponential variate p into a gamma variate of shape m.
 double gamma_of_exponential(double m, double p);
 
-/// Table of gamma_of_exponential() for one shape m. It interpolates cubically in log p, with a
-/// relative error of 1e-6, and is 30 times as fast as the function.
+/// Table of gamma_of_exponential(m, p) for one shape m, as a function of the exponential variate p.
+/// The table interpolates cubically in log p with a relative error of 1e-6. A look-up is 30 times
+/// as fast as the function.
 class GammaTable {
   public:
     explicit GammaTable(double m);
@@ -34,7 +35,7 @@ class GammaTable {
     double operator()(double p) const;
 
   private:
-    // Support point of the table, for an exponential variate p: log y of its gamma variate y, and
+    // Support point of the table, for an exponential variate p and its gamma variate y: log y, and
     // derivative of log y with respect to log p, times the spacing of the points in log p.
     struct Edge {
         double log_y, slope;

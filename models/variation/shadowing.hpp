@@ -30,9 +30,9 @@ struct EnumNames<ShadowingModel> {
 /// Log-normal shadowing [dB]: L = max(0, L_model + X), with X normal of mean 0 and standard
 /// deviation sigma, cut at 5 sigma.
 ///
-/// X is the same in both directions, at all times and for any number of samples: a function of
+/// X is equal in both directions, at all times and for any number of samples: X is a function of
 /// seed, replication, and the unordered pair of robots (`link`) or of positions (`field`). Shadowed
-/// adds it to a propagation model. The cut (5.7e-7 of draws) bounds the range.
+/// adds X to a propagation model. The cut (5.7e-7 of draws) bounds the range.
 struct Shadowing {
     /// Number of standard deviations at which the shadowing X is cut off [-].
     static constexpr double cut_sigmas = 5;

@@ -17,11 +17,11 @@ namespace rovernet {
 ///   |k| = sqrt((1 - u Z_K)^-2 - 1) / d_cor,  Z_K = 1 - 1 / sqrt(1 + K^2 d_cor^2),  K d_cor = 50,
 ///
 /// with u uniform in (0, 1) and uniform directions and phases. Z has mean 0 and variance 1 over the
-/// seeds. Its correlation is e^(-D / d_cor), within 0.022, when one end moves by D, and the product
-/// of both correlations when both move. (For a sum S(a) + S(b) of a field over single positions the
-/// correlation would never fall below one half when one end moves.) This holds for ends at least
-/// d_cor apart. For nearer ends the correlation is larger: for |a - b| << D by sqrt(2 / (1 + e^(-2
-/// D / d_cor))). Distances are horizontal.
+/// seeds. Its correlation is e^(-D / d_cor), within 0.022, when one end moves by D. When both ends
+/// move, the correlation is the product of the correlations of each move. (For a sum S(a) + S(b) of
+/// a field over single positions the correlation would never fall below one half when one end
+/// moves.) This holds for ends at least d_cor apart. For nearer ends the correlation is larger: for
+/// |a - b| << D by sqrt(2 / (1 + e^(-2 D / d_cor))). Distances are horizontal.
 ///
 /// Sources: M. Gudmundson, Correlation model for shadow fading in mobile radio systems, Electronics
 /// Letters 27(23), 1991, for the correlation; |k| is the radial spectrum of e^(-D / d_cor) in the

@@ -43,8 +43,8 @@ struct ChartPoint {
 struct ChartSeries {
     std::string name;
     std::vector<ChartPoint> points = {};
-    /// Number of another series, whose colour and mark this one takes: hollow marks without a line,
-    /// for values of another source in a chart of lines.
+    /// Number of a second series, whose colour and mark this series takes: hollow marks without a
+    /// line, for values of a different source in a chart of lines.
     std::optional<std::size_t> beside = {};
 };
 

@@ -27,7 +27,7 @@ struct ChartTick {
     std::string text;  ///< label of the tick; empty: a minor tick
 };
 
-/// Axis of a chart: the range that it shows, and its ticks in ascending order.
+/// Axis of a chart: range of shown values, and ticks in ascending order.
 struct ChartAxis {
     double low = 0, high = 1;  ///< ends of the axis, low < high; 0 < low if logarithmic
     bool log = false;

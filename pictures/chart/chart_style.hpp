@@ -48,7 +48,8 @@ struct ChartStyle {
 
 /// Style of series number `series`, from 0; styles repeat after a few dozen series.
 ChartStyle chart_style(std::size_t series);
-/// Style of a series of a chart: its own, or hollow that of the series that it stands beside.
+/// Style of a series of a chart: chart_style() of the series' number. If ChartSeries::beside is
+/// given: chart_style() of the number `beside`, with hollow marks.
 ChartStyle style_in(const Chart& chart, std::size_t series);
 
 }  // namespace rovernet

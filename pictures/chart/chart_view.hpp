@@ -19,7 +19,7 @@ struct DrawnPoint {
     const ChartPoint* source = nullptr;  // corresponding point of the chart
 };
 
-/// Drawable content of a chart. The chart must outlive the view, which refers to it.
+/// Drawable content of a chart. The view refers to the chart, which must outlive the view.
 struct ChartView {
     bool has_words = false;          ///< true: the x axis has categories; false: numbers
     std::vector<std::string> words;  ///< categories along the x axis, at x = 0, 1, 2 ...

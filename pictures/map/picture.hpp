@@ -15,8 +15,8 @@ struct PictureOptions {
     /// Robot whose coverage is drawn, without link shadowing: a heat map of levels, and contours at
     /// the receivers' sensitivity and at range_db.
     std::optional<std::string> coverage = std::nullopt;
-    /// Robot whose radio and antenna height the assumed receivers of the coverage have; none: those
-    /// of the robot `coverage`.
+    /// Robot whose radio and antenna height the assumed receivers of the coverage have; none: the
+    /// robot `coverage`.
     std::optional<std::string> receiver = std::nullopt;
     /// Source and destination of a route to draw: the route in use, with the age of each hop's
     /// route.
@@ -25,7 +25,7 @@ struct PictureOptions {
     };
     std::optional<Route> route = std::nullopt;
     /// True: the robots that sent the last route request (its origin and forwarders) are marked.
-    /// With `route`, only requests of the robot Route::from count, otherwise those of all robots.
+    /// With `route`, only requests of the robot Route::from count, otherwise all requests.
     bool search = false;
     bool links = false;   ///< draw links, coloured by level above sensitivity (margin)
     bool trails = false;  ///< draw the robots' past paths

@@ -48,8 +48,8 @@ struct AodvRules {
     /// Time without requests after a search has failed [ns]; 0: the next packet begins a new
     /// search.
     Duration pause_after_failure;
-    /// Whether a node stores a route to each neighbour that it hears, and extends the lifetimes of
-    /// all routes that a message uses; if false, only of the route to the message's destination.
+    /// True: a node stores a route to each neighbour that it hears, and a message extends the
+    /// lifetimes of all routes that it uses. False: only of the route to its destination.
     bool meets_neighbours;
     /// Whether a RERR also lists routes that no neighbour uses, and is broadcast.
     bool errors_for_all;

@@ -62,8 +62,8 @@ class DsrRouter {
     /// Source route of a frame of a message.
     const Header& header(const Frame& frame) const { return headers_[frame.header - 1]; }
     /// Number of pairs (source, destination) that lost messages because the route between them has
-    /// more than sixteen nodes. notice() describes these pairs to the user; it is empty if there
-    /// are no such pairs.
+    /// more than sixteen nodes. notice() returns a sentence on these pairs for the user; the
+    /// sentence is empty if the number is 0.
     std::size_t pairs_too_far() const;
     std::string notice() const;
 

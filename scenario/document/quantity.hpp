@@ -15,8 +15,8 @@
 
 namespace rovernet {
 
-/// Physical dimension of a quantity, which decides the units that it may have. A new dimension
-/// needs its units, an example and a largest value in quantity.cpp.
+/// Physical dimension of a quantity, which determines its valid units. A new dimension needs its
+/// units, an example and a largest value in quantity.cpp.
 enum class Dimension {
     /// Level of a power: dBm; mW, W and uW are converted.
     power,

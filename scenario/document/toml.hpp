@@ -13,8 +13,9 @@ namespace rovernet {
 /// Path that stands for standard input.
 inline constexpr std::string_view standard_input = "-";
 
-/// Reads a TOML file, or standard input ("-"). The text of standard input is kept, so that it can
-/// be read again. Keys are in the order of the file. Every value has its file position.
+/// Reads a TOML file, or standard input ("-"). The text of standard input is stored, so
+/// that a second call can read the text again. Keys are in the order of the file. Every value has
+/// its file position.
 /// @throws InputError with file:line:column; with the file name alone if the file is missing, a
 /// directory, unreadable or larger than 64 MiB
 Value read_toml(const std::string& path);

@@ -78,8 +78,8 @@ struct Value {
     Value(Array v);
     Value(Table v);
 
-    /// Pointer to the content of the value if the content is a table; otherwise null. array() and
-    /// string() return the content if the content is a list or a text; otherwise null.
+    /// Pointer to the content if the content is a table; otherwise null. array() and string() are
+    /// equal functions for a list and for a text.
     const Table* table() const { return std::get_if<Table>(&data); }
     Table* table() { return std::get_if<Table>(&data); }
     const Array* array() const { return std::get_if<Array>(&data); }

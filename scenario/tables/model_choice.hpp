@@ -19,7 +19,7 @@
 //     [access]
 //     model = "aloha"
 //     slot = "1 ms"
-//     standard = "802.11g"      of csma: checked, and kept for a study that swaps the model
+//     standard = "802.11g"      key of csma: checked, and stored for a study that swaps the model
 //
 // Reading, checks, printing and the model itself follow from the list and the models' fields().
 
@@ -118,8 +118,8 @@ void check_given(const ModelChoice<Choice...>& choice, std::string_view what, Lo
 }
 
 /// Reads the chosen model, and the given parameters of all listed models, from a table. A key that
-/// several models have sets the parameter of each of them. Its value must be in the range of the
-/// chosen model. A model that is not chosen ignores a value outside of its own range.
+/// several models have sets the parameter of each of these models. The value must be in the range
+/// of the chosen model. Every other model ignores a value outside of its range.
 /// @param key   key whose value is the name of the model: "model"
 /// @param what    kind of the model, for error messages: "propagation model"
 /// @param common  described structs whose keys the table has in addition to the models' keys
@@ -169,7 +169,7 @@ Table chosen_document(const ModelChoice<Choice...>& choice, std::string_view key
 }
 
 /// Converts a model choice to a table: the inverse of read_model(). The table has the chosen model
-/// and the parameters of all models. A key of several models has the value of the chosen model.
+/// and the parameters of all models. A key shared by models has the value of the chosen model.
 template <class... Choice>
 Table whole_document(const ModelChoice<Choice...>& choice) {
     const Table chosen = chosen_document(choice);

@@ -28,8 +28,8 @@ namespace rovernet {
                                   std::string_view model, std::string_view key,
                                   std::string_view meaning);
 
-/// Reader of one table of a document, key by key. The reader notes the keys that its callers ask
-/// for, so that reject_unknown() finds misspelt keys. The value must outlive the reader.
+/// Reader of one table of a document, key by key. The reader records the keys that callers read, so
+/// that reject_unknown() finds misspelt keys. The value must outlive the reader.
 class TableReader {
   public:
     /// @param name  name of the table, for error messages: "[radio]"
@@ -69,7 +69,7 @@ class TableReader {
         for_each_field<T>([&](const auto& f) { read(f.name, out.*f.member, f.range); });
     }
     /// Checks, after the last key was read, that the table has no unknown keys.
-    /// @throws InputError for the first key that no caller asked for; the message suggests a key
+    /// @throws InputError for the first key that no caller has read; the message suggests a key
     void reject_unknown() const;
     /// Reports that a required key is missing.
     /// @param example  example line for the message
@@ -85,7 +85,7 @@ class TableReader {
     const Location& where() const { return where_; }
 
   private:
-    // Whether a caller has asked for the key.
+    // Whether a caller has read or tested the key.
     bool is_known(std::string_view key) const;
     // Checks that the number in `out` is in the range, if `out` is a number or a quantity.
     template <class T>
@@ -96,7 +96,8 @@ class TableReader {
     const Table* table_;
     Location where_;
     std::string name_;
-    // Keys that callers have asked for, in this order; the error about an unknown key lists them.
+    // Keys that callers have read or tested, in this order: the known keys of the table, which the
+    // error about an unknown key lists.
     std::vector<std::string> known_;
 };
 

@@ -25,7 +25,7 @@ namespace rovernet {
 using RoutingTable = ModelChoice<RoutingProtocols, Router>;
 
 /// Names of the roles of all routing protocols. The key `role` of a robot may have any of these
-/// values, whatever protocol the file chooses.
+/// values, for any protocol that the file chooses.
 inline std::vector<std::string> all_roles() {
     std::vector<std::string> roles;
     RoutingTable::for_each_type([&]<class M>() {
@@ -36,8 +36,8 @@ inline std::vector<std::string> all_roles() {
     return roles;
 }
 
-/// Role of a robot under a protocol with these roles: `given`, or empty if it is not given or is a
-/// role of another protocol.
+/// Role of a robot under a protocol with the given roles: `given` if it is one of `roles`, or else
+/// empty (no role, or a role of a different protocol).
 inline std::string role_under(std::span<const std::string_view> roles,
                               const std::optional<std::string>& given) {
     const std::string role = given.value_or("");

@@ -35,7 +35,7 @@ struct Vary {
 ///   exclude = [{ "propagation.model" = "disc", "reception.model" = "sinr" }]
 using Exclusion = std::vector<Vary>;
 
-/// Warm-up of a run: its first part, which is not measured.
+/// Warm-up of a run: initial part of the run, which is not measured.
 struct Warmup {
     /// Duration of the warm-up [ns], from the start of the run. Messages sent during the warm-up
     /// are not counted.

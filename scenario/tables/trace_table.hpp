@@ -18,9 +18,9 @@ namespace rovernet {
 enum class Ns2Choice {
     /// No trace.
     none,
-    /// Format of the CMU extension, which ns-2 writes by default.
+    /// Old format, by the CMU extension; ns-2 writes this format by default.
     old_format,
-    /// Format that ns-2 writes after `use-newtrace`.
+    /// New format, which ns-2 writes after the command `use-newtrace`.
     new_format
 };
 template <>

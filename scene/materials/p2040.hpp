@@ -44,7 +44,7 @@ Permittivity permittivity(ItuMaterial material, Hertz frequency);
 
 /// Losses [dB] of a plane wave at a flat slab in air, for the transmitted and for the reflected
 /// wave; reflections inside the slab are included. TE: the electric field is perpendicular to the
-/// plane of incidence, as from a vertical antenna at a vertical wall; TM: it lies in that plane.
+/// plane of incidence, as from a vertical antenna at a vertical wall. TM: parallel to that plane.
 struct SlabLosses {
     Db te_transmission, tm_transmission;
     Db te_reflection, tm_reflection;

@@ -10,7 +10,8 @@ namespace rovernet {
 /// Fields transmitted and reflected by a slab, for an incident plane wave of unit field. The time
 /// convention is e^(+j omega t).
 struct SlabFields {
-    /// Transmitted field, relative to the field without the slab, without the factor e^-decay.
+    /// Transmitted field, relative to the field without the slab. The exponential decay inside the
+    /// slab (factor e^-decay) is not included.
     math::Complex transmitted;
     /// Decay of the transmitted field [Np], >= 0: the field is e^-decay times `transmitted`. The
     /// decay is stored separately, since a sheet of metal has a decay of thousands of decibels.
@@ -22,8 +23,8 @@ struct SlabFields {
 /// Powers that a slab transmits and reflects, relative to the incident power. They have no phases,
 /// and are faster to compute than SlabFields.
 struct SlabPowers {
-    /// Transmitted power over incident power [-], without the factor e^(-2 decay): the square of
-    /// |SlabFields::transmitted|.
+    /// Transmitted power over incident power [-], without the exponential decay inside the slab
+    /// (factor e^(-2 decay)): the square of |SlabFields::transmitted|.
     double transmitted;
     double decay;      ///< decay of the transmitted field (not of its power) [Np], >= 0
     double reflected;  ///< reflected over incident power [-]: |SlabFields::reflected|^2

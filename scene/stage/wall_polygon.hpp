@@ -44,7 +44,7 @@ Extent extent_of(const std::vector<Vec3>& points);
 /// origin of the grid is relative to the model's body.
 OccupancyGrid filled(const WallPolygon& polygon, double cell);
 
-/// Cost of filled(): number of cells and edges that it visits.
+/// Cost of filled(): number of cells and edges that filled() visits.
 double filling_work(const WallPolygon& polygon, double cell);
 
 }  // namespace rovernet

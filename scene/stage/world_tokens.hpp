@@ -41,7 +41,7 @@ struct WorldToken {
 /// in place of the include.
 struct WorldTokens {
     std::vector<WorldToken> tokens = {};    ///< the last token is file_end
-    std::vector<std::string> files = {};    ///< path of the world file, then those of its includes
+    std::vector<std::string> files = {};    ///< path of the world file, then paths of its includes
     std::vector<std::string> notices = {};  ///< notices about missing includes, which are left out
 
     Location where(const WorldToken& token) const {

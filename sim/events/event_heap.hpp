@@ -58,8 +58,9 @@ class EventKey {
     /// Key with the same priority, sequence and slot at another time.
     constexpr EventKey at(Time t) const { return {t, priority(), sequence(), slot()}; }
 
-    /// Order of service, as one comparison of 128 bits without a branch, because a branch on two
-    /// keys is hard to predict. Sequences differ, so the slot never decides.
+    /// Order of service: by time, then priority, then sequence. One comparison of 128 bits avoids
+    /// branches, which the processor would predict badly. No two events have equal sequence
+    /// numbers, so the payload slot in the lowest bits does not affect the order.
     friend constexpr bool operator<(EventKey a, EventKey b) { return a.rank() < b.rank(); }
     friend constexpr bool operator==(EventKey, EventKey) = default;
     /// Earlier of two keys, without a branch (gcc compiles the references of std::min to jumps).
@@ -105,7 +106,7 @@ class EventHeap {
     bool empty() const { return end_ == root; }
     /// Number of keys in the heap.
     std::size_t size() const { return end_ - root; }
-    /// Smallest key, that of the earliest event; the default key if the heap is empty.
+    /// Smallest key: key of the earliest event; the default key if the heap is empty.
     EventKey top() const { return keys_[root]; }
 
     /// Adds a key. Memory grows by doubling, as in a std::vector.

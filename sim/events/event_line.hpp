@@ -26,7 +26,7 @@ class EventLine {
     bool empty() const { return front() == EventKey{}; }
     /// Number of keys, without the removed ones.
     std::size_t size() const { return keys_.size() - 1 - front_; }
-    /// Smallest key, that of the earliest event; the default key if the line is empty.
+    /// Smallest key: key of the earliest event; the default key if the line is empty.
     EventKey front() const { return keys_[front_]; }
 
     /// Inserts a key, unless more than 8 stored keys come after it.

@@ -41,7 +41,7 @@ class EventQueue {
     bool empty() const { return top_ == EventKey{}; }
     /// Number of keys in the queue.
     std::size_t size() const { return near_.size() + heap_.size() + filed_ + ends_.size(); }
-    /// Smallest key, that of the earliest event; the default key if the queue is empty.
+    /// Smallest key: key of the earliest event; the default key if the queue is empty.
     EventKey top() const { return top_; }
 
     /// Adds a key, which must differ from all stored keys.
@@ -97,7 +97,7 @@ class EventQueue {
         std::array<EventKey, chunk_size> keys;
         std::uint32_t next = none;
     };
-    // Chain of chunks, and the number of keys in it.
+    // Chain of chunks, and total number of keys in these chunks.
     struct Bucket {
         std::uint32_t chunk = none;
         std::uint32_t size = 0;

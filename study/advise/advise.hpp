@@ -34,8 +34,7 @@ struct JudgedCandidate {
     std::size_t path_loss, reception;  ///< indices of the two models in AdviceCandidates
     std::string name;                  ///< name of the candidate: "log_distance + sinr"
     CandidateDecision decision;
-    /// False: a cheaper candidate is sufficient, so that the choice does not depend on this
-    /// candidate.
+    /// True: the choice depends on this candidate. False: a cheaper candidate is sufficient.
     bool needed = true;
     /// Mean of D and mean of |D|, in the metric's unit. D is the value of the candidate minus the
     /// value of the reference in one replication.
@@ -46,8 +45,8 @@ struct JudgedCandidate {
     CandidateCost cost;
 };
 
-/// Advice on a scenario: the cheapest path loss and reception models whose results differ from
-/// those of the reference by at most the tolerance.
+/// Advice on a scenario: the cheapest path loss and reception models whose results differ from the
+/// reference models' results by at most the tolerance.
 struct Advice {
     std::string metric;
     DecisionRule rule;
@@ -67,7 +66,7 @@ struct Advice {
 
     /// Whether the advice was stopped before any candidate was compared.
     bool knows_nothing() const;
-    /// Judged candidate that has both chosen models; null if both are the models of the reference.
+    /// Judged candidate with the chosen path loss and reception; null if the reference is chosen.
     const JudgedCandidate* chosen() const;
     /// Whether the reference costs hardly more CPU time than the choice. True if the medium takes
     /// at most 5 % of the reference's CPU time, or runs of the choice need more than 9/10 of the
@@ -87,10 +86,10 @@ using MakeRuns = std::function<bool(const std::vector<std::uint32_t>& replicatio
 /// `rule.most` replications counts as insufficient. If the pair of chosen models is insufficient,
 /// the chosen path loss is combined with the reference's reception.
 ///
-/// Candidates that need few more replications come first. A block contains the candidates whose
-/// predicted number of replications is at most 4 times the least predicted number. A candidate with
-/// 100 replications and a prediction above `rule.most` gets no more runs, since its error is too
-/// close to the tolerance.
+/// Candidates that need few more replications come first. A block (group of runs made together)
+/// contains the candidates whose predicted number of replications is at most 4 times the least. A
+/// candidate with 100 replications and a prediction above `rule.most` gets no more runs, since its
+/// error is too close to the tolerance.
 ///
 /// The advice depends on results only, not on the number of workers, the speed of the machine or
 /// the initial content of the store, unless make_runs() stops it.
@@ -99,7 +98,7 @@ Advice advise(const AdviceCandidates& candidates, const Store& store, const std:
               const DecisionRule& rule, const MakeRuns& make_runs);
 
 /// Number of replications at the end of the next block (group of runs made together), if n
-/// replications exist: n + 10, or 5/4 n if that is larger, but at most `most`. Blocks are small,
+/// replications exist: the larger of n + 10 and 5/4 n, but at most `most`. Blocks are small,
 /// since runs after a verdict within a block are wasted.
 std::size_t next_block(std::size_t n, std::size_t most);
 

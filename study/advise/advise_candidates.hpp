@@ -20,9 +20,9 @@ namespace rovernet {
 /// Request of a user to `rovernet advise`: models that may be candidates, and changes of the
 /// reference.
 struct CandidateQuestion {
-    /// Names of propagation models or of candidates. If empty on a map: all models less detailed
-    /// than the reference (earlier in the list of models). If empty on an open field: all models
-    /// that need no map.
+    /// Names of models to compare with the reference: "friis", or with changed parameters as in
+    /// CandidateModel::name. If empty on a map: all models less detailed than the reference
+    /// (earlier in the list of models). If empty on an open field: all models that need no map.
     std::vector<std::string> models;
     /// Assignments "propagation.KEY=VALUE" and "reception.KEY=VALUE" that change the reference.
     std::vector<std::string> reference;
@@ -44,15 +44,15 @@ struct CandidateModel {
 };
 
 /// Candidates and reference as a grid of path losses and receptions, each in the order of detail
-/// with the reference last. The access protocol is not varied: it is part of the simulated robots,
-/// not a choice of model detail.
+/// with the reference last. The access protocol is not varied, because it is a property of the
+/// simulated robots and not a degree of model detail.
 struct AdviceCandidates {
     std::vector<CandidateModel> path_losses, receptions;
     /// Number of the study point for each pair of path loss and reception model, as [path
     /// loss][reception]. None for incompatible models, such as `disc` (which has no levels) with
     /// the reception `sinr`.
     std::vector<std::vector<std::optional<std::uint32_t>>> points;
-    /// Path loss models that are compatible with none of the reception models, as texts
+    /// Path loss models that are incompatible with every reception model, as texts
     /// "NAME: REASON".
     std::vector<std::string> left_out;
     bool on_map = false;
@@ -63,8 +63,7 @@ struct AdviceCandidates {
     /// the reception model of the reference.
     std::size_t reception_of(std::size_t path_loss) const;
     /// Number of pairs of models that may be compared: all pairs except the reference. The
-    /// probability of a false verdict is divided among these pairs, since any of them may be
-    /// chosen.
+    /// probability of a false verdict is divided among these pairs, since any pair may be chosen.
     std::size_t family() const;
     /// Name of a pair of models: "log_distance + sinr".
     std::string name_of(std::size_t path_loss, std::size_t reception) const;

@@ -27,7 +27,8 @@ struct EnumNames<ErrorCriterion> {
     static constexpr std::array<std::string_view, 2> values = {"mean", "run"};
 };
 
-/// Rule by which a candidate is accepted as equal to the reference.
+/// Rule by which a cheaper model (candidate) is accepted in place of the reference model: error
+/// criterion, tolerance, and error probability.
 struct DecisionRule {
     ErrorCriterion criterion = ErrorCriterion::mean;
     double tolerance = 0.02;  ///< largest accepted error, > 0, in the metric's unit
@@ -46,9 +47,9 @@ struct DecisionRule {
 ///
 /// If the metric has two bounds, values are clipped to the bounds, and the verdict is that of an
 /// EquivalenceTest of D = candidate - reference, or of |D| if the criterion is `run`. Since |D| is
-/// never negative, only the evidence EquivalenceTest::above can falsely give "outside", so that the
-/// threshold family / alpha suffices for it. All verdicts of the `family` candidates are right with
-/// probability 1 - alpha, for any distribution and any stopping time.
+/// never negative, only EquivalenceTest::above can falsely give "outside", so that the threshold
+/// family / alpha suffices for this evidence. All verdicts of the `family` candidates are right
+/// with probability 1 - alpha, for any distribution and any stopping time.
 ///
 /// Otherwise Student's two-sided interval for the mean of D, or of |D|, is tested after 10, 20, 40,
 /// ... and `most` pairs, at the level alpha / (family * number of tests). The verdict is "within"
@@ -56,8 +57,8 @@ struct DecisionRule {
 /// are equal, there is no verdict. Means are assumed to be normal.
 class CandidateDecision {
   public:
-    /// @throws std::invalid_argument unless the tolerance is above 0, and below the range of a
-    ///         metric with two bounds; as EquivalenceTest
+    /// @throws std::invalid_argument if the tolerance is not above 0, or not below the range of a
+    ///         metric with two bounds; or as EquivalenceTest
     explicit CandidateDecision(const DecisionRule& rule);
 
     /// Adds the values of the next replication in which candidate and reference both have a value.

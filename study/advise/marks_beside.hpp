@@ -10,11 +10,11 @@
 namespace rovernet {
 
 /// Number at the beginning of a text such as "30 s"; none if there is no number.
-/// @param unit  receives the text behind the number, without blanks between them
+/// @param unit  receives the text behind the number, without leading blanks
 std::optional<double> leading_number(const std::string& text, std::string& unit);
 
-/// Columns of a table of values from another source, such as measurements, that are drawn as marks
-/// beside the curves of a study.
+/// Columns of a table of external values, such as measurements, that are drawn as marks beside the
+/// curves of a study.
 struct MarkColumns {
     std::string x;     ///< name of the column with x, as the user names the key
     std::string unit;  ///< unit of x in the chart; empty: none

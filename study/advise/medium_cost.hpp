@@ -17,7 +17,7 @@ namespace rovernet {
 struct MediumRecord {
     /// Type of an event in which a node transmits a frame.
     struct OnAir {};
-    /// Event of a node: it begins a leg (piece of movement), is switched on or off, or transmits.
+    /// Event of a node: begin of a leg (piece of movement), switching on or off, or transmission.
     struct Event {
         Time time;
         NodeId node;

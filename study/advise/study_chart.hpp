@@ -23,8 +23,8 @@ struct ChartQuestion {
     std::optional<IntervalMethod> interval = {};  ///< method of confidence intervals; none: see
                                                   ///< Question::interval
     bool log_x = false, log_y = false;
-    /// True: average only over cells (combinations of averaged values and replication) for which
-    /// every position of the chart has a value, see Cells.
+    /// True: average only over cells (combinations of averaged values and replication) in which
+    /// every x and series of the chart has a value, see Cells.
     bool common = false;
     /// Path of a CSV file whose rows are drawn as marks beside lines, see add_marks(); empty: none.
     std::string beside = {};

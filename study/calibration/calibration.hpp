@@ -51,9 +51,8 @@ struct CalibratedModel {
 /// - Other models: least squares in dB, or the Tobit model if some links are unseen (see
 ///   KnownLink::unseen). Wall losses are >= 0.
 ///
-/// Standard errors by group (see KnownLink::group) are those of least_squares(). For the Tobit
-/// model, and for gains, they are computed by the jackknife over the groups. The fit of `disc` has
-/// no standard errors.
+/// Standard errors by group (see KnownLink::group) are computed by least_squares(); for the Tobit
+/// model and for gains, by the jackknife over the groups. The fit of `disc` has no standard errors.
 ///
 /// With measured levels, transmit powers and antenna gains are only roughly known. Each model
 /// except `disc` then has a free constant: its parameter `excess`, or the radios' power if the
@@ -71,7 +70,8 @@ std::vector<CalibratedModel> calibrate(const KnownLinks& known, const Scenario& 
 /// - a power that differs from `given_power` by more than 30 dB
 /// - an excess beyond +-30 dB
 /// - an error above 20 dB
-/// - an error more than twice that of the fitted free-space model, and more than 3 dB above it
+/// - an error more than twice the error of the fitted free-space model, and more than 3 dB above
+///   the latter error
 void refuse_absurd(std::vector<CalibratedModel>& models, Dbm given_power);
 
 /// Standard error [dB] of the loss that a fitted log_distance model predicts. It is computed at the

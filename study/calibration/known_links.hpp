@@ -26,8 +26,8 @@ struct KnownLink {
                              ///< equal positions; empty if the loss is not measured
     Vec3 from, to;           ///< positions of the antennas [m]
     Hertz frequency;
-    /// Keys of the two end points for random draws, and replication number. Propagation models with
-    /// random draws use them.
+    /// Keys of the two end points, and replication number, for propagation models with random
+    /// draws.
     std::uint64_t from_key = 0, to_key = 0;
     std::uint32_t replication = 0;
     /// Number of the link's group. The links of a group have dependent errors: links of one
@@ -90,10 +90,10 @@ struct SampleSize {
 KnownLinks sample_links(const Scenario& scenario, const Propagation& reference,
                         const SampleSize& size, const std::function<void(double)>& tell = {});
 
-/// Sample of links of known loss that can grow. The sample for a number of replications equals that
-/// of sample_links(), but is computed from the sample for a smaller number. The reference model is
-/// evaluated once for each link. If the reference has no random draws, it is evaluated once for all
-/// links with equal end points.
+/// Sample of links of known loss that can grow. The sample for a number of replications equals the
+/// result of sample_links(), but is computed from the sample for a smaller number. The reference
+/// model is evaluated once for each link; without random draws, once for all links with equal end
+/// points.
 class LinkSample {
   public:
     /// @param size  largest number of links, and number of times in each replication; for
@@ -112,8 +112,8 @@ class LinkSample {
     std::unique_ptr<State> state_;
 };
 
-/// Requirement on receiver positions in a file of measured levels: they must be known, or may be
-/// unknown.
+/// Requirement on receiver positions in a file of measured levels: known positions only, or also
+/// unknown positions.
 enum class Receivers { known, may_be_unknown };
 
 /// Measured levels as links of a scenario. The file has comma-separated values. Its first line

@@ -25,7 +25,8 @@ struct FittedParameter {
     bool determined = true;
     bool at_bound = false;  ///< true: `value` is the bound 0, since a free fit would give a
                             ///< negative value
-    /// Standard errors of the fitted value, see Coefficient; NaN if the method gives none.
+    /// Standard errors of the fitted value, see Coefficient: for independent errors of the levels
+    /// (`se_plain`), and clustered (`se_by_group`). NaN if the method gives none.
     double se_plain = 0, se_by_group = 0;
 };
 

@@ -18,13 +18,13 @@ namespace rovernet {
 
 /// Settings of a localisation by received levels.
 struct LocateQuestion {
-    /// Standard deviation of the error of a received level [dB]; none: that of the shadowing in the
-    /// scenario.
+    /// Standard deviation of the error of a received level [dB]; none: sigma of the scenario's
+    /// shadowing.
     std::optional<Db> sigma = {};
     bool knows_power = true;
     /// Margin [m] around the bounding box of the anchors (transmitters of known position). On an
-    /// open field, positions are searched in the box extended by the margin. With a map, they are
-    /// searched on the whole map.
+    /// open field, positions are searched in the box extended by the margin. With a map, the whole
+    /// map is searched.
     Meters margin{0};
 };
 
@@ -69,9 +69,9 @@ struct Located {
 inline constexpr std::size_t fewest_anchors = 3;
 
 /// Locates all robots except the anchors (transmitters of known position), at given times of a
-/// scenario's run, by the levels that they receive from anchors. Levels include shadowing but no
-/// fading, as in `rovernet links`. The locator uses the scenario's propagation model, without
-/// knowing the shadowing.
+/// scenario's run, by the levels received from anchors. Levels include shadowing but no fading, as
+/// in `rovernet links`. The locator uses the scenario's propagation model, without knowing the
+/// shadowing.
 /// @param anchors  names of the robots that are anchors
 /// @throws InputError for an unknown robot, for an anchor with a directional antenna, or if neither
 ///         `question` nor the scenario gives the standard deviation of levels

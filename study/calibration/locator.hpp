@@ -46,8 +46,8 @@ struct LocatorSettings {
 ///
 /// where L_i is the loss measured from anchor i, L the loss by the model, and a_i the anchor's
 /// position. If the power is known, c = 0; otherwise c is the mean of L_i - L. If several positions
-/// are equally likely, one of them is returned (three anchors on a line cannot distinguish its two
-/// sides).
+/// are equally likely, any one is returned (three anchors on a line cannot distinguish the sides of
+/// the line).
 ///
 /// The search uses a grid of 48 by 48 points over the area, then a refinement around each local
 /// minimum, to 1 mm.
@@ -65,7 +65,7 @@ class Locator {
     ///   F = sum over i of g_i g_i^T / sigma^2,   g_i the gradient of the loss [dB/m],
     ///
     /// with one more row and column if the power is not known. For log_distance with exponent n,
-    /// that is F = b^2 sum u_i u_i^T / d_i^2 with b = 10 n / (sigma ln 10), and d_i and u_i the
+    /// F = b^2 sum u_i u_i^T / d_i^2 with b = 10 n / (sigma ln 10), and d_i and u_i the
     /// distance and direction of anchor i. None if the anchors do not determine the position. The
     /// gradient is a difference quotient over 1 mm; at the edge of a wall's shadow it is undefined.
     /// Source: N. Patwari et al., Relative location estimation in wireless sensor networks, IEEE

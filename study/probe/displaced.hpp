@@ -30,8 +30,8 @@ struct Displaced {
         return ways[mix(key) % ways.size()];
     }
 
-    /// Range [m] of the model, extended by the displacements of both antennas, since displaced
-    /// antennas may be nearer to each other by that much.
+    /// Range [m] of the model, extended by the displacements of both antennas, since displacements
+    /// may bring the antennas nearer to each other.
     Meters reach(Db loss, Hertz frequency, Meters highest) const {
         constexpr double slack = 1 + 1e-12;  // larger than rounding errors
         return {(model.reach(loss, frequency, highest).value + 2 * by.value) * slack};

@@ -29,7 +29,7 @@ struct Perturbation {
 
 /// Perturbations (small changes) of a scenario, in this order:
 ///
-///   1 cm, 1 um                   each antenna is displaced by that much, see Displaced
+///   1 cm, 1 um                   each antenna is displaced by this distance, see Displaced
 ///   resolution x2, x0.5          cells of the maps split in four, or four joined into one: see
 ///                                scene/redrawing.hpp
 ///   walls outlined, filled       thick walls made hollow; hollow walls up to 1 m wide made solid

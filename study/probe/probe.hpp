@@ -25,8 +25,8 @@ struct ProbeSize {
     std::size_t messages = 100;  ///< largest number of message changes listed for each perturbation
 };
 
-/// Effect of one perturbation on a link. If the perturbation displaces antennas, the effect is that
-/// of the displacement with the largest change of loss.
+/// Effect of one perturbation on a link. If the perturbation displaces antennas, the members are
+/// values for the displacement with the largest change of loss.
 struct LinkEffect {
     std::string link;          ///< name of the link: end points and time
     std::string perturbation;  ///< name, such as "resolution x2" or "1 cm east of the sender"

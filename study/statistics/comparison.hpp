@@ -92,8 +92,9 @@ std::optional<double> paired_variance_ratio(std::span<const double> a, std::span
 ///     n = 30, p = 0.741, by STaR-Bets); ...
 ///   friis is 0.2 above disc in each of 30 replications
 ///   friis and disc are equal in each of 30 replications
-/// The half-width has two digits, and all other numbers the same decimals. "Told apart" means
-/// detected with 80 % power; this part is omitted if `detectable` is empty.
+/// The half-width has two digits, and all other numbers the same decimals. STaR-Bets is a method of
+/// IntervalMethod. "For all 4" appears if `family` is 4: the 4 intervals hold simultaneously. "Told
+/// apart" means detected with 80 % power; this part is omitted if `detectable` is empty.
 std::string comparison_text(std::string_view a, std::string_view b,
                             const PairedComparison& comparison);
 

@@ -19,8 +19,9 @@ enum class Equivalence { undecided, within, outside };
 struct EquivalenceVerdict {
     Equivalence verdict = Equivalence::undecided;
     IntervalMethod method{};  ///< method of the test, see method_for()
-    /// Number of replications that gave the verdict. With the method betting, this is the number up
-    /// to the verdict; with other methods, the number of all replications. None: undecided.
+    /// Number of replications on which the verdict `within` or `outside` is based. The sequential
+    /// method (IntervalMethod betting) may stop before the last replication; other methods use all
+    /// replications. None: undecided.
     std::optional<std::size_t> decided_at;
     /// Predicted total number of replications for a verdict, if undecided and if further
     /// replications resemble the given ones. None if no prediction is possible, or if 100,000 (by

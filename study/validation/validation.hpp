@@ -23,8 +23,8 @@ struct Validation {
     bool kept() const;
 };
 
-/// Makes all charts and checks all claimed error limits. Errors are those of this build, costs
-/// those of this machine.
+/// Makes all charts and checks all claimed error limits. Errors are measured with this build, costs
+/// on this machine.
 /// @param field  folder of measurements, see measured_flat(); none: no chart of measurements
 /// @param tell   called with the name of the next step; may be empty
 /// @throws InputError for a damaged folder of measurements

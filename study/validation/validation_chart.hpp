@@ -80,7 +80,7 @@ struct Promise {
 /// @param methods  one method for each point, in the order of the points
 void set_costs(ValidationPanel& panel, std::span<const TimedMethod> methods, const Turns& turns);
 
-/// Indices of the points on the Pareto front, in order of cost. The front consists of the cheapest
+/// Indices of the points on the Pareto front, in order of cost. The front contains the cheapest
 /// point (by median cost), and each point with a significantly smaller error than all cheaper
 /// points. Errors with parts are compared by their parts, at 95 % for all pairs together
 /// (Bonferroni). Errors with intervals differ if the intervals do not overlap. Errors without parts

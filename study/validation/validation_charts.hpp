@@ -48,8 +48,8 @@ ValidationChart reception_chart(const ValidationSize& size);
 /// Chart on the rate at which shadowing switches a link between up and down while a robot moves. It
 /// compares shadowing that is drawn at each observation, fixed for each link, or a spatial field.
 ValidationChart shadowing_chart(const ValidationSize& size);
-/// Charts on path loss models with given and with fitted parameters. They show errors of the
-/// delivery ratio and of link decisions (up or down).
+/// Charts on path loss models with given and with fitted parameters: errors of the delivery ratio
+/// and of link decisions (up or down).
 /// @param field  folder of measurements, for the error of the reference model itself; none: that
 ///               error is not shown
 std::vector<ValidationChart> path_loss_charts(const ValidationSize& size,

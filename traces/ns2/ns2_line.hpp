@@ -10,7 +10,7 @@
 #include <string_view>
 #include <variant>
 
-// Parsed line of an ns-2 trace. Texts refer to the line: they are valid as long as the line is.
+// Parsed line of an ns-2 trace. Texts refer to the line's characters, which must outlive them.
 
 namespace rovernet {
 

@@ -33,8 +33,8 @@ struct TraceRow {
 
 /// Statistics of an ns-2 trace.
 ///
-/// Packets of an application are those that read_ns2_trace() turns into messages. A flow consists
-/// of the packets of one type, source and destination, with their ports.
+/// A packet of an application is a packet that read_ns2_trace() converts to a message. A flow
+/// consists of the packets of one type, source and destination, with their ports.
 struct TraceStats {
     MetricValues metrics;  ///< metrics as in summary.json
     Ns2Counts counts;

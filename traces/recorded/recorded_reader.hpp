@@ -52,10 +52,10 @@ bool is_recorded_trace(const std::string& path);
 ///     RecordedReader reader("runs/rescue-s7/trace.mcap");
 ///     while (const Record* record = reader.next()) sink.on(*record, reader.context());
 ///
-/// All objects of a record are available: its robots are named in the trace, and its message is
-/// defined. In a network built by a C++ program, robots added later have no names.
+/// Every message id of a record is in the context's message table. Every robot id of a record has a
+/// name in the trace, except robots that a C++ program added to its network later.
 ///
-/// Not in the records: keys of random draws (0), and levels of receptions (empty). An incomplete
+/// Records lack the keys of random draws (0) and the levels of receptions (empty). An incomplete
 /// file is read up to its last complete chunk. A broken chunk is skipped: after the chunk, messages
 /// are correct immediately, and the position of a robot is correct from its next leg on. Memory
 /// grows with the number of robots and of messages in use, not with records.
@@ -111,7 +111,7 @@ class RecordedReader {
     Time now_ = start_of_run;
     Record record_;
     bool has_record_ = false;  // true: the last message was a record, not a definition
-    // Header of the last record's frame, and that of the next one; without bytes: none.
+    // Header of the last record's frame, and header of the next record's frame; no bytes: none.
     FrameHeader header_, next_header_;
     std::vector<Reception> receptions_;
     Legs legs_;
