@@ -162,8 +162,7 @@ class Medium {
     // Puts the nodes of found_ into `out`, for a frame that ends at `end` at its sender.
     void put_arrivals(Time end, Receivers& out) const;
     void look_from(NodeId from, Time t, const Legs& legs);  // prepares index and origin_
-    // Fills shares_ with the contributions of all nodes to the draws of their pairs.
-    void share_draws();
+    void share_draws();                                     // computes shares_ for all nodes
     // Visitor for the index: calls use(entry, antenna, squared distance, place) for nodes within
     // reach that are on and may have a link. `place` is omitted if the index returns no place.
     template <class Use>
@@ -183,10 +182,8 @@ class Medium {
     // Index of nodes by position, and path losses of pairs at rest.
     NeighbourIndex index_;
     PairCache pairs_;
-    // Scene of the losses in pairs_.
-    const Scene* pairs_of_ = nullptr;
-    // shares_: contributions of nodes to draws_, by place in the index, for Decision::by_table.
-    // Second member: value of NeighbourIndex::bins() when shares_ was computed.
+    const Scene* pairs_of_ = nullptr;  // scene of the losses in pairs_
+    // Contributions of nodes to draws_, by place in the index, and their NeighbourIndex::bins().
     std::vector<std::uint64_t> shares_;
     std::uint64_t shares_of_bin_ = 0;
     // Whether the cell size of the index was set.
