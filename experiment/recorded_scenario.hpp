@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "files/temporary_folder.hpp"
+#include "files/temporary_directory.hpp"
 #include "scenario/scenario.hpp"
 #include "traces/recorded/recorded_reader.hpp"
 
@@ -44,9 +44,9 @@ class ReplayedScenario {
     /// trace.
     std::string find_file(const RecordedRun& run, const std::string& name) const;
 
-    std::string trace_;       // path of the trace
-    TemporaryFolder folder_;  // folder of the attached files
-    std::string file_;        // path of the scenario file in folder_
+    std::string trace_;          // path of the trace
+    TemporaryDirectory folder_;  // folder of the attached files
+    std::string file_;           // path of the scenario file in folder_
 };
 
 /// Checks that the robots listed in a trace are the robots of its scenario, in the same order,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "files/temporary_folder.hpp"
+#include "files/temporary_directory.hpp"
 #include "study/write_lock.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -33,7 +33,7 @@ struct StoreConnection {
         /// @throws RunError if the file cannot be copied
         explicit Copy(const std::string& path);
         std::string file() const { return folder.path() + "/store.db"; }
-        TemporaryFolder folder;
+        TemporaryDirectory folder;
     };
 
     std::unique_ptr<Copy> copy = {};

@@ -9,7 +9,7 @@
 #include "cli/terminal/stop.hpp"
 #include "cli/terminal/study_display.hpp"
 #include "cli/terminal/waiting.hpp"
-#include "files/temporary_folder.hpp"
+#include "files/temporary_directory.hpp"
 #include "scenario/document/quantity.hpp"
 #include "scenario/scenario_file.hpp"
 #include "study/advise/advise_chart.hpp"
@@ -200,7 +200,7 @@ void advise(const AdviseArguments& a) {
     check_metric(a.metric, scenario, {"--metric " + a.metric, 0, 0, true});
     rule_for(a, scenario.study, 1);
     const HeldStop until_told;
-    const TemporaryFolder passing;
+    const TemporaryDirectory passing;
     try {
         const AdviceCandidates candidates = fitted_candidates(a, options, budget);
         judge(a, options, candidates, budget, a.store.value_or(passing.path() + "/study.db"));

@@ -7,7 +7,7 @@
 #include "cli/terminal/diagnostics.hpp"
 #include "cli/terminal/picture_output.hpp"
 #include "cli/terminal/stop.hpp"
-#include "files/temporary_folder.hpp"
+#include "files/temporary_directory.hpp"
 #include "scenario/document/toml.hpp"
 #include "scenario/scenario_file.hpp"
 #include "study/advise/compare_cost.hpp"
@@ -207,7 +207,7 @@ void compare(const CompareArguments& a) {
         check_margin(a, metric);
     }
     const HeldStop until_gone;
-    const TemporaryFolder passing;
+    const TemporaryDirectory passing;
     const bool is_part = a.store && takes_part_of(*a.store, study);
     Store store = open_store(a.store && !is_part ? *a.store : passing.path() + "/study.db", study);
     if (is_part) take_part_of(*a.store, study, store);

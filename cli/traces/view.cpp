@@ -8,7 +8,7 @@
 #include "experiment/reports/loss_table.hpp"
 #include "experiment/run.hpp"
 #include "files/part_file.hpp"
-#include "files/temporary_folder.hpp"
+#include "files/temporary_directory.hpp"
 #include "live/viewer/answers.hpp"
 #include "live/viewer/view_server.hpp"
 #include "pictures/viewer/view_page.hpp"
@@ -79,7 +79,7 @@ class TraceToView {
         return folder_->path() + "/trace.mcap";
     }
 
-    std::optional<TemporaryFolder> folder_;
+    std::optional<TemporaryDirectory> folder_;
     std::string path_;
 };
 
@@ -130,7 +130,7 @@ void view(const ViewArguments& a) {
         return view_of_trace(trace.path(), choice);
     }();
     tell_damage(trace.path(), run.damage);
-    for (const std::string& what : run.left_out) notice(fmt::format("left out: {}", what));
+    for (const std::string& what : run.left_out) notice(what);
     if (a.out) return write_page(a, run);
     serve_page(a, trace.path(), std::move(run));
 }

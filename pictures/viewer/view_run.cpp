@@ -157,9 +157,10 @@ Array Viewed::follow_list() const {
 std::vector<std::string> Viewed::left_out(const ViewChoice& choice) const {
     std::vector<std::string> all;
     if (const std::size_t n = columns_.frames.left_out(); n > 0)
-        all.push_back(fmt::format("{} of {} frames", n, columns_.frames.frames()));
-    if (!choice.map) all.emplace_back("the map");
-    if (choice.frames.payload_bytes == 0) all.emplace_back("contents of messages");
+        all.push_back(fmt::format("{} of {} frames are left out.", n, columns_.frames.frames()));
+    if (!choice.map) all.emplace_back("The map is left out.");
+    if (choice.frames.payload_bytes == 0)
+        all.emplace_back("The contents of messages are left out.");
     return all;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "files/temporary_folder.hpp"
+#include "files/temporary_directory.hpp"
 
 #include "sim/error.hpp"
 
@@ -13,13 +13,13 @@
 
 namespace rovernet {
 
-TemporaryFolder::TemporaryFolder()
+TemporaryDirectory::TemporaryDirectory()
     : path_((std::filesystem::temp_directory_path() / "rovernet-XXXXXX").string()) {
     if (mkdtemp(path_.data())) return;
     throw RunError(fmt::format("{}: cannot be made: {}", path_, std::strerror(errno)));
 }
 
-TemporaryFolder::~TemporaryFolder() {
+TemporaryDirectory::~TemporaryDirectory() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
 }
