@@ -22,6 +22,7 @@ const list = (() => {
             own.filter = selection.state.filter;
             own.rows = events.filtered(r, own.window, own.filter);
             rendered.first = -1;
+            rendered.followed = -2;
         }
         return true;
     }
@@ -38,7 +39,7 @@ const list = (() => {
         return low - 1;
     }
 
-    const rendered = { first: -1, current: -2, shift: 0 };
+    const rendered = { first: -1, current: -2, followed: -2, shift: 0 };
 
     /** @param {number} i row @param {number} current @param {number} shift [px] */
     function row(i, current, shift) {
@@ -64,7 +65,10 @@ const list = (() => {
         const current = row_at(t), height = box.clientHeight, total = own.rows.length * row_height + Math.max(0, height - row_height);
         const room = Math.min(highest, total), ratio = Math.max(1, total - height) / Math.max(1, room - height);
         space.style.height = `${room}px`;
-        if (follow && current !== rendered.current) box.scrollTop = Math.max(0, current) * row_height / ratio;
+        if (follow && current !== rendered.followed) {
+            rendered.followed = current;
+            box.scrollTop = Math.max(0, current) * row_height / ratio;
+        }
         const offset = box.scrollTop * ratio, shift = offset - box.scrollTop;
         const first = Math.max(0, Math.floor(offset / row_height) - spare);
         const last = Math.min(own.rows.length, first + Math.ceil(height / row_height) + 2 * spare);

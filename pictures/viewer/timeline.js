@@ -37,8 +37,10 @@ const timeline = (() => {
         const n = level(), { bins, width_ns } = own.run.head.density[n], counts = own.run.col(`density.${n}`);
         const { from, to } = span(), outcomes = head_check.outcomes;
         const first = Math.max(0, Math.floor(from / width_ns)), last = Math.min(bins - 1, Math.floor(to / width_ns));
+        const wide = width_ns * own.width > (to - from) * bar;
         for (let bin = first; bin <= last; bin++) {
-            const low = Math.max(0, Math.floor(to_x(bin * width_ns) / bar)), high = Math.min(out[0].length - 1, Math.max(low, Math.ceil(to_x((bin + 1) * width_ns) / bar) - 1));
+            const low = Math.max(0, Math.floor(to_x(bin * width_ns) / bar)), end = wide ? Math.ceil(to_x((bin + 1) * width_ns) / bar) - 1 : low;
+            const high = Math.min(out[0].length - 1, Math.max(low, end));
             if (low > high) continue;
             for (let outcome = 0; outcome < outcomes; outcome++) {
                 const count = counts[bin * outcomes + outcome];

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+// Page in a browser: what it shows is what the command line prints; no error, no request, no rule of access broken.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import fs from "node:fs";
+import path from "node:path";
+import test, { after, before } from "node:test";
+import { chromium } from "playwright-core";
+import { sections, view_file } from "./run_file.mjs";
+
+const { FOLDER: folder, COMMAND: command, CHROMIUM: browser_path } = process.env;
+const all = ["rescue", "storeys", "routes", "patrol", "search", "csma", "hostile"];
+let browser;
+
+before(async () => {
+    browser = await chromium.launch({ executablePath: browser_path, args: ["--no-sandbox", "--enable-unsafe-swiftshader"] });
+});
+after(() => browser.close());
+
+/** JSON that the command prints. */
+function told(...words) { return JSON.parse(execFileSync(command, words, { maxBuffer: 1 << 28, stdio: ["ignore", "pipe", "ignore"] })); }
+
+/** Scenario of a run. */
+function scenario(name) { return fs.readFileSync(path.join(folder, name, "scenario.path"), "utf8").trim(); }
+
+/** Opens a page with the network off, does something, and holds it to be free of errors. */
+async function with_page(name, options, act) {
+    const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, offline: true, ...options.context });
+    context.setDefaultTimeout(15000);
+    const page = await context.newPage(), faults = [], requests = [];
+    page.on("console", message => { if (["error", "warning"].includes(message.type())) faults.push(message.text()); });
+    page.on("pageerror", error => faults.push(error.message));
+    page.on("dialog", dialog => { faults.push("a dialog"); dialog.dismiss(); });
+    page.on("request", request => requests.push(request.url()));
+    await page.addInitScript(() => document.addEventListener("securitypolicyviolation", event => console.error(`violates ${event.violatedDirective}`)));
+    await page.goto(`file://${folder}/${name}.html${options.hash ?? ""}`);
+    await page.waitForFunction(() => window.rovernet && (window.rovernet.error || window.rovernet.ready && window.rovernet.frames > 0));
+    try {
+        await act(page);
+        assert.equal(await page.evaluate(() => window.rovernet.error), "");
+        assert.deepEqual(faults, []);
+        assert.deepEqual(requests.filter(url => !url.startsWith("file:") && !url.startsWith("blob:")), []);
+        assert.equal(requests.filter(url => url.startsWith("file:")).length, 1);
+    } finally {
+        await context.close();
+    }
+}
+
+/** Waits until what was asked for is drawn. */
+async function drawn(page) {
+    await page.evaluate(async () => {
+        const begin = window.rovernet.frames;
+        for (let i = 0; i < 200 && (window.rovernet.frames === begin || !window.rovernet.whole); i++) await new Promise(done => setTimeout(done, 10));
+    });
+}
+
+/** Number of colours of the map. */
+function colors(page) {
+    return page.evaluate(() => {
+        const canvas = document.getElementById("map"), seen = new Set();
+        const pixels = new Uint32Array(canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.buffer);
+        for (const pixel of pixels) seen.add(pixel);
+        return seen.size;
+    });
+}
+
+for (const name of all) {
+    test(`V1: ${name} opens by itself, with colours on its map`, () => with_page(name, {}, async page => {
+        assert.ok(await colors(page) >= 5);
+        assert.ok(await page.locator("#legend .item").count() >= 2);
+    }));
+}
+
+for (const name of ["rescue", "storeys", "patrol"]) {
+    test(`V2: robots of ${name} are where the command says`, () => with_page(name, {}, async page => {
+        const { duration_ns } = sections(view_file(name)).head;
+        const times = Array.from({ length: 200 }, (_, i) => Math.round((i * 0.618034 % 1) * duration_ns / 1e3) * 1e3).sort((a, b) => a - b);
+        const truth = told("where", scenario(name), "--at", times.map(t => `${t / 1e9}s`).join(","), "--json").times;
+        const found = await page.evaluate(asked => asked.map(({ t, count }) => {
+            window.rovernet.seek(t);
+            return Array.from({ length: count }, (_, i) => window.rovernet.position(i));
+        }), truth.map((row, i) => ({ t: times[i], count: row.robots.length })));
+        let most = 0;
+        truth.forEach((row, i) => row.robots.forEach((robot, k) => {
+            if (robot.presence === "not departed" || robot.presence === "left") return;
+            most = Math.max(most, Math.hypot(robot.x_m - found[i][k].x, robot.y_m - found[i][k].y, robot.z_m - found[i][k].z));
+        }));
+        assert.ok(most < 1e-3, `${most} m apart`);
+    }));
+}
+
+for (const name of ["rescue", "csma"]) {
+    test(`V3: who has which message of ${name} is what trace follow says`, () => with_page(name, {}, async page => {
+        const { head, unpacked } = sections(view_file(name)), part = unpacked.get("messages.uid");
+        const uids = [...new Float64Array(part.buffer.slice(part.byteOffset, part.byteOffset + part.length))].slice(0, 12);
+        for (const uid of uids) {
+            const has = new Set(told("trace", "follow", path.join(folder, name, "trace.mcap"), "--message", String(uid), "--json").robots.map(row => row.robot));
+            const found = await page.evaluate(async ({ uid, count }) => Promise.all(Array.from({ length: count }, (_, i) => window.rovernet.outcome(uid, i))), { uid, count: head.robots.length });
+            head.robots.forEach((robot, i) => assert.equal(["origin", "delivered", "received"].includes(found[i]), has.has(robot.name), `message ${uid} at ${robot.name}: ${found[i]}`));
+        }
+    }));
+}
+
+test("V3: the page says why a robot has not got a message, in the words of trace follow", () => with_page("rescue", {}, async page => {
+    const { head } = sections(view_file("rescue")), [{ message, robot }] = head.follow;
+    const answer = told("trace", "follow", path.join(folder, "rescue/trace.mcap"), "--message", String(message), "--robot", head.robots[robot].name, "--json").at_robot.answer;
+    assert.equal(head.follow[0].text, answer);
+    await page.evaluate(index => window.rovernet.select({ message: index, panel: "message" }), message);
+    await page.waitForFunction(text => document.getElementById("message-panel").textContent.includes(text), answer.slice(head.robots[robot].name.length + 1, 60));
+}));
+
+test("V4: the time line shows every reception, and the frames when it is close", () => with_page("csma", {}, async page => {
+    const { counts, blocks } = sections(view_file("csma")).head;
+    const sum = await page.evaluate(() => window.rovernet.density().reduce((a, column) => a + column.reduce((x, y) => x + y, 0), 0));
+    assert.equal(sum, counts.receptions);
+    const from = blocks[0].begin_ns;
+    await page.evaluate(span => window.rovernet.select({ span }), { from, to: from + 5e6 });
+    await drawn(page);
+}));
+
+test("V5: a seek takes at most 10 ms of script", () => with_page("csma", {}, async page => {
+    const median = await page.evaluate(async () => {
+        const taken = [];
+        for (let i = 1; i <= 100; i++) {
+            const { frames } = window.rovernet;
+            window.rovernet.seek((i * 0.618034 % 1) * 20e9);
+            for (let k = 0; k < 500 && window.rovernet.frames === frames; k++) await new Promise(done => setTimeout(done, 2));
+            taken.push(window.rovernet.scriptMs.at(-1));
+        }
+        return taken.sort((a, b) => a - b)[50];
+    });
+    assert.ok(median <= 10, `${median} ms`);
+}));
+
+test("V6: the first row of the list is the last event until now", () => with_page("csma", {}, async page => {
+    const rows = () => page.evaluate(() => {
+        const box = document.getElementById("events").getBoundingClientRect();
+        const seen = [...document.querySelectorAll("#events .row")].filter(row => row.getBoundingClientRect().bottom > box.top + 12)
+            .sort((a, b) => a.getBoundingClientRect().top - b.getBoundingClientRect().top);
+        return seen.slice(0, 2).map(row => Number(row.querySelector(".when").textContent.replace(/\s/g, "")));
+    });
+    for (const t of [1.5e9, 5e9, 12.3e9, 19.9e9]) {
+        await page.evaluate(at => window.rovernet.seek(at), t);
+        await drawn(page);
+        const { time, text } = await page.evaluate(() => window.rovernet.list()), [first, second] = await rows();
+        assert.ok(time <= t && text);
+        assert.equal(first, Math.floor(time / 1e3) / 1e6);
+        if (second !== undefined) assert.ok(second * 1e9 > t - 1e3);
+    }
+    for (const speed of [1e-6, 1, 1e3]) {
+        await page.evaluate(value => window.rovernet.select({ speed: value, t: 1e9 }), speed);
+        await page.keyboard.press(" ");
+        await page.waitForTimeout(150);
+        await page.evaluate(() => window.rovernet.select({ playing: false }));
+        await drawn(page);
+        const { list, t } = await page.evaluate(() => ({ list: window.rovernet.list(), t: window.rovernet.t }));
+        assert.ok(list.time <= t && t > 1e9);
+        const [first] = await rows();
+        assert.equal(first, Math.floor(list.time / 1e3) / 1e6);
+    }
+    for (let i = 0; i < 3; i++) {
+        const before = await page.evaluate(() => window.rovernet.t);
+        await page.keyboard.press("ArrowLeft");
+        await drawn(page);
+        const { t, list } = await page.evaluate(() => ({ t: window.rovernet.t, list: window.rovernet.list() }));
+        assert.ok(t < before && list.time === t);
+    }
+}));
+
+test("V15: a tour by keys alone", () => with_page("rescue", {}, async page => {
+    const state = () => page.evaluate(() => structuredClone(window.rovernet.state));
+    const press = async key => { await page.keyboard.press(key); await drawn(page); };
+    await press("Shift+ArrowRight");
+    assert.equal((await state()).t, 1e9);
+    await press("ArrowRight");
+    assert.ok((await state()).t > 1e9);
+    await press("Alt+ArrowRight");
+    assert.equal((await page.evaluate(() => window.rovernet.list().text)).includes("→"), true);
+    await press("f");
+    assert.equal((await state()).message, 0);
+    await page.waitForFunction(() => document.querySelector("#message-panel h2")?.textContent === "message 0");
+    await press("/");
+    await page.keyboard.type("E");
+    await page.keyboard.press("Enter");
+    assert.deepEqual((await state()).robots, [4]);
+    assert.equal(await page.locator("#robot-panel h2").textContent(), "E");
+    await page.evaluate(() => document.activeElement.blur());
+    await press("c");
+    assert.match(await page.locator("#status").textContent(), /rovernet view RUN/);
+    await press("]");
+    assert.ok((await state()).speed > 3);
+    await press("+");
+    assert.ok((await state()).view.scale > 0);
+    await press("0");
+    assert.equal((await state()).view, null);
+    await press("End");
+    assert.equal((await state()).t, 90e9);
+    await press("Home");
+    assert.equal((await state()).t, 0);
+    await page.keyboard.press("?");
+    assert.ok(await page.locator("#help").isVisible());
+    await page.keyboard.press("Escape");
+    await page.keyboard.press("k");
+    await page.waitForFunction(() => window.rovernet.t > 0);
+    await page.keyboard.press("k");
+    assert.equal((await state()).playing, false);
+}));
+
+for (const colorScheme of ["light", "dark"]) {
+    test(`V15: no rule of access is broken, ${colorScheme}`, () => with_page("csma", { context: { colorScheme, bypassCSP: true }, hash: "#t=5&robots=0,1&message=3" }, async page => {
+        await page.addScriptTag({ path: path.join(folder, "node_modules/axe-core/axe.min.js") }).catch(async () => {
+            await page.evaluate(fs.readFileSync(path.join(folder, "node_modules/axe-core/axe.min.js"), "utf8"));
+        });
+        for (const panel of ["events", "message", "robot", "pair"]) {
+            await page.evaluate(chosen => window.rovernet.select({ panel: chosen }), panel);
+            await drawn(page);
+            const { violations } = await page.evaluate(() => window.axe.run({ runOnly: ["wcag2a", "wcag2aa"] }));
+            assert.deepEqual(violations.map(v => `${panel}: ${v.id}: ${v.nodes[0].html}`), []);
+        }
+    }));
+}
+
+test("V15: nothing is drawn while the run stands, with and without reduced motion", async () => {
+    for (const reducedMotion of ["no-preference", "reduce"]) {
+        await with_page("rescue", { context: { reducedMotion } }, async page => {
+            await page.waitForTimeout(500);
+            const begin = await page.evaluate(() => window.rovernet.frames);
+            await page.waitForTimeout(1000);
+            assert.equal(await page.evaluate(() => window.rovernet.frames), begin);
+        });
+    }
+});
+
+test("V16: an address restores what was shown", async () => {
+    const chosen = { t: 13106000001, speed: 0.01, storey: 1, robots: [2, 1], message: 3, panel: "message", trails: false };
+    let hash = "";
+    await with_page("storeys", {}, async page => {
+        await page.evaluate(state => window.rovernet.select({ ...state, filter: { robot: 1, message: -1, signs: 1, kinds: 24 }, view: { x: 3, y: 4, scale: 20 } }), chosen);
+        await page.waitForTimeout(500);
+        hash = new URL(page.url()).hash;
+    });
+    await with_page("storeys", { hash }, async page => {
+        const state = await page.evaluate(() => structuredClone(window.rovernet.state));
+        for (const [key, value] of Object.entries(chosen)) assert.deepEqual(state[key], value, key);
+        assert.deepEqual(state.filter, { robot: 1, message: -1, signs: 1, kinds: 24 });
+        assert.deepEqual(state.view, { x: 3, y: 4, scale: 20 });
+    });
+});
+
+test("V18: hostile names and payloads are shown as text", () => with_page("hostile", { hash: "#t=1.5&robots=0" }, async page => {
+    for (const panel of ["events", "message", "robot", "pair"]) {
+        await page.evaluate(chosen => window.rovernet.select({ panel: chosen, message: 0 }), panel);
+        await drawn(page);
+    }
+    await page.locator("#search").fill("img");
+    await page.waitForTimeout(200);
+    assert.match(await page.title(), /^<b>hostile<img/);
+    assert.equal(await page.locator("img, b").count(), 0);
+    assert.equal(await page.locator("body script").count(), 1);
+    const text = await page.locator("body").innerText();
+    assert.ok(text.includes("<img src=x"));
+    assert.ok(!text.includes("\u202e"));
+}));
+
+test("small: nothing is cut off at 1024 x 640", () => with_page("csma", { context: { viewport: { width: 1024, height: 640 } } }, async page => {
+    const { wide, high, map } = await page.evaluate(() => ({
+        wide: document.documentElement.scrollWidth, high: document.documentElement.scrollHeight, map: document.getElementById("map").clientHeight
+    }));
+    assert.ok(wide <= 1024 && high <= 640 && map >= 250, `${wide} x ${high}, map ${map}`);
+}));
