@@ -125,7 +125,7 @@ class FrameColumns {
     std::vector<RobotReception> receptions_;
     std::vector<Loss> losses_;
     std::vector<Reason> reasons_;  // of losses_, in the order of first use
-    Names frame_kinds_, message_kinds_{{""}};
+    Names frame_kinds_{{"DATA"}}, message_kinds_{{""}};
     std::size_t left_out_ = 0;
 };
 
