@@ -27,7 +27,7 @@ const signs = (() => {
     /** Colours of this run, set when it is there. @type {{colors: Colors}} */
     const look = { colors: { category: [], lagoon: [], ember: [], walls: [], door: "#d55e00", stairs: "#0072b2", robot: "#111111", outcomes: [] } };
 
-    /** @param {CanvasRenderingContext2D} c @param {number} sign @param {number} x @param {number} y @param {number} r half its size [px] */
+    /** @param {CanvasPath} c @param {number} sign @param {number} x @param {number} y @param {number} r half its size [px] */
     function outline(c, sign, x, y, r) {
         switch (sign) {
             case delivered: c.moveTo(x + r, y); c.arc(x, y, r, 0, 2 * Math.PI); break;
