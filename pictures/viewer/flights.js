@@ -97,7 +97,7 @@ const flights = (() => {
             c.stroke(lines);
             c.setLineDash([]);
         }
-        if (!under_way) {
+        if (!under_way && !(crowded && sign <= signs.received)) {
             const marks = new Path2D();
             for (let i = 0; i < ends.length; i += 2) signs.outline(marks, sign, ends[i] + 9, ends[i + 1] - 9, crowded ? 3 : 4);
             c.globalAlpha = strength;

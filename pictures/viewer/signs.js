@@ -18,9 +18,6 @@ const signs = (() => {
     /** Sign of an outcome, which is 2 x fate + delivered. @param {number} outcome */
     function of(outcome) { return outcome & 1 ? delivered : of_fate[outcome >> 1] ?? received; }
 
-    /** Whether the robot has the message by this frame, or had it already. @param {number} sign */
-    function holds(sign) { return sign <= duplicate; }
-
     /** @param {number} sign @returns {string} */
     function color(sign) { return theme.readable(look.colors.outcomes[kinds[sign]?.outcome ?? 0] ?? "#777777"); }
 
@@ -51,5 +48,5 @@ const signs = (() => {
         }
     }
 
-    return { delivered, received, duplicate, count, kinds, of, holds, color, look, outline, draw };
+    return { delivered, received, count, kinds, of, color, look, outline, draw };
 })();
