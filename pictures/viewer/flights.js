@@ -5,7 +5,7 @@ const flights = (() => {
     const most_lines = 4000;
     /** Wall time that a frame stays after its end, and that its ring takes at least [s]. */
     const kept_s = 0.35, least_ring_s = 0.15;
-    const shades = 3;
+    const shades = 3, crowd = 600;
     const shown = { lines: 0, left_out: 0, frames: 0 };
     const kind_colors = [0, 5, 3, 6, 1, 4];
 
@@ -28,6 +28,7 @@ const flights = (() => {
         const { at } = robots, kept_ns = (kept_s + least_ring_s) * state.speed * run.nanoseconds;
         shown.lines = shown.left_out = shown.frames = 0;
         /** @type {Map<number, Batch>} */ const batches = new Map();
+        /** Rings of each kind of frame and shade. @type {Map<number, Path2D>} */ const rings = new Map();
         /** @param {number} sign @param {number} shade */
         const batch = (sign, shade) => {
             const key = sign * shades + shade;
@@ -59,24 +60,29 @@ const flights = (() => {
                 lines?.lineTo(x + dx * way, y + dy * way);
                 if (ended) ends.push(at.x[to], at.y[to]);
             }
-            if (at.storey[from] === state.storey) ring(c, x, y, way, longest, age, kind_color(block.kind[i]));
+            if (at.storey[from] === state.storey && (shade === 0 || shown.frames <= crowd)) ring(rings, block.kind[i] * shades + shade, x, y, way, longest);
         });
+        for (const [key, path] of rings) {
+            c.globalAlpha = 0.6 * (1 - key % shades / shades);
+            c.strokeStyle = kind_color(Math.floor(key / shades));
+            c.lineWidth = 1.2;
+            c.stroke(path);
+        }
+        c.globalAlpha = 1;
         for (const [key, { lines, ends }] of [...batches].sort((a, b) => b[0] - a[0])) {
             const sign = Math.floor(key / shades), strength = 1 - (key % shades) / shades;
-            stroke(c, lines, ends, sign, strength, shown.lines > 600);
+            stroke(c, lines, ends, sign, strength, shown.lines > crowd);
         }
         return on_air;
     }
 
-    /** @param {CanvasRenderingContext2D} c @param {number} x @param {number} y @param {number} way @param {number} longest @param {number} age @param {string} color */
-    function ring(c, x, y, way, longest, age, color) {
-        c.globalAlpha = 0.6 * (1 - age);
-        c.beginPath();
-        c.arc(x, y, 8 + Math.max(14, longest) * (theme.is_still() ? 0.1 : way), 0, 2 * Math.PI);
-        c.strokeStyle = color;
-        c.lineWidth = 1.2;
-        c.stroke();
-        c.globalAlpha = 1;
+    /** @param {Map<number, Path2D>} rings @param {number} key @param {number} x @param {number} y @param {number} way @param {number} longest line [px] */
+    function ring(rings, key, x, y, way, longest) {
+        let path = rings.get(key);
+        if (!path) rings.set(key, path = new Path2D());
+        const r = 8 + Math.max(14, longest) * (theme.is_still() ? 0.1 : way);
+        path.moveTo(x + r, y);
+        path.arc(x, y, r, 0, 2 * Math.PI);
     }
 
     /** @param {CanvasRenderingContext2D} c @param {Path2D|null} lines @param {number[]} ends x and y of each @param {number} sign @param {number} strength @param {boolean} crowded */
@@ -91,13 +97,15 @@ const flights = (() => {
             c.stroke(lines);
             c.setLineDash([]);
         }
-        c.globalAlpha = under_way ? 0 : strength;
-        for (const [style, width] of /** @type {[string, number][]} */ ([[theme.colors().paper, 4.5], [color, 2]])) {
-            c.beginPath();
-            for (let i = 0; i < ends.length; i += 2) signs.outline(c, sign, ends[i] + 9, ends[i + 1] - 9, 4);
-            c.strokeStyle = style;
-            c.lineWidth = width;
-            c.stroke();
+        if (!under_way && !(crowded && sign <= signs.received)) {
+            const marks = new Path2D();
+            for (let i = 0; i < ends.length; i += 2) signs.outline(marks, sign, ends[i] + 9, ends[i + 1] - 9, crowded ? 3 : 4);
+            c.globalAlpha = strength;
+            for (const [style, width] of /** @type {[string, number][]} */ (crowded ? [[color, 1.2]] : [[theme.colors().paper, 4.5], [color, 2]])) {
+                c.strokeStyle = style;
+                c.lineWidth = width;
+                c.stroke(marks);
+            }
         }
         c.globalAlpha = 1;
     }

@@ -2,20 +2,40 @@
 // List of events: only the rows that are in sight are elements. Its first row is the last event until now.
 const list = (() => {
     "use strict";
-    const row_height = 22, spare = 6;
+    const row_height = 22, spare = 6, most_kept = 3, moment_ms = 120;
     const highest = 8e6;  // [px] that browsers lay out exactly
-    /** @type {{run: Run, blocks: Blocks, window: EventList|null, rows: Uint32Array, filter: Filter|null, parts: string}} */
-    const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), window: null, rows: new Uint32Array(0), filter: null, parts: "" };
+    /** @type {{run: Run, blocks: Blocks, window: EventList|null, rows: Uint32Array, filter: Filter|null, kept: Map<number, EventList>, timer: number}} */
+    const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), window: null, rows: new Uint32Array(0), filter: null, kept: new Map(), timer: 0 };
+
+    /** @param {EventList} window */
+    function keep(window) {
+        own.kept.set(window.number, window);
+        const oldest = own.kept.keys().next().value;
+        if (own.kept.size > most_kept && oldest !== undefined) own.kept.delete(oldest);
+        return window;
+    }
+
+    /** Puts the events of another block in order when the time has stayed there a moment. @param {Run} r @param {number} number @param {Block|null} block @param {Block|null} before */
+    function settle(r, number, block, before) {
+        clearTimeout(own.timer);
+        own.timer = setTimeout(() => {
+            keep(events.window_of(r, number, block, before));
+            own.blocks.arrived();
+        }, moment_ms);
+    }
 
     /** Takes the events around a time; false if they are still on their way. @param {number} t */
     function update(t) {
         const { run: r, blocks: all } = own, number = all.at(t), some = all.info.length > 0 && all.info[number].flights > 0;
         const block = some ? all.get(number) : null, before = number > 0 ? all.get(number - 1) : null;
         if (block === undefined || before === undefined) return false;
-        const parts = `${number}`;
-        if (own.parts !== parts || !own.window) {
-            own.window = events.window_of(r, number, block, before);
-            own.parts = parts;
+        if (own.window?.number !== number) {
+            const there = own.kept.get(number);
+            if (!there && own.window) {
+                settle(r, number, block, before);
+                return false;
+            }
+            own.window = there ?? keep(events.window_of(r, number, block, before));
             own.filter = null;
         }
         if (own.filter !== selection.state.filter) {
@@ -61,7 +81,10 @@ const list = (() => {
     /** @param {boolean} follow whether the current event comes to the top */
     function draw(follow) {
         const box = dom.by_id("events"), space = dom.by_id("events-space"), { t } = selection.state;
-        if (!update(t)) return;
+        if (!update(t)) {
+            dom.by_id("events-count").textContent = "reading \u2026";
+            return;
+        }
         const current = row_at(t), height = box.clientHeight, total = own.rows.length * row_height + Math.max(0, height - row_height);
         const room = Math.min(highest, total), ratio = Math.max(1, total - height) / Math.max(1, room - height);
         space.style.height = `${room}px`;
@@ -119,7 +142,7 @@ const list = (() => {
     /** First row in sight and the one of the time, for tests. */
     function seen() {
         const current = row_at(selection.state.t), w = own.window;
-        return current < 0 || !w ? null : { time: w.time[own.rows[current]], text: events.text(own.run, w, own.rows[current]), rows: own.rows.length };
+        return current < 0 || !w || w.number !== own.blocks.at(selection.state.t) ? null : { time: w.time[own.rows[current]], text: events.text(own.run, w, own.rows[current]), rows: own.rows.length };
     }
 
     return { begin, draw, step, seen, own };

@@ -28,9 +28,7 @@ const main = (() => {
             }
         }
         if (!location.protocol.startsWith("http")) return rvw.refuse("There is no run in this page.");
-        const answer = await fetch("/run.rvw" + location.search);
-        if (!answer.ok) return rvw.refuse(`The server refuses the run: ${answer.status} ${answer.statusText}`);
-        return new Uint8Array(await answer.arrayBuffer());
+        return server.run_bytes();
     }
 
     /** @param {unknown} error */
@@ -146,7 +144,6 @@ const main = (() => {
     };
     Object.defineProperty(window, "rovernet", { value: hooks });
 
-    server.begin(!document.getElementById("run") && location.protocol.startsWith("http"));
     bytes_of_run().then(open).catch(show_error);
     return { redraw };
 })();

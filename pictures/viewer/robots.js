@@ -96,11 +96,13 @@ const robots = (() => {
         c.lineCap = "butt";
     }
 
-    /** Thousands of robots as squares in one go. @param {CanvasRenderingContext2D} c @param {State} state */
-    function swarm(c, state) {
-        const size = 2 * least_radius - 2;
+    /** Thousands of robots as squares, which leave room between them. @param {CanvasRenderingContext2D} c @param {State} state @param {number[]} bounds of the map */
+    function swarm(c, state, bounds) {
+        const { scale, width, height } = camera.now, [left, bottom, right, top] = bounds;
+        const shown = Math.min(width * height, Math.max(1, (right - left) * (top - bottom)) * scale * scale);
+        const size = Math.min(2 * least_radius - 2, Math.max(1.5, 0.35 * Math.sqrt(shown / at.x.length)));
         for (const on of [1, 0]) {
-            c.fillStyle = on ? theme.category(0) : theme.colors().off;
+            c.fillStyle = on ? theme.colors().muted : theme.colors().off;
             for (let i = 0; i < at.x.length; i++) {
                 if (at.on[i] === on && at.storey[i] === state.storey && in_view(i, size)) c.fillRect(at.x[i] - size / 2, at.y[i] - size / 2, size, size);
             }
@@ -138,7 +140,7 @@ const robots = (() => {
         }
         const colored = state.trails && r.robots <= most_trails;
         if (shown.length > many) {
-            swarm(c, state);
+            swarm(c, state, r.head.map.bounds);
         } else {
             for (const i of shown) {
                 const rim = colored ? theme.category(i) : theme.colors().ink;

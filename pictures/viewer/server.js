@@ -3,8 +3,8 @@
 const server = (() => {
     "use strict";
     const patience_ms = 20000;
-    /** @type {{socket: WebSocket|null, served: boolean, next: number, open: Map<number, {done: (answer: any) => void, failed: (error: Error) => void}>}} */
-    const own = { socket: null, served: false, next: 1, open: new Map() };
+    /** @type {{socket: WebSocket|null, served: boolean, query: string, next: number, open: Map<number, {done: (answer: any) => void, failed: (error: Error) => void}>}} */
+    const own = { socket: null, served: false, query: "", next: 1, open: new Map() };
 
     const how = "This page is a file, so nobody answers. Open the run by \u201crovernet view RUN\u201d to ask.";
 
@@ -32,7 +32,7 @@ const server = (() => {
     function connected() {
         return new Promise((done, failed) => {
             if (!own.served) return failed(new Error(how));
-            const there = own.socket ?? new WebSocket(`ws${location.protocol === "https:" ? "s" : ""}://${location.host}/${location.search}`);
+            const there = own.socket ?? new WebSocket(`ws${location.protocol === "https:" ? "s" : ""}://${location.host}/${own.query}`);
             if (!own.socket) {
                 there.addEventListener("message", event => receive(String(event.data)));
                 there.addEventListener("close", drop_all);
@@ -56,8 +56,15 @@ const server = (() => {
         });
     }
 
-    /** @param {boolean} served */
-    function begin(served) { own.served = served; }
+    /** The run that the server shows. A token leaves the address bar: addresses are copied. @returns {Promise<Uint8Array>} */
+    async function run_bytes() {
+        own.served = true;
+        own.query = location.search;
+        const answer = await fetch("/run.rvw" + own.query);
+        if (!answer.ok) return rvw.refuse(`The server refuses the run: ${answer.status} ${answer.statusText}.`);
+        if (own.query) history.replaceState(null, "", location.pathname + location.hash);
+        return new Uint8Array(await answer.arrayBuffer());
+    }
 
-    return { begin, ask, how, is_served: () => own.served };
+    return { run_bytes, ask, how, is_served: () => own.served };
 })();

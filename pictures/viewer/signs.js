@@ -18,16 +18,13 @@ const signs = (() => {
     /** Sign of an outcome, which is 2 x fate + delivered. @param {number} outcome */
     function of(outcome) { return outcome & 1 ? delivered : of_fate[outcome >> 1] ?? received; }
 
-    /** Whether the robot has the message by this frame, or had it already. @param {number} sign */
-    function holds(sign) { return sign <= duplicate; }
-
     /** @param {number} sign @returns {string} */
     function color(sign) { return theme.readable(look.colors.outcomes[kinds[sign]?.outcome ?? 0] ?? "#777777"); }
 
     /** Colours of this run, set when it is there. @type {{colors: Colors}} */
     const look = { colors: { category: [], lagoon: [], ember: [], walls: [], door: "#d55e00", stairs: "#0072b2", robot: "#111111", outcomes: [] } };
 
-    /** @param {CanvasRenderingContext2D} c @param {number} sign @param {number} x @param {number} y @param {number} r half its size [px] */
+    /** @param {CanvasPath} c @param {number} sign @param {number} x @param {number} y @param {number} r half its size [px] */
     function outline(c, sign, x, y, r) {
         switch (sign) {
             case delivered: c.moveTo(x + r, y); c.arc(x, y, r, 0, 2 * Math.PI); break;
@@ -51,5 +48,5 @@ const signs = (() => {
         }
     }
 
-    return { delivered, received, duplicate, count, kinds, of, holds, color, look, outline, draw };
+    return { delivered, received, count, kinds, of, color, look, outline, draw };
 })();

@@ -55,7 +55,7 @@ const timeline = (() => {
 
     /** @param {CanvasRenderingContext2D} c */
     function density(c) {
-        const all = columns(), room = own.height - axis - top;
+        const all = columns(), room = own.height - axis - top - 11;
         let most = 0;
         const sums = new Float64Array(all[0].length);
         for (const column of all) column.forEach((v, x) => most = Math.max(most, sums[x] += v));
