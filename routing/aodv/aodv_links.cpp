@@ -174,8 +174,9 @@ void AodvRouter::hear(NodeId at, NodeId neighbour, Time now, bool is_hello) {
 }
 
 /// Whether a neighbour is on the blacklist: it does not hear this node (6.8).
-bool AodvRouter::is_blacklisted(NodeId at, NodeId neighbour, Time now) {
-    std::vector<Neighbour>& all = node(at).one_way;
+bool AodvRouter::is_blacklisted(Node& here, NodeId neighbour, Time now) const {
+    std::vector<Neighbour>& all = here.one_way;
+    if (all.empty()) return false;
     std::erase_if(
         all, [&](const Neighbour& each) { return now - each.last >= rules_.blacklist_timeout; });
     return std::any_of(all.begin(), all.end(),

@@ -152,7 +152,7 @@ class AodvRouter {
     void receive_error(LinkLayer& link, const Frame& frame, const aodv::Error& error,
                        const Reception& reception);
     void hear(NodeId at, NodeId neighbour, Time now, bool is_hello);
-    bool is_blacklisted(NodeId at, NodeId neighbour, Time now);
+    bool is_blacklisted(Node& here, NodeId neighbour, Time now) const;
     void refuse(LinkLayer& link, const Frame& frame, NodeId to, const Reception& reception);
     void send_hello(LinkLayer& link, NodeId at);
 

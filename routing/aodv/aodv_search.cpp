@@ -228,12 +228,13 @@ Fate AodvRouter::receive_request(LinkLayer& link, const Frame& frame, const aodv
                                  const Reception& r) {
     const NodeId at = r.node, from = frame.sender;
     const Time when = r.time + least_reaction;
-    if (is_silent(at, r.time)) return Fate::arrived;             // 6.13
-    if (is_blacklisted(at, from, r.time)) return Fate::arrived;  // 6.8: it would not hear the reply
+    if (is_silent(at, r.time)) return Fate::arrived;  // 6.13
+    Node& here = node(at);
+    if (is_blacklisted(here, from, r.time)) return Fate::arrived;  // 6.8: it hears no reply
     meet(at, from, r.time);
     end_search(link, at, from, when);
     if (request.originator == at ||
-        !node(at).seen.note(request.originator, request.id, r.time, rules_.path_discovery_time())) {
+        !here.seen.note(request.originator, request.id, r.time, rules_.path_discovery_time())) {
         return Fate::duplicate;
     }
     // 6.5: the reverse route.
