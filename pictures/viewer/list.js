@@ -85,6 +85,10 @@ const list = (() => {
             dom.by_id("events-count").textContent = "reading \u2026";
             return;
         }
+        if (box.clientHeight === 0) {
+            rendered.followed = -2;  // a hidden list forgets where it was
+            return;
+        }
         const current = row_at(t), height = box.clientHeight, total = own.rows.length * row_height + Math.max(0, height - row_height);
         const room = Math.min(highest, total), ratio = Math.max(1, total - height) / Math.max(1, room - height);
         space.style.height = `${room}px`;

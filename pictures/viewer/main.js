@@ -65,7 +65,7 @@ const main = (() => {
         controls.tell(state);
         controls.status(whole);
         filters.update(state);
-        if (state.panel === "events" || !list.own.window) list.draw(true);
+        list.draw(true);
         message_panel.update(state);
         robot_panel.update(state);
         pair_panel.update(state);
