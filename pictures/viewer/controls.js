@@ -92,7 +92,7 @@ const controls = (() => {
     function tell(state) {
         const head = own.run.head;
         dom.by_id("time").textContent = `${words.seconds(state.t, state.speed < 1e-3 ? 9 : 6)} s`;
-        dom.by_id("of-time").textContent = `of ${words.seconds(head.duration_ns, 0)} s`;
+        dom.by_id("of-time").textContent = `of ${words.number(head.duration_ns / run.nanoseconds)} s`;
         const speed = clock.speed_text(state.speed), slider = dom.input("speed");
         dom.by_id("speed-text").textContent = speed;
         if (Math.abs(Number(slider.value) - clock.power()) > 0.05) slider.value = String(clock.power());
@@ -117,7 +117,7 @@ const controls = (() => {
         const label = `${words.seconds(state.t, 3)} s, ${words.counted(head.robots.length, "robot")}${chosen.length ? `, ${chosen.join(" and ")} selected` : ""}`;
         if (!state.playing) {
             dom.by_id("map").setAttribute("aria-label", `Map: ${label}`);
-            dom.by_id("timeline").setAttribute("aria-label", `Time line: ${words.seconds(state.t, 3)} of ${words.seconds(head.duration_ns, 0)} s`);
+            dom.by_id("timeline").setAttribute("aria-label", `Time line: ${words.seconds(state.t, 3)} of ${words.number(head.duration_ns / run.nanoseconds)} s`);
             clearTimeout(own.resting);
             own.resting = setTimeout(() => {
                 const seen = list.seen();

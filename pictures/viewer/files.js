@@ -38,7 +38,7 @@ const files = (() => {
 
     /** Events of the whole run that the filter lets through. @param {Run} r @param {Blocks} all @param {Filter} filter */
     async function rows(r, all, filter) {
-        const out = ["time_s,event,robot,other,message,outcome\n"];
+        const out = ["time_s,event,robot,other,message,outcome,text\n"];
         for (let n = 0; n < Math.max(1, all.info.length) && out.length <= most_rows; n++) {
             const block = all.info[n]?.flights ? await all.load(n) : null, before = n > 0 ? await all.load(n - 1) : null;
             const w = events.window_of(r, n, block, before);
@@ -46,7 +46,7 @@ const files = (() => {
                 const { who, other, message, sign } = events.about(r, w, i), ns = w.time[i];
                 const time = `${Math.floor(ns / 1e9)}.${String(ns % 1e9).padStart(9, "0")}`;
                 out.push([time, events.kind_names[w.kind[i]], who >= 0 ? cell(r.name(who)) : "", other >= 0 && other < r.robots ? cell(r.name(other)) : "",
-                    message >= 0 && message < r.messages ? String(r.col("messages.uid")[message]) : "", sign >= 0 ? cell(signs.kinds[sign].text) : ""].join(",") + "\n");
+                    message >= 0 && message < r.messages ? String(r.col("messages.uid")[message]) : "", sign >= 0 ? cell(signs.kinds[sign].text) : "", cell(events.text(r, w, i))].join(",") + "\n");
                 if (out.length > most_rows) break;
             }
         }

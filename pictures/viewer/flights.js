@@ -80,7 +80,7 @@ const flights = (() => {
     function ring(rings, key, x, y, way, longest) {
         let path = rings.get(key);
         if (!path) rings.set(key, path = new Path2D());
-        const r = 8 + Math.max(14, longest) * (theme.is_still() ? 0.1 : way);
+        const r = Math.max(8, longest * (theme.is_still() ? 0 : way));
         path.moveTo(x + r, y);
         path.arc(x, y, r, 0, 2 * Math.PI);
     }

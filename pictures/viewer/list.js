@@ -2,7 +2,7 @@
 // List of events: only the rows that are in sight are elements. Its first row is the last event until now.
 const list = (() => {
     "use strict";
-    const row_height = 22, spare = 6, most_kept = 3, moment_ms = 120;
+    const row_height = 22, spare = 3, most_kept = 3, moment_ms = 120;
     const highest = 8e6;  // [px] that browsers lay out exactly
     /** @type {{run: Run, blocks: Blocks, window: EventList|null, rows: Uint32Array, filter: Filter|null, kept: Map<number, EventList>, timer: number}} */
     const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), window: null, rows: new Uint32Array(0), filter: null, kept: new Map(), timer: 0 };
@@ -67,12 +67,12 @@ const list = (() => {
         const { sign } = events.about(r, w, event);
         const mark = dom.make("span", "mark", sign >= 0 ? signs.kinds[sign].mark : w.kind[event] === events.frame ? "\u2197" : "");
         if (sign >= 0) mark.style.color = signs.color(sign);
-        const out = dom.make("div", "row", dom.make("span", "when", words.seconds(w.time[event])), mark,
-            dom.make("span", "what", events.text(r, w, event)));
+        const text = events.text(r, w, event), out = dom.make("div", "row", dom.make("span", "when", words.seconds(w.time[event])), mark,
+            dom.make("span", "what", text));
         out.setAttribute("role", "option");
         out.id = `event${i}`;
         out.setAttribute("aria-selected", String(i === current));
-        out.title = `${words.seconds(w.time[event], 9)} s: ${events.text(r, w, event)}`;
+        out.title = `${words.seconds(w.time[event], 9)} s: ${text}`;
         out.style.transform = `translateY(${i * row_height - shift}px)`;
         if (w.time[event] > selection.state.t) out.classList.add("later");
         return out;
@@ -83,6 +83,10 @@ const list = (() => {
         const box = dom.by_id("events"), space = dom.by_id("events-space"), { t } = selection.state;
         if (!update(t)) {
             dom.by_id("events-count").textContent = "reading \u2026";
+            return;
+        }
+        if (box.clientHeight === 0) {
+            rendered.followed = -2;  // a hidden list forgets where it was
             return;
         }
         const current = row_at(t), height = box.clientHeight, total = own.rows.length * row_height + Math.max(0, height - row_height);
@@ -103,7 +107,7 @@ const list = (() => {
         else box.removeAttribute("aria-activedescendant");
         const part = own.blocks.info.length > 1 ? `, part ${own.blocks.at(t) + 1} of ${own.blocks.info.length} of the run` : "";
         dom.by_id("events-count").textContent = own.rows.length === 0
-            ? "no event passes the filter" + part
+            ? (own.window?.time.length ? "no event passes the filter" : "no events") + part
             : `${words.counted(own.rows.length, "event")}${part}`;
     }
 

@@ -65,7 +65,7 @@ const main = (() => {
         controls.tell(state);
         controls.status(whole);
         filters.update(state);
-        if (state.panel === "events" || !list.own.window) list.draw(true);
+        list.draw(true);
         message_panel.update(state);
         robot_panel.update(state);
         pair_panel.update(state);
@@ -87,7 +87,7 @@ const main = (() => {
     function introduce(head) {
         document.title = `${words.visible(head.name)} \u00b7 rovernet`;
         dom.by_id("name").textContent = words.visible(head.name);
-        const parts = [words.counted(head.robots.length, "robot"), `${words.seconds(head.duration_ns, 0)} s`, `seed ${head.seed}`];
+        const parts = [words.counted(head.robots.length, "robot"), `${words.number(head.duration_ns / run.nanoseconds)} s`, `seed ${head.seed}`];
         if (head.replication) parts.push(`replication ${head.replication}`);
         parts.push(words.counted(head.counts.messages, "message"), words.counted(head.counts.flights, "frame"), words.counted(head.counts.receptions, "reception"), `rovernet ${head.version.split(" ")[0]}`);
         dom.by_id("caption").textContent = parts.join(" \u00b7 ");

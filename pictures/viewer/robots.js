@@ -120,7 +120,8 @@ const robots = (() => {
             const text = words.shortened(words.visible(r.name(i)), 24), width = c.measureText(text).width, reach = radius(r, i) + 6, half = size / 2 + 1;
             const { [i]: x } = at.x, { [i]: y } = at.y;
             const places = [[x + reach, y], [x - reach - width, y], [x - width / 2, y - reach - half], [x - width / 2, y + reach + half]];
-            const free = places.find(([left, middle]) => taken.every(b => left >= b[2] || left + width <= b[0] || middle - half >= b[3] || middle + half <= b[1]));
+            const inside = places.filter(([left]) => left >= 0 && left + width <= camera.now.width);
+            const free = inside.find(([left, middle]) => taken.every(b => left >= b[2] || left + width <= b[0] || middle - half >= b[3] || middle + half <= b[1]));
             if (!free) continue;
             taken.push([free[0], free[1] - half, free[0] + width, free[1] + half]);
             c.strokeStyle = theme.colors().paper;

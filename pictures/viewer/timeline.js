@@ -87,18 +87,18 @@ const timeline = (() => {
         });
         if (!whole || found.length > most_bars) return whole ? false : true;
         found.sort((a, b) => a[0].start[a[1]] - b[0].start[b[1]]);
-        const rows = [0], height = 12, room = Math.floor((own.height - axis - top) / height);
+        const rows = [0], height = 14, room = Math.floor((own.height - axis - top) / height);
         for (const [block, i] of found) {
-            const x = to_x(block.start[i]), w = Math.max(2, to_x(block.end(i)) - x), name = words.visible(own.run.name(block.sender[i]));
-            const need = Math.max(w, c.measureText(name).width + 6);
+            const x = to_x(block.start[i]), w = Math.max(2, to_x(block.end(i)) - x);
+            const name = words.shortened(words.visible(own.run.name(block.sender[i])), 20), text = c.measureText(name).width + 6, inside = text <= w;
             let row = rows.findIndex(until => until <= x);
             if (row < 0) row = rows.length < room ? rows.length : 0;
-            rows[row] = x + need + 2;
+            rows[row] = x + (inside ? w : w + text) + 2;
             const y = top + row * height;
             c.fillStyle = flights.kind_color(block.kind[i]);
-            c.fillRect(x, y, w, height - 4);
-            c.fillStyle = theme.colors().ink;
-            c.fillText(words.shortened(name, 20), Math.max(2, x + 3), y + height - 1);
+            c.fillRect(x, y, w, height - 2);
+            c.fillStyle = inside ? theme.colors().paper : theme.colors().ink;
+            c.fillText(name, inside ? Math.max(x, 0) + 3 : x + w + 3, y + height - 5);
         }
         return true;
     }

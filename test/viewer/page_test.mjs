@@ -158,6 +158,12 @@ test("V6: the first row of the list is the last event until now", () => with_pag
         const [first] = await rows();
         assert.equal(first, Math.floor(list.time / 1e3) / 1e6);
     }
+    await page.evaluate(() => window.rovernet.select({ panel: "robot", robots: [2], t: 7e9 }));
+    await drawn(page);
+    await page.waitForFunction(() => document.querySelectorAll("#robot-messages button").length > 5);
+    await page.keyboard.press("1");
+    await drawn(page);
+    assert.equal((await rows())[0], Math.floor((await page.evaluate(() => window.rovernet.list().time)) / 1e3) / 1e6);
     for (let i = 0; i < 3; i++) {
         const before = await page.evaluate(() => window.rovernet.t);
         await page.keyboard.press("ArrowLeft");
