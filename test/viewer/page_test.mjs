@@ -206,6 +206,7 @@ test("V15: a tour by keys alone", () => with_page("rescue", {}, async page => {
     await page.keyboard.press("?");
     assert.ok(await page.locator("#help").isVisible());
     await page.keyboard.press("Escape");
+    await page.locator("#help").waitFor({ state: "hidden" });
     await page.keyboard.press("k");
     await page.waitForFunction(() => window.rovernet.t > 0);
     await page.keyboard.press("k");
