@@ -87,6 +87,10 @@ ViewChoice choice_of(const ViewArguments& a) {
     ViewChoice choice;
     if (a.from) choice.frames.from = start_of_run + option_time("--from", *a.from);
     if (a.to) choice.frames.to = start_of_run + option_time("--to", *a.to);
+    if (choice.frames.to < choice.frames.from) {
+        throw InputError(Location{"--to " + *a.to, 0, 0, true},
+                         "expected a time after that of --from, " + *a.from);
+    }
     if (a.no_payloads) choice.frames.payload_bytes = 0;
     choice.map = !a.no_map;
     if (!a.limit) return choice;
@@ -107,6 +111,9 @@ void write_page(const ViewArguments& a, const ViewedRun& run) {
     file.give_name();
     fmt::print("{}: {} robots, {} messages, {} frames; {:.0f} kB\n", *a.out, run.robots,
                run.messages, run.frames, static_cast<double>(page.size()) / 1e3);
+    if (!a.limit || page.size() <= option_size(*a.limit)) return;
+    notice(fmt::format("--limit {}: the page, the robots and the messages take more than that",
+                       *a.limit));
 }
 
 /// Serves the page until Ctrl-C.

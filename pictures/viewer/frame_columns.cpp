@@ -247,6 +247,7 @@ void FrameColumns::write_frames(ViewFile& file, Table& head, std::size_t robots,
     };
     const std::size_t from = place(whole_ns(choice.from));
     std::size_t to = choice.to == never ? flights_.size() : place(whole_ns(choice.to) + 1);
+    to = std::max(from, to);
     if (to - from > choice.most_frames) to = from + choice.most_frames;
     Array blocks;
     for (std::size_t begin = from, end = from; begin < to; begin = end) {

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "test/cli/process.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace view_test {
+using namespace rovernet::test;
+
+namespace {
+
+const std::string rescue = std::string(ROVERNET_EXAMPLES) + "/rescue/rescue.toml";
+
+/// Error of the command with these arguments, which must end with that exit code.
+std::string error_of(const TemporaryFolder& folder, std::vector<std::string> arguments, int exit) {
+    arguments.insert(arguments.begin(), "view");
+    const auto ended = command(folder, arguments);
+    CHECK(ended.exit == exit);
+    return ended.err;
+}
+
+}  // namespace
+
+TEST_CASE("view writes a page of a scenario, of a run's folder and of its trace") {
+    const TemporaryFolder folder;
+    const std::string run = folder.path("run"), page = folder.path("page.html");
+    REQUIRE(command(folder, {"run", rescue, "--record", "--out", run, "--quiet"}).exit == 0);
+    std::vector<std::uintmax_t> sizes;
+    for (const std::string& what : {rescue, run, run + "/trace.mcap"}) {
+        const auto ended = command(folder, {"view", what, "-o", page});
+        CHECK(ended.exit == 0);
+        CHECK(ended.out.find("5 robots, 21 messages, 51 frames") != std::string::npos);
+        sizes.push_back(std::filesystem::file_size(page));
+    }
+    CHECK(sizes[0] == sizes[1]);
+    CHECK(sizes[1] == sizes[2]);
+    CHECK(sizes[0] < 250'000);
+}
+
+TEST_CASE("view: a wrong input or option has an error that says what to do") {
+    const TemporaryFolder folder;
+    const std::string page = folder.path("page.html");
+    const auto has = [](const std::string& error, const char* words) {
+        CAPTURE(error);
+        CHECK(error.find(words) != error.npos);
+    };
+    std::filesystem::create_directory(folder.path("empty"));
+    has(error_of(folder, {folder.path("empty"), "-o", page}, 3), "make one with `rovernet run");
+    has(error_of(folder, {folder.write("a.tr", "s 1.0 _0_"), "-o", page}, 3), "--record");
+    has(error_of(folder, {folder.path("no.toml"), "-o", page}, 3), "no such file");
+    has(error_of(folder, {rescue, "-o", folder.path("no/page.html")}, 1), "cannot be written");
+    has(error_of(folder, {rescue, "-o", page, "--from", "20 s", "--to", "10 s"}, 2),
+        "after that of --from, 20 s");
+    has(error_of(folder, {rescue, "-o", page, "--limit", "5"}, 2), "for example \"5 MB\"");
+    has(error_of(folder, {rescue, "-o", page, "--limit", "5 kB"}, 0), "take more than that");
+    has(error_of(folder, {rescue, "-o", page, "--from", "80 s"}, 0), "51 of 51 frames");
+    CHECK_FALSE(std::filesystem::exists(folder.path("no")));
+}
+
+}  // namespace view_test
