@@ -69,7 +69,7 @@ struct ViewArguments {
     std::string file;
     std::optional<std::string> out;  ///< file of the page; none: the page is served
     std::string address = "127.0.0.1:0";
-    std::optional<std::string> from, to, limit;
+    std::optional<std::string> listen, from, to, limit;
     bool no_payloads = false, no_map = false;
 };
 void view(const ViewArguments& arguments);

@@ -119,7 +119,9 @@ void write_page(const ViewArguments& a, const ViewedRun& run) {
 /// Serves the page until Ctrl-C.
 void serve_page(const ViewArguments& a, const std::string& trace, ViewedRun run) {
     ViewerAnswers answers(trace);
-    ViewServer server(read_loopback(a.address), std::move(run.bytes),
+    Address address = read_loopback(a.address);
+    if (a.listen) address.host = read_host(*a.listen);
+    ViewServer server(address, std::move(run.bytes),
                       [&](std::string_view question) { return answers.answer(question); });
     fmt::print("{} at {} until Ctrl-C\n", run.name, server.url());
     std::fflush(stdout);
@@ -157,6 +159,10 @@ void add_view(Command app) {
                     "instead of serving it");
     view.add_option("--address", a.address, "address of this machine to serve at; port 0: any")
         .shows_default();
+    view.add_option(
+        "--listen", a.listen,
+        "IP address of this machine by which others reach it, or 0.0.0.0: they need the "
+        "token in the address that is printed");
     view.add_option("--from", a.from, "time of the first frame");
     view.add_option("--to", a.to, "time of the last frame");
     view.add_option("--limit", a.limit,

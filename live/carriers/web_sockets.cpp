@@ -347,13 +347,17 @@ Address WebSockets::listen(const Address& address, Listeners::Streams users, Web
     return own;
 }
 
-std::string WebSockets::token_notice(const Address& own) const {
+std::string WebSockets::address_with_token(const Address& own) const {
     const bool is_any = own.host == "0.0.0.0" || own.host == "::";
     const std::string at =
         is_any ? fmt::format("{}:{}", asio::ip::host_name(), own.port) : own.text();
-    return fmt::format("for {}: ws://{}/?token={}",
-                       own.is_loopback() ? "a page" : "each client, the token in the address", at,
-                       state_->token);
+    return fmt::format("{}/?token={}", at, state_->token);
+}
+
+std::string WebSockets::token_notice(const Address& own) const {
+    return fmt::format("for {}: ws://{}",
+                       own.is_loopback() ? "a page" : "each client, the token in the address",
+                       address_with_token(own));
 }
 
 const std::string& WebSockets::token() const { return state_->token; }

@@ -66,6 +66,8 @@ class WebSockets {
     /// @return listening address with the actual port
     /// @throws RunError if the address is in use, or not an address of this machine
     Address listen(const Address& address, Listeners::Streams users, WebPages pages = {});
+    /// Address of this server for other machines, with their token: "HOST:PORT/?token=TOKEN".
+    std::string address_with_token(const Address& own) const;
     /// Sentence for the user with the token that clients of the address `own` need.
     std::string token_notice(const Address& own) const;
     /// Token that clients from other machines or sites need, see Admission.

@@ -35,7 +35,11 @@ ViewServer::ViewServer(const Address& address, std::string view_file,
 
 ViewServer::~ViewServer() = default;
 
-std::string ViewServer::url() const { return "http://" + state_->address.text() + "/"; }
+std::string ViewServer::url() const {
+    const Address& own = state_->address;
+    return "http://" +
+           (own.is_loopback() ? own.text() + "/" : state_->sockets.address_with_token(own));
+}
 
 void ViewServer::serve(const std::function<bool()>& go_on) {
     while (go_on()) state_->listeners.wait(100ms);

@@ -21,7 +21,8 @@ class ViewServer {
                std::function<std::string(std::string_view)> answer);
     ~ViewServer();
 
-    /// Address of the page for a browser, "http://127.0.0.1:7007/".
+    /// Address of the page for a browser, "http://127.0.0.1:7007/"; with the token that it needs if
+    /// other machines can reach the server.
     std::string url() const;
     /// Serves until `go_on` returns false; it is called at least every 0.1 s.
     void serve(const std::function<bool()>& go_on);

@@ -137,4 +137,26 @@ TEST_CASE("view server: the page, the view file and answers, and nothing else") 
     serving.join();
 }
 
+TEST_CASE("view server: other machines need the token, which is in the address") {
+    ViewServer server({"0.0.0.0", 0}, "RVW1", [](std::string_view) { return "{}"; });
+    const std::string url = server.url();
+    const std::size_t token = url.find("/?token=");
+    REQUIRE(token != url.npos);
+    const int port = std::stoi(url.substr(url.rfind(':', token) + 1));
+    std::atomic<bool> goes_on = true;
+    std::thread serving([&] { server.serve([&] { return goes_on.load(); }); });
+    const auto get = [&](const std::string& path) {
+        test::LineClient client(port);
+        client.send_bytes("GET " + path + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) +
+                          "\r\nConnection: close\r\n\r\n");
+        return client.bytes(1 << 20).substr(9, 3);
+    };
+    CHECK(get("/") == "403");
+    CHECK(get("/run.rvw?token=0") == "403");
+    CHECK(get(url.substr(token)) == "200");
+    CHECK(get("/run.rvw" + url.substr(token + 1)) == "200");
+    goes_on = false;
+    serving.join();
+}
+
 }  // namespace answers_test
