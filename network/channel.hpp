@@ -103,7 +103,8 @@ class Channel {
     /// Frame in flight; some receivers may already have received it.
     struct Flight {
         AirFrame air;
-        /// Serial number of the frame in Interference, if the reception model has a Judge.
+        /// Serial number of the frame among those that may interfere, if the reception model
+        /// considers interference (see Interference, Judge).
         std::uint64_t emission = 0;
         /// Receptions of the frame, in order of time; the first `served` of them have been served.
         Medium::Receivers receivers;

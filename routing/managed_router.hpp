@@ -36,7 +36,8 @@ class ManagedRouter {
     struct State {
         SendHandle copy = 0;
         Stage stage = Stage::unheard;
-        /// CW of the queued copy, and number of copies that were queued so far.
+        /// Exponent of the contention window of the copy that the node holds back, and number of
+        /// copies that the node has held back so far.
         std::uint8_t window = 0, copies = 0;
     };
     /// Reaction of a node to a copy: none, cancel its queued copy, move its queued copy to the late

@@ -11,7 +11,7 @@
 namespace rovernet {
 
 /// Purpose of a random number. Results depend on the values: append enumerators, never renumber.
-/// Each comment ends with the fields a and b of its keys.
+/// The comment of each purpose ends with the values of Key::a and Key::b for its draws.
 enum class Purpose : std::uint16_t {
     /// Delay before a flood forwards a copy. Key::a = robot key, Key::b = message key.
     flood_jitter = 1,

@@ -15,7 +15,7 @@ struct RoutedSums {
     std::uint64_t deliveries = 0;     ///< number of delivered routed unicasts
     std::uint64_t waited_ns = 0;      ///< time of delivered messages in routers [ns], until their
                                       ///< frames were passed to the MAC, at source and each hop
-    std::uint64_t delay_ns = 0;       ///< latency of deliveries [ns], including time in routers
+    std::uint64_t delay_ns = 0;       ///< sum of the latencies [ns], including time in routers
     std::uint64_t hops = 0;           ///< hops of the deliveries with a known shortest path
     std::uint64_t shortest = 0;       ///< hops of the shortest paths for the deliveries of `hops`
     friend bool operator==(const RoutedSums&, const RoutedSums&) = default;

@@ -144,8 +144,8 @@ class NeighbourIndex {
     static double rounding(Vec3 centre, double reach) {
         return 1e-6 * (std::abs(centre.x) + std::abs(centre.y) + reach);
     }
-    /// Finds the entries sorted into cells within `reach` [m] of `centre`, and some entries farther
-    /// away. If distances_too, writes the squared distances of the found entries into distance2_.
+    /// Finds the entries of all cells within `reach` [m] of `centre`, and some entries of other
+    /// cells. If distances_too, writes the squared distances of the found entries into distance2_.
     template <bool distances_too>
     std::span<std::uint32_t> look_around(Vec3 centre, double reach);
     // Lower bounds of the squared distances [m^2] between `centre` and the entries that

@@ -193,7 +193,7 @@ class RadioKinds {
     bool gated_ = false;
     bool heights_matter_ = false;
     AntennaHeights antennas_;
-    // Largest budget of any receiver kind for a sender of 0 dBm, by Strength.
+    // Largest path loss [dB] from a sender of 0 dBm to any kind of receiver, by signal Strength.
     std::array<Db, strengths.size()> best_budget_ = {Db{-1e300}, Db{-1e300}, Db{-1e300}};
 };
 

@@ -69,7 +69,7 @@ class WrappedAxis {
     std::int64_t unwrapped(double x) const {
         return static_cast<std::int64_t>(std::floor(std::min(far, std::max(-far, x * per_meter_))));
     }
-    // Cell that represents interval number `cell`.
+    // Number of the stored cell for the interval number `cell` of the unbounded axis.
     std::size_t wrapped(std::int64_t cell) const {
         const auto n = static_cast<std::int64_t>(cells_);
         // Most intervals need no division, which would take longer than the rest of this class.

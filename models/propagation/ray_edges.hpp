@@ -52,8 +52,8 @@ struct EdgeCorner {
     std::size_t edge;  ///< index of the corner's edge
 };
 
-/// Subset of `corners` that a taut string from `from` to `to` touches, with the bodies on the
-/// string's left.
+/// Subset of `corners` that a string, stretched from `from` to `to` around the bodies of these
+/// corners, touches. The bodies are on the left of the string.
 std::vector<EdgeCorner> touched(std::span<const EdgeCorner> corners, Vec3 from, Vec3 to);
 
 /// Taut string around bodies, in plan, with the bodies on its left.
@@ -63,7 +63,7 @@ struct TautString {
     /// Distances along the string [m] from its start to each of its points, see point().
     std::vector<double> at;
 
-    /// Point i of the string: its start, the corners that it touches, and its end.
+    /// Point i of the taut string: its start, the corners that it touches, and its end.
     Vec3 point(std::size_t i) const {
         return i == 0 ? from : i > touched.size() ? to : touched[i - 1].at;
     }

@@ -57,8 +57,8 @@ struct DecisionRule {
 /// are equal, there is no verdict. Means are assumed to be normal.
 class CandidateDecision {
   public:
-    /// @throws std::invalid_argument if the tolerance is not above 0, or not below the range of a
-    ///         metric with two bounds; or as EquivalenceTest
+    /// @throws std::invalid_argument if the rule's tolerance is not above 0, or not below the range
+    ///         of a metric with two bounds, or for a value that EquivalenceTest rejects
     explicit CandidateDecision(const DecisionRule& rule);
 
     /// Adds the values of the next replication in which candidate and reference both have a value.
