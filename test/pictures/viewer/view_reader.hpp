@@ -65,7 +65,7 @@ class ViewReader {
     template <class T>
     static std::vector<double> as(const std::string& bytes) {
         std::vector<T> numbers(bytes.size() / sizeof(T));
-        std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(T));
+        if (!bytes.empty()) std::memcpy(numbers.data(), bytes.data(), bytes.size());
         return {numbers.begin(), numbers.end()};
     }
     const Table* find(const std::string& name) const {
