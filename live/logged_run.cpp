@@ -19,9 +19,11 @@ bool reach_start(Session& session, const StopRules& stop) {
 }  // namespace
 
 RunResult run_logged(const Scenario& scenario, const std::string& folder, const StopRules& stop,
+                     const std::function<void(ScenarioRun&)>& prepare,
                      const std::function<bool(ScenarioRun&, InputLog&)>& drive) {
     std::optional<InputLog> log;
     const auto drive_logged = [&](ScenarioRun& run) {
+        prepare(run);
         if (!reach_start(run.session(), stop)) return false;
         log.emplace(folder, scenario);
         const Network& network = run.session().network();

@@ -33,10 +33,13 @@ struct StopRules {
 };
 
 /// Runs a scenario by the function `drive`, and writes the input log beside the other results.
-/// @param drive  runs the session, see RunOptions::drive; called after all events of the start time
+/// @param prepare  called before the first event
+/// @param drive    runs the session, see RunOptions::drive; called after all events of the start
+/// time
 /// @throws InputError, RunError; Interrupted if `drive` returns false, or if `stop` ends the run
 ///         before the call of `drive`
 RunResult run_logged(const Scenario& scenario, const std::string& folder, const StopRules& stop,
+                     const std::function<void(ScenarioRun&)>& prepare,
                      const std::function<bool(ScenarioRun&, InputLog&)>& drive);
 
 }  // namespace rovernet

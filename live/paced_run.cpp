@@ -5,6 +5,7 @@
 #include "live/carriers/listeners.hpp"
 #include "live/carriers/web_sockets.hpp"
 #include "live/input_log.hpp"
+#include "live/run_clock.hpp"
 #include "traces/fingerprint.hpp"
 
 #include <fmt/format.h>
@@ -32,6 +33,15 @@ class PacedServer {
         for (const FrontListeners& each : options.fronts) open(each);
     }
 
+    /// Prepares the fronts for a run, before its first event. Fronts of a run that begins anew are
+    /// new, unless they asked for it.
+    void prepare(ScenarioRun& run, const Scenario& scenario) {
+        for (Open& each : open_) {
+            if (new_seed_ && !each.front->new_seed()) replace(each);
+            each.front->prepare(run.session(), scenario);
+        }
+    }
+
     /// Serves clients until the run is over, or must begin anew.
     void serve(ScenarioRun& run, const Scenario& scenario, InputLog& log) {
         run_ = &run;
@@ -39,7 +49,7 @@ class PacedServer {
         session_->step(start_of_run);  // movements may draw where robots begin
         for (Open& each : open_) begin(each, scenario);
         new_seed_.reset();
-        started_ = options_.clock();
+        clock_.set(start_of_run);
         promised_ = start_of_run;
         catch_up();
         tell_held();
@@ -64,6 +74,7 @@ class PacedServer {
         Table metrics;
         append_metrics(metrics, result.metrics);
         for (const Open& each : open_) each.front->ended(result.fingerprint, metrics);
+        stay(result);
         constexpr auto soon = 400ms;
         web_.close(soon);
         const bool is_hurried = !options_.stop.go_on();
@@ -129,7 +140,9 @@ class PacedServer {
                         which < WebSockets::first ? listeners_.close(which) : web_.close(which);
                     },
                 .send_binary = [this](auto to, auto bytes) { web_.send_binary(to, bytes); },
-                .fingerprint = [this] { return run_->fingerprint().text(); }};
+                .fingerprint = [this] { return run_->fingerprint().text(); },
+                .unsent = [this](auto to) { return web_.unsent(to); },
+                .set_speed = [this](auto speed) { set_speed(speed); }};
     }
 
     /// Handlers of the connections of a front. A front that was replaced has none.
@@ -138,14 +151,14 @@ class PacedServer {
         Listeners::Streams streams;
         streams.opened = [this, &opened, listener](auto client) {
             opened.clients.insert(client);
-            if (listener && reach_present()) opened.front->opened(client, *listener);
+            if (listener && is_served(opened)) opened.front->opened(client, *listener);
         };
         streams.received = [this, &opened](auto from, auto bytes) -> std::size_t {
-            if (!reach_present() || !opened.clients.contains(from)) return 0;
+            if (!is_served(opened) || !opened.clients.contains(from)) return 0;
             return opened.front->received(from, bytes);
         };
         streams.closed = [this, &opened](auto gone) {
-            if (reach_present() && opened.clients.erase(gone) > 0) opened.front->closed(gone);
+            if (is_served(opened) && opened.clients.erase(gone) > 0) opened.front->closed(gone);
         };
         // Without a speed clients set the pace.
         streams.has_rate = wanted.has_rate && options_.speed.has_value();
@@ -162,21 +175,27 @@ class PacedServer {
             entry.is_web ? web_.listen(entry.at, std::move(streams), opened.listeners.pages)
                          : listeners_.listen(entry.at, std::move(streams));
         listener->port = address.port;
+        if (!opened.listeners.pages.empty()) {
+            return options_.say("page at http://" + (address.is_loopback()
+                                                         ? address.text() + "/"
+                                                         : web_.address_with_token(address)));
+        }
         const std::string_view scheme = entry.is_web && entry.what.empty() ? "ws://" : "";
         const std::string what = entry.what.empty() ? "" : fmt::format(" ({})", entry.what);
         options_.say(fmt::format("listening on {}{}{}", scheme, address.text(), what));
         if (entry.is_web) options_.say(web_.token_notice(address));
     }
 
-    /// Starts a run at a front. A run that begins anew has a new front, unless this one asked for
-    /// it.
-    void begin(Open& opened, const Scenario& scenario) {
-        if (new_seed_ && !opened.front->new_seed()) {
-            for (const auto client : std::exchange(opened.clients, {})) {
-                client < WebSockets::first ? listeners_.close(client) : web_.close(client);
-            }
-            opened.front = opened.listeners.make(carrier_for(opened));
+    /// Replaces a front by a new one, without clients.
+    void replace(Open& opened) {
+        for (const auto client : std::exchange(opened.clients, {})) {
+            client < WebSockets::first ? listeners_.close(client) : web_.close(client);
         }
+        opened.front = opened.listeners.make(carrier_for(opened));
+    }
+
+    /// Starts a run at a front.
+    void begin(Open& opened, const Scenario& scenario) {
         opened.held_at = never;
         opened.front->begin(*session_, scenario);
         if (opened.listeners.open_ports && opened.ports.empty()) open_ports(opened);
@@ -220,12 +239,7 @@ class PacedServer {
     }
 
     /// Simulated time of the clock.
-    Time by_clock() const {
-        if (!options_.speed) return never;
-        const std::chrono::duration<double> wall = options_.clock() - started_;
-        return start_of_run +
-               from_seconds(std::min(wall.count() * *options_.speed, seconds(session_->end())));
-    }
+    Time by_clock() const { return clock_.now(session_->end()); }
 
     /// Time beyond which fronts do not let the run go.
     Time limit() const {
@@ -247,19 +261,17 @@ class PacedServer {
     /// Sets the clock back to the limit of the fronts, so that the run does not catch up after a
     /// pause.
     void hold_clock() {
-        if (!options_.speed || by_clock() <= limit()) return;
-        const std::chrono::duration<double> run_for(seconds(limit()) / *options_.speed);
-        started_ = options_.clock() - std::chrono::duration_cast<Clock::duration>(run_for);
+        if (clock_.paces() && by_clock() > limit()) clock_.set(limit());
     }
 
     /// Polls the clock, and records the delay against the promised time: messages of clients have
     /// waited that long.
     void look() {
         hold_clock();
-        if (!options_.speed) return;
+        if (!clock_.paces()) return;
         const Time present = by_clock();
         if (present > promised_) {
-            const Duration behind = real_time(present - promised_);
+            const Duration behind = clock_.real_time(present - promised_);
             lateness_.add_look(behind);
             judge(behind, present);
         }
@@ -269,12 +281,8 @@ class PacedServer {
     /// Sets the real time within which the clock will be polled again. @return this time
     Duration promise(Duration wait) {
         look();
-        if (options_.speed) {
-            const double simulated_s = seconds(wait) * *options_.speed;
-            const Duration simulated =
-                from_seconds(std::min(simulated_s, seconds(session_->end())));
-            promised_ = std::min(promised_ + simulated, limit());
-        }
+        if (clock_.paces())
+            promised_ = std::min(promised_ + clock_.simulated(wait, session_->end()), limit());
         return wait;
     }
 
@@ -297,16 +305,35 @@ class PacedServer {
     /// @return false after the run
     bool reach_present() {
         if (!session_) return false;
-        const Time present = options_.speed ? by_clock() : now();
+        const Time present = clock_.paces() ? by_clock() : now();
         do {
             catch_up();
         } while (now() < present && now() < next_stop() && options_.stop.go_on());
         return true;
     }
 
+    /// Runs up to the current time of the clock. @return whether the front has clients to serve
+    bool is_served(const Open& opened) { return reach_present() || opened.front->stays(); }
+
+    /// Serves the clients of fronts that stay after the run, until the user stops the program.
+    void stay(const RunResult& result) {
+        const auto stays = [](const Open& each) { return each.front->stays(); };
+        if (!options_.stop.go_on() || std::none_of(open_.begin(), open_.end(), stays)) return;
+        options_.finished(result);
+        while (options_.stop.go_on() && std::any_of(open_.begin(), open_.end(), stays)) {
+            listeners_.wait(100ms);
+        }
+    }
+
+    /// Changes the speed of the run from now on.
+    void set_speed(std::optional<double> speed) {
+        clock_.set_speed(speed, now());
+        promised_ = now();
+    }
+
     void note_lateness() {
-        if (!options_.speed) return;
-        const Duration behind = options_.clock() - started_ - real_time(now() - start_of_run);
+        if (!clock_.paces()) return;
+        const Duration behind = clock_.since(now());
         lateness_.add(behind);
         judge(behind, now());
     }
@@ -324,38 +351,33 @@ class PacedServer {
         }
     }
 
-    /// Real time that some simulated time takes.
-    Duration real_time(Duration simulated) const {
-        return from_seconds(seconds(simulated) / *options_.speed);
-    }
-
     /// Real time until the next event that does not come from a client.
     Duration spare_time() {
         if (is_behind_) return 0ms;
         const Time stop = next_stop();
         const Duration longest = longest_wait_now();
         if (stop <= now()) return longest;  // it waits for a client
-        if (!options_.speed) return 0ms;
-        return std::clamp<Duration>(real_time(stop - by_clock()), 0ms, longest);
+        if (!clock_.paces()) return 0ms;
+        return std::clamp<Duration>(clock_.real_time(stop - by_clock()), 0ms, longest);
     }
 
     /// Longest wait, a fraction of the allowed delay, so that a suspension of the process is
     /// noticed.
     Duration longest_wait_now() const {
         constexpr int looks = 4;
-        if (!options_.speed) return longest_unpaced;
+        if (!clock_.paces()) return longest_unpaced;
         if (!options_.most_late) return longest_wait;
         return std::clamp<Duration>(*options_.most_late / looks, shortest_wait, longest_wait);
     }
 
     const PacedOptions& options_;
+    RunClock clock_{options_.clock, options_.speed};
     Listeners listeners_;
     WebSockets web_{listeners_};
     std::list<Open> open_;
     ScenarioRun* run_ = nullptr;  // the last that was served
     Session* session_ = nullptr;  // while it is served
     std::optional<std::uint64_t> new_seed_;
-    Clock::time_point started_;
     Time promised_ = start_of_run;  // time of the clock by which it looks again
     bool is_behind_ = false;        // the time of the clock
     Lateness lateness_;
@@ -375,7 +397,9 @@ LiveResult run_paced(Scenario scenario, const PacedOptions& options) {
             return !server.new_seed();
         };
         try {
-            RunResult result = run_logged(scenario, options.folder, options.stop, drive);
+            RunResult result = run_logged(
+                scenario, options.folder, options.stop,
+                [&](ScenarioRun& run) { server.prepare(run, scenario); }, drive);
             std::string fault = server.close(result);
             return {std::move(result), std::move(scenario), std::move(fault), server.lateness()};
         } catch (const Interrupted&) {

@@ -68,6 +68,9 @@ struct PacedOptions {
     /// Function that reads the clock that paces the run.
     std::function<std::chrono::steady_clock::time_point()> clock = std::chrono::steady_clock::now;
     StopRules stop = {};
+    /// Called with the results as soon as they are written, if a front goes on to serve its
+    /// clients.
+    std::function<void(const RunResult&)> finished = [](const RunResult&) {};
     /// Called with notices for the user, such as listening addresses.
     std::function<void(std::string_view)> say = [](std::string_view) {};
 };

@@ -2,6 +2,7 @@
 #include "cli/runs/fronts.hpp"
 #include "cli/runs/run_output.hpp"
 #include "cli/runs/serving.hpp"
+#include "cli/runs/view_option.hpp"
 #include "cli/terminal/diagnostics.hpp"
 #include "cli/terminal/options.hpp"
 #include "live/emulate/device_addresses.hpp"
@@ -22,6 +23,7 @@ namespace {
 struct EmulateArguments : FileArguments {
     std::optional<std::string> out, udp, player;
     FrontArguments fronts;
+    ViewOption view;
     std::string late = "10ms", on_late = "warn";
     double speed = 1;
     Reach reach;
@@ -47,6 +49,8 @@ PacedOptions emulation_options(const EmulateArguments& a, const Scenario& scenar
             player_ports(a.reach.without_token(*a.player), robot_names(scenario), {}));
     }
     a.fronts.append_to(options.fronts, a.reach);
+    if (a.view.is_given())
+        options.fronts.push_back(a.view.listeners(a.reach, {.speed = options.speed}));
     options.say = announcer(a.json ? Announced::by_notice : Announced::by_output);
     options.most_late = time_of("--late", a.late);
     options.late_ends = a.on_late == "fail";
@@ -139,6 +143,7 @@ void add_emulate(Command app) {
                     "0: any that is free (default: 6665)")
         .usually(player_address.data());
     a.fronts.add_to(command);
+    a.view.add_to(command);
     command.add_option("--speed", a.speed, "simulated per real time").check(above_zero());
     command.add_option("--late", a.late, "real time by which it may be behind the clock")
         .shows_default();

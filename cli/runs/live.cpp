@@ -2,6 +2,7 @@
 #include "cli/runs/fronts.hpp"
 #include "cli/runs/run_output.hpp"
 #include "cli/runs/serving.hpp"
+#include "cli/runs/view_option.hpp"
 #include "cli/terminal/diagnostics.hpp"
 #include "cli/terminal/options.hpp"
 #include "live/lockstep/listeners.hpp"
@@ -21,12 +22,15 @@ struct LiveArguments : FileArguments {
     std::string on_loss = "end";
     std::optional<std::string> player;
     FrontArguments fronts;
+    ViewOption view;
     std::optional<double> speed;
     bool one_port = false, lockstep = false;
     Reach reach;
     bool json = false;
 
-    bool is_by_clock() const { return player || fronts.any(); }
+    bool is_by_clock() const {
+        return player || fronts.any() || (view.is_given() && !has_controllers());
+    }
     bool has_controllers() const { return !controllers.empty() || listen || web || unix_path; }
     Announced announced() const { return json ? Announced::by_notice : Announced::by_output; }
 };
@@ -100,6 +104,8 @@ LiveResult run_by_fronts(LiveArguments a) {
     if (a.has_controllers()) options.fronts.push_back(controller_listeners(a, options.say));
     if (a.player) options.fronts.push_back(player_listeners(a, config, scenario));
     a.fronts.append_to(options.fronts, a.reach);
+    if (a.view.is_given())
+        options.fronts.push_back(a.view.listeners(a.reach, {.speed = options.speed}));
     ServingStop stop;
     options.stop = stop.rules();
     return run_paced(scenario, options);
@@ -109,10 +115,10 @@ void run_live(const LiveArguments& a) {
     if (!a.is_by_clock() && !a.has_controllers()) {
         throw CommandEnd(usage,
                          "live: expected --controller, --listen-json, --listen-web, --unix, "
-                         "--player or --rosbridge");
+                         "--player, --rosbridge or --view");
     }
     if (!a.is_by_clock() && a.speed) {
-        throw CommandEnd(usage, "live: --speed needs --player or --rosbridge");
+        throw CommandEnd(usage, "live: --speed needs --player, --rosbridge or --view");
     }
     const LiveResult result = run_by_fronts(a);
     print_run(result.scenario, result.run, a.json);
@@ -148,6 +154,7 @@ void add_by_clock(Command live, LiveArguments& a) {
                 "each robot; port 0: any that is free (default: 6665)")
             .usually(player_address.data());
     const std::vector<Option> others = a.fronts.add_to(live);
+    a.view.add_to(live);
     live.add_flag("--player-one-port", a.one_port,
                   "all robots at one port: the devices of the first have index 0, and so on")
         .needs(player);
@@ -157,7 +164,7 @@ void add_by_clock(Command live, LiveArguments& a) {
             .needs(player);
     for (const Option& each : others) lockstep.excludes(each);
     live.add_option("--speed", a.speed,
-                    "simulated per real time, with --player or --rosbridge (default: 1)")
+                    "simulated per real time, with --player, --rosbridge or --view (default: 1)")
         .check(above_zero())
         .excludes(lockstep);
 }
@@ -171,7 +178,8 @@ void add_live(Command app) {
         {"rovernet live examples/search/search.toml --controller \"python3 "
          "examples/search/search.py\"",
          "rovernet live examples/rescue/rescue.toml --player",
-         "rovernet live examples/rescue/rescue.toml --rosbridge"});
+         "rovernet live examples/rescue/rescue.toml --rosbridge",
+         "rovernet live examples/rescue/rescue.toml --view --view-control"});
     add_file(live, a, any_file);
     add_lockstep(live, a);
     add_by_clock(live, a);

@@ -126,6 +126,7 @@ void run(const RunArguments& a) {
         fmt::print("{}", to_toml(to_document(scenario)));
         return;
     }
+    if (a.view.is_given()) return run_viewed(a, scenario);
     std::optional<Waiting> waiting("setting up the network of " + a.file);
     std::optional<HeldStop> writing;  // not while the network is set up
     const RunResult result =

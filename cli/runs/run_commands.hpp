@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cli/runs/view_option.hpp"
 #include "cli/terminal/commands.hpp"
 #include "study/advise/advise_candidates.hpp"
 
@@ -19,8 +20,11 @@ struct RunArguments : FileArguments {
     bool json = false;
     bool print_scenario = false;
     bool record = false;
+    ViewOption view;
 };
 void run(const RunArguments& arguments);
+/// Runs a scenario that a page in a browser shows and paces, and serves the page until Ctrl-C.
+void run_viewed(const RunArguments& arguments, const Scenario& scenario);
 
 /// Arguments shared by the commands that run a study: sweep, compare, advise.
 struct StudyArguments : FileArguments {

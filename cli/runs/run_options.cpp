@@ -11,6 +11,7 @@ void add_run(Command app) {
         {"rovernet run examples/patrol/patrol.toml",
          "rovernet run examples/rescue/rescue.toml --seed 7 --out rescue-7",
          "rovernet run examples/rescue/rescue.toml --record",
+         "rovernet run examples/rescue/rescue.toml --view",
          "rovernet run examples/rescue/rescue.toml --set propagation.model=friis --json"});
     add_file(run, a, any_file);
     run.add_option(
@@ -21,6 +22,7 @@ void add_run(Command app) {
             [](const std::string& text) { return text.starts_with('x') ? text.substr(1) : text; })
         .check(above_zero());
     run.add_flag("--record", a.record, "write trace.mcap, too: all records, to replay");
+    a.view.add_to(run);
     add_json(run, a.json);
     run.add_flag("--print-scenario", a.print_scenario,
                  "print the scenario with every default, and do not run it");

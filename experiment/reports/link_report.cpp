@@ -222,6 +222,11 @@ LinkReport report_at(const Network& network, NodeId from, NodeId to, Time at) {
     return report;
 }
 
+void check_two(const Network& network, NodeId a, NodeId b) {
+    if (a != b) return;
+    throw std::invalid_argument("a link needs two robots, got \"" + network.name(a) + "\" twice");
+}
+
 }  // namespace
 
 LinkReport report_link(const Scenario& scenario, const std::string& from, const std::string& to,
@@ -230,10 +235,15 @@ LinkReport report_link(const Scenario& scenario, const std::string& from, const 
     Network network(network_settings(played));
     populate(network, played);
     const NodeId a = robot_named(network, from), b = robot_named(network, to);
-    if (a == b) throw std::invalid_argument("a link needs two robots, got \"" + from + "\" twice");
+    check_two(network, a, b);
     keep_others_still(network, played, {from, to});
     play_until(network, at, tell);
     return report_at(network, a, b, at);
+}
+
+LinkReport report_link(const Network& network, NodeId from, NodeId to) {
+    check_two(network, from, to);
+    return report_at(network, from, to, network.now());
 }
 
 Table link_document(const LinkReport& report) {

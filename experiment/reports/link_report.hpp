@@ -6,6 +6,7 @@
 #include "models/radio.hpp"
 #include "scenario/document/value.hpp"
 #include "scene/scene.hpp"
+#include "sim/ids.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 
@@ -16,6 +17,7 @@
 
 namespace rovernet {
 
+class Network;
 struct Scenario;
 
 /// Report of the state of the radio link from one robot to another robot at a given time.
@@ -56,6 +58,10 @@ struct LinkReport {
 /// @throws std::invalid_argument if a robot does not exist, or if both are the same robot
 LinkReport report_link(const Scenario& scenario, const std::string& from, const std::string& to,
                        Time at, const TellTime& tell = {});
+
+/// Reports the link from robot `from` to robot `to` at the present time of a network.
+/// @throws std::invalid_argument if both are the same robot
+LinkReport report_link(const Network& network, NodeId from, NodeId to);
 
 /// Link report as a document, the output of `rovernet link --json`.
 Table link_document(const LinkReport& report);

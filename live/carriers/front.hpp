@@ -48,11 +48,19 @@ class Front {
         std::function<void(Connection to, std::string_view message)> send_binary = {};
         /// Returns the fingerprint (hash of all records) of the run so far.
         std::function<std::string()> fingerprint = {};
+        /// Returns the number of bytes that are not sent to a WebSocket client yet.
+        std::function<std::size_t(Connection to)> unsent = {};
+        /// Sets the ratio of simulated time to real time [-] from now on; none: as fast as the
+        /// fronts permit.
+        std::function<void(std::optional<double>)> set_speed = {};
     };
 
     virtual ~Front() = default;
 
-    /// Starts the run. Session and scenario outlive the front.
+    /// Called before the first event of a run, so that the front may add sinks.
+    virtual void prepare(Session& /*session*/, const Scenario& /*scenario*/) {}
+    /// Starts the run, when all events of its start have been processed. The session ends with the
+    /// run; the scenario outlives the front.
     virtual void begin(Session& session, const Scenario& scenario) = 0;
     virtual void opened(Connection client, ListenerId at) = 0;
     /// Handles input from a client: the next piece of its byte stream, one WebSocket message, one
@@ -82,6 +90,9 @@ class Front {
     /// Called once the results are written. Messages sent in this call still reach the clients.
     /// @param metrics  metrics of the run, as in summary.json
     virtual void ended(std::string_view /*fingerprint*/, const Table& /*metrics*/) {}
+    /// Whether the front goes on to serve its clients after the call of ended(), until the user
+    /// stops the program.
+    virtual bool stays() const { return false; }
     /// Error that ended the run, such as a lost client; empty: no error.
     virtual std::string fault() const { return {}; }
     /// Adds the front's counters to the table `live` of summary.json.

@@ -370,6 +370,12 @@ void WebSockets::send_binary(Connection to, std::string_view bytes) {
     state_->send(to, {std::string(bytes), false});
 }
 
+std::size_t WebSockets::unsent(Connection to) const {
+    const auto found = state_->clients.find(to);
+    if (found == state_->clients.end() || found->second->output.empty()) return 0;
+    return found->second->output.front().bytes.size() + found->second->waiting;
+}
+
 void WebSockets::close(Connection which) {
     const auto found = state_->clients.find(which);
     if (found != state_->clients.end()) state_->leave(found->second, close_code::normal);

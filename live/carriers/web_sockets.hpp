@@ -76,6 +76,8 @@ class WebSockets {
     /// Sends a text message to a client; send_binary() sends a binary message.
     void send(Connection to, std::string_view text);
     void send_binary(Connection to, std::string_view bytes);
+    /// Number of bytes of messages to a client that are not sent yet.
+    std::size_t unsent(Connection to) const;
     /// Closes a connection once all data is sent. The handler `closed` is called later, not by this
     /// call.
     void close(Connection which);

@@ -54,9 +54,15 @@ ViewerAnswers::ViewerAnswers(const std::string& trace)
     scenario_ = replayed_->with({});
 }
 
+ViewerAnswers::ViewerAnswers(std::shared_ptr<const Network> network)
+    : running_(std::move(network)), parser_(std::make_unique<JsonParser>()) {
+    for (std::uint32_t i = 0; i < running_->size(); ++i)
+        robots_.push_back(running_->name(NodeId{i}));
+}
+
 ViewerAnswers::~ViewerAnswers() = default;
 
-std::string ViewerAnswers::answer(std::string_view question) {
+std::string ViewerAnswers::answer(std::string_view question, const Others& others) {
     Table answer;
     Value id;
     try {
@@ -64,7 +70,10 @@ std::string ViewerAnswers::answer(std::string_view question) {
             throw RequestError("too_long", "", "a question has at most 64 KiB");
         const JsonElement asked{parser_->parse(question), {}};
         id = Value(member(asked, "id").whole_number(0, 1U << 31U));
-        answer = answer_of(asked);
+        const std::string_view op = member(asked, "op").text();
+        const std::optional<Table> other = others ? others(op, asked) : std::nullopt;
+        answer = other ? *other : answer_of(op, asked);
+        if (running_) answer.set("t_ns", (running_->now() - start_of_run).count());
     } catch (const std::exception& error) {
         answer = {};
         answer.set("error", error.what());
@@ -73,8 +82,7 @@ std::string ViewerAnswers::answer(std::string_view question) {
     return to_json_line(std::move(answer));
 }
 
-Table ViewerAnswers::answer_of(const JsonElement& question) const {
-    const std::string op(member(question, "op").text());
+Table ViewerAnswers::answer_of(std::string_view op, const JsonElement& question) const {
     if (op == "why") return why(question);
     if (op == "pair") return pair(question);
     if (op == "robot") return links(question);
@@ -83,8 +91,9 @@ Table ViewerAnswers::answer_of(const JsonElement& question) const {
                        fmt::format("found \"{}\", expected why, pair, robot or coverage", op));
 }
 
-const std::string& ViewerAnswers::robot(const JsonElement& question, std::string_view key) const {
-    return robots_[member(question, key).whole_number(0, robots_.size() - 1)];
+NodeId ViewerAnswers::robot(const JsonElement& question, std::string_view key) const {
+    return NodeId{
+        static_cast<std::uint32_t>(member(question, key).whole_number(0, robots_.size() - 1))};
 }
 
 Time ViewerAnswers::time(const JsonElement& question) const {
@@ -93,37 +102,50 @@ Time ViewerAnswers::time(const JsonElement& question) const {
     return start_of_run + Duration{static_cast<std::int64_t>(t)};
 }
 
+/// Network at the time of a question, or the one that runs.
+std::shared_ptr<const Network> ViewerAnswers::network(const JsonElement& question) const {
+    return running_ ? running_ : network_at(scenario_, time(question));
+}
+
 Table ViewerAnswers::why(const JsonElement& question) const {
     const std::uint64_t uid = member(question, "uid").whole_number(0, 1ULL << 53U);
-    const std::uint64_t robot = member(question, "robot").whole_number(0, robots_.size() - 1);
-    return document_of(message_at_robot(trace_, uid, NodeId{static_cast<std::uint32_t>(robot)}));
+    const NodeId node = robot(question, "robot");
+    if (running_) {
+        throw RequestError(
+            "not_recorded", "op",
+            "the reason is found in the recorded trace: when a run with --record has "
+            "ended, `rovernet view` of its folder answers");
+    }
+    return document_of(message_at_robot(trace_, uid, node));
 }
 
 Table ViewerAnswers::pair(const JsonElement& question) const {
-    const std::string &a = robot(question, "a"), &b = robot(question, "b");
-    const Time at = time(question);
+    const NodeId a = robot(question, "a"), b = robot(question, "b");
+    const auto link = [&](NodeId from, NodeId to) {
+        return link_document(
+            running_ ? report_link(*running_, from, to)
+                     : report_link(scenario_, name_of(from), name_of(to), time(question)));
+    };
     Table answer;
-    answer.set("links", Array{link_document(report_link(scenario_, a, b, at)),
-                              link_document(report_link(scenario_, b, a, at))});
+    answer.set("links", Array{link(a, b), link(b, a)});
     return answer;
 }
 
 Table ViewerAnswers::links(const JsonElement& question) const {
-    const std::string& name = robot(question, "robot");
-    const auto network = network_at(scenario_, time(question));
+    const NodeId node = robot(question, "robot");
+    const auto network = this->network(question);
     Table answer;
-    for_each_link_table(*network, name,
+    for_each_link_table(*network, name_of(node),
                         [&](const LinkTable& table) { answer = link_table_document(table); });
     return answer;
 }
 
 Table ViewerAnswers::coverage(const JsonElement& question) const {
-    const std::uint64_t robot = member(question, "robot").whole_number(0, robots_.size() - 1);
+    const NodeId node = robot(question, "robot");
     const std::uint64_t cells = member(question, "cells").whole_number(1, most_cells);
-    const auto network = network_at(scenario_, time(question));
+    const auto network = this->network(question);
     const std::size_t storeys = network->scene().storeys().size();
     const std::uint64_t storey = member(question, "storey").whole_number(0, storeys - 1);
-    const NodeId node{static_cast<std::uint32_t>(robot)};
     const auto [low, high] = shown_area(*network);
     const CoverageMap map =
         rovernet::coverage(transmitter(*network, node, node, storey, network->now()), low, high,

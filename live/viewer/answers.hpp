@@ -4,8 +4,11 @@
 #include "experiment/recorded_scenario.hpp"
 #include "scenario/document/value.hpp"
 #include "scenario/scenario.hpp"
+#include "sim/ids.hpp"
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,31 +17,41 @@ namespace rovernet {
 
 struct JsonElement;
 class JsonParser;
+class Network;
 
-/// Answers to the questions of the viewer's page about a recorded run (docs/view-format.md): why a
-/// robot has a message, link budgets, link tables, coverage. Each answer is computed by the
-/// function that the command line calls for the same question.
+/// Answers to the questions of the viewer's page about a run (docs/view-format.md): why a robot has
+/// a message, link budgets, link tables, coverage. Each answer is computed by the function that the
+/// command line calls for the same question.
 class ViewerAnswers {
   public:
+    /// Answers about a recorded run, at any of its times.
     /// @param trace  path of the recorded trace
     /// @throws InputError if the trace has no scenario
     explicit ViewerAnswers(const std::string& trace);
+    /// Answers about a network that runs, at its present time, which the answers name as `t_ns`.
+    explicit ViewerAnswers(std::shared_ptr<const Network> network);
     ~ViewerAnswers();
 
+    /// Other questions, by their key `op`; no answer: an unknown question.
+    using Others =
+        std::function<std::optional<Table>(std::string_view op, const JsonElement& question)>;
     /// Answer to a question, both as JSON. An error is an answer with the key `error`.
-    std::string answer(std::string_view question);
+    std::string answer(std::string_view question, const Others& others = {});
 
   private:
-    Table answer_of(const JsonElement& question) const;
+    Table answer_of(std::string_view op, const JsonElement& question) const;
     Table why(const JsonElement& question) const;
     Table pair(const JsonElement& question) const;
     Table links(const JsonElement& question) const;
     Table coverage(const JsonElement& question) const;
-    const std::string& robot(const JsonElement& question, std::string_view key) const;
+    NodeId robot(const JsonElement& question, std::string_view key) const;
+    const std::string& name_of(NodeId robot) const { return robots_[robot.index()]; }
     Time time(const JsonElement& question) const;
+    std::shared_ptr<const Network> network(const JsonElement& question) const;
 
-    std::string trace_;
-    std::vector<std::string> robots_;  // names by NodeId
+    std::string trace_;                       // empty: of a network that runs
+    std::shared_ptr<const Network> running_;  // null: of a trace
+    std::vector<std::string> robots_;         // names by NodeId
     std::unique_ptr<ReplayedScenario> replayed_;
     Scenario scenario_;
     std::unique_ptr<JsonParser> parser_;

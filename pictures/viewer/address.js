@@ -8,7 +8,7 @@ const address = (() => {
     /** @returns {string} */
     function text() {
         const { t, speed, storey, view, span, robots: chosen, message, filter, panel, trails } = selection.state, p = new URLSearchParams();
-        p.set("t", words_of_time(t));
+        if (!live.is_live() || !live.follows()) p.set("t", words_of_time(t));
         if (speed !== 1) p.set("speed", String(Number(speed.toPrecision(4))));
         if (storey) p.set("storey", String(storey + 1));
         if (view) p.set("view", [view.x, view.y, view.scale].map(v => Number(v.toPrecision(7))).join(","));

@@ -4,7 +4,7 @@
 /** @typedef {InstanceType<typeof blocks.Blocks>} Blocks */
 const blocks = (() => {
     "use strict";
-    const most_kept = 8;
+    const most_kept = 8, small = 16384, most_grown = 2e7;  // blocks, receptions
 
     /** Frames of a part of the run, in order of their start. Frame i has the receptions first[i] to first[i + 1]. */
     class Block {
@@ -53,6 +53,22 @@ const blocks = (() => {
         return block;
     }
 
+    /** Block with the frames of another one behind its own. @param {Block} one @param {Block} more */
+    function joined(one, more) {
+        /** @param {Numbers} a @param {Numbers} b */
+        const both = (a, b) => {
+            const out = new (/** @type {any} */ (b.constructor))(a.length + b.length);
+            out.set(a);
+            out.set(b, a.length);
+            return out;
+        };
+        const n = one.robot.length, first = new Uint32Array(one.first.length + more.flights);
+        first.set(one.first);
+        for (let i = 1; i <= more.flights; i++) first[one.flights + i] = n + more.first[i];
+        const columns = /** @type {const} */ (["start", "airtime", "sender", "to", "message", "kind", "ttl", "hops"]).map(name => both(one[name], more[name]));
+        return new Block(one.number, [...columns, first, both(one.robot, more.robot), both(one.outcome, more.outcome)], first);
+    }
+
     /** The blocks of a run; the last ones used are kept. */
     class Blocks {
         /** @param {Run} r */
@@ -64,6 +80,8 @@ const blocks = (() => {
             /** Kinds of frames that were met. @type {Set<number>} */ this.kinds = new Set();
             /** Called when a block has come. @type {() => void} */ this.arrived = () => {};
             /** @type {(error: Error) => void} */ this.failed = () => {};
+            /** Counts every block that has come. */ this.version = 0;
+            /** Receptions of a run that goes on, all of which are here. */ this.grown = 0;
             /** Latest end of the blocks up to each. @type {number[]} */
             this.until = [];
             for (const info of this.info) this.until.push(Math.max(info.end_ns, this.until.at(-1) ?? 0));
@@ -79,6 +97,7 @@ const blocks = (() => {
             }
             const coming = this.coming.get(number) ?? read(this.run, number).then(block => {
                 this.kept.set(number, block);
+                this.version++;
                 for (const kind of block.kind) this.kinds.add(kind);
                 const oldest = this.kept.keys().next().value;
                 if (this.kept.size > most_kept && oldest !== undefined) this.kept.delete(oldest);
@@ -86,6 +105,29 @@ const blocks = (() => {
             }).finally(() => this.coming.delete(number));
             this.coming.set(number, coming);
             return coming;
+        }
+
+        /** Adds the next frames of a run that goes on. The oldest ones go when there are too many. @param {Block} block */
+        append(block) {
+            let number = this.info.length;
+            const last = this.kept.get(number - 1);
+            if (last && last.robot.length + block.robot.length <= small) {
+                block = joined(last, block);
+                number--;
+            }
+            block.number = number;
+            let end = 0;
+            for (let i = 0; i < block.flights; i++) end = Math.max(end, block.end(i));
+            this.info[number] = { begin_ns: block.start[0] ?? 0, end_ns: end, flights: block.flights, receptions: block.robot.length };
+            this.until[number] = Math.max(end, this.until[number - 1] ?? 0);
+            this.kept.set(number, block);
+            for (const kind of block.kind) this.kinds.add(kind);
+            this.version++;
+            this.grown += block.robot.length - (last?.number === number ? last.robot.length : 0);
+            for (let n = 0; this.grown > most_grown && n < number; n++) {
+                this.grown -= this.kept.get(n)?.robot.length ?? 0;
+                this.kept.set(n, new Block(n, [], new Uint32Array(1)));
+            }
         }
 
         /** A block, if it is there; else it is on its way. @param {number} number @returns {Block|undefined} */
@@ -121,5 +163,5 @@ const blocks = (() => {
         }
     }
 
-    return { Block, Blocks };
+    return { Block, Blocks, read };
 })();

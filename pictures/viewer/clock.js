@@ -13,15 +13,16 @@ const clock = (() => {
         const t = state.t + Math.min(250, now - last) * 1e6 * state.speed;
         last = now;
         const end = parts.end;
-        selection.set(t >= end ? { t: end, playing: false } : { t: Math.max(0, t) });
+        if (t >= end && parts.open) live.reach();
+        selection.set(t >= end ? { t: end, playing: parts.open } : { t: Math.max(0, t) });
         if (selection.state.playing) frame = requestAnimationFrame(tick);
     }
-    const parts = { end: 0 };
+    const parts = { end: 0, open: false };
 
     /** @param {boolean} on */
     function play(on) {
         const { state } = selection;
-        if (on && state.t >= parts.end) selection.set({ t: 0 });
+        if (on && state.t >= parts.end && !parts.open) selection.set({ t: 0 });
         selection.set({ playing: on });
         if (!on || frame) return;
         last = performance.now();
@@ -29,10 +30,16 @@ const clock = (() => {
     }
 
     /** @param {number} t [ns] */
-    function seek(t) { selection.set({ t: Math.min(parts.end, Math.max(0, t)) }); }
+    function seek(t) {
+        live.leave();
+        selection.set({ t: Math.min(parts.end, Math.max(0, t)) });
+    }
 
     /** Speed as a power of ten, within bounds. @param {number} power */
-    function set_power(power) { selection.set({ speed: 10 ** Math.min(fastest, Math.max(slowest, power)) }); }
+    function set_power(power) {
+        selection.set({ speed: 10 ** Math.min(fastest, Math.max(slowest, power)) });
+        live.pace(selection.state.speed);
+    }
     function power() { return Math.log10(selection.state.speed); }
 
     /** @param {number} speed */
@@ -44,5 +51,8 @@ const clock = (() => {
     /** @param {number} end [ns] */
     function begin(end) { parts.end = end; }
 
-    return { begin, play, seek, set_power, power, speed_text, slowest, fastest };
+    /** The run has come to a time. @param {number} end [ns] @param {boolean} open whether it goes on */
+    function extend(end, open) { Object.assign(parts, { end, open }); }
+
+    return { begin, extend, play, seek, set_power, power, speed_text, slowest, fastest };
 })();

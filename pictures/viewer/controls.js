@@ -13,7 +13,8 @@ const controls = (() => {
         const { state, set } = selection, head = own.run.head;
         /** @param {number} factor */
         const zoom = factor => set({ view: camera.zoomed(factor, camera.now.width / 2, camera.now.height / 2, head) });
-        on_click("play", () => clock.play(!state.playing));
+        on_click("play", live.play);
+        on_click("present", live.follow);
         on_click("before", () => list.step(-1));
         on_click("next", () => list.step(1));
         on_click("trails", () => set({ trails: !state.trails }));
@@ -73,7 +74,7 @@ const controls = (() => {
         });
         area.addEventListener("pointerup", event => {
             down.delete(event.pointerId);
-            if (moved >= 4) return;
+            if (moved >= 4 || drive.takes(event.offsetX, event.offsetY)) return;
             const robot = robots.near(own.run, event.offsetX, event.offsetY, state.storey);
             selection.choose(robot, event.shiftKey);
             if (robot >= 0 && state.robots.length === 2) set({ panel: "pair" });
@@ -92,6 +93,9 @@ const controls = (() => {
     function tell(state) {
         const head = own.run.head;
         dom.by_id("time").textContent = `${words.seconds(state.t, state.speed < 1e-3 ? 9 : 6)} s`;
+        dom.by_id("present").hidden = !live.is_live();
+        dom.by_id("present").textContent = live.text();
+        dom.by_id("present").setAttribute("aria-pressed", String(live.goes_on() && live.follows()));
         dom.by_id("of-time").textContent = `of ${words.number(head.duration_ns / run.nanoseconds)} s`;
         const speed = clock.speed_text(state.speed), slider = dom.input("speed");
         dom.by_id("speed-text").textContent = speed;

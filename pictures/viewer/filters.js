@@ -2,7 +2,7 @@
 // Filter of the list of events: kinds, outcomes, one robot, one message.
 const filters = (() => {
     "use strict";
-    /** @type {{run: Run, filter: Filter|null}} */ const own = { run: /** @type {any} */ (null), filter: null };
+    /** @type {{run: Run, filter: Filter|null, there: string}} */ const own = { run: /** @type {any} */ (null), filter: null, there: "" };
 
     /** @param {Partial<Filter>} patch */
     function change(patch) { selection.set({ filter: { ...selection.state.filter, ...patch } }); }
@@ -18,12 +18,11 @@ const filters = (() => {
 
     /** @param {State} state */
     function update(state) {
-        const { filter } = state;
-        if (filter === own.filter) return;
-        own.filter = filter;
-        const r = own.run, counts = new Array(signs.count).fill(0), parts = [];
-        r.head.counts.outcomes.forEach((n, outcome) => counts[signs.of(outcome)] += n);
+        const { filter } = state, r = own.run, counts = signs.counts(r), parts = [];
         const there = [r.messages > 0, r.col("doors.time").length > 0, r.col("states.time").length > 0, r.head.counts.flights > 0, r.head.counts.receptions > 0, r.col("drops.time").length > 0];
+        const what = [...there, ...counts.map(n => n > 0)].join();
+        if (filter === own.filter && what === own.there) return;
+        Object.assign(own, { filter, there: what });
         events.kind_names.forEach((name, kind) => {
             const on = Boolean(filter.kinds >> kind & 1);
             if (there[kind]) parts.push(toggle(`${name}s`.replace("message sents", "sent").replace("losss", "losses"), on, `${name}: shown or not`, () => change({ kinds: filter.kinds ^ 1 << kind })));

@@ -73,7 +73,7 @@ std::uint32_t FrameColumns::index_of(MessageId id, const RecordContext& context)
     Known& known = known_[id.index()];
     if (known.uid == message.uid) return known.index;
     MessageColumns& m = messages_;
-    known = {message.uid, static_cast<std::uint32_t>(m.uid.size())};
+    known = {message.uid, forgotten_ + static_cast<std::uint32_t>(m.uid.size())};
     m.uid.push_back(static_cast<double>(message.uid));
     m.created.push_back(static_cast<double>(whole_ns(message.created)));
     m.origin.push_back(message.origin.value);
@@ -166,12 +166,60 @@ std::vector<FrameColumns::Missed> FrameColumns::missed(std::size_t robots, std::
 
 void FrameColumns::write(ViewFile& file, Table& head, std::size_t robots, Time end,
                          const FrameChoice& choice) {
+    const std::vector<std::uint32_t> first = sort_receptions();
     write_messages(file, robots, choice.payload_bytes);
+    write_names(head);
+    write_losses(file, head, robots);
+    write_density(file, head, end, Bins::all);
+    write_counts(head, flights_.size(), receptions_.size());
+    write_frames(file, head, robots, choice, first);
+}
+
+std::size_t FrameColumns::write_part(ViewDraft& rest, ViewDraft& frames, std::size_t robots,
+                                     Time end, Time now) {
+    constexpr std::int64_t longest_delay = 1'000'000;  // [ns]: light travels 300 km
+    const std::int64_t past =
+        now == never ? std::numeric_limits<std::int64_t>::max() : whole_ns(now) - longest_delay;
+    const auto on_air = std::find_if(flights_.begin(), flights_.end(),
+                                     [&](const Flight& f) { return f.end() >= past; });
+    const auto flights = static_cast<std::size_t>(on_air - flights_.begin());
+    const std::vector<std::uint32_t> first = sort_receptions();
+    const std::size_t receptions = first[flights];
+    std::vector<RobotReception> later(receptions_.begin() + static_cast<std::ptrdiff_t>(receptions),
+                                      receptions_.end());
+    receptions_.resize(receptions);
+    write_messages(rest.file, robots, FrameChoice{}.payload_bytes);
+    write_names(rest.head);
+    write_losses(rest.file, rest.head, robots);
+    write_density(rest.file, rest.head, end, Bins::used);
+    write_counts(rest.head, flights, receptions);
+    if (flights > 0) {
+        const Table block = write_block(frames.file, "0/", {0, flights}, first, robots);
+        frames.head.set("blocks", Array{block});
+    }
+    receptions_ = std::move(later);
+    forget(flights);
+    return flights;
+}
+
+/// Forgets the messages, the losses, and the first `flights` frames, whose receptions are gone.
+void FrameColumns::forget(std::size_t flights) {
+    const auto gone = static_cast<std::uint32_t>(flights);
+    const auto shift = [&](std::uint32_t& flight) {
+        if (flight != no_index) flight = flight < gone ? no_index : flight - gone;
+    };
+    flights_.erase(flights_.begin(), flights_.begin() + static_cast<std::ptrdiff_t>(flights));
+    for (Flight& flight : flights_) shift(flight.before);
+    for (std::uint32_t& flight : last_flights_) shift(flight);
+    for (RobotReception& reception : receptions_) shift(reception.flight);
+    forgotten_ += static_cast<std::uint32_t>(messages_.uid.size());
+    messages_ = {};
+    losses_.clear();
+}
+
+void FrameColumns::write_names(Table& head) const {
     head.set("message_kinds", Array(message_kinds_.list.begin(), message_kinds_.list.end()));
     head.set("frame_kinds", Array(frame_kinds_.list.begin(), frame_kinds_.list.end()));
-    write_losses(file, head, robots);
-    write_density(file, head, end);
-    write_frames(file, head, robots, choice);
 }
 
 void FrameColumns::write_messages(ViewFile& file, std::size_t robots, std::size_t payload_bytes) {
@@ -195,7 +243,7 @@ void FrameColumns::write_losses(ViewFile& file, Table& head, std::size_t robots)
     };
     file.add_times("drops.time", of(std::int64_t{}, &Loss::time));
     file.add_indices("drops.robot", of(std::uint32_t{}, &Loss::robot), robots);
-    file.add_indices("drops.message", of(std::uint32_t{}, &Loss::message), messages_.uid.size());
+    file.add("drops.message", of(std::uint32_t{}, &Loss::message));
     file.add("drops.reason", of(std::uint8_t{}, &Loss::reason));
     Array reasons;
     for (const Reason& each : reasons_) {
@@ -208,28 +256,49 @@ void FrameColumns::write_losses(ViewFile& file, Table& head, std::size_t robots)
     head.set("drops", std::move(reasons));
 }
 
-void FrameColumns::write_density(ViewFile& file, Table& head, Time end) const {
+/// Writes the number of receptions of each outcome in each interval of time. The receptions must be
+/// sorted by flight.
+void FrameColumns::write_density(ViewFile& file, Table& head, Time end, Bins wanted) const {
+    const bool is_part = wanted == Bins::used;
     Array levels;
-    std::array<std::uint64_t, outcomes> all{};
-    for (const RobotReception& r : receptions_) ++all[r.outcome];
     for (const std::size_t bins : {1U << 12U, 1U << 16U}) {
         const std::int64_t width = std::max<std::int64_t>(
             1, (whole_ns(end) + static_cast<std::int64_t>(bins)) / static_cast<std::int64_t>(bins));
-        std::vector<std::uint32_t> counts(bins * outcomes);
+        const auto bin_of = [&](std::uint32_t flight) {
+            return std::min(static_cast<std::size_t>(flights_[flight].end() / width), bins - 1);
+        };
+        std::size_t begin = is_part ? bins : 0, after = is_part ? 0 : bins;
+        const std::uint32_t flights =
+            is_part && !receptions_.empty() ? receptions_.back().flight + 1 : 0;
+        for (std::uint32_t f = 0; f < flights; ++f) {
+            begin = std::min(begin, bin_of(f));
+            after = std::max(after, bin_of(f) + 1);
+        }
+        begin = std::min(begin, after);
+        std::vector<std::uint32_t> counts((after - begin) * outcomes);
+        std::uint32_t flight = no_index;
+        std::uint32_t* bin = nullptr;
         for (const RobotReception& r : receptions_) {
-            const auto bin = static_cast<std::size_t>(flights_[r.flight].end() / width);
-            ++counts[std::min(bin, bins - 1) * outcomes + r.outcome];
+            if (r.flight != flight) bin = &counts[(bin_of(r.flight) - begin) * outcomes];
+            flight = r.flight;
+            ++bin[r.outcome];
         }
         file.add(fmt::format("density.{}", levels.size()), counts);
         Table level;
         level.set("bins", std::uint64_t{bins});
         level.set("width_ns", width);
+        if (is_part) level.set("begin", std::uint64_t{begin});
         levels.emplace_back(std::move(level));
     }
     head.set("density", std::move(levels));
+}
+
+void FrameColumns::write_counts(Table& head, std::size_t flights, std::size_t receptions) const {
+    std::array<std::uint64_t, outcomes> all{};
+    for (const RobotReception& r : receptions_) ++all[r.outcome];
     Table counts;
-    counts.set("flights", std::uint64_t{flights_.size()});
-    counts.set("receptions", std::uint64_t{receptions_.size()});
+    counts.set("flights", std::uint64_t{flights});
+    counts.set("receptions", std::uint64_t{receptions});
     counts.set("messages", std::uint64_t{messages_.uid.size()});
     counts.set("outcomes", Array(all.begin(), all.end()));
     head.set("counts", std::move(counts));
@@ -237,9 +306,9 @@ void FrameColumns::write_density(ViewFile& file, Table& head, Time end) const {
 
 /// Writes the chosen frames as blocks, one behind the other.
 void FrameColumns::write_frames(ViewFile& file, Table& head, std::size_t robots,
-                                const FrameChoice& choice) {
+                                const FrameChoice& choice,
+                                const std::vector<std::uint32_t>& first) {
     constexpr std::size_t block_size = 1U << 18U;  // [receptions]
-    const std::vector<std::uint32_t> first = sort_receptions();
     const auto starts_before = [](const Flight& f, std::int64_t t) { return f.start < t; };
     const auto place = [&](std::int64_t t) {
         const auto at = std::lower_bound(flights_.begin(), flights_.end(), t, starts_before);
@@ -254,20 +323,15 @@ void FrameColumns::write_frames(ViewFile& file, Table& head, std::size_t robots,
         do ++end;
         while (end < to && first[end + 1] - first[begin] <= block_size);
         const std::string name = fmt::format("{}/", blocks.size());
-        write_block(file, name, {begin, end}, first, robots);
-        Table block;
-        block.set("begin_ns", flights_[begin].start);
-        block.set("end_ns", flights_[end - 1].end());
-        block.set("flights", std::uint64_t{end - begin});
-        block.set("receptions", std::uint64_t{first[end] - first[begin]});
-        blocks.emplace_back(std::move(block));
+        blocks.emplace_back(write_block(file, name, {begin, end}, first, robots));
     }
     head.set("blocks", std::move(blocks));
     left_out_ = flights_.size() - (to - from);
 }
 
-void FrameColumns::write_block(ViewFile& file, const std::string& name, const Block& block,
-                               const std::vector<std::uint32_t>& first, std::size_t robots) const {
+/// @return the block's entry in the head
+Table FrameColumns::write_block(ViewFile& file, const std::string& name, const Block& block,
+                                const std::vector<std::uint32_t>& first, std::size_t robots) const {
     const std::span flights(flights_.begin() + static_cast<std::ptrdiff_t>(block.begin),
                             block.end - block.begin);
     const auto of = [&](auto number, auto member) {
@@ -279,7 +343,7 @@ void FrameColumns::write_block(ViewFile& file, const std::string& name, const Bl
     file.add(name + "flights.airtime", of(index, &Flight::airtime));
     file.add_indices(name + "flights.sender", of(index, &Flight::sender), robots);
     file.add_indices(name + "flights.to", of(index, &Flight::to), robots);
-    file.add_indices(name + "flights.message", of(index, &Flight::message), messages_.uid.size());
+    file.add(name + "flights.message", of(index, &Flight::message));
     file.add(name + "flights.kind", of(small, &Flight::kind));
     file.add(name + "flights.ttl", of(small, &Flight::ttl));
     file.add(name + "flights.hops", of(small, &Flight::hops));
@@ -293,6 +357,12 @@ void FrameColumns::write_block(ViewFile& file, const std::string& name, const Bl
                      robots);
     file.add(name + "receptions.outcome",
              column<std::uint8_t>(heard, [](const RobotReception& r) { return r.outcome; }));
+    Table entry;
+    entry.set("begin_ns", flights_[block.begin].start);
+    entry.set("end_ns", flights_[block.end - 1].end());
+    entry.set("flights", std::uint64_t{block.end - block.begin});
+    entry.set("receptions", std::uint64_t{heard.size()});
+    return entry;
 }
 
 }  // namespace rovernet

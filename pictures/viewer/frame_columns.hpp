@@ -15,6 +15,7 @@
 namespace rovernet {
 
 class ViewFile;
+struct ViewDraft;
 
 /// Choice of the frames in a view file.
 struct FrameChoice {
@@ -58,6 +59,13 @@ class FrameColumns {
     /// @param end     end of the run
     void write(ViewFile& file, Table& head, std::size_t robots, Time end,
                const FrameChoice& choice);
+    /// Writes what came since the last call, and forgets it: to `rest` messages, losses and
+    /// density, to `frames` the frames that have ended, with their receptions. Frames that began
+    /// later than one that has not ended are written by a later call.
+    /// @param now  present time of the run; `never`: the run is over, and all frames have ended
+    /// @return number of frames written
+    std::size_t write_part(ViewDraft& rest, ViewDraft& frames, std::size_t robots, Time end,
+                           Time now);
 
   private:
     struct MessageColumns {
@@ -99,6 +107,8 @@ class FrameColumns {
     struct Block {
         std::size_t begin, end;
     };
+    /// Intervals of time of the density: all of the run, or those in which receptions are.
+    enum class Bins { all, used };
     /// Different texts, in the order of first use.
     struct Names {
         std::vector<std::string> list;
@@ -111,15 +121,20 @@ class FrameColumns {
     std::uint32_t index_of(MessageId id, const RecordContext& context);
     std::uint32_t flight_of(NodeId sender, std::uint32_t message, Time received) const;
     std::vector<std::uint32_t> sort_receptions();
+    void write_names(Table& head) const;
     void write_messages(ViewFile& file, std::size_t robots, std::size_t payload_bytes);
     void write_losses(ViewFile& file, Table& head, std::size_t robots) const;
-    void write_density(ViewFile& file, Table& head, Time end) const;
-    void write_frames(ViewFile& file, Table& head, std::size_t robots, const FrameChoice& choice);
-    void write_block(ViewFile& file, const std::string& name, const Block& block,
-                     const std::vector<std::uint32_t>& first, std::size_t robots) const;
+    void write_density(ViewFile& file, Table& head, Time end, Bins bins) const;
+    void write_counts(Table& head, std::size_t flights, std::size_t receptions) const;
+    void write_frames(ViewFile& file, Table& head, std::size_t robots, const FrameChoice& choice,
+                      const std::vector<std::uint32_t>& first);
+    Table write_block(ViewFile& file, const std::string& name, const Block& block,
+                      const std::vector<std::uint32_t>& first, std::size_t robots) const;
+    void forget(std::size_t flights);
 
     MessageColumns messages_;
-    std::vector<Known> known_;  // by MessageId
+    std::uint32_t forgotten_ = 0;  // number of messages before messages_
+    std::vector<Known> known_;     // by MessageId
     std::vector<Flight> flights_;
     std::vector<std::uint32_t> last_flights_;  // by NodeId; no_index: none
     std::vector<RobotReception> receptions_;

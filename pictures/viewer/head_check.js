@@ -45,10 +45,20 @@ const head_check = (() => {
         sections: list(object({ name: text }))
     };
 
+    const live = object({ now_ns: count });
+    /** Parts of the head of a part of a run that goes on; they need not be there. @type {Record<string, Test>} */
+    const later = { ...parts, live };
+
+    /** Name of the first part that is wrong in the head of a later part of a run, or "". @param {any} head */
+    function part_fault(head) {
+        if (!Array.isArray(head.sections)) return "sections";
+        return Object.keys(later).find(key => head[key] !== undefined && !later[key]?.(head[key])) ?? "";
+    }
+
     /** Name of the first part that is missing or wrong, or "". @param {any} head */
     function fault(head) {
         return Object.keys(parts).find(key => !parts[key]?.(head[key])) ?? "";
     }
 
-    return { fault, outcomes };
+    return { fault, part_fault, outcomes };
 })();

@@ -45,9 +45,9 @@ const keys = (() => {
 
     /** @type {Record<string, (event: KeyboardEvent) => void>} */
     const actions = {
-        " ": () => clock.play(!selection.state.playing), k: () => clock.play(!selection.state.playing),
+        " ": live.play, k: live.play,
         ArrowLeft: e => step(e, -1), ArrowRight: e => step(e, 1), j: e => step(e, -1), l: e => step(e, 1),
-        Home: () => clock.seek(0), End: () => clock.seek(own.run.duration),
+        Home: () => clock.seek(0), End: () => live.is_live() ? live.follow() : clock.seek(own.run.duration),
         "[": () => clock.set_power(clock.power() - 0.5), "]": () => clock.set_power(clock.power() + 0.5),
         "+": () => zoom(1.4), "=": () => zoom(1.4), "-": () => zoom(1 / 1.4), 0: () => selection.set({ view: null }),
         "<": () => timeline.zoom(0.5, timeline.middle()), ">": () => timeline.zoom(2, timeline.middle()),

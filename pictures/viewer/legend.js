@@ -72,8 +72,7 @@ const legend = (() => {
     /** @param {Run} r @param {Blocks} all @returns {HTMLElement[]} */
     function frames(r, all) {
         /** @type {HTMLElement[]} */ const out = [];
-        const counts = new Array(signs.count).fill(0);
-        r.head.counts.outcomes.forEach((n, outcome) => counts[signs.of(outcome)] += n);
+        const counts = signs.counts(r);
         if (r.head.counts.flights === 0) return out;
         for (const kind of [...all.kinds].sort((x, y) => x - y)) {
             const name = r.head.frame_kinds[kind];
@@ -93,7 +92,7 @@ const legend = (() => {
 
     /** @param {Run} r @param {Blocks} all @param {State} state */
     function draw(r, all, state) {
-        const key = [camera.now.scale, camera.now.width, state.storey, state.trails, theme.is_dark(), devicePixelRatio, all.kinds.size, coverage.version(), message_panel.version()].join(" ");
+        const key = [camera.now.scale, camera.now.width, state.storey, state.trails, theme.is_dark(), devicePixelRatio, all.kinds.size, coverage.version(), message_panel.version(), signs.counts(r).map(n => n > 0)].join(" ");
         if (key === last) return;
         last = key;
         dom.by_id("legend").replaceChildren(scale_bar(), ...places(r, state.storey), ...marks(r, state), ...frames(r, all), ...message_panel.legend(item), ...coverage.legend(item));

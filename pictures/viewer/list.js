@@ -123,6 +123,7 @@ const list = (() => {
                 if (away > 0 && passes(rows[i], w)) return clock.seek(w.time[rows[i]]);
             }
         }
+        if (direction > 0) live.step();
     }
 
     /** @param {MouseEvent} event */
@@ -143,11 +144,18 @@ const list = (() => {
         dom.by_id("events").addEventListener("click", clicked);
     }
 
+    /** The events of the last block are more than before. */
+    function renew() {
+        const last = own.blocks.info.length - 1;
+        for (const number of own.kept.keys()) if (number >= last - 1) own.kept.delete(number);
+        if (own.window && own.window.number >= last - 1) own.window = null;
+    }
+
     /** First row in sight and the one of the time, for tests. */
     function seen() {
         const current = row_at(selection.state.t), w = own.window;
         return current < 0 || !w || w.number !== own.blocks.at(selection.state.t) ? null : { time: w.time[own.rows[current]], text: events.text(own.run, w, own.rows[current]), rows: own.rows.length };
     }
 
-    return { begin, draw, step, seen, own };
+    return { begin, draw, step, renew, seen, own };
 })();

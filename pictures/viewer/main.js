@@ -64,6 +64,7 @@ const main = (() => {
         timeline.draw();
         controls.tell(state);
         controls.status(whole);
+        if (live.is_live()) introduce(r.head);
         filters.update(state);
         list.draw(true);
         message_panel.update(state);
@@ -91,7 +92,8 @@ const main = (() => {
         if (head.replication) parts.push(`replication ${head.replication}`);
         parts.push(words.counted(head.counts.messages, "message"), words.counted(head.counts.flights, "frame"), words.counted(head.counts.receptions, "reception"), `rovernet ${head.version.split(" ")[0]}`);
         dom.by_id("caption").textContent = parts.join(" \u00b7 ");
-        const told = [...head.thinned, ...head.damage];
+        const told = [...head.thinned, ...head.damage], state = live.state();
+        if (state?.left_out) told.push(`The first ${words.counted(state.left_out, "frame")} of the run ${state.left_out === 1 ? "is" : "are"} left out.`);
         dom.by_id("notice").hidden = told.length === 0;
         dom.by_id("notice").textContent = told.join(" ");
     }
@@ -110,6 +112,7 @@ const main = (() => {
         pair_panel.begin(r, redraw);
         coverage.begin(robot => r.name(robot), redraw, controls.say);
         address.begin(r);
+        live.begin(r, all);
         selection.listen(changed => {
             if (changed.has("t")) timeline.keep();
             redraw();
@@ -144,6 +147,7 @@ const main = (() => {
     };
     Object.defineProperty(window, "rovernet", { value: hooks });
 
-    bytes_of_run().then(open).catch(show_error);
+    if (document.getElementById("goes-on")) live.watch(open, redraw, show_error);
+    else bytes_of_run().then(open).catch(show_error);
     return { redraw };
 })();

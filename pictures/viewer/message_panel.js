@@ -104,7 +104,7 @@ const message_panel = (() => {
     function update(state) {
         if (state.message === own.wanted) return;
         own.wanted = state.message;
-        own.flood = null;
+        if (own.flood?.message !== state.message) own.flood = null;
         own.changes++;
         if (state.message < 0) {
             dom.by_id("message-panel").replaceChildren(...nothing());
@@ -118,6 +118,9 @@ const message_panel = (() => {
             own.done();
         }, error => dom.by_id("message-panel").replaceChildren(dom.make("p", "", error.message)));
     }
+
+    /** Reads the way of the message again: the run has gone on. */
+    function renew() { if (selection.state.panel === "message" || own.wanted >= 0) own.wanted = -2; }
 
     /** Messages to begin with: those that somebody missed, then the first ones. */
     function nothing() {
@@ -181,5 +184,5 @@ const message_panel = (() => {
         Object.assign(own, { run: r, blocks: all, done, wanted: -2 });
     }
 
-    return { begin, update, draw, legend, version: () => own.changes, flood: () => own.flood };
+    return { begin, update, renew, draw, legend, version: () => own.changes, flood: () => own.flood };
 })();

@@ -8,6 +8,7 @@
 #include <variant>
 
 namespace rovernet {
+
 void MotionColumns::on(const Record& record, const RecordContext&) {
     if (const auto* moved = std::get_if<Moved>(&record)) {
         legs_.push_back({moved->node.value, moved->leg});
@@ -41,6 +42,12 @@ void MotionColumns::write(ViewFile& file, std::size_t robots) {
     write_legs(file, robots);
     write_states(file, robots);
     write_links(file, robots);
+}
+
+void MotionColumns::forget() {
+    legs_.clear();
+    states_.clear();
+    links_.clear();
 }
 
 void MotionColumns::write_legs(ViewFile& file, std::size_t robots) {

@@ -26,6 +26,8 @@ class MotionColumns {
 
     /// Writes the columns `legs`, `states` and `links`. @param robots  number of robots
     void write(ViewFile& file, std::size_t robots);
+    /// Forgets all records, so that the next call of write() writes what came since.
+    void forget();
 
     /// Smallest axis-parallel rectangle [m].
     struct Bounds {

@@ -100,7 +100,7 @@ const robot_panel = (() => {
         const title = dom.make("h3", "", "Neighbours");
         if (server.is_served()) title.append(" ", dom.button("ask", "small", () => ask(robot), "ask for neighbours"));
         dom.by_id("robot-panel").replaceChildren(dom.make("h2", "", words.shortened(words.visible(own.run.name(robot)), 60)), place, actions,
-            dom.make("h3", "", "In the whole run"), counters(robot),
+            ...drive.parts(robot), dom.make("h3", "", live.is_live() ? "Until now" : "In the whole run"), counters(robot),
             dom.make("h3", "", "Radio"), dom.facts(radio(robot)), title, neighbours,
             dom.make("h3", "", `Last messages until now`), found);
         own.messages = "";
@@ -124,11 +124,18 @@ const robot_panel = (() => {
         messages(robot, state);
     }
 
+    /** Counts again: the run has gone on. */
+    function renew() {
+        if (own.robot < 0 || selection.state.panel !== "robot" || dom.by_id("robot-panel").contains(document.activeElement)) return;
+        own.counts = null;
+        count();
+    }
+
     /** @param {Run} r @param {Blocks} all */
     function begin(r, all) {
         own.run = r;
         own.blocks = all;
     }
 
-    return { begin, update };
+    return { begin, update, renew };
 })();

@@ -31,11 +31,10 @@ const run = (() => {
             this.file = file;
             this.head = file.head;
             this.columns = columns;
-            this.payload = payload;
             this.robots = file.head.robots.length;
             this.nobody = this.robots < 65535 ? 65535 : 4294967295;
             this.messages = this.col("messages.uid").length;
-            this.no_message = this.messages < 65535 ? 65535 : 4294967295;
+            this.no_message = 4294967295;
             this.duration = file.head.duration_ns;
             this.legs = {
                 first: this.col("legs.first"), start: this.col("legs.start"), end: this.col("legs.end"),
@@ -45,9 +44,12 @@ const run = (() => {
             };
             /** Last leg asked for of each robot, from its first. */
             this.hint = new Uint32Array(this.robots);
-            this.states = this.changes_by_robot();
+            /** @type {Map<number, {at: number, what: number}[]>} */ this.states = new Map();
+            this.add_states(0);
             /** @type {Map<number, number>} */ this.by_uid = new Map();
-            this.col("messages.uid").forEach((uid, i) => this.by_uid.set(uid, i));
+            /** Number of the first message of each part, and the payloads of the part. */
+            this.payloads = { first: /** @type {number[]} */ ([]), of: /** @type {((i: number) => string)[]} */ ([]) };
+            this.add_messages(0, payload);
         }
 
         /** @param {string} name @returns {Numbers} */
@@ -55,17 +57,29 @@ const run = (() => {
             return this.columns[name] ?? rvw.refuse(`The view file is damaged: the column ${name} is missing.`);
         }
 
-        changes_by_robot() {
+        /** Sorts changes of states by robot. @param {number} from number of the first one */
+        add_states(from) {
             const robot = this.col("states.robot"), what = this.col("states.what"), time = this.col("states.time");
-            /** @type {Map<number, {at: number, what: number}[]>} */
-            const out = new Map();
-            for (let i = 0; i < robot.length; i++) {
-                const r = robot[i];
-                const of_robot = out.get(r) ?? [];
+            for (let i = from; i < robot.length; i++) {
+                const of_robot = this.states.get(robot[i]) ?? [];
                 of_robot.push({ at: time[i], what: what[i] });
-                out.set(r, of_robot);
+                this.states.set(robot[i], of_robot);
             }
-            return out;
+        }
+
+        /** Makes messages known. @param {number} from number of the first one @param {(i: number) => string} payload of each, counted from that one */
+        add_messages(from, payload) {
+            const uid = this.col("messages.uid");
+            this.messages = uid.length;
+            for (let i = from; i < uid.length; i++) this.by_uid.set(uid[i], i);
+            this.payloads.first.push(from);
+            this.payloads.of.push(payload);
+        }
+
+        /** Begin of the content of a message. @param {number} message */
+        payload(message) {
+            const part = Math.max(0, count_until(/** @type {any} */ (this.payloads.first), message) - 1);
+            return this.payloads.of[part]?.(message - this.payloads.first[part]) ?? "";
         }
 
         /** Index of the leg of a robot at a time. @param {number} robot @param {number} t */

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // View file: head and columns of a run, as in docs/view-format.md.
-/** @typedef {{name: string, type: string, count: number, offset: number, bytes: number}} Section */
+/** @typedef {{name: string, type: string, count: number, offset: number, bytes: number, raw?: boolean}} Section */
 /** @typedef {{name: string, radius: number, model: string, power_dbm: number, sensitivity_dbm: number, antenna_z: number}} Robot */
 /** @typedef {{name: string, floor: number, x0: number, y0: number, x1: number, y1: number, closed: boolean}} Door */
 /** @typedef {{foot: number[], head: number[]}} Stairs */
@@ -8,7 +8,7 @@
 /** @typedef {{category: string[], lagoon: string[], ember: string[], walls: {color: string, hatch: string|null}[], door: string, stairs: string, robot: string, outcomes: string[]}} Colors */
 /** @typedef {{begin_ns: number, end_ns: number, flights: number, receptions: number}} BlockInfo */
 /** @typedef {{message: number, robot: number, outcome: string, text: string}} Answer */
-/** @typedef {{rvw: number, version: string, name: string, seed: number, replication: number, duration_ns: number, robots: Robot[], map: PlaceMap, colors: Colors, outcomes: string[], drops: {code: string, layer: string, text: string}[], frame_kinds: string[], message_kinds: string[], flows: string[], blocks: BlockInfo[], counts: {flights: number, receptions: number, messages: number, legs: number, outcomes: number[]}, metrics: Record<string, unknown>, density: {bins: number, width_ns: number}[], thinned: string[], damage: string[], follow: Answer[], sections: Section[]}} Head */
+/** @typedef {{rvw: number, version: string, name: string, seed: number, replication: number, duration_ns: number, robots: Robot[], map: PlaceMap, colors: Colors, outcomes: string[], drops: {code: string, layer: string, text: string}[], frame_kinds: string[], message_kinds: string[], flows: string[], blocks: BlockInfo[], counts: {flights: number, receptions: number, messages: number, legs: number, outcomes: number[]}, metrics: Record<string, unknown>, density: {bins: number, width_ns: number, begin?: number}[], live?: Live, thinned: string[], damage: string[], follow: Answer[], sections: Section[]}} Head */
 /** @typedef {Uint8Array|Uint16Array|Uint32Array|Float32Array|Float64Array} Numbers */
 /** @typedef {{head: Head, sections: Map<string, Section>, body: Uint8Array, inflate: Inflate}} ViewFile */
 /** @typedef {(packed: Uint8Array, bytes: number) => Promise<Uint8Array>} Inflate */
@@ -49,8 +49,8 @@ const rvw = (() => {
     /** @param {unknown} v */
     const is_count = v => Number.isSafeInteger(v) && /** @type {number} */ (v) >= 0;
 
-    /** @param {Uint8Array} bytes @param {Inflate} [unpack] @returns {ViewFile} */
-    function open(bytes, unpack = inflate) {
+    /** @param {Uint8Array} bytes @param {Inflate} [unpack] @param {(head: any) => string} [fault] finds a wrong part of the head @returns {ViewFile} */
+    function open(bytes, unpack = inflate, fault = head_check.fault) {
         if (bytes.length < 8) refuse("The view file is empty or cut off.");
         if (String.fromCharCode(...bytes.subarray(0, 4)) !== "RVW1") {
             refuse("This is no view file: it does not begin with RVW1.");
@@ -67,7 +67,7 @@ const rvw = (() => {
             refuse(`The view file has format ${head && head.rvw}; this page reads ${version}.`);
         }
         const body = bytes.subarray(8 + length);
-        const wrong = head_check.fault(head);
+        const wrong = fault(head);
         if (wrong) refuse(`The view file is damaged: its head has no usable ${wrong}.`);
         const sections = new Map();
         for (const s of head.sections) {
@@ -85,6 +85,10 @@ const rvw = (() => {
         const section = file.sections.get(name);
         if (!section) return refuse(`The view file is damaged: the column ${name} is missing.`);
         const size = sizes[section.type] ?? 1;
+        if (section.raw) {
+            if (section.type !== "text" && section.bytes !== size * section.count) return refuse(`The view file is damaged: ${name} has ${section.bytes} bytes.`);
+            return { section, bytes: file.body.slice(section.offset, section.offset + section.bytes) };
+        }
         const most = section.type === "text" ? best_ratio * section.bytes + 64 : size * section.count;
         if (most > best_ratio * section.bytes + 64) return refuse(`The view file is damaged: ${name} is too short.`);
         const packed = file.body.subarray(section.offset, section.offset + section.bytes);

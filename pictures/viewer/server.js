@@ -2,14 +2,15 @@
 // Questions to the server of the page, which computes what the run does not hold.
 const server = (() => {
     "use strict";
-    const patience_ms = 20000;
-    /** @type {{socket: WebSocket|null, served: boolean, query: string, next: number, open: Map<number, {done: (answer: any) => void, failed: (error: Error) => void}>}} */
-    const own = { socket: null, served: false, query: "", next: 1, open: new Map() };
+    const patience_ms = 20000, again_ms = 1500;
+    /** @type {{socket: WebSocket|null, served: boolean, query: string, file: (bytes: Uint8Array) => void, gone: () => void, next: number, open: Map<number, {done: (answer: any) => void, failed: (error: Error) => void}>}} */
+    const own = { socket: null, served: false, query: "", file: () => {}, gone: () => {}, next: 1, open: new Map() };
 
     const how = "This page is a file, so nobody answers. Open the run by \u201crovernet view RUN\u201d to ask.";
 
-    /** @param {string} data */
+    /** @param {string|ArrayBuffer} data */
     function receive(data) {
+        if (typeof data !== "string") return own.file(new Uint8Array(data));
         let answer;
         try {
             answer = JSON.parse(data);
@@ -26,6 +27,7 @@ const server = (() => {
         for (const { failed } of own.open.values()) failed(new Error("The server has gone."));
         own.open.clear();
         own.socket = null;
+        own.gone();
     }
 
     /** @returns {Promise<WebSocket>} */
@@ -34,8 +36,9 @@ const server = (() => {
             if (!own.served) return failed(new Error(how));
             const there = own.socket ?? new WebSocket(`ws${location.protocol === "https:" ? "s" : ""}://${location.host}/${own.query}`);
             if (!own.socket) {
-                there.addEventListener("message", event => receive(String(event.data)));
+                there.addEventListener("message", event => receive(event.data));
                 there.addEventListener("close", drop_all);
+                there.binaryType = "arraybuffer";
                 own.socket = there;
             }
             if (there.readyState === WebSocket.OPEN) return done(there);
@@ -44,7 +47,7 @@ const server = (() => {
         });
     }
 
-    /** @param {string} op @param {Record<string, number>} fields @returns {Promise<any>} */
+    /** @param {string} op @param {Record<string, unknown>} fields @returns {Promise<any>} */
     async function ask(op, fields) {
         const socket = await connected(), id = own.next++;
         return new Promise((done, failed) => {
@@ -56,15 +59,34 @@ const server = (() => {
         });
     }
 
-    /** The run that the server shows. A token leaves the address bar: addresses are copied. @returns {Promise<Uint8Array>} */
-    async function run_bytes() {
+    /** Takes the files of a run that goes on. @param {(bytes: Uint8Array) => void} file @param {() => void} gone the server went */
+    function watch(file, gone) {
+        begin();
+        Object.assign(own, { file, gone });
+        connected().catch(gone);
+    }
+
+    /** Loads the page again once a server is there. */
+    function come_back() {
+        const probe = new WebSocket(`ws://${location.host}/${own.query}`);
+        probe.addEventListener("open", () => own.query ? location.replace("/" + own.query + location.hash) : location.reload());
+        probe.addEventListener("error", () => setTimeout(come_back, again_ms));
+    }
+
+    /** The page is served. A token leaves the address bar: addresses are copied. */
+    function begin() {
         own.served = true;
         own.query = location.search;
+        if (own.query) history.replaceState(null, "", location.pathname + location.hash);
+    }
+
+    /** The recorded run that the server shows. @returns {Promise<Uint8Array>} */
+    async function run_bytes() {
+        begin();
         const answer = await fetch("/run.rvw" + own.query);
         if (!answer.ok) return rvw.refuse(`The server refuses the run: ${answer.status} ${answer.statusText}.`);
-        if (own.query) history.replaceState(null, "", location.pathname + location.hash);
         return new Uint8Array(await answer.arrayBuffer());
     }
 
-    return { run_bytes, ask, how, is_served: () => own.served };
+    return { run_bytes, watch, come_back, ask, how, is_served: () => own.served };
 })();

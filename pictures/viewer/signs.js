@@ -48,5 +48,12 @@ const signs = (() => {
         }
     }
 
-    return { delivered, received, count, kinds, of, color, look, outline, draw };
+    /** Number of receptions of each sign in the run. @param {Run} r @returns {number[]} */
+    function counts(r) {
+        const out = new Array(kinds.length).fill(0);
+        r.head.counts.outcomes.forEach((n, outcome) => out[of(outcome)] += n);
+        return out;
+    }
+
+    return { counts, delivered, received, count, kinds, of, color, look, outline, draw };
 })();

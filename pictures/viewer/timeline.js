@@ -146,7 +146,7 @@ const timeline = (() => {
 
     function draw() {
         const { from, to } = span();
-        const key = [from, to, own.width, own.height, theme.is_dark(), own.blocks.kept.size, devicePixelRatio].join(" ");
+        const key = [from, to, own.width, own.height, theme.is_dark(), own.blocks.version, own.run.duration, own.run.head.counts.receptions, devicePixelRatio].join(" ");
         if (own.key !== key) paint();
         own.key = key;
         const c = dom.sized(dom.canvas("timeline"), own.width, own.height), x = to_x(selection.state.t);

@@ -38,13 +38,14 @@ void append(std::string& out, std::uint32_t number) {
 
 void ViewFile::add(const std::string& name, std::string_view type, std::size_t count,
                    std::string_view bytes) {
-    const std::string packed = deflated(bytes);
+    const std::string packed = packs_ ? deflated(bytes) : std::string(bytes);
     Table section;
     section.set("name", name);
     section.set("type", type);
     section.set("count", std::uint64_t{count});
     section.set("offset", std::uint64_t{data_.size()});
     section.set("bytes", std::uint64_t{packed.size()});
+    if (!packs_) section.set("raw", true);
     sections_.emplace_back(std::move(section));
     data_ += packed;
 }

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace rovernet {
@@ -24,13 +25,18 @@ concept ColumnNumber = std::same_as<T, std::uint8_t> || std::same_as<T, std::uin
 inline constexpr std::uint32_t no_index = std::numeric_limits<std::uint32_t>::max();
 
 /// Writer of a view file, the file that the viewer's page reads: a head in JSON, and named columns
-/// of numbers. Each column is compressed when it is added. docs/view-format.md describes the bytes.
+/// of numbers. Each column is compressed when it is added, by default. docs/view-format.md
+/// describes the bytes.
 ///
 ///   ViewFile file;
 ///   file.add("legs.x", std::span<const double>(x));
 ///   const std::string bytes = file.bytes(std::move(head));
 class ViewFile {
   public:
+    ViewFile() = default;
+    /// @param packs  whether columns are compressed
+    explicit ViewFile(bool packs) : packs_(packs) {}
+
     /// Adds a column of numbers.
     template <ColumnNumber T>
     void add(const std::string& name, std::span<const T> numbers) {
@@ -64,8 +70,17 @@ class ViewFile {
     void add(const std::string& name, std::string_view type, std::size_t count,
              std::string_view bytes);
 
+    bool packs_ = true;
     Array sections_;    // descriptions of the columns
-    std::string data_;  // compressed columns
+    std::string data_;  // columns, compressed if packs_
+};
+
+/// View file that is being written, with its head so far.
+struct ViewDraft {
+    ViewFile file = {};
+    Table head = {};
+
+    std::string bytes() && { return file.bytes(std::move(head)); }
 };
 
 }  // namespace rovernet

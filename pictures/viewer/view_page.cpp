@@ -48,5 +48,6 @@ std::string page_with(std::string_view view_file) {
 }
 
 std::string served_page() { return page("'self'", ""); }
+std::string live_page() { return page("'self'", "<i id=\"goes-on\" hidden></i>"); }
 
 }  // namespace rovernet

@@ -16,5 +16,7 @@ std::string page_with(std::string_view view_file);
 
 /// Page of the viewer for a server: it loads the view file from the server's path /run.rvw.
 std::string served_page();
+/// Page of the viewer for the server of a run that goes on: it gets the run's files by a WebSocket.
+std::string live_page();
 
 }  // namespace rovernet

@@ -7,6 +7,7 @@
 #include "experiment/summary.hpp"
 #include "pictures/viewer/motion_columns.hpp"
 #include "pictures/viewer/view_file.hpp"
+#include "pictures/viewer/view_head.hpp"
 #include "pictures/viewer/view_map.hpp"
 #include "traces/metrics.hpp"
 #include "traces/recorded/recorded_reader.hpp"
@@ -37,57 +38,7 @@ struct Columns {
     Metrics metrics;
 };
 
-Array robot_list(const RecordedRun& run, const Scenario& scenario) {
-    std::map<std::string, const RobotTable*> tables;
-    for (const RobotTable& table : scenario.robots) {
-        for (int i = 0; i < table.count.value_or(1); ++i) tables.emplace(table.name_of(i), &table);
-    }
-    const Propagation common = scenario.propagation.make();
-    Array list;
-    for (const std::string& name : run.robots) {
-        const auto found = tables.find(name);
-        const bool is_listed = found != tables.end();  // else it is of a movement file
-        const Radio& radio = is_listed ? found->second->radio : scenario.radio;
-        Table robot;
-        robot.set("name", name);
-        robot.set("radius", (is_listed ? found->second->radius : Robot{}.radius).value);
-        const bool has_own = is_listed && found->second->propagation;
-        robot.set("model", has_own ? found->second->propagation->make().name() : common.name());
-        robot.set("power_dbm", radio.power.value);
-        robot.set("sensitivity_dbm", radio.sensitivity.value);
-        robot.set("antenna_z", radio.antenna_height.value);
-        list.emplace_back(std::move(robot));
-    }
-    return list;
-}
-
-/// Fates in the words of the page, in the order of the enumeration.
-constexpr std::array words_of_fate{"received, to be forwarded",
-                                   "received, TTL used up",
-                                   "received again",
-                                   "robot was off",
-                                   "bit errors",
-                                   "collision",
-                                   "robot was sending",
-                                   "received"};
-static_assert(words_of_fate.size() == static_cast<std::size_t>(last_fate) + 1);
-
-Array outcome_list() {
-    Array list;
-    for (const char* words : words_of_fate) {
-        list.emplace_back(words);
-        list.emplace_back(fmt::format("{}, delivered", words));
-    }
-    return list;
-}
-
 Array texts(const std::vector<std::string>& list) { return {list.begin(), list.end()}; }
-
-Array flow_list(const Scenario& scenario) {
-    Array list{""};
-    for (const TrafficTable& table : scenario.traffic) list.emplace_back(table.name);
-    return list;
-}
 
 /// Recorded run, ready to be written as view files.
 class Viewed {
@@ -118,17 +69,10 @@ class Viewed {
 
 /// Entries of the head that describe the run, without those of columns.
 Table Viewed::head() const {
-    Table head;
-    head.set("rvw", 1);
-    head.set("version", reader_.run().version);
-    head.set("name", scenario_.scenario.name);
-    head.set("seed", reader_.run().seed);
-    head.set("replication", reader_.run().replication);
-    head.set("duration_ns", std::int64_t{scenario_.scenario.duration.count()});
-    head.set("robots", robot_list(reader_.run(), scenario_));
-    head.set("colors", view_colors());
-    head.set("outcomes", outcome_list());
-    head.set("flows", flow_list(scenario_));
+    const RecordedRun& run = reader_.run();
+    Table head = view_head(scenario_, run.robots, run.version);
+    head.set("seed", run.seed);
+    head.set("replication", run.replication);
     Table metrics;
     append_metrics(metrics, columns_.metrics.values());
     head.set("metrics", std::move(metrics));

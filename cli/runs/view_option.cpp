@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include "cli/runs/view_option.hpp"
+
+namespace rovernet::cli {
+
+Option ViewOption::add_to(Command command) {
+    const Option view =
+        command
+            .add_option("--view", address,
+                        "show the run in a browser, by a page at 127.0.0.1:PORT; port 0: any that "
+                        "is free (default: 0)")
+            .usually("127.0.0.1:0");
+    command
+        .add_flag("--view-control", control,
+                  "let pages pause the run, move its robots and send messages")
+        .needs(view);
+    return view;
+}
+
+FrontListeners ViewOption::listeners(const Reach& reach, ViewControl view) const {
+    view.of_time = view.of_time || control;
+    view.of_robots = control;
+    return view_listener(reach.with_token(*address), view);
+}
+
+}  // namespace rovernet::cli

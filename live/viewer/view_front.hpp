@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "live/carriers/address.hpp"
+#include "live/carriers/front.hpp"
+#include "live/paced_run.hpp"
+#include "live/viewer/answers.hpp"
+#include "live/viewer/view_log.hpp"
+#include "pictures/viewer/view_stream.hpp"
+
+#include <chrono>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+namespace rovernet {
+
+struct JsonElement;
+class JsonParser;
+
+/// What the viewer's page may do with a run that goes on.
+struct ViewControl {
+    bool of_time = false;    ///< pause, step, and change the speed of the run
+    bool of_robots = false;  ///< move robots and send messages from them
+    /// The run begins when the first page is there, and its pages stay after its end.
+    bool is_for_page = false;
+    /// Speed with which the run begins, as in PacedOptions.
+    std::optional<double> speed = 1;
+};
+
+/// Front of a live run for the viewer's page: sends what happens as parts of a view file, answers
+/// questions about the present, and lets pages control the run as far as ViewControl permits
+/// (docs/view-format.md, "A run that goes on").
+///
+/// The front observes the run while pages are there, and for some seconds after the last one has
+/// left. Without pages it costs the run nothing.
+class ViewFront : public Front {
+  public:
+    ViewFront(ViewControl control, Carrier carrier);
+    ~ViewFront() override;
+
+    void prepare(Session& session, const Scenario& scenario) override;
+    void begin(Session& session, const Scenario& scenario) override;
+    void opened(Connection client, ListenerId at) override;
+    std::size_t received(Connection from, std::string_view question) override;
+    void closed(Connection gone) override;
+    Time next() const override;
+    void tell() override;
+    Time limit() const override;
+    void held(std::chrono::nanoseconds waited) override;
+    void ended(std::string_view fingerprint, const Table& metrics) override;
+    bool stays() const override { return control_.is_for_page && is_over_; }
+
+  private:
+    using RealTime = std::chrono::steady_clock::time_point;
+
+    void observe();
+    Table live() const;
+    void add_part(bool is_last);
+    void send_parts();
+    Table answer(const JsonElement& question, Connection from);
+    Table pace(const JsonElement& question);
+    Table step(const JsonElement& question);
+    Table command(const JsonElement& question);
+    ClientId driver_of(NodeId robot);
+    Time now() const { return network_->now(); }
+
+    ViewControl control_;
+    Carrier carrier_;
+    Session* session_ = nullptr;  // none after the end of the run
+    const Scenario* scenario_ = nullptr;
+    std::shared_ptr<Network> network_;
+    std::optional<ViewStream> stream_;  // none: nobody watches
+    std::optional<ViewerAnswers> answers_;
+    std::unique_ptr<JsonParser> parser_;
+    ViewLog log_;
+    std::map<Connection, ViewLog::Place> watching_;
+    std::map<NodeId, ClientId> drives_;  // clients of the session that drive robots for pages
+    std::uint64_t commands_ = 0;
+    std::optional<double> speed_;
+    Time limit_ = never, next_ = never;
+    RealTime last_part_ = {}, last_seen_ = {};
+    bool is_changed_ = false;  // a part is due at once: the run was paused, or has another speed
+    bool is_over_ = false;
+    std::string fingerprint_;
+};
+
+/// Listeners of the viewer's page for a live run. @param at  address of this machine
+FrontListeners view_listener(const Address& at, const ViewControl& control);
+
+}  // namespace rovernet

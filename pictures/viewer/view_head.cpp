@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "pictures/viewer/view_head.hpp"
+
+#include "pictures/viewer/view_map.hpp"
+#include "scenario/scenario.hpp"
+#include "sim/fate.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+namespace rovernet {
+namespace {
+
+Array robot_list(const std::vector<std::string>& names, const Scenario& scenario) {
+    std::map<std::string, const RobotTable*> tables;
+    for (const RobotTable& table : scenario.robots) {
+        for (int i = 0; i < table.count.value_or(1); ++i) tables.emplace(table.name_of(i), &table);
+    }
+    const Propagation common = scenario.propagation.make();
+    Array list;
+    for (const std::string& name : names) {
+        const auto found = tables.find(name);
+        const bool is_listed = found != tables.end();  // else it is of a movement file
+        const Radio& radio = is_listed ? found->second->radio : scenario.radio;
+        Table robot;
+        robot.set("name", name);
+        robot.set("radius", (is_listed ? found->second->radius : Robot{}.radius).value);
+        const bool has_own = is_listed && found->second->propagation;
+        robot.set("model", has_own ? found->second->propagation->make().name() : common.name());
+        robot.set("power_dbm", radio.power.value);
+        robot.set("sensitivity_dbm", radio.sensitivity.value);
+        robot.set("antenna_z", radio.antenna_height.value);
+        list.emplace_back(std::move(robot));
+    }
+    return list;
+}
+
+/// Fates in the words of the page, in the order of the enumeration.
+constexpr std::array words_of_fate{"received, to be forwarded",
+                                   "received, TTL used up",
+                                   "received again",
+                                   "robot was off",
+                                   "bit errors",
+                                   "collision",
+                                   "robot was sending",
+                                   "received"};
+static_assert(words_of_fate.size() == static_cast<std::size_t>(last_fate) + 1);
+
+Array outcome_list() {
+    Array list;
+    for (const char* words : words_of_fate) {
+        list.emplace_back(words);
+        list.emplace_back(fmt::format("{}, delivered", words));
+    }
+    return list;
+}
+
+Array flow_list(const Scenario& scenario) {
+    Array list{""};
+    for (const TrafficTable& table : scenario.traffic) list.emplace_back(table.name);
+    return list;
+}
+
+}  // namespace
+
+Table view_head(const Scenario& scenario, const std::vector<std::string>& robots,
+                std::string_view version) {
+    Table head;
+    head.set("rvw", 1);
+    head.set("version", version);
+    head.set("name", scenario.scenario.name);
+    head.set("seed", scenario.scenario.seed);
+    head.set("replication", scenario.scenario.replication);
+    head.set("duration_ns", std::int64_t{scenario.scenario.duration.count()});
+    head.set("robots", robot_list(robots, scenario));
+    head.set("colors", view_colors());
+    head.set("outcomes", outcome_list());
+    head.set("flows", flow_list(scenario));
+    return head;
+}
+
+}  // namespace rovernet

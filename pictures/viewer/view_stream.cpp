@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "pictures/viewer/view_stream.hpp"
+
+#include "experiment/version.hpp"
+#include "models/medium/medium.hpp"
+#include "pictures/viewer/view_file.hpp"
+#include "pictures/viewer/view_head.hpp"
+#include "pictures/viewer/view_map.hpp"
+#include "scenario/scenario.hpp"
+#include "sim/message.hpp"
+
+#include <utility>
+
+namespace rovernet {
+
+ViewStream::ViewStream(const Scenario& scenario, std::shared_ptr<Network> network)
+    : scenario_(scenario), network_(std::move(network)) {
+    for (std::uint32_t i = 0; i < network_->size(); ++i)
+        robots_.push_back(network_->name(NodeId{i}));
+    sinks_ = {network_->add_sink(motion_), network_->add_sink(frames_)};
+}
+
+ViewStream::~ViewStream() {
+    for (const SinkId sink : sinks_) network_->remove_sink(sink);
+}
+
+std::string ViewStream::start(Table live) const {
+    MotionColumns now;
+    const MessageTable no_messages;
+    const RecordContext context{network_->legs(), no_messages};
+    for (NodeId robot{0}; robot.index() < robots_.size(); ++robot.value) {
+        const Leg leg = network_->legs().leg(robot);
+        now.on(Moved{leg.start, robot, leg}, context);
+        if (!network_->medium().stations().is_on(robot))
+            now.on(Switched{start_of_run, robot, false}, context);
+    }
+    ViewFile file;
+    Table head = view_head(scenario_, robots_, version());
+    head.set("metrics", Table{});
+    head.set("follow", Array{});
+    head.set("damage", Array{});
+    head.set("thinned", Array{});
+    head.set("live", std::move(live));
+    head.set("map", view_map(scenario_, network_->settings(), now.bounds(), file));
+    now.write(file, robots_.size());
+    const Time end = start_of_run + scenario_.scenario.duration;
+    FrameColumns().write(file, head, robots_.size(), end, {});
+    return file.bytes(std::move(head));
+}
+
+ViewStream::Part ViewStream::part(const Table& live, bool is_last) {
+    ViewDraft rest{ViewFile(false)}, frames{ViewFile(false)};
+    for (ViewDraft* each : {&rest, &frames}) {
+        each->head.set("rvw", 1);
+        each->head.set("live", live);
+    }
+    motion_->write(rest.file, robots_.size());
+    motion_->forget();
+    const Time end = start_of_run + scenario_.scenario.duration;
+    const Time now = is_last ? never : network_->now();
+    Part part;
+    part.number_of_frames = frames_->write_part(rest, frames, robots_.size(), end, now);
+    part.rest = std::move(rest).bytes();
+    if (part.number_of_frames > 0) part.frames = std::move(frames).bytes();
+    return part;
+}
+
+}  // namespace rovernet

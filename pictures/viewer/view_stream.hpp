@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "network/network.hpp"
+#include "pictures/viewer/frame_columns.hpp"
+#include "pictures/viewer/motion_columns.hpp"
+#include "scenario/document/value.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace rovernet {
+
+struct Scenario;
+
+/// View of a network that runs, as a sequence of view files (docs/view-format.md): first the map
+/// and the robots, then what has happened since the file before. The network's records become
+/// columns by the same sinks as those of a recorded trace.
+///
+/// Memory: that of MotionColumns and FrameColumns for the records since the last part.
+class ViewStream {
+  public:
+    /// Adds its sinks to the network.
+    /// @param scenario  scenario of the network; must outlive this object
+    ViewStream(const Scenario& scenario, std::shared_ptr<Network> network);
+    ~ViewStream();
+    ViewStream(const ViewStream&) = delete;  // removes its sinks
+    ViewStream& operator=(const ViewStream&) = delete;
+
+    /// First file: map, robots with their current legs and states, no frames.
+    /// @param live  entry `live` of the head
+    std::string start(Table live) const;
+
+    /// What has happened since the last part, as two files: a viewer needs the first one to
+    /// understand later parts; the second one, with the frames, may be left out.
+    struct Part {
+        std::string rest, frames;  ///< `frames` is empty if no frame has ended
+        std::size_t number_of_frames = 0;
+    };
+    /// @param live     entry `live` of the heads
+    /// @param is_last  whether the run is over: frames on air are written, too
+    Part part(const Table& live, bool is_last);
+
+  private:
+    const Scenario& scenario_;
+    std::shared_ptr<Network> network_;
+    std::vector<std::string> robots_;
+    std::shared_ptr<MotionColumns> motion_ = std::make_shared<MotionColumns>();
+    std::shared_ptr<FrameColumns> frames_ = std::make_shared<FrameColumns>();
+    std::vector<SinkId> sinks_;
+};
+
+}  // namespace rovernet
