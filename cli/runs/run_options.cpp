@@ -11,7 +11,6 @@ void add_run(Command app) {
         {"rovernet run examples/patrol/patrol.toml",
          "rovernet run examples/rescue/rescue.toml --seed 7 --out rescue-7",
          "rovernet run examples/rescue/rescue.toml --record",
-         "rovernet run examples/rescue/rescue.toml --view",
          "rovernet run examples/rescue/rescue.toml --set propagation.model=friis --json"});
     add_file(run, a, any_file);
     run.add_option(

@@ -25,14 +25,16 @@ constexpr std::size_t much_unsent = 256'000;  // [bytes] from which on a page ge
 constexpr Range speeds{.low = 1e-6, .high = 1e6, .text = "from 1e-6 to 1e6"};
 constexpr std::uint64_t longest_step = 1'000'000'000'000'000;  // [ns]
 
-/// Reader of a page's commands, which names robots by their index.
+/// Reader of a page's commands, which name robots.
 class PageCommands : public CommandReader {
   public:
     explicit PageCommands(const Network& network) : network_(network) {}
 
   protected:
-    NodeId robot(const JsonElement& index) const override {
-        return NodeId{static_cast<std::uint32_t>(index.whole_number(0, network_.size() - 1))};
+    NodeId robot(const JsonElement& name) const override {
+        const auto found = network_.find(name.text());
+        if (!found) name.fail("unknown_robot", fmt::format("no robot {}", name.text()));
+        return *found;
     }
     std::string bytes(const JsonElement& text) const override { return std::string(text.text()); }
 

@@ -80,6 +80,7 @@ class ViewReader {
     std::string unpacked(const Table& section) const {
         const auto at = static_cast<std::size_t>(integer(section, "offset"));
         std::string packed = data_.substr(at, static_cast<std::size_t>(integer(section, "bytes")));
+        if (section.find("raw")) return packed;
         std::string out(64 + 200 * packed.size() + 16'000'000, '\0');
         z_stream stream{};
         inflateInit2(&stream, -15);
