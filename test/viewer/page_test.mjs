@@ -1,68 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Page in a browser: what it shows is what the command line prints; no error, no request, no rule of access broken.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
 import fs from "node:fs";
 import path from "node:path";
-import test, { after, before } from "node:test";
-import { chromium } from "playwright-core";
+import test from "node:test";
+import { colors, drawn, folder, most_apart, told, trace, with_page } from "./page.mjs";
 import { sections, view_file } from "./run_file.mjs";
 
-const { FOLDER: folder, COMMAND: command, CHROMIUM: browser_path } = process.env;
 const all = ["rescue", "storeys", "routes", "patrol", "search", "csma", "hostile"];
-let browser;
-
-before(async () => {
-    browser = await chromium.launch({ executablePath: browser_path, args: ["--no-sandbox", "--enable-unsafe-swiftshader"] });
-});
-after(() => browser.close());
-
-/** JSON that the command prints. */
-function told(...words) { return JSON.parse(execFileSync(command, words, { maxBuffer: 1 << 28, stdio: ["ignore", "pipe", "ignore"] })); }
-
-/** Scenario of a run. */
-function scenario(name) { return fs.readFileSync(path.join(folder, name, "scenario.path"), "utf8").trim(); }
-
-/** Opens a page with the network off, does something, and holds it to be free of errors. */
-async function with_page(name, options, act) {
-    const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, offline: true, ...options.context });
-    context.setDefaultTimeout(15000);
-    const page = await context.newPage(), faults = [], requests = [];
-    page.on("console", message => { if (["error", "warning"].includes(message.type())) faults.push(message.text()); });
-    page.on("pageerror", error => faults.push(error.message));
-    page.on("dialog", dialog => { faults.push("a dialog"); dialog.dismiss(); });
-    page.on("request", request => requests.push(request.url()));
-    await page.addInitScript(() => document.addEventListener("securitypolicyviolation", event => console.error(`violates ${event.violatedDirective}`)));
-    await page.goto(`file://${folder}/${name}.html${options.hash ?? ""}`);
-    await page.waitForFunction(() => window.rovernet && (window.rovernet.error || window.rovernet.ready && window.rovernet.frames > 0));
-    try {
-        await act(page);
-        assert.equal(await page.evaluate(() => window.rovernet.error), "");
-        assert.deepEqual(faults, []);
-        assert.deepEqual(requests.filter(url => !url.startsWith("file:") && !url.startsWith("blob:")), []);
-        assert.equal(requests.filter(url => url.startsWith("file:")).length, 1);
-    } finally {
-        await context.close();
-    }
-}
-
-/** Waits until what was asked for is drawn. */
-async function drawn(page) {
-    await page.evaluate(async () => {
-        const begin = window.rovernet.frames;
-        for (let i = 0; i < 200 && (window.rovernet.frames === begin || !window.rovernet.whole); i++) await new Promise(done => setTimeout(done, 10));
-    });
-}
-
-/** Number of colours of the map. */
-function colors(page) {
-    return page.evaluate(() => {
-        const canvas = document.getElementById("map"), seen = new Set();
-        const pixels = new Uint32Array(canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.buffer);
-        for (const pixel of pixels) seen.add(pixel);
-        return seen.size;
-    });
-}
 
 for (const name of all) {
     test(`V1: ${name} opens by itself, with colours on its map`, () => with_page(name, {}, async page => {
@@ -73,18 +18,7 @@ for (const name of all) {
 
 for (const name of ["rescue", "storeys", "patrol"]) {
     test(`V2: robots of ${name} are where the command says`, () => with_page(name, {}, async page => {
-        const { duration_ns } = sections(view_file(name)).head;
-        const times = Array.from({ length: 200 }, (_, i) => Math.round((i * 0.618034 % 1) * duration_ns / 1e3) * 1e3).sort((a, b) => a - b);
-        const truth = told("where", scenario(name), "--at", times.map(t => `${t / 1e9}s`).join(","), "--json").times;
-        const found = await page.evaluate(asked => asked.map(({ t, count }) => {
-            window.rovernet.seek(t);
-            return Array.from({ length: count }, (_, i) => window.rovernet.position(i));
-        }), truth.map((row, i) => ({ t: times[i], count: row.robots.length })));
-        let most = 0;
-        truth.forEach((row, i) => row.robots.forEach((robot, k) => {
-            if (robot.presence === "not departed" || robot.presence === "left") return;
-            most = Math.max(most, Math.hypot(robot.x_m - found[i][k].x, robot.y_m - found[i][k].y, robot.z_m - found[i][k].z));
-        }));
+        const most = await most_apart(page, name, sections(view_file(name)).head.duration_ns, 200);
         assert.ok(most < 1e-3, `${most} m apart`);
     }));
 }
@@ -94,7 +28,7 @@ for (const name of ["rescue", "csma"]) {
         const { head, unpacked } = sections(view_file(name)), part = unpacked.get("messages.uid");
         const uids = [...new Float64Array(part.buffer.slice(part.byteOffset, part.byteOffset + part.length))].slice(0, 12);
         for (const uid of uids) {
-            const has = new Set(told("trace", "follow", path.join(folder, name, "trace.mcap"), "--message", String(uid), "--json").robots.map(row => row.robot));
+            const has = new Set(told("trace", "follow", trace(name), "--message", String(uid), "--json").robots.map(row => row.robot));
             const found = await page.evaluate(async ({ uid, count }) => Promise.all(Array.from({ length: count }, (_, i) => window.rovernet.outcome(uid, i))), { uid, count: head.robots.length });
             head.robots.forEach((robot, i) => assert.equal(["origin", "delivered", "received"].includes(found[i]), has.has(robot.name), `message ${uid} at ${robot.name}: ${found[i]}`));
         }
@@ -103,7 +37,7 @@ for (const name of ["rescue", "csma"]) {
 
 test("V3: the page says why a robot has not got a message, in the words of trace follow", () => with_page("rescue", {}, async page => {
     const { head } = sections(view_file("rescue")), [{ message, robot }] = head.follow;
-    const answer = told("trace", "follow", path.join(folder, "rescue/trace.mcap"), "--message", String(message), "--robot", head.robots[robot].name, "--json").at_robot.answer;
+    const answer = told("trace", "follow", trace("rescue"), "--message", String(message), "--robot", head.robots[robot].name, "--json").at_robot.answer;
     assert.equal(head.follow[0].text, answer);
     await page.evaluate(index => window.rovernet.select({ message: index, panel: "message" }), message);
     await page.waitForFunction(text => document.getElementById("message-panel").textContent.includes(text), answer.slice(head.robots[robot].name.length + 1, 60));
@@ -124,7 +58,7 @@ test("V5: a seek takes at most 10 ms of script", () => with_page("csma", {}, asy
         for (let i = 1; i <= 100; i++) {
             const { frames } = window.rovernet;
             window.rovernet.seek((i * 0.618034 % 1) * 20e9);
-            for (let k = 0; k < 500 && window.rovernet.frames === frames; k++) await new Promise(done => setTimeout(done, 2));
+            while (window.rovernet.frames === frames) await new Promise(done => requestAnimationFrame(done));
             taken.push(window.rovernet.scriptMs.at(-1));
         }
         return taken.sort((a, b) => a - b)[50];
@@ -150,7 +84,7 @@ test("V6: the first row of the list is the last event until now", () => with_pag
     for (const speed of [1e-6, 1, 1e3]) {
         await page.evaluate(value => window.rovernet.select({ speed: value, t: 1e9 }), speed);
         await page.keyboard.press(" ");
-        await page.waitForTimeout(150);
+        await page.waitForFunction(() => window.rovernet.t > 1e9);
         await page.evaluate(() => window.rovernet.select({ playing: false }));
         await drawn(page);
         const { list, t } = await page.evaluate(() => ({ list: window.rovernet.list(), t: window.rovernet.t }));

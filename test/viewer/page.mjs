@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// Pages in a browser: one browser for all tests; a page that breaks a rule fails its test.
+import assert from "node:assert/strict";
+import { execFileSync, spawn } from "node:child_process";
+import fs from "node:fs";
+import path from "node:path";
+import { after } from "node:test";
+import { chromium } from "playwright-core";
+
+export const { FOLDER: folder, COMMAND: command, CHROMIUM: chromium_path } = process.env;
+let shared;
+
+/** A browser with further arguments. */
+export function launched(...args) {
+    return chromium.launch({ executablePath: chromium_path, args: ["--no-sandbox", "--enable-unsafe-swiftshader", ...args] });
+}
+after(async () => (await shared)?.close());
+
+/** What the command prints. */
+export function printed(...words) { return execFileSync(command, words, { maxBuffer: 1 << 28, stdio: ["ignore", "pipe", "ignore"], encoding: "utf8" }); }
+
+/** JSON that the command prints. */
+export function told(...words) { return JSON.parse(printed(...words)); }
+
+/** Scenario of a run. */
+export function scenario(name) { return fs.readFileSync(path.join(folder, name, "scenario.path"), "utf8").trim(); }
+
+/** Recorded trace of a run. */
+export function trace(name) { return path.join(folder, name, "trace.mcap"); }
+
+/** Opens an address, does something, and holds the page to be free of errors and of foreign requests. */
+async function watched(url, options, act) {
+    const browser = options.browser ?? await (shared ??= launched());
+    const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, offline: url.startsWith("file:"), ...options.context });
+    context.setDefaultTimeout(15000);
+    const page = await context.newPage(), faults = [], requests = [];
+    page.on("console", message => { if (["error", "warning"].includes(message.type())) faults.push(message.text()); });
+    page.on("pageerror", error => faults.push(error.message));
+    page.on("dialog", dialog => { faults.push("a dialog"); dialog.dismiss(); });
+    page.on("request", request => requests.push(request.url()));
+    await page.addInitScript(() => document.addEventListener("securitypolicyviolation", event => console.error(`violates ${event.violatedDirective}`)));
+    try {
+        await page.goto(url);
+        await page.waitForFunction(() => window.rovernet && (window.rovernet.error || window.rovernet.ready && window.rovernet.frames > 0));
+        await act(page, context);
+        assert.equal(await page.evaluate(() => window.rovernet.error), options.error ?? "");
+        assert.deepEqual(faults, []);
+        return requests.filter(request => !request.startsWith("blob:"));
+    } finally {
+        await context.close();
+    }
+}
+
+/** Opens a written page with the network off: it asks for itself and for nothing else. */
+export async function with_page(name, options, act) {
+    const file = path.isAbsolute(name) ? name : `${folder}/${name}.html`, requests = await watched(`file://${file}${options.hash ?? ""}`, options, act);
+    assert.deepEqual(requests.filter(request => request.split("#")[0] !== `file://${file}`), []);
+    assert.equal(requests.length, 1);
+}
+
+/** Serves a run or a scenario until `act` is done: act(address, process). */
+export async function with_server(file, act) {
+    const server = spawn(command, ["view", file], { stdio: ["ignore", "pipe", "inherit"] });
+    const ended = new Promise(done => server.on("exit", done));
+    try {
+        const address = await new Promise((done, failed) => {
+            let text = "";
+            server.stdout.on("data", part => {
+                text += part;
+                const found = /http:\/\/\S+/.exec(text);
+                if (found && text.includes("\n")) done(found[0]);
+            });
+            server.on("exit", code => failed(new Error(`the server ended with ${code}: ${text}`)));
+        });
+        await act(address, server);
+    } finally {
+        server.kill("SIGINT");
+        await ended;
+    }
+}
+
+/** Opens a served page, which asks its own server only. */
+export async function with_served(address, options, act) {
+    const requests = await watched(address + (options.hash ?? ""), options, act);
+    assert.deepEqual(requests.filter(request => !request.startsWith(address)), []);
+}
+
+/** Waits until what was asked for is drawn: the page draws with the next frame, and again when a block has come. */
+export async function drawn(page) {
+    await page.evaluate(async () => {
+        const frame = () => new Promise(done => requestAnimationFrame(done));
+        await frame();
+        for (let i = 0; i < 600 && !window.rovernet.whole; i++) await frame();
+    });
+}
+
+/** Number of colours of the map. */
+export function colors(page) {
+    return page.evaluate(() => {
+        const canvas = document.getElementById("map"), seen = new Set();
+        const pixels = new Uint32Array(canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.buffer);
+        for (const pixel of pixels) seen.add(pixel);
+        return seen.size;
+    });
+}
+
+/** Largest distance [m] between robots on the page and where the command says, at times all over the run. */
+export async function most_apart(page, name, duration_ns, count) {
+    const times = Array.from({ length: count }, (_, i) => Math.round((i * 0.618034 % 1) * duration_ns / 1e3) * 1e3).sort((a, b) => a - b);
+    const truth = told("where", scenario(name), "--at", times.map(t => `${t / 1e9}s`).join(","), "--json").times;
+    const found = await page.evaluate(asked => asked.map(({ t, count: robots }) => {
+        window.rovernet.seek(t);
+        return Array.from({ length: robots }, (_, i) => window.rovernet.position(i));
+    }), truth.map((row, i) => ({ t: times[i], count: row.robots.length })));
+    let most = 0;
+    truth.forEach((row, i) => row.robots.forEach((robot, k) => {
+        if (robot.presence === "not departed" || robot.presence === "left") return;
+        most = Math.max(most, Math.hypot(robot.x_m - found[i][k].x, robot.y_m - found[i][k].y, robot.z_m - found[i][k].z));
+    }));
+    return most;
+}
