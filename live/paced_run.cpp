@@ -321,7 +321,8 @@ class PacedServer {
         if (!options_.stop.go_on() || std::none_of(open_.begin(), open_.end(), stays)) return;
         options_.finished(result);
         while (options_.stop.go_on() && std::any_of(open_.begin(), open_.end(), stays)) {
-            listeners_.wait(100ms);
+            for (const Open& each : open_) each.front->held({});
+            listeners_.wait(longest_wait);
         }
     }
 

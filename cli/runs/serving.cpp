@@ -63,7 +63,9 @@ StopRules ServingStop::rules() {
 std::function<void(std::string_view)> announcer(Announced announced) {
     if (announced == Announced::by_notice) return notice;
     return [](std::string_view text) {
-        if (!text.starts_with("listening ") && !text.starts_with("for ")) return notice(text);
+        const bool is_address = text.starts_with("listening ") || text.starts_with("for ") ||
+                                text.starts_with("page at ");
+        if (!is_address) return notice(text);
         fmt::print("{}\n", text);
         std::fflush(stdout);
     };

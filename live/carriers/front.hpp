@@ -78,7 +78,7 @@ class Front {
     /// Simulated time at which the run stops and waits until clients have sent the messages that
     /// the front needs; `never`: no limit.
     virtual Time limit() const { return never; }
-    /// Called repeatedly while the run waits at limit().
+    /// Called repeatedly while the run waits at limit(), and while the front stays after the run.
     /// @param waited  real time since the run has reached the limit
     virtual void held(std::chrono::nanoseconds /*waited*/) {}
     /// Whether the clients are done, so that the run ends.

@@ -153,9 +153,10 @@ void ViewFront::add_part(bool is_last) {
 
 /// Sends the next parts to the pages that have read the ones before.
 void ViewFront::send_parts() {
+    const bool is_leaving = is_over_ && !stays();
     for (auto& [client, place] : watching_) {
         log_.send(
-            place, [&, to = client] { return carrier_.unsent(to) < much_unsent; },
+            place, [&, to = client] { return is_leaving || carrier_.unsent(to) < much_unsent; },
             [&, to = client](std::string_view file) { carrier_.send_binary(to, file); });
     }
 }

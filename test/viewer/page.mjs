@@ -34,7 +34,7 @@ async function watched(url, options, act) {
     const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, offline: url.startsWith("file:"), ...options.context });
     context.setDefaultTimeout(15000);
     const page = await context.newPage(), faults = [], requests = [];
-    page.on("console", message => { if (["error", "warning"].includes(message.type())) faults.push(message.text()); });
+    page.on("console", message => { if (["error", "warning"].includes(message.type()) && !options.faults?.test(message.text())) faults.push(message.text()); });
     page.on("pageerror", error => faults.push(error.message));
     page.on("dialog", dialog => { faults.push("a dialog"); dialog.dismiss(); });
     page.on("request", request => requests.push(request.url()));
@@ -59,8 +59,11 @@ export async function with_page(name, options, act) {
 }
 
 /** Serves a run or a scenario until `act` is done: act(address, process). */
-export async function with_server(file, act) {
-    const server = spawn(command, ["view", file], { stdio: ["ignore", "pipe", "inherit"] });
+export function with_server(file, act) { return with_command(["view", file], act); }
+
+/** Runs a command that serves a page until `act` is done: act(address, process, its end as an exit code). */
+export async function with_command(words, act) {
+    const server = spawn(command, words, { stdio: ["ignore", "pipe", "ignore"] });
     const ended = new Promise(done => server.on("exit", done));
     try {
         const address = await new Promise((done, failed) => {
@@ -72,7 +75,7 @@ export async function with_server(file, act) {
             });
             server.on("exit", code => failed(new Error(`the server ended with ${code}: ${text}`)));
         });
-        await act(address, server);
+        await act(address, server, ended);
     } finally {
         server.kill("SIGINT");
         await ended;

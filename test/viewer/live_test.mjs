@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// A run that goes on, in a browser: the page shows its present, paces it, and keeps what it has when it ends.
+import assert from "node:assert/strict";
+import fs from "node:fs";
+import path from "node:path";
+import test from "node:test";
+import { drawn, folder, scenario, told, with_command, with_served } from "./page.mjs";
+
+let number = 0;
+/** Command that runs a scenario with a page. */
+function run(name, ...words) { return ["run", name, "--view", "--out", path.join(folder, `live${++number}`), ...words]; }
+const state = page => page.evaluate(() => live.state());
+/** Waits until the state of the run passes. */
+function until(page, passes, argument) { return page.waitForFunction(passes, argument); }
+const exact = text => Number(text.replace(/\s/g, ""));
+
+test("V10: the run waits for its page, and goes on in it; pause, step, speed, the past and the present", () =>
+    with_command(run(scenario("rescue")), address => with_served(address, {}, async page => {
+        await until(page, () => live.state().now_ns > 5e8);
+        assert.equal(await page.textContent("#present"), "live");
+        await page.click("#play");
+        await until(page, () => live.state().paused);
+        assert.equal(await page.textContent("#present"), "run paused");
+        const paused = await state(page);
+        await drawn(page);
+        assert.equal(await page.evaluate(() => rovernet.t), paused.now_ns);
+        await page.keyboard.press("ArrowRight");
+        await until(page, before => live.state().now_ns > before, paused.now_ns);
+        assert.equal((await state(page)).now_ns - paused.now_ns, 1e8);
+        const there = told("where", scenario("rescue"), "--at", `${(await state(page)).now_ns / 1e9}s`, "--json").times[0].robots;
+        await drawn(page);
+        for (const [i, robot] of there.entries()) {
+            const seen = await page.evaluate(index => rovernet.position(index), i);
+            assert.ok(Math.hypot(seen.x - robot.x_m, seen.y - robot.y_m) < 1e-3, robot.name);
+        }
+        await page.keyboard.press(" ");
+        await page.evaluate(() => clock.set_power(2));
+        await until(page, () => live.state().speed === 100 && live.state().now_ns > 12e9);
+        assert.equal(await page.evaluate(() => { clock.seek(0); return live.text(); }), "to the present");
+        await page.click("#present");
+        await until(page, () => live.state().ended);
+        assert.equal(await page.textContent("#present"), "run ended");
+        assert.equal(await page.evaluate(() => rovernet.t), 90e9);
+    })));
+
+for (const name of ["rescue", "csma", "storeys"]) {
+    test(`V14: ${name} has the fingerprint and the receptions that it has without a page`, () =>
+        with_command(run(scenario(name), "--speed", "200"), address => with_served(address, {}, async page => {
+            await until(page, () => live.state().ended);
+            const { fingerprint, receptions } = told("run", scenario(name), "--json", "--out", path.join(folder, `plain${++number}`));
+            assert.equal((await state(page)).fingerprint, fingerprint);
+            await drawn(page);
+            const counts = await page.evaluate(() => ({ all: document.getElementById("caption").textContent, shown: window.rovernet.density().reduce((a, column) => a + column.reduce((x, y) => x + y, 0), 0) }));
+            const told_count = exact(/([\d\s]+) receptions/.exec(counts.all)[1]);
+            assert.equal(counts.shown, told_count);
+            assert.ok(told_count >= receptions);
+        })));
+}
+
+test("V10: Ctrl-C ends the run within a second, with its results, and the page keeps what it has", () =>
+    with_command(run(scenario("rescue"), "--speed", "10"), (address, server, ended) => with_served(address, {}, async page => {
+        await until(page, () => live.state().now_ns > 11e9);
+        const begin = Date.now();
+        server.kill("SIGINT");
+        assert.equal(await ended, 0);
+        assert.ok(Date.now() - begin < 3000);
+        await until(page, () => live.state().ended);
+        assert.equal(await page.textContent("#present"), "run ended");
+        assert.ok(await page.evaluate(() => rovernet.t) > 11e9);
+        assert.ok(fs.existsSync(path.join(folder, `live${number}`, "summary.json")));
+    })));
+
+test("V13: a page that is loaded again, and one that comes late, have all of the run", () =>
+    with_command(run(scenario("rescue"), "--speed", "50"), address => with_served(address, {}, async (page, context) => {
+        await until(page, () => live.state().now_ns > 30e9);
+        await page.reload();
+        const late = await context.newPage();
+        await late.goto(address);
+        for (const each of [page, late]) await until(each, () => window.rovernet?.ready && live.state().ended);
+        const texts = await Promise.all([page, late].map(each => each.textContent("#caption")));
+        assert.equal(texts[0], texts[1]);
+        const { messages } = told("run", scenario("rescue"), "--json", "--out", path.join(folder, `plain${++number}`));
+        assert.ok(texts[0].includes(`${messages} messages`), texts[0]);
+    })));
+
+test("a page that may control moves a robot and sends, and these are inputs; one that may not is told", () => {
+    const out = path.join(folder, `live${++number}`);
+    return with_command(["live", scenario("rescue"), "--view", "--view-control", "--out", out], (address, server, ended) => with_served(address, {}, async page => {
+        await until(page, () => live.state().now_ns > 3e8);
+        await page.evaluate(() => rovernet.select({ robots: [0], panel: "robot" }));
+        await page.fill("[aria-label^='goal of the robot']", "20, 12");
+        await page.getByRole("button", { name: "go", exact: true }).click();
+        await page.fill("[aria-label^='message to']", "from the page");
+        await page.getByRole("button", { name: "send", exact: true }).click();
+        await until(page, () => document.getElementById("caption").textContent.includes("1 message"));
+        await until(page, () => Math.hypot(rovernet.position(0).vx, rovernet.position(0).vy) > 0.5);
+        server.kill("SIGINT");
+        await ended;
+        const inputs = fs.readFileSync(path.join(out, "inputs.jsonl"), "utf8");
+        assert.match(inputs, /"goal":\[20\.0,12\.0/);
+        assert.match(inputs, /viewer/);
+    }));
+});
+
+test("a page of live --view may look alone: it cannot pause the run", () =>
+    with_command(["live", scenario("rescue"), "--view", "--out", path.join(folder, `live${++number}`)], address => with_served(address, {}, async page => {
+        await until(page, () => live.state().now_ns > 3e8);
+        assert.equal((await state(page)).controls_time, false);
+        const told_page = await page.evaluate(() => server.ask("pace", { paused: true }).then(() => "", error => error.message));
+        assert.match(told_page, /--view-control/);
+        await page.click("#play");
+        const { now_ns } = await state(page);
+        await until(page, before => live.state().now_ns > before + 3e8, now_ns);
+        assert.equal(await page.textContent("#present"), "to the present");
+    })));
+
+test("V13: a server that comes again on the same port shows its run in the page that waited", () =>
+    with_command(run(scenario("rescue")), (address, server, ended) => with_served(address, { faults: /ERR_CONNECTION_REFUSED/ }, async page => {
+        await until(page, () => live.state().now_ns > 2e8);
+        server.kill("SIGKILL");
+        await ended;
+        await until(page, () => document.getElementById("present").textContent === "server gone");
+        const port = new URL(address).port;
+        await with_command(["run", scenario("csma"), "--view", `127.0.0.1:${port}`, "--out", path.join(folder, `live${++number}`)], async () => {
+            await until(page, () => window.rovernet?.ready && document.getElementById("name").textContent === "csma" && live.state().now_ns > 2e8);
+        });
+    })));
