@@ -18,9 +18,13 @@ class ViewFile;
 /// Memory: 104 bytes for each leg, 16 for each change of a state, 24 for each link change.
 class MotionColumns {
   public:
+    /// @param with_links  whether the sink wants link changes, which a network must search for
+    explicit MotionColumns(bool with_links = true) : with_links_(with_links) {}
+
     KindMask kinds() const {
-        return kind_of<Moved>() | kind_of<Switched>() | kind_of<Arrived>() | kind_of<NoWay>() |
-               kind_of<LinkUp>() | kind_of<LinkDown>();
+        const KindMask motion =
+            kind_of<Moved>() | kind_of<Switched>() | kind_of<Arrived>() | kind_of<NoWay>();
+        return with_links_ ? motion | kind_of<LinkUp>() | kind_of<LinkDown>() : motion;
     }
     void on(const Record& record, const RecordContext& context);
 
@@ -58,6 +62,7 @@ class MotionColumns {
     void write_states(ViewFile& file, std::size_t robots) const;
     void write_links(ViewFile& file, std::size_t robots) const;
 
+    bool with_links_;
     std::vector<RobotLeg> legs_;
     std::vector<State> states_;
     std::vector<LinkChange> links_;

@@ -191,6 +191,7 @@ const run = (() => {
         for (let level = 0; level < file.head.density.length; level++) {
             const name = `density.${level}`;
             columns[name] = await rvw.column(file, name, "u32");
+            if (file.head.live && columns[name].length === 0) columns[name] = new Uint32Array(file.head.density[level].bins * head_check.outcomes);
             if (columns[name].length !== file.head.density[level].bins * head_check.outcomes) {
                 rvw.refuse(`The view file is damaged: ${name} has a wrong length.`);
             }

@@ -34,8 +34,10 @@ std::string ViewStream::start(Table live) const {
         if (!network_->medium().stations().is_on(robot))
             now.on(Switched{start_of_run, robot, false}, context);
     }
-    ViewFile file;
-    Table head = view_head(scenario_, robots_, version());
+    ViewDraft draft{ViewFile(false)}, no_frames;
+    ViewFile& file = draft.file;
+    Table& head = draft.head;
+    head = view_head(scenario_, robots_, version());
     head.set("metrics", Table{});
     head.set("follow", Array{});
     head.set("damage", Array{});
@@ -44,8 +46,9 @@ std::string ViewStream::start(Table live) const {
     head.set("map", view_map(scenario_, network_->settings(), now.bounds(), file));
     now.write(file, robots_.size());
     const Time end = start_of_run + scenario_.scenario.duration;
-    FrameColumns().write(file, head, robots_.size(), end, {});
-    return file.bytes(std::move(head));
+    head.set("blocks", Array{});
+    FrameColumns().write_part(draft, no_frames, robots_.size(), end, never);
+    return std::move(draft).bytes();
 }
 
 ViewStream::Part ViewStream::part(const Table& live, bool is_last) {
