@@ -43,10 +43,40 @@ test("V3: the page says why a robot has not got a message, in the words of trace
     await page.waitForFunction(text => document.getElementById("message-panel").textContent.includes(text), answer.slice(head.robots[robot].name.length + 1, 60));
 }));
 
-test("V4: the time line shows every reception, and the frames when it is close", () => with_page("csma", {}, async page => {
-    const { counts, blocks } = sections(view_file("csma")).head;
-    const sum = await page.evaluate(() => window.rovernet.density().reduce((a, column) => a + column.reduce((x, y) => x + y, 0), 0));
-    assert.equal(sum, counts.receptions);
+/** Ends of the receptions of a run [ns], read without the page's code. */
+function reception_ends(name) {
+    const { head, unpacked } = sections(view_file(name)), out = [];
+    const numbers = (column, Type) => new Type(Uint8Array.from(unpacked.get(column)).buffer);
+    for (let n = 0; n < head.blocks.length; n++) {
+        const parts = numbers(`${n}/flights.start`, Uint32Array), airtime = numbers(`${n}/flights.airtime`, Uint32Array), count = numbers(`${n}/flights.count`, Uint32Array);
+        let t = 0;
+        for (let i = 0; i < count.length; i++) {
+            t += parts[i] + 2 ** 32 * parts[count.length + i];
+            for (let k = 0; k < count[i]; k++) out.push(t + airtime[i]);
+        }
+    }
+    return out;
+}
+
+test("V4: the time line shows every reception, at each zoom", () => with_page("csma", {}, async page => {
+    const { counts, blocks, density, duration_ns } = sections(view_file("csma")).head, ends = reception_ends("csma"), bar = 3;
+    assert.equal(ends.length, counts.receptions);
+    const width = (await page.locator("#timeline").boundingBox()).width;
+    const sums = spans => page.evaluate(all => all.map(span => {
+        window.rovernet.select({ span });
+        return window.rovernet.density().reduce((sum, column) => sum + column.reduce((x, y) => x + y, 0), 0);
+    }), spans);
+    assert.deepEqual(await sums([null]), [counts.receptions]);
+    const levels = new Set();
+    for (let parts = 2; parts <= 128; parts *= 2) {
+        const pixel = duration_ns / parts / width * bar, fitting = density.filter(level => level.width_ns <= pixel), bin = Math.max(...fitting.map(level => level.width_ns));
+        if (fitting.length === 0) continue;
+        levels.add(bin);
+        const length = Math.ceil(duration_ns / parts / bin) * bin, spans = Array.from({ length: parts }, (_, i) => ({ from: i * length, to: (i + 1) * length }));
+        const expected = spans.map(({ from, to }) => ends.filter(end => end >= from && end < to).length);
+        assert.deepEqual(await sums(spans), expected, `${parts} parts`);
+    }
+    assert.equal(levels.size, density.length);
     const from = blocks[0].begin_ns;
     await page.evaluate(span => window.rovernet.select({ span }), { from, to: from + 5e6 });
     await drawn(page);
@@ -105,6 +135,30 @@ test("V6: the first row of the list is the last event until now", () => with_pag
         const { t, list } = await page.evaluate(() => ({ t: window.rovernet.t, list: window.rovernet.list() }));
         assert.ok(t < before && list.time === t);
     }
+}));
+
+test("V26: events a nanosecond apart are in order after 11 days", () => with_page("late", {}, async page => {
+    const { unpacked } = sections(view_file("late")), created = [...new Float64Array(Uint8Array.from(unpacked.get("messages.created")).buffer)];
+    assert.deepEqual(created.slice(0, 2), [1e15, 1e15 + 1]);
+    await page.evaluate(() => window.rovernet.select({ speed: 1e-6 }));
+    for (const [t, expected] of [[1e15 - 1, null], [1e15, 1e15], [1e15 + 1, 1e15 + 1], [created[2] - 1, null], [created[2], created[2]], [created[3], created[3]]]) {
+        await page.evaluate(at => window.rovernet.seek(at), t);
+        await drawn(page);
+        const seen = await page.evaluate(() => window.rovernet.list());
+        if (expected === null) assert.ok(seen === null || seen.time < t);
+        else assert.equal(seen.time, expected);
+        assert.equal((await page.locator("#time").textContent()).replace(/\D/g, ""), `${BigInt(t)}`.padStart(10, "0"));
+    }
+    const times = [...new Set([...created, ...reception_ends("late")])].sort((a, b) => a - b).slice(0, 12);
+    await page.evaluate(() => window.rovernet.seek(0));
+    const stepped = [];
+    while (stepped.length < 30 && (stepped.at(-1) ?? 0) < times.at(-1)) {
+        const before = await page.evaluate(() => window.rovernet.t);
+        await page.keyboard.press("ArrowRight");
+        await page.waitForFunction(t => window.rovernet.t > t, before);
+        stepped.push(await page.evaluate(() => window.rovernet.t));
+    }
+    for (const t of times) assert.ok(stepped.includes(t), `${t} was left out of ${stepped}`);
 }));
 
 test("V15: a tour by keys alone", () => with_page("rescue", {}, async page => {
