@@ -6,6 +6,7 @@
 #include "experiment/reports/link_table.hpp"
 #include "experiment/reports/network_at.hpp"
 #include "live/carriers/json_object.hpp"
+#include "live/viewer/network_answers.hpp"
 #include "pictures/map/coverage.hpp"
 #include "scenario/document/json.hpp"
 #include "traces/recorded/recorded_reader.hpp"
@@ -73,14 +74,16 @@ std::string ViewerAnswers::answer(std::string_view question) {
     return to_json_line(std::move(answer));
 }
 
-Table ViewerAnswers::answer_of(const JsonElement& question) const {
+Table ViewerAnswers::answer_of(const JsonElement& question) {
     const std::string op(member(question, "op").text());
     if (op == "why") return why(question);
     if (op == "pair") return pair(question);
-    if (op == "robot") return links(question);
+    if (op == "robot") return link_table(question);
+    if (op == "links") return links(question);
     if (op == "coverage") return coverage(question);
-    throw RequestError("unknown_op", "op",
-                       fmt::format("found \"{}\", expected why, pair, robot or coverage", op));
+    throw RequestError(
+        "unknown_op", "op",
+        fmt::format("found \"{}\", expected why, pair, robot, links or coverage", op));
 }
 
 const std::string& ViewerAnswers::robot(const JsonElement& question, std::string_view key) const {
@@ -108,7 +111,24 @@ Table ViewerAnswers::pair(const JsonElement& question) const {
     return answer;
 }
 
-Table ViewerAnswers::links(const JsonElement& question) const {
+const Network& ViewerAnswers::network(Time at) {
+    if (!network_ || network_->now() > at) {
+        network_ = network_at(scenario_, at);
+    } else if (network_->now() < at) {
+        play_until(*network_, at, {});
+    }
+    return *network_;
+}
+
+Table ViewerAnswers::links(const JsonElement& question) {
+    const Network& then = network(time(question));
+    if (question.object().at_key("robot").error() != simdjson::SUCCESS)
+        return answer_links(then, {});
+    const std::uint64_t robot = member(question, "robot").whole_number(0, robots_.size() - 1);
+    return answer_links(then, NodeId{static_cast<std::uint32_t>(robot)});
+}
+
+Table ViewerAnswers::link_table(const JsonElement& question) const {
     const std::string& name = robot(question, "robot");
     const auto network = network_at(scenario_, time(question));
     Table answer;

@@ -14,6 +14,7 @@ namespace rovernet {
 
 struct JsonElement;
 class JsonParser;
+class Network;
 
 /// Answers to the questions of the viewer's page about a recorded run (docs/view-format.md): why a
 /// robot has a message, link budgets, link tables, coverage. Each answer is computed by the
@@ -29,18 +30,23 @@ class ViewerAnswers {
     std::string answer(std::string_view question);
 
   private:
-    Table answer_of(const JsonElement& question) const;
+    Table answer_of(const JsonElement& question);
     Table why(const JsonElement& question) const;
     Table pair(const JsonElement& question) const;
-    Table links(const JsonElement& question) const;
+    Table link_table(const JsonElement& question) const;
+    Table links(const JsonElement& question);
     Table coverage(const JsonElement& question) const;
     const std::string& robot(const JsonElement& question, std::string_view key) const;
     Time time(const JsonElement& question) const;
+    /// Network of the scenario at a time. It is kept, since the next question is often about the
+    /// same time, or a little later.
+    const Network& network(Time at);
 
     std::string trace_;
     std::vector<std::string> robots_;  // names by NodeId
     std::unique_ptr<ReplayedScenario> replayed_;
     Scenario scenario_;
+    std::unique_ptr<Network> network_;
     std::unique_ptr<JsonParser> parser_;
 };
 

@@ -27,7 +27,7 @@ const head_check = (() => {
             doors: list(door), stairs: list(stairs)
         }),
         colors: object({
-            category: list(color, 1), lagoon: list(color, 2), ember: list(color, 2),
+            category: list(color, 1), lagoon: list(color, 2), ember: list(color, 2), links: list(object({ from_db: number, width: number, color }), 1),
             walls: list(object({ color, hatch: v => v === null || text(v) }), 1),
             door: color, stairs: color, robot: color, outcomes: list(color, outcomes)
         }),

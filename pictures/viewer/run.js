@@ -162,6 +162,7 @@ const run = (() => {
         check_below(r.col("messages.origin"), r.robots, "messages.origin");
         check_below(r.col("messages.kind"), r.head.message_kinds.length, "messages.kind");
         check_below(r.col("messages.flow"), r.head.flows.length, "messages.flow");
+        if (r.columns["links.time"]) for (const end of ["links.from", "links.to"]) check_below(r.col(end), r.robots, end);
         check_below(r.col("drops.robot"), r.robots, "drops.robot");
         for (const { message, robot } of r.head.follow) {
             if (message >= r.messages || robot >= r.robots) rvw.refuse("The view file is damaged: follow names nobody.");
