@@ -39,6 +39,8 @@ const head_check = (() => {
         blocks: list(object({ begin_ns: count, end_ns: count, flights: count, receptions: count })),
         counts: object({ flights: count, receptions: count, messages: count, outcomes: list(count) }),
         density: list(object({ bins: v => count(v) && v > 0, width_ns: v => count(v) && v > 0 })),
+        series: list(object({ chart: text, name: text, unit: text, points: count, width_ns: v => count(v) && v > 0, outcome: v => v === undefined || count(v) && v < outcomes })),
+        metrics: object({}),
         thinned: list(text),
         damage: list(text),
         follow: list(object({ message: count, robot: count, outcome: text, text })),

@@ -13,7 +13,7 @@ const keys = (() => {
         ["+ \u2212 0", "map closer, wider, whole"], ["arrows in the map", "move the map"],
         ["< >", "time line closer, wider"], ["/", "search"],
         ["F", "follow the message of the current event"], ["C", "coverage of the robot chosen"], ["L", "links"],
-        ["1 2 3 4", "events, message, robot, pair"], ["Page up, down", "storey"], ["Escape", "choose nothing"], ["?", "this help"]
+        ["1 2 3 4 5", "events, message, robot, pair, charts"], ["Page up, down", "storey"], ["Escape", "choose nothing"], ["?", "this help"]
     ];
 
     /** @param {number} factor */

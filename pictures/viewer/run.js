@@ -182,6 +182,11 @@ const run = (() => {
                 rvw.refuse(`The view file is damaged: ${name} has a wrong length.`);
             }
         }
+        for (let i = 0; i < file.head.series.length; i++) {
+            const name = `series.${i}`;
+            columns[name] = await rvw.column(file, name, "f64");
+            if (columns[name].length !== file.head.series[i].points || columns[name].length === 0) rvw.refuse(`The view file is damaged: ${name} has a wrong length.`);
+        }
         const out = new Run(file, columns, await rvw.texts(file, "messages.payload"));
         check(out);
         return out;

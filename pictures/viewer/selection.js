@@ -7,7 +7,7 @@
 const selection = (() => {
     "use strict";
 
-    const everything = 0xffff, panels = ["events", "message", "robot", "pair"];
+    const everything = 0xffff, panels = ["events", "message", "robot", "pair", "charts"];
     /** @returns {Filter} */
     const no_filter = () => ({ robot: -1, message: -1, signs: everything, kinds: everything });
 
