@@ -6,6 +6,7 @@
 #include "experiment/reports/link_table.hpp"
 #include "experiment/reports/network_at.hpp"
 #include "live/carriers/json_object.hpp"
+#include "live/viewer/network_answers.hpp"
 #include "pictures/map/coverage.hpp"
 #include "scenario/document/json.hpp"
 #include "traces/recorded/recorded_reader.hpp"
@@ -82,13 +83,15 @@ std::string ViewerAnswers::answer(std::string_view question, const Others& other
     return to_json_line(std::move(answer));
 }
 
-Table ViewerAnswers::answer_of(std::string_view op, const JsonElement& question) const {
+Table ViewerAnswers::answer_of(std::string_view op, const JsonElement& question) {
     if (op == "why") return why(question);
     if (op == "pair") return pair(question);
-    if (op == "robot") return links(question);
+    if (op == "robot") return link_table(question);
+    if (op == "links") return links(question);
     if (op == "coverage") return coverage(question);
-    throw RequestError("unknown_op", "op",
-                       fmt::format("found \"{}\", expected why, pair, robot or coverage", op));
+    throw RequestError(
+        "unknown_op", "op",
+        fmt::format("found \"{}\", expected why, pair, robot, links or coverage", op));
 }
 
 NodeId ViewerAnswers::robot(const JsonElement& question, std::string_view key) const {
@@ -100,11 +103,6 @@ Time ViewerAnswers::time(const JsonElement& question) const {
     const auto end = static_cast<std::uint64_t>(scenario_.scenario.duration.count());
     const std::uint64_t t = member(question, "t_ns").whole_number(0, end);
     return start_of_run + Duration{static_cast<std::int64_t>(t)};
-}
-
-/// Network at the time of a question, or the one that runs.
-std::shared_ptr<const Network> ViewerAnswers::network(const JsonElement& question) const {
-    return running_ ? running_ : network_at(scenario_, time(question));
 }
 
 Table ViewerAnswers::why(const JsonElement& question) const {
@@ -131,24 +129,43 @@ Table ViewerAnswers::pair(const JsonElement& question) const {
     return answer;
 }
 
-Table ViewerAnswers::links(const JsonElement& question) const {
+/// Network at the time of a question, or the one that runs.
+const Network& ViewerAnswers::network(const JsonElement& question) {
+    if (running_) return *running_;
+    const Time at = time(question);
+    if (!network_ || network_->now() > at) {
+        network_ = network_at(scenario_, at);
+    } else if (network_->now() < at) {
+        play_until(*network_, at, {});
+    }
+    return *network_;
+}
+
+Table ViewerAnswers::links(const JsonElement& question) {
+    const Network& then = network(question);
+    if (question.object().at_key("robot").error() != simdjson::SUCCESS)
+        return answer_links(then, {});
+    return answer_links(then, robot(question, "robot"));
+}
+
+Table ViewerAnswers::link_table(const JsonElement& question) {
     const NodeId node = robot(question, "robot");
-    const auto network = this->network(question);
+    const Network& network = this->network(question);
     Table answer;
-    for_each_link_table(*network, name_of(node),
+    for_each_link_table(network, name_of(node),
                         [&](const LinkTable& table) { answer = link_table_document(table); });
     return answer;
 }
 
-Table ViewerAnswers::coverage(const JsonElement& question) const {
+Table ViewerAnswers::coverage(const JsonElement& question) {
     const NodeId node = robot(question, "robot");
     const std::uint64_t cells = member(question, "cells").whole_number(1, most_cells);
-    const auto network = this->network(question);
-    const std::size_t storeys = network->scene().storeys().size();
+    const Network& network = this->network(question);
+    const std::size_t storeys = network.scene().storeys().size();
     const std::uint64_t storey = member(question, "storey").whole_number(0, storeys - 1);
-    const auto [low, high] = shown_area(*network);
+    const auto [low, high] = shown_area(network);
     const CoverageMap map =
-        rovernet::coverage(transmitter(*network, node, node, storey, network->now()), low, high,
+        rovernet::coverage(transmitter(network, node, node, storey, network.now()), low, high,
                            static_cast<int>(cells));
     Table answer;
     answer.set("columns", map.columns);

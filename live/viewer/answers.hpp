@@ -39,21 +39,25 @@ class ViewerAnswers {
     std::string answer(std::string_view question, const Others& others = {});
 
   private:
-    Table answer_of(std::string_view op, const JsonElement& question) const;
+    Table answer_of(std::string_view op, const JsonElement& question);
     Table why(const JsonElement& question) const;
     Table pair(const JsonElement& question) const;
-    Table links(const JsonElement& question) const;
-    Table coverage(const JsonElement& question) const;
+    Table link_table(const JsonElement& question);
+    Table links(const JsonElement& question);
+    Table coverage(const JsonElement& question);
     NodeId robot(const JsonElement& question, std::string_view key) const;
     const std::string& name_of(NodeId robot) const { return robots_[robot.index()]; }
     Time time(const JsonElement& question) const;
-    std::shared_ptr<const Network> network(const JsonElement& question) const;
+    /// Network at the time of a question, or the one that runs. That of a recorded run is kept,
+    /// since the next question is often about the same time, or a little later.
+    const Network& network(const JsonElement& question);
 
     std::string trace_;                       // empty: of a network that runs
     std::shared_ptr<const Network> running_;  // null: of a trace
     std::vector<std::string> robots_;         // names by NodeId
     std::unique_ptr<ReplayedScenario> replayed_;
     Scenario scenario_;
+    std::unique_ptr<Network> network_;
     std::unique_ptr<JsonParser> parser_;
 };
 

@@ -7,7 +7,7 @@ const address = (() => {
 
     /** @returns {string} */
     function text() {
-        const { t, speed, storey, view, span, robots: chosen, message, filter, panel, trails } = selection.state, p = new URLSearchParams();
+        const { t, speed, storey, view, span, robots: chosen, message, filter, panel, trails, links: lines } = selection.state, p = new URLSearchParams();
         if (!live.is_live() || !live.follows()) p.set("t", words_of_time(t));
         if (speed !== 1) p.set("speed", String(Number(speed.toPrecision(4))));
         if (storey) p.set("storey", String(storey + 1));
@@ -17,6 +17,7 @@ const address = (() => {
         if (message >= 0) p.set("message", String(message));
         if (panel !== "events") p.set("panel", panel);
         if (!trails) p.set("trails", "0");
+        if (lines) p.set("links", "1");
         if (filter.robot >= 0) p.set("of", String(filter.robot));
         if (filter.message >= 0) p.set("on", String(filter.message));
         if (filter.signs !== selection.everything) p.set("signs", String(filter.signs));
@@ -58,7 +59,7 @@ const address = (() => {
             span: span?.length === 2 && span[1] > span[0] && span[0] >= 0 ? { from: span[0], to: span[1] } : null,
             robots: (numbers("robots", Number) ?? []).filter(i => Number.isInteger(i) && i >= 0 && i < r.robots).slice(0, 2),
             message: whole("message", 0, r.messages - 1, -1),
-            panel: ["events", "message", "robot", "pair"].includes(panel) ? panel : "events", trails: p.get("trails") !== "0",
+            panel: selection.panels.includes(panel) ? panel : "events", trails: p.get("trails") !== "0", links: p.get("links") === "1",
             filter: {
                 robot: whole("of", 0, r.robots - 1, -1), message: whole("on", 0, r.messages - 1, -1),
                 signs: whole("signs", 0, selection.everything, selection.everything), kinds: whole("kinds", 0, selection.everything, selection.everything)

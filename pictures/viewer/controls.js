@@ -2,7 +2,7 @@
 // Buttons, tabs, pointers on the map, and the texts that tell the state.
 const controls = (() => {
     "use strict";
-    const panels = ["events", "message", "robot", "pair"];
+    const panels = selection.panels;
     /** @type {{run: Run, blocks: Blocks, note: string, said: number, resting: number}} */
     const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), note: "", said: 0, resting: 0 };
 
@@ -18,6 +18,7 @@ const controls = (() => {
         on_click("before", () => list.step(-1));
         on_click("next", () => list.step(1));
         on_click("trails", () => set({ trails: !state.trails }));
+        on_click("links", links.toggle);
         on_click("picture", () => files.picture(own.run, state));
         on_click("table", () => files.table(own.run, own.blocks, state));
         on_click("closer", () => zoom(1.4));
@@ -105,6 +106,7 @@ const controls = (() => {
         dom.by_id("play-shape").setAttribute("d", state.playing ? "M3 2h4v12H3zM9 2h4v12H9z" : "M3 2v12l11-6z");
         play.setAttribute("aria-label", state.playing ? "Pause" : "Play");
         dom.by_id("trails").setAttribute("aria-pressed", String(state.trails));
+        dom.by_id("links").setAttribute("aria-pressed", String(state.links));
         dom.by_id("whole-time").hidden = !state.span;
         for (const panel of panels) {
             const chosen = panel === state.panel, tab = dom.by_id(`${panel}-tab`);

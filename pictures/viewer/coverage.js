@@ -36,7 +36,7 @@ const coverage = (() => {
         const { t, storey } = selection.state;
         own.say("computing the coverage \u2026");
         server.ask("coverage", { robot, t_ns: t, storey, cells }).then(answer => {
-            own.heat = heat_of(answer, robot, t, storey);
+            own.heat = heat_of(answer, robot, answer.t_ns ?? t, storey);
             own.version++;
             own.say("");
             own.changed();

@@ -27,7 +27,7 @@ const head_check = (() => {
             doors: list(door), stairs: list(stairs)
         }),
         colors: object({
-            category: list(color, 1), lagoon: list(color, 2), ember: list(color, 2),
+            category: list(color, 1), lagoon: list(color, 2), ember: list(color, 2), links: list(object({ from_db: number, width: number, color }), 1),
             walls: list(object({ color, hatch: v => v === null || text(v) }), 1),
             door: color, stairs: color, robot: color, outcomes: list(color, outcomes)
         }),
@@ -39,6 +39,8 @@ const head_check = (() => {
         blocks: list(object({ begin_ns: count, end_ns: count, flights: count, receptions: count })),
         counts: object({ flights: count, receptions: count, messages: count, outcomes: list(count) }),
         density: list(object({ bins: v => count(v) && v > 0, width_ns: v => count(v) && v > 0 })),
+        series: list(object({ chart: text, name: text, unit: text, points: count, width_ns: v => count(v) && v > 0, outcome: v => v === undefined || count(v) && v < outcomes })),
+        metrics: object({}),
         thinned: list(text),
         damage: list(text),
         follow: list(object({ message: count, robot: count, outcome: text, text })),

@@ -7,13 +7,13 @@ const keys = (() => {
 
     /** Keys and what they do. @type {[string, string][]} */
     const told = [
-        ["Space, K", "play, pause"], ["\u2190 \u2192, J L", "event before, next event (of the filter)"],
+        ["Space, K", "play, pause"], ["\u2190 \u2192", "event before, next event (of the filter)"],
         ["Shift \u2190 \u2192", "one second"], ["Alt \u2190 \u2192", "frame before, next frame"],
         ["Home, End", "begin, end of the run"], ["[ ]", "slower, faster"],
         ["+ \u2212 0", "map closer, wider, whole"], ["arrows in the map", "move the map"],
         ["< >", "time line closer, wider"], ["/", "search"],
-        ["F", "follow the message of the current event"], ["C", "coverage of the robot chosen"],
-        ["1 2 3 4", "events, message, robot, pair"], ["Page up, down", "storey"], ["Escape", "choose nothing"], ["?", "this help"]
+        ["F", "follow the message of the current event"], ["C", "coverage of the robot chosen"], ["L", "links"],
+        ["1 2 3 4 5", "events, message, robot, pair, charts"], ["Page up, down", "storey"], ["Escape", "choose nothing"], ["?", "this help"]
     ];
 
     /** @param {number} factor */
@@ -41,23 +41,24 @@ const keys = (() => {
         selection.set({ storey: Math.min(own.run.head.map.floors.length - 1, Math.max(0, selection.state.storey + by)) });
     }
 
-    const panels = ["events", "message", "robot", "pair"], far = 60;  // [px]
+    const far = 60;  // [px]
 
     /** @type {Record<string, (event: KeyboardEvent) => void>} */
     const actions = {
         " ": live.play, k: live.play,
-        ArrowLeft: e => step(e, -1), ArrowRight: e => step(e, 1), j: e => step(e, -1), l: e => step(e, 1),
+        ArrowLeft: e => step(e, -1), ArrowRight: e => step(e, 1), j: e => step(e, -1),
         Home: () => clock.seek(0), End: () => live.is_live() ? live.follow() : clock.seek(own.run.duration),
         "[": () => clock.set_power(clock.power() - 0.5), "]": () => clock.set_power(clock.power() + 0.5),
         "+": () => zoom(1.4), "=": () => zoom(1.4), "-": () => zoom(1 / 1.4), 0: () => selection.set({ view: null }),
         "<": () => timeline.zoom(0.5, timeline.middle()), ">": () => timeline.zoom(2, timeline.middle()),
         "/": () => dom.input("search").focus(), f: follow,
         c: () => coverage.toggle(selection.state.robots.at(-1) ?? -1),
+        l: links.toggle,
         PageUp: () => storey(1), PageDown: () => storey(-1),
         Escape: () => selection.set({ robots: [], message: -1 }),
         "?": () => /** @type {HTMLDialogElement} */ (dom.by_id("help")).showModal()
     };
-    panels.forEach((panel, i) => actions[String(i + 1)] = () => selection.set({ panel }));
+    selection.panels.forEach((panel, i) => actions[String(i + 1)] = () => selection.set({ panel }));
 
     /** @type {Record<string, [number, number]>} */
     const arrows = { ArrowLeft: [far, 0], ArrowRight: [-far, 0], ArrowUp: [0, far], ArrowDown: [0, -far] };

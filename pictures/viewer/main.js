@@ -57,6 +57,7 @@ const main = (() => {
         const c = dom.sized(dom.canvas("map"), camera.now.width, camera.now.height);
         map.draw(c, r, state);
         robots.trails(c, r, state);
+        links.draw(c, state);
         const whole = flights.draw(c, all, state);
         message_panel.draw(c, state);
         pair_panel.draw(c, state);
@@ -69,6 +70,8 @@ const main = (() => {
         list.draw(true);
         message_panel.update(state);
         robot_panel.update(state);
+        links.update(state);
+        charts.update(state);
         pair_panel.update(state);
         legend.draw(r, all, state);
         own.frames++;
@@ -107,10 +110,11 @@ const main = (() => {
         clock.begin(r.duration);
         introduce(r.head);
         for (const part of [list, timeline, robot_panel, controls]) part.begin(r, all);
-        for (const part of [search, keys, filters]) part.begin(r);
+        for (const part of [search, keys, filters, charts]) part.begin(r);
         message_panel.begin(r, all, redraw);
         pair_panel.begin(r, redraw);
         coverage.begin(robot => r.name(robot), redraw, controls.say);
+        links.begin(r, redraw, controls.say);
         address.begin(r);
         live.begin(r, all);
         selection.listen(changed => {
@@ -139,6 +143,8 @@ const main = (() => {
         position(robot) { return own.run?.pose(robot, selection.state.t, { x: 0, y: 0, z: 0, vx: 0, vy: 0, heading: 0 }); },
         list: list.seen,
         density: timeline.columns,
+        charts: charts.values,
+        links: () => selection.state.links ? links.shown(selection.state).map(l => ({ ...l, ...links.look(l.margin) })) : [],
         /** @param {number} uid @param {number} robot */
         async outcome(uid, robot) {
             const { run: r, blocks: all } = own, message = r?.by_uid.get(uid);

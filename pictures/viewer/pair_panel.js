@@ -25,8 +25,8 @@ const pair_panel = (() => {
         server.ask("pair", { a, b, t_ns: t }).then(answer => {
             own.links = Array.isArray(answer.links) ? answer.links : [];
             own.robots = [a, b];
-            own.t = t;
-            place.replaceChildren(dom.make("p", "muted", `at ${words.seconds(t)} s`), ...own.links.flatMap(one));
+            own.t = answer.t_ns ?? t;
+            place.replaceChildren(dom.make("p", "muted", `at ${words.seconds(own.t)} s`), ...own.links.flatMap(one));
             own.done();
         }, error => place.textContent = error.message);
     }

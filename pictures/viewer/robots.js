@@ -167,5 +167,5 @@ const robots = (() => {
         return best;
     }
 
-    return { at, place, trails, draw, near, disc, font };
+    return { at, place, trails, draw, near, disc, radius, font };
 })();

@@ -176,6 +176,7 @@ const run = (() => {
         check_below(r.col("messages.origin"), r.robots, "messages.origin");
         check_below(r.col("messages.kind"), r.head.message_kinds.length, "messages.kind");
         check_below(r.col("messages.flow"), r.head.flows.length, "messages.flow");
+        if (r.columns["links.time"]) for (const end of ["links.from", "links.to"]) check_below(r.col(end), r.robots, end);
         check_below(r.col("drops.robot"), r.robots, "drops.robot");
         for (const { message, robot } of r.head.follow) {
             if (message >= r.messages || robot >= r.robots) rvw.refuse("The view file is damaged: follow names nobody.");
@@ -195,6 +196,11 @@ const run = (() => {
             if (columns[name].length !== file.head.density[level].bins * head_check.outcomes) {
                 rvw.refuse(`The view file is damaged: ${name} has a wrong length.`);
             }
+        }
+        for (let i = 0; i < file.head.series.length; i++) {
+            const name = `series.${i}`;
+            columns[name] = await rvw.column(file, name, "f64");
+            if (columns[name].length !== file.head.series[i].points || columns[name].length === 0) rvw.refuse(`The view file is damaged: ${name} has a wrong length.`);
         }
         const out = new Run(file, columns, await rvw.texts(file, "messages.payload"));
         check(out);

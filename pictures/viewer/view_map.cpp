@@ -2,6 +2,7 @@
 #include "pictures/viewer/view_map.hpp"
 
 #include "experiment/reports/scene_report.hpp"
+#include "pictures/map/link_grades.hpp"
 #include "pictures/map/map_style.hpp"
 #include "pictures/viewer/column.hpp"
 #include "pictures/viewer/view_file.hpp"
@@ -150,6 +151,15 @@ Table view_colors() {
     colors.set("door", hex(door_color));
     colors.set("stairs", hex(stairs_color));
     colors.set("robot", hex(robot_ink));
+    Array grades;
+    for (const LinkGrade& each : link_grades) {
+        Table grade;
+        grade.set("from_db", each.from);
+        grade.set("width", each.width);
+        grade.set("color", hex(ember.at(each.shade)));
+        grades.emplace_back(std::move(grade));
+    }
+    colors.set("links", std::move(grades));
     Array outcomes;
     for (const Color color : outcome_colors) {
         for (const Color each : {color, got}) outcomes.emplace_back(hex(each));

@@ -9,6 +9,7 @@
 #include "pictures/viewer/view_file.hpp"
 #include "pictures/viewer/view_head.hpp"
 #include "pictures/viewer/view_map.hpp"
+#include "pictures/viewer/view_series.hpp"
 #include "traces/metrics.hpp"
 #include "traces/recorded/recorded_reader.hpp"
 
@@ -24,18 +25,20 @@ namespace {
 
 /// Content of a recorded trace, by its columns.
 struct Columns {
-    explicit Columns(RecordedReader& reader) {
+    Columns(RecordedReader& reader, Time end) : series(end) {
         while (const Record* record = reader.next()) {
             const RecordContext context = reader.context();
             const KindMask kind = KindMask{1} << record->index();
             if (motion.kinds() & kind) motion.on(*record, context);
             if (frames.kinds() & kind) frames.on(*record, context);
             if (metrics.kinds() & kind) metrics.on(*record, context);
+            if (series.kinds() & kind) series.on(*record, context);
         }
     }
     MotionColumns motion;
     FrameColumns frames;
     Metrics metrics;
+    ViewSeries series;
 };
 
 Array texts(const std::vector<std::string>& list) { return {list.begin(), list.end()}; }
@@ -49,7 +52,7 @@ class Viewed {
           replayed_(reader_.run(), path),
           scenario_(replayed_.with({})),
           settings_(network_settings(scenario_)),
-          columns_(reader_) {
+          columns_(reader_, start_of_run + scenario_.scenario.duration) {
         check_robots(reader_.run(), scenario_, path);
     }
     ViewedRun write(const ViewChoice& choice);
@@ -117,6 +120,7 @@ ViewedRun Viewed::write(const ViewChoice& choice) {
     head.set("map",
              view_map(scenario_, choice.map ? settings_ : field, columns_.motion.bounds(), file));
     columns_.motion.write(file, robots);
+    columns_.series.write(file, head);
     columns_.frames.write(file, head, robots, end, choice.frames);
     ViewedRun view{.name = scenario_.scenario.name,
                    .bytes = {},

@@ -3,6 +3,8 @@
 
 #include "experiment/replay/message_at_robot.hpp"
 #include "experiment/reports/link_report.hpp"
+#include "experiment/reports/link_table.hpp"
+#include "experiment/reports/network_at.hpp"
 #include "experiment/run.hpp"
 #include "live/viewer/view_server.hpp"
 #include "scenario/document/json.hpp"
@@ -11,11 +13,16 @@
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
+#include <map>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 namespace answers_test {
 using namespace rovernet;
@@ -27,9 +34,10 @@ const std::string rescue = std::string(ROVERNET_EXAMPLES) + "/rescue/rescue.toml
 
 /// Recorded trace of the rescue.
 struct Recorded {
-    Recorded() {
+    explicit Recorded(std::vector<std::string> set = {}) {
         ScenarioOptions options;
-        options.set = {"trace.record=true"};
+        options.set = std::move(set);
+        options.set.emplace_back("trace.record=true");
         RunOptions run;
         run.folder = folder.path("run");
         run_scenario(load_scenario(rescue, options), run);
@@ -84,6 +92,53 @@ TEST_CASE("viewer answers: they are what the command line prints") {
     CHECK(number("columns") * number("rows") > 500);
     CHECK(map.table()->find("dbm")->array()->size() ==
           static_cast<std::size_t>(number("columns") * number("rows")));
+}
+
+TEST_CASE("viewer answers: links are those of the link tables, at later and earlier times") {
+    const Recorded run;
+    ViewerAnswers answers(run.path());
+    const Scenario scenario = load_scenario(rescue, {});
+    for (const std::int64_t s : {10, 40, 0, 41}) {
+        CAPTURE(s);
+        const auto network = network_at(scenario, Time(std::chrono::seconds(s)));
+        std::map<std::pair<std::string, std::string>, double> expected, found;  // levels [dBm]
+        for_each_link_table(*network, {}, [&](const LinkTable& table) {
+            for (const LinkTable::Row& row : table.rows)
+                expected[{row.neighbour.robot, table.device.robot}] = row.level.value;
+        });
+        const Value all = ask(
+            answers, fmt::format(R"({{"id": 1, "op": "links", "t_ns": {}}})", s * 1'000'000'000));
+        const auto column = [&](const char* key) { return *all.table()->find(key)->array(); };
+        const Array from = column("from"), to = column("to"), two_way = column("two_way"),
+                    level = column("level_dbm"), margin = column("margin_db"),
+                    back = column("back_level_dbm");
+        const auto name = [&](const Value& robot) {
+            return network->name(
+                NodeId{static_cast<std::uint32_t>(std::get<std::int64_t>(robot.data))});
+        };
+        for (std::size_t i = 0; i < from.size(); ++i) {
+            const std::string a = name(from[i]), b = name(to[i]);
+            found[{a, b}] = std::get<double>(level[i].data);
+            if (std::get<bool>(two_way[i].data)) found[{b, a}] = std::get<double>(back[i].data);
+            const LinkReport report = report_link(scenario, a, b, network->now());
+            CHECK(std::abs(std::get<double>(margin[i].data) - report.margin.value) < 1e-9);
+        }
+        CHECK(found.size() > 4);
+        CHECK(found.size() == expected.size());
+        for (const auto& [link, dbm] : expected) CHECK(std::abs(found[link] - dbm) < 1e-9);
+    }
+    const Value one = ask(answers, R"({"id": 1, "op": "links", "t_ns": 10000000000, "robot": 0})");
+    CHECK(one.table()->find("from")->array()->size() == 2);
+    CHECK(error_of(answers, R"({"id": 1, "op": "links", "t_ns": 0, "robot": 5})") != "");
+}
+
+TEST_CASE("viewer answers: links under the model disc have neither level nor margin") {
+    const Recorded run({"propagation.model=disc", "propagation.range=30 m"});
+    ViewerAnswers answers(run.path());
+    const Value all = ask(answers, R"({"id": 1, "op": "links", "t_ns": 0})");
+    const Array& margins = *all.table()->find("margin_db")->array();
+    REQUIRE(!margins.empty());
+    for (const Value& margin : margins) CHECK(std::holds_alternative<std::monostate>(margin.data));
 }
 
 TEST_CASE("viewer answers: a wrong question has an error and its id, and the next is answered") {

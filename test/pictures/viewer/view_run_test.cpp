@@ -15,10 +15,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <random>
+#include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace view_run_test {
@@ -191,6 +196,103 @@ TEST_CASE("view of a run: sums of the density are the receptions, by outcome") {
     }
     const Table& counts = *view.head().find("counts")->table();
     CHECK(static_cast<double>(test::ViewReader::integer(counts, "receptions")) == all);
+}
+
+namespace {
+
+double number(const Value& value) {
+    const auto* whole = std::get_if<std::int64_t>(&value.data);
+    return whole ? static_cast<double>(*whole) : std::get<double>(value.data);
+}
+
+/// Series of a view file, by the name of chart and curve, and the outcome.
+struct Series {
+    std::vector<double> values;
+    double width_s = 0;
+    std::optional<std::int64_t> outcome;
+};
+std::map<std::string, std::vector<Series>> series_of(const test::ViewReader& view) {
+    std::map<std::string, std::vector<Series>> all;
+    std::size_t n = 0;
+    for (const Value& each : *view.head().find("series")->array()) {
+        const Table& one = *each.table();
+        Series series{view.numbers(fmt::format("series.{}", n++)),
+                      static_cast<double>(test::ViewReader::integer(one, "width_ns")) / 1e9,
+                      {}};
+        CHECK(series.values.size() <= 300);
+        CHECK(series.values.size() ==
+              static_cast<std::size_t>(test::ViewReader::integer(one, "points")));
+        if (one.find("outcome")) series.outcome = test::ViewReader::integer(one, "outcome");
+        all[*one.find("chart")->string() + " " + *one.find("name")->string()].push_back(series);
+    }
+    return all;
+}
+
+}  // namespace
+
+TEST_CASE("view of a run: series end at the metrics, and sum up to the counts") {
+    for (const char* example : {"rescue/rescue.toml", "detour/detour.toml", "patrol/patrol.toml"}) {
+        CAPTURE(example);
+        const Recorded run(example, {"trace.links=true"});
+        const test::ViewReader view(view_of_trace(run.trace(), {}).bytes);
+        const Table& metrics = *view.head().find("metrics")->table();
+        const auto metric = [&](const char* name) { return number(*metrics.find(name)); };
+        auto series = series_of(view);
+        CHECK(series["Delivery ratio so far"][0].values.back() == metric("delivery_ratio"));
+        double most = 0;
+        for (const double v : series["Latency of deliveries largest"][0].values)
+            most = std::max(most, std::isnan(v) ? 0 : v);
+        CHECK(most == metric("latency_max_s"));
+        const Array& counts = *view.head().find("counts")->table()->find("outcomes")->array();
+        double receptions = 0;
+        for (const Series& one : series["Receptions "]) {
+            double sum = 0;
+            for (const double v : one.values) sum += v * one.width_s;
+            // The last bin may be shorter than the others, and a rate has the error of a division.
+            const double last = one.values.back() * one.width_s;
+            const auto expected = number(counts[static_cast<std::size_t>(*one.outcome)]);
+            CHECK(std::abs(sum - expected) <= last + 1e-6 * expected);
+            receptions += expected;
+        }
+        CHECK(receptions == static_cast<double>(test::ViewReader::integer(
+                                *view.head().find("counts")->table(), "receptions")));
+    }
+}
+
+TEST_CASE("view of a run: series of the channel and of the topology are those of the records") {
+    const Recorded run("patrol/patrol.toml", {"trace.links=true"});
+    const test::ViewReader view(view_of_trace(run.trace(), {}).bytes);
+    auto series = series_of(view);
+    double busy = 0, frames = 0, until = 0;
+    for (const double share : series["Channel occupancy share of time"][0].values) {
+        CHECK(share >= 0);
+        CHECK(share <= 1);
+        busy += share * series["Channel occupancy share of time"][0].width_s;
+    }
+    const auto starts = view.numbers("0/flights.start"),
+               airtimes = view.numbers("0/flights.airtime");
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+        const double end = starts[i] + airtimes[i];
+        frames += std::max(0.0, end - std::max(starts[i], until));
+        until = std::max(until, end);
+    }
+    CHECK(std::abs(busy - frames / 1e9) < 1e-9);
+    // 120 s in 300 bins of 0.4 s: the 10th ends at 4 s.
+    std::set<std::pair<double, double>> up;
+    const auto time = view.numbers("links.time"), from = view.numbers("links.from"),
+               to = view.numbers("links.to"), is_up = view.numbers("links.up");
+    for (std::size_t i = 0; i < time.size() && time[i] <= 4e9; ++i) {
+        if (is_up[i] > 0) up.emplace(from[i], to[i]);
+        if (is_up[i] == 0) up.erase({from[i], to[i]});
+    }
+    const double robots = static_cast<double>(view.head().find("robots")->array()->size());
+    CHECK(up.size() > 10);
+    CHECK(series["Neighbours of a robot mean"][0].values[9] ==
+          static_cast<double>(up.size()) / robots);
+    CHECK(series["Parts of the network connected components"][0].values[9] == 1);
+    const Recorded without("patrol/patrol.toml");
+    CHECK(series_of(test::ViewReader(view_of_trace(without.trace(), {}).bytes))
+              .count("Neighbours of a robot mean") == 0);
 }
 
 TEST_CASE("view of a run: less of it, as the choice says") {

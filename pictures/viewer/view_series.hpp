@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scenario/document/value.hpp"
+#include "sim/record.hpp"
+#include "sim/sink.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace rovernet {
+
+class ViewFile;
+
+/// Sink that collects series over the time of a run for the charts of the viewer's page: delivery
+/// ratio, latency, receptions by outcome, use of the channel, and the topology if the records
+/// contain links. The time of the run is divided into at most 300 equal bins; a series has a
+/// value for each bin (docs/view-format.md).
+///
+/// Memory: 16 bytes for each message in use, and for each link that is up; about 50 kB for the
+/// bins.
+class ViewSeries {
+  public:
+    /// @param end  end of the run
+    explicit ViewSeries(Time end);
+
+    KindMask kinds() const {
+        return kind_of<Sent>() | kind_of<AirSent>() | kind_of<Received>() |
+               kind_of<ControlReceived>() | kind_of<Dropped>() | kind_of<Moved>() |
+               kind_of<Switched>() | kind_links;
+    }
+    void on(const Record& record, const RecordContext& context);
+
+    /// Writes the columns `series.N`, and the entry `series` of the head, after all records.
+    void write(ViewFile& file, Table& head);
+
+  private:
+    using Numbers = std::vector<double>;
+    /// Destinations of the message in a slot of the message table.
+    struct Expected {
+        std::uint64_t uid = ~std::uint64_t{0};
+        std::uint32_t others = 0;
+    };
+
+    std::size_t bin_of(std::int64_t t) const;
+    double bin_end(std::size_t bin) const;
+    double length(std::size_t bin) const;
+    void take(const Received& received, const RecordContext& context);
+    void take(const Dropped& dropped, const RecordContext& context);
+    void take(const AirSent& sent);
+    void count(const Reception& reception);
+    void sample_topology_until(Time t);
+    std::uint64_t components() const;
+    void add(ViewFile& file, const char* chart, const char* name, const char* unit,
+             const Numbers& values);
+    void add_deliveries(ViewFile& file);
+    void add_receptions(ViewFile& file);
+
+    std::int64_t end_, width_;  // [ns] end of the run, width of a bin
+    std::size_t bins_;
+    std::vector<Expected> expected_of_;          // by MessageId
+    Numbers expected_, deliveries_;              // in each bin
+    Numbers latency_sum_, latency_most_;         // [s] of deliveries, in each bin
+    std::map<std::size_t, Numbers> receptions_;  // in each bin, by outcome
+    Numbers busy_;                               // [ns] with a frame on air, in each bin
+    std::int64_t busy_until_ = 0;                // [ns] end of the frames so far
+    std::set<std::pair<NodeId, NodeId>> links_;  // that are up
+    std::vector<bool> is_on_;                    // by NodeId
+    bool links_known_ = false, has_changed_ = true;
+    std::uint64_t components_ = 0;
+    Numbers degree_, parts_;  // topology at the end of each bin
+    Array list_;              // descriptions of the series
+};
+
+}  // namespace rovernet
