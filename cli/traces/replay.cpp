@@ -5,6 +5,7 @@
 #include "cli/terminal/options.hpp"
 #include "cli/terminal/text_table.hpp"
 #include "cli/terminal/waiting.hpp"
+#include "cli/traces/assignments.hpp"
 #include "cli/traces/replay_inputs.hpp"
 #include "cli/traces/trace_commands.hpp"
 #include "experiment/replay/ns2_day.hpp"
@@ -94,17 +95,6 @@ struct Radios {
     std::string first;
     bool plays_first = false;
 };
-
-/// Assignments of one --with: "a=1;b=2".
-std::vector<std::string> assignments(const std::string& with) {
-    std::vector<std::string> each;
-    for (std::size_t begin = 0; begin <= with.size();) {
-        const std::size_t end = std::min(with.find(';', begin), with.size());
-        each.push_back(with.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    return each;
-}
 
 void append(std::vector<std::string>& set, const std::optional<std::string>& with) {
     if (!with) return;
@@ -332,6 +322,16 @@ void play_events(const ReplayArguments& a) {
 }
 
 }  // namespace
+
+std::vector<std::string> assignments(const std::string& with) {
+    std::vector<std::string> each;
+    for (std::size_t begin = 0; begin <= with.size();) {
+        const std::size_t end = std::min(with.find(';', begin), with.size());
+        each.push_back(with.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return each;
+}
 
 void replay(const ReplayArguments& a) {
     if (a.verify && has_input_log(a.file)) return verify_inputs(a);

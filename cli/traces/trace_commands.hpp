@@ -67,6 +67,10 @@ void replay(const ReplayArguments& arguments);
 
 struct ViewArguments {
     std::string file;
+    std::optional<std::string> other;  ///< second run, shown beside the first
+    /// Settings "path=value", or several of them separated by ";", with which the run is simulated
+    /// again as the second one.
+    std::vector<std::string> with;
     std::optional<std::string> out;  ///< file of the page; none: the page is served
     std::string address = "127.0.0.1:0";
     std::optional<std::string> listen, from, to, limit;

@@ -3,8 +3,12 @@
 #include "cli/terminal/options.hpp"
 #include "cli/terminal/stop.hpp"
 #include "cli/terminal/waiting.hpp"
+#include "cli/traces/assignments.hpp"
 #include "cli/traces/trace_commands.hpp"
 #include "cli/traces/trace_notices.hpp"
+#include "experiment/recorded_scenario.hpp"
+#include "experiment/replay/recorded_day.hpp"
+#include "experiment/replay/run_comparison.hpp"
 #include "experiment/reports/loss_table.hpp"
 #include "experiment/run.hpp"
 #include "files/part_file.hpp"
@@ -17,9 +21,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -61,6 +68,18 @@ class TraceToView {
         }
         path_ = is_recorded_trace(file) ? file : run(file);
     }
+    /// Trace of the same movements and messages, simulated again with other settings.
+    TraceToView(const TraceToView& recorded, const std::vector<std::string>& set) {
+        const RecordedDay day(recorded.path());
+        if (const std::string doubt = day.starts_together(set); !doubt.empty()) notice(doubt);
+        folder_ = std::make_unique<TemporaryDirectory>();
+        path_ = folder_->path() + "/trace.mcap";
+        Waiting waiting("replaying " + recorded.path());
+        day.record(path_, set, [&](double share) {
+            waiting.tell(share);
+            return true;
+        });
+    }
     const std::string& path() const { return path_; }
 
   private:
@@ -69,7 +88,7 @@ class TraceToView {
         given.file = file;
         given.options.set.emplace_back("trace.record=true");
         const Scenario scenario = scenario_of(given);
-        folder_.emplace();
+        folder_ = std::make_unique<TemporaryDirectory>();
         Waiting waiting("running " + file);
         run_scenario(scenario,
                      {.folder = folder_->path(), .speed = {}, .progress = [&](double share) {
@@ -79,11 +98,12 @@ class TraceToView {
         return folder_->path() + "/trace.mcap";
     }
 
-    std::optional<TemporaryDirectory> folder_;
+    std::unique_ptr<TemporaryDirectory> folder_;
     std::string path_;
 };
 
-ViewChoice choice_of(const ViewArguments& a) {
+/// Choice of the content of view files. @param page  size of the page without them [bytes]
+ViewChoice choice_of(const ViewArguments& a, std::size_t page) {
     ViewChoice choice;
     if (a.from) choice.frames.from = start_of_run + option_time("--from", *a.from);
     if (a.to) choice.frames.to = start_of_run + option_time("--to", *a.to);
@@ -95,35 +115,106 @@ ViewChoice choice_of(const ViewArguments& a) {
     choice.map = !a.no_map;
     if (!a.limit) return choice;
     // In the page, the view file takes 4 bytes for 3.
-    const std::size_t page = page_with("").size(), limit = option_size(*a.limit);
+    const std::size_t limit = option_size(*a.limit);
     choice.most_bytes = limit > page ? (limit - page) / 4 * 3 : 0;
     return choice;
 }
 
-}  // namespace
+ViewedRun read_view(const std::string& trace, const ViewChoice& choice) {
+    ViewedRun run = [&] {
+        const Waiting waiting("reading " + trace);
+        return view_of_trace(trace, choice);
+    }();
+    tell_damage(trace, run.damage);
+    for (const std::string& what : run.left_out) notice(what);
+    return run;
+}
 
-namespace {
+/// Short name of a file that makes two runs of one scenario distinct: the folder of a trace.
+std::string short_name(const std::string& file) {
+    const fs::path path(file);
+    return (path.filename() == "trace.mcap" && path.has_parent_path() ? path.parent_path() : path)
+        .filename()
+        .string();
+}
 
-void write_page(const ViewArguments& a, const ViewedRun& run) {
-    const std::string page = page_with(run.bytes);
+std::string joined(const std::vector<std::string>& list) {
+    std::string text;
+    for (const std::string& each : list) text += (text.empty() ? "" : "; ") + each;
+    return text;
+}
+
+/// Second run and its view file, for a comparison with the first run.
+struct Beside {
+    std::optional<TraceToView> trace;
+    std::optional<ViewComparison> comparison;
+    std::optional<ViewedRun> run;
+
+    std::string path() const { return trace ? trace->path() : ""; }
+    std::string bytes() const { return run ? run->bytes : ""; }
+};
+
+/// Second trace that the arguments name: another run, or the first under other settings; none
+/// without such an argument.
+std::optional<TraceToView> second_trace(const ViewArguments& a, const TraceToView& first) {
+    if (a.other) return TraceToView(*a.other);
+    if (a.with.empty()) return std::nullopt;
+    std::vector<std::string> set;
+    for (const std::string& each : a.with)
+        for (std::string& one : assignments(each)) set.push_back(std::move(one));
+    return TraceToView(first, set);
+}
+
+std::string scenario_name(const std::string& trace) {
+    return ReplayedScenario(RecordedReader(trace).run(), trace).with({}).scenario.name;
+}
+
+/// Names of the runs in two traces, as the page shows them.
+std::array<std::string, 2> names_of(const ViewArguments& a, const std::string& trace,
+                                    const std::string& other) {
+    const std::string first = scenario_name(trace), second = scenario_name(other);
+    if (!a.with.empty()) return {first, second + ", with " + joined(a.with)};
+    if (first != second) return {first, second};
+    return {fmt::format("{} ({})", first, short_name(a.file)),
+            fmt::format("{} ({})", second, short_name(*a.other))};
+}
+
+void write_page(const ViewArguments& a, const ViewedRun& run, const Beside& beside) {
+    const std::string page = page_with(run.bytes, beside.bytes());
     PartFile file(*a.out);
     file.write(page);
     file.give_name();
-    fmt::print("{}: {} robots, {} messages, {} frames; {:.0f} kB\n", *a.out, run.robots,
-               run.messages, run.frames, static_cast<double>(page.size()) / 1e3);
+    const auto size = static_cast<double>(page.size()) / 1e3;
+    if (beside.run) {
+        const RunComparison& result = beside.comparison->result;
+        fmt::print(
+            "{}: {} robots; A: {} messages, {} frames; B: {} messages, {} frames; {:.0f} kB\n",
+            *a.out, run.robots, run.messages, run.frames, beside.run->messages, beside.run->frames,
+            size);
+        fmt::print("deliveries: {} gained in B, {} lost in B, {} in both\n", result.gained,
+                   result.lost, result.same);
+    } else {
+        fmt::print("{}: {} robots, {} messages, {} frames; {:.0f} kB\n", *a.out, run.robots,
+                   run.messages, run.frames, size);
+    }
     if (!a.limit || page.size() <= option_size(*a.limit)) return;
     notice(fmt::format("--limit {}: the page, the robots and the messages take more than that",
                        *a.limit));
 }
 
 /// Serves the page until Ctrl-C.
-void serve_page(const ViewArguments& a, const std::string& trace, ViewedRun run) {
-    ViewerAnswers answers(trace);
+void serve_page(const ViewArguments& a, const std::string& trace, ViewedRun run,
+                const Beside& beside) {
+    ViewerAnswers answers(trace, beside.path());
     Address address = read_loopback(a.address);
     if (a.listen) address.host = read_host(*a.listen);
-    ViewServer server(address, std::move(run.bytes),
-                      [&](std::string_view question) { return answers.answer(question); });
-    fmt::print("{} at {} until Ctrl-C\n", run.name, server.url());
+    ViewServer server(
+        address, std::move(run.bytes),
+        [&](std::string_view question) { return answers.answer(question); }, beside.bytes());
+    fmt::print(
+        "{} at {} until Ctrl-C\n",
+        beside.run ? beside.comparison->names[0] + " and " + beside.comparison->names[1] : run.name,
+        server.url());
     std::fflush(stdout);
     const HeldStop until_told;
     server.serve([] { return stops_asked() == 0; });
@@ -132,28 +223,52 @@ void serve_page(const ViewArguments& a, const std::string& trace, ViewedRun run)
 }  // namespace
 
 void view(const ViewArguments& a) {
-    const ViewChoice choice = choice_of(a);
+    if (a.other && !a.with.empty()) {
+        throw CommandEnd(usage,
+                         fmt::format("view: found a second run, {}, and --with {}; expected one of "
+                                     "them: --with makes the second run from the first",
+                                     *a.other, a.with[0]));
+    }
+    ViewChoice choice = choice_of(a, page_with("").size());
+    const std::size_t most_bytes = choice.most_bytes;
     const TraceToView trace(a.file);
-    ViewedRun run = [&] {
-        const Waiting waiting("reading " + trace.path());
-        return view_of_trace(trace.path(), choice);
-    }();
-    tell_damage(trace.path(), run.damage);
-    for (const std::string& what : run.left_out) notice(what);
-    if (a.out) return write_page(a, run);
-    serve_page(a, trace.path(), std::move(run));
+    Beside beside{.trace = second_trace(a, trace), .comparison = {}, .run = {}};
+    if (beside.trace) {
+        const Waiting waiting("comparing the runs");
+        beside.comparison = {.names = names_of(a, trace.path(), beside.path()),
+                             .result = compare_runs({trace.path(), a.file},
+                                                    {beside.path(), a.other.value_or(a.file)},
+                                                    {.is_replay = !a.other})};
+        choice.most_bytes = most_bytes / 2;
+    }
+    ViewedRun run = read_view(trace.path(), choice);
+    if (beside.trace) {
+        ViewComparison& comparison = *beside.comparison;
+        comparison.messages = run.message_names;
+        choice.comparison = &comparison;
+        choice.most_bytes = most_bytes - std::min(most_bytes, run.bytes.size());
+        beside.run = read_view(beside.path(), choice);
+    }
+    if (a.out) return write_page(a, run, beside);
+    serve_page(a, trace.path(), std::move(run), beside);
 }
 
 void add_view(Command app) {
     const auto [view, a] = add_command(app, "view", "Show a run in a browser", cli::view);
-    view.add_examples(
-        {"rovernet view examples/rescue/rescue.toml",
-         "rovernet view examples/rescue/rescue.toml -o rescue.html",
-         "rovernet run examples/patrol/patrol.toml --record",
-         "rovernet view runs/patrol-s3 -o patrol.html --from \"10 s\" --to \"20 s\""});
+    view.add_examples({"rovernet view examples/rescue/rescue.toml",
+                       "rovernet view examples/rescue/rescue.toml -o rescue.html",
+                       "rovernet run examples/patrol/patrol.toml --record",
+                       "rovernet view runs/patrol-s3 -o patrol.html --from \"10 s\" --to \"20 s\"",
+                       "rovernet view runs/patrol-s3 --with propagation.model=friis -o both.html"});
     view.add_option("RUN", a.file,
                     "folder of a run with --record, its trace.mcap, or a scenario, which is run")
         .required();
+    view.add_option("OTHER", a.other,
+                    "second run of the same robots, to be shown beside the first: A left, B right");
+    view.add_option("--with", a.with,
+                    "key=value of another radio, or several between \";\", for a second run: the "
+                    "robots move and speak as in the first")
+        .one_word();
     view.add_option("-o,--output", a.out,
                     "write the page as one file, which needs no network, "
                     "instead of serving it");

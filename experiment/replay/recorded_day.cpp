@@ -4,6 +4,7 @@
 #include "experiment/build.hpp"
 #include "experiment/replay/to_destination.hpp"
 #include "experiment/run.hpp"
+#include "experiment/version.hpp"
 #include "experiment/warmup.hpp"
 #include "mobility/recorded_legs.hpp"
 #include "models/medium/medium.hpp"
@@ -11,11 +12,13 @@
 #include "scenario/equal_starts.hpp"
 #include "sim/geometry.hpp"
 #include "traces/metrics.hpp"
+#include "traces/recorded/recorded_trace.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 #include <map>
 #include <numeric>
@@ -34,14 +37,18 @@ std::uint64_t sum_of(const std::vector<std::uint64_t>& counts) {
     return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
 }
 
-/// Counts by robot what is in `some` and not in `others`; both are sorted.
-std::vector<std::uint64_t> missing(const std::vector<Delivery>& some,
-                                   const std::vector<Delivery>& others, std::size_t robots) {
+/// Deliveries that are in `some` and not in `others`; both are sorted.
+std::vector<Delivery> missing(const std::vector<Delivery>& some,
+                              const std::vector<Delivery>& others) {
     std::vector<Delivery> only;
     std::set_difference(some.begin(), some.end(), others.begin(), others.end(),
                         std::back_inserter(only));
+    return only;
+}
+
+std::vector<std::uint64_t> counts_by_robot(const std::vector<Delivery>& list, std::size_t robots) {
     std::vector<std::uint64_t> counts(robots);
-    for (const Delivery& each : only) ++counts[each.at.index()];
+    for (const Delivery& each : list) ++counts[each.at.index()];
     return counts;
 }
 
@@ -50,11 +57,17 @@ std::vector<std::uint64_t> missing(const std::vector<Delivery>& some,
 std::uint64_t DeliveryChange::all_gained() const { return sum_of(gained); }
 std::uint64_t DeliveryChange::all_lost() const { return sum_of(lost); }
 
+DeliveryDifference difference_of(std::vector<Delivery> before, std::vector<Delivery> after) {
+    std::sort(before.begin(), before.end());
+    std::sort(after.begin(), after.end());
+    DeliveryDifference difference{missing(after, before), missing(before, after), 0};
+    difference.same = before.size() - difference.lost.size();
+    return difference;
+}
+
 DeliveryChange change_of(const PlayedDay& before, const PlayedDay& after, std::size_t robots) {
-    std::vector<Delivery> a = before.deliveries, b = after.deliveries;
-    std::sort(a.begin(), a.end());
-    std::sort(b.begin(), b.end());
-    return {missing(b, a, robots), missing(a, b, robots)};
+    const DeliveryDifference difference = difference_of(before.deliveries, after.deliveries);
+    return {counts_by_robot(difference.gained, robots), counts_by_robot(difference.lost, robots)};
 }
 
 RecordedDay::RecordedDay(const std::string& path) {
@@ -81,8 +94,22 @@ RecordedDay::RecordedDay(RecordedRun run, const std::string& path, DayLog log)
     log_.legs.resize(run_.robots.size());
 }
 
+PlayedDay RecordedDay::record(const std::string& path, const std::vector<std::string>& set,
+                              const std::function<bool(double)>& progress) const {
+    auto [text, files] =
+        recorded_scenario(scenario_->with(set), std::filesystem::path(path).parent_path().string());
+    const auto trace =
+        std::make_shared<RecordedTrace>(path, RecordedTrace::Contents{.version = code_version(),
+                                                                      .scenario = std::move(text),
+                                                                      .files = std::move(files)});
+    PlayedDay played = play(set, progress, {Sink(trace)});
+    trace->close();
+    return played;
+}
+
 PlayedDay RecordedDay::play(const std::vector<std::string>& set,
-                            const std::function<bool(double)>& progress) const {
+                            const std::function<bool(double)>& progress,
+                            const std::vector<Sink>& sinks) const {
     const Scenario scenario = scenario_->with(set);
     NetworkSettings settings = network_settings(scenario);
     const auto metrics = metrics_of(scenario_->with({}), settings);
@@ -93,6 +120,7 @@ PlayedDay RecordedDay::play(const std::vector<std::string>& set,
     add_robots(network, scenario);
     network.add_sink(metrics);
     network.add_sink(deliveries);
+    for (const Sink& sink : sinks) network.add_sink(sink);
     schedule(network);
     const Time end = start_of_run + scenario.scenario.duration;
     constexpr std::uint64_t events_a_slice = 100'000;

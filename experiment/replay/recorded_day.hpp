@@ -4,6 +4,7 @@
 #include "experiment/recorded_scenario.hpp"
 #include "experiment/replay/day_log.hpp"
 #include "network/network.hpp"
+#include "sim/sink.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -13,6 +14,16 @@
 #include <vector>
 
 namespace rovernet {
+
+/// Deliveries in only one of two runs of the same messages, and number of deliveries in both.
+struct DeliveryDifference {
+    /// Deliveries in only the second (gained) or only the first run (lost), by message, then by
+    /// receiver.
+    std::vector<Delivery> gained, lost;
+    std::uint64_t same = 0;  ///< number of deliveries in both runs
+};
+/// Difference between the deliveries in two runs, each in any order.
+DeliveryDifference difference_of(std::vector<Delivery> before, std::vector<Delivery> after);
 
 /// Difference between the deliveries in two runs of the same messages, counted by receiving robot.
 struct DeliveryChange {
@@ -59,7 +70,15 @@ class RecordedDay {
     /// simulation
     /// @throws InputError, RunError, Interrupted
     PlayedDay play(const std::vector<std::string>& set,
-                   const std::function<bool(double)>& progress = {}) const;
+                   const std::function<bool(double)>& progress = {}) const {
+        return play(set, progress, {});
+    }
+    /// Simulates as play(), and writes the new run as a recorded trace, with the scenario that has
+    /// the assignments `set`.
+    /// @param path  path of the new trace
+    /// @throws InputError, RunError, Interrupted
+    PlayedDay record(const std::string& path, const std::vector<std::string>& set,
+                     const std::function<bool(double)>& progress = {}) const;
 
     /// Warning, as a sentence, that at least a tenth of the messages start at the same instant and
     /// collide under the access model of the scenario with the assignments `set`. Empty if fewer
@@ -73,6 +92,8 @@ class RecordedDay {
     std::string hears_farther(const std::vector<std::string>& set) const;
 
   private:
+    PlayedDay play(const std::vector<std::string>& set, const std::function<bool(double)>& progress,
+                   const std::vector<Sink>& sinks) const;
     void add_robots(Network& network, const Scenario& scenario) const;
     void schedule(Network& network) const;
 

@@ -27,13 +27,14 @@ MacTrace mac_of(const TraceInput::Lines& lines, const RecordedRun& run, const st
 }
 
 /// Takes the next record into the trace. @return false after the last one, with the trace whole
-bool take_record(RecordedReader& reader, Ns2Trace& trace) {
+bool take_record(RecordedReader& reader, Ns2Trace& trace, KindMask kinds = kind_all) {
     const Record* record = reader.next();
     if (!record) {
         trace.finish();
         return false;
     }
-    if (trace.kinds() & (KindMask{1} << record->index())) trace.on(*record, reader.context());
+    if (kinds & trace.kinds() & (KindMask{1} << record->index()))
+        trace.on(*record, reader.context());
     return true;
 }
 
@@ -43,16 +44,18 @@ bool take_record(RecordedReader& reader, Ns2Trace& trace) {
 struct TraceInput::Recorded {
     Recorded(const std::string& path, const Lines& lines)
         : reader(path),
+          kinds(lines.motion ? kind_all : kind_all & ~kind_of<Moved>()),
           trace([this](std::string_view more) { text += more; }, lines.format,
                 mac_of(lines, reader.run(), path)) {}
 
     std::string_view next() {
         text.clear();
-        while (text.empty() && !has_ended) has_ended = !take_record(reader, trace);
+        while (text.empty() && !has_ended) has_ended = !take_record(reader, trace, kinds);
         return text;
     }
 
     RecordedReader reader;
+    KindMask kinds;  // kinds of the records whose lines are generated
     std::string text;
     Ns2Trace trace;
     bool has_ended = false;

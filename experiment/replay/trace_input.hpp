@@ -25,6 +25,7 @@ class TraceInput {
         /// Choice whether lines of the MAC layer are generated; none: as the key mac of [trace] in
         /// the scenario of the trace selects.
         std::optional<MacTrace> mac = {};
+        bool motion = true;  ///< whether movements are generated, the lines M
     };
 
     /// @throws InputError if the file cannot be read

@@ -31,6 +31,11 @@ JsonElement member(const JsonElement& object, std::string_view key) {
     return {value, {.above = nullptr, .key = key}};
 }
 
+bool has_member(const JsonElement& object, std::string_view key) {
+    simdjson::dom::element value;
+    return object.object()[key].get(value) == simdjson::SUCCESS;
+}
+
 /// Rectangle of the map, or of the robots and 10 m around them on an open field.
 std::array<Vec3, 2> shown_area(const Network& network) {
     const Scene& scene = network.scene();
@@ -47,12 +52,13 @@ std::array<Vec3, 2> shown_area(const Network& network) {
 
 }  // namespace
 
-ViewerAnswers::ViewerAnswers(const std::string& trace)
+ViewerAnswers::ViewerAnswers(const std::string& trace, const std::string& other)
     : trace_(trace), parser_(std::make_unique<JsonParser>()) {
     const RecordedReader reader(trace);
     robots_ = reader.run().robots;
     replayed_ = std::make_unique<ReplayedScenario>(reader.run(), trace);
     scenario_ = replayed_->with({});
+    if (!other.empty()) other_ = std::make_unique<ViewerAnswers>(other);
 }
 
 ViewerAnswers::ViewerAnswers(std::shared_ptr<const Network> network)
@@ -72,8 +78,10 @@ std::string ViewerAnswers::answer(std::string_view question, const Others& other
         const JsonElement asked{parser_->parse(question), {}};
         id = Value(member(asked, "id").whole_number(0, 1U << 31U));
         const std::string_view op = member(asked, "op").text();
-        const std::optional<Table> other = others ? others(op, asked) : std::nullopt;
-        answer = other ? *other : answer_of(op, asked);
+        const bool is_other =
+            has_member(asked, "run") && member(asked, "run").whole_number(0, other_ ? 1 : 0) == 1;
+        const std::optional<Table> told = others ? others(op, asked) : std::nullopt;
+        answer = told ? *told : (is_other ? *other_ : *this).answer_of(op, asked);
         if (running_) answer.set("t_ns", (running_->now() - start_of_run).count());
     } catch (const std::exception& error) {
         answer = {};

@@ -26,8 +26,9 @@ class ViewerAnswers {
   public:
     /// Answers about a recorded run, at any of its times.
     /// @param trace  path of the recorded trace
-    /// @throws InputError if the trace has no scenario
-    explicit ViewerAnswers(const std::string& trace);
+    /// @param other  path of a second one, which questions with "run": 1 are about; empty: none
+    /// @throws InputError if a trace has no scenario
+    explicit ViewerAnswers(const std::string& trace, const std::string& other = {});
     /// Answers about a network that runs, at its present time, which the answers name as `t_ns`.
     explicit ViewerAnswers(std::shared_ptr<const Network> network);
     ~ViewerAnswers();
@@ -59,6 +60,7 @@ class ViewerAnswers {
     Scenario scenario_;
     std::unique_ptr<Network> network_;
     std::unique_ptr<JsonParser> parser_;
+    std::unique_ptr<ViewerAnswers> other_;  // answers about the second run; null: none
 };
 
 }  // namespace rovernet

@@ -19,7 +19,7 @@ struct ViewServer::State {
 };
 
 ViewServer::ViewServer(const Address& address, std::string view_file,
-                       std::function<std::string(std::string_view)> answer)
+                       std::function<std::string(std::string_view)> answer, std::string other)
     : state_(std::make_unique<State>()) {
     Listeners::Streams users;
     users.received = [state = state_.get(), answer = std::move(answer)](WebSockets::Connection from,
@@ -28,8 +28,9 @@ ViewServer::ViewServer(const Address& address, std::string view_file,
         return std::size_t{1};
     };
     WebPages pages;
-    pages["/"] = {"text/html; charset=utf-8", served_page()};
+    pages["/"] = {"text/html; charset=utf-8", served_page(!other.empty())};
     pages["/run.rvw"] = {"application/octet-stream", std::move(view_file)};
+    if (!other.empty()) pages["/other.rvw"] = {"application/octet-stream", std::move(other)};
     state_->address = state_->sockets.listen(address, std::move(users), std::move(pages));
 }
 

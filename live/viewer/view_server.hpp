@@ -16,9 +16,10 @@ class ViewServer {
     /// @param address    address of this machine; port 0: any free port
     /// @param view_file  bytes of the view file
     /// @param answer     gives the answer to a question, both as JSON
+    /// @param other      view file of a second run, served at /other.rvw; empty: none
     /// @throws RunError if the address is in use
     ViewServer(const Address& address, std::string view_file,
-               std::function<std::string(std::string_view)> answer);
+               std::function<std::string(std::string_view)> answer, std::string other = {});
     ~ViewServer();
 
     /// Address of the page for a browser, "http://127.0.0.1:7007/"; with the token that it needs if

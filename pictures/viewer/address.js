@@ -7,7 +7,7 @@ const address = (() => {
 
     /** @returns {string} */
     function text() {
-        const { t, speed, storey, view, span, robots: chosen, message, filter, panel, trails, links: lines } = selection.state, p = new URLSearchParams();
+        const { t, speed, storey, view, span, robots: chosen, message, filter, panel, trails, links: lines, runs } = selection.state, p = new URLSearchParams();
         if (!live.is_live() || !live.follows()) p.set("t", words_of_time(t));
         if (speed !== 1) p.set("speed", String(Number(speed.toPrecision(4))));
         if (storey) p.set("storey", String(storey + 1));
@@ -15,6 +15,7 @@ const address = (() => {
         if (span) p.set("span", [span.from, span.to].map(words_of_time).join(","));
         if (chosen.length) p.set("robots", chosen.join(","));
         if (message >= 0) p.set("message", String(message));
+        if (sides.own.all.length > 1) p.set("runs", runs);
         if (panel !== "events") p.set("panel", panel);
         if (!trails) p.set("trails", "0");
         if (lines) p.set("links", "1");
@@ -37,9 +38,10 @@ const address = (() => {
         return Number(whole) * 1e9 + Number(rest.padEnd(9, "0").slice(0, 9));
     }
 
-    /** @param {Run} r @param {string} hash @returns {Partial<State>} */
-    function parsed(r, hash) {
-        const p = new URLSearchParams(hash.replace(/^#/, ""));
+    /** @param {string} hash @returns {Partial<State>} */
+    function parsed(hash) {
+        const p = new URLSearchParams(hash.replace(/^#/, "")), runs = ["A", "B", "AB"].find(text => text === p.get("runs")) ?? selection.state.runs;
+        const { all, panels } = sides.own, { run: r } = all[all.length > 1 && runs === "B" ? 1 : 0];
         /** @param {string} key @param {number} low @param {number} high @param {number} other */
         const whole = (key, low, high, other) => {
             const v = Number(p.get(key) ?? NaN);
@@ -53,13 +55,13 @@ const address = (() => {
         const t = time_of(p.get("t") ?? "0"), speed = Number(p.get("speed") ?? 1), view = numbers("view", Number), span = numbers("span", time_of);
         const panel = p.get("panel") ?? "events";
         return {
-            t: t >= 0 ? Math.min(t, r.duration) : 0, speed: speed >= 1e-6 && speed <= 1e3 ? speed : 1,
+            runs: all.length > 1 ? runs : "A", t: t >= 0 ? Math.min(t, r.duration) : 0, speed: speed >= 1e-6 && speed <= 1e3 ? speed : 1,
             storey: whole("storey", 1, r.head.map.floors.length, 1) - 1,
             view: view?.length === 3 && view[2] > 0 ? { x: view[0], y: view[1], scale: view[2] } : null,
             span: span?.length === 2 && span[1] > span[0] && span[0] >= 0 ? { from: span[0], to: span[1] } : null,
             robots: (numbers("robots", Number) ?? []).filter(i => Number.isInteger(i) && i >= 0 && i < r.robots).slice(0, 2),
             message: whole("message", 0, r.messages - 1, -1),
-            panel: selection.panels.includes(panel) ? panel : "events", trails: p.get("trails") !== "0", links: p.get("links") === "1",
+            panel: panels.includes(panel) ? panel : "events", trails: p.get("trails") !== "0", links: p.get("links") === "1",
             filter: {
                 robot: whole("of", 0, r.robots - 1, -1), message: whole("on", 0, r.messages - 1, -1),
                 signs: whole("signs", 0, selection.everything, selection.everything), kinds: whole("kinds", 0, selection.everything, selection.everything)
@@ -79,9 +81,8 @@ const address = (() => {
         }
     }
 
-    /** @param {Run} r */
-    function begin(r) {
-        if (location.hash.length > 1) selection.set(parsed(r, location.hash));
+    function begin() {
+        if (location.hash.length > 1) selection.set(parsed(location.hash));
         last = location.hash;
         selection.listen(changed => {
             clearTimeout(timer);
@@ -90,9 +91,9 @@ const address = (() => {
             else if (!selection.state.playing) timer = setTimeout(() => write(false), pause_ms);
         });
         window.addEventListener("popstate", event => {
-            const wanted = parsed(r, location.hash), { robots: chosen, message, panel } = wanted;
+            const wanted = parsed(location.hash), { robots: chosen, message, panel, runs } = wanted;
             last = location.hash;
-            selection.set(event.state === ours ? { robots: chosen, message, panel } : wanted);
+            selection.set(event.state === ours ? { robots: chosen, message, panel, runs } : wanted);
         });
     }
 

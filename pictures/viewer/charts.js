@@ -176,9 +176,12 @@ const charts = (() => {
     }
 
     /** @param {Run} r */
-    function begin(r) {
+    function show(r) {
         own.run = r;
+        Object.assign(own, { charts: [], key: "" });
         const { series, metrics } = r.head, panel = dom.by_id("charts-panel");
+        panel.replaceChildren();
+        if (live.is_live()) panel.append(dom.make("p", "muted", "Charts are made of a run that is over: record it, and open its folder by \u201crovernet view\u201d."));
         for (const title of new Set(series.map(s => s.chart))) {
             const some = series.filter(s => s.chart === title), canvas = /** @type {HTMLCanvasElement} */ (dom.make("canvas", "chart")), told = dom.make("p", "told");
             canvas.title = title;
@@ -189,7 +192,7 @@ const charts = (() => {
             panel.append(dom.make("h3", "", title), told, canvas);
         }
         const rows = Object.entries(metrics).filter(([, v]) => typeof v === "number").map(([key, v]) => /** @type {[string, string]} */ ([tables.title(key), tables.text(v)]));
-        panel.append(dom.make("h3", "", "Metrics of the run"), dom.facts(rows));
+        if (rows.length) panel.append(dom.make("h3", "", "Metrics of the run"), dom.facts(rows));
     }
 
     /** Values of all charts at a time, for tests. @param {number} t */
@@ -197,5 +200,5 @@ const charts = (() => {
         return own.charts.map(chart => ({ chart: chart.canvas.title, values: chart.curves.map(curve => ({ name: curve.name, value: value(curve, t) })) }));
     }
 
-    return { begin, update, values };
+    return { show, update, values };
 })();

@@ -2,7 +2,7 @@
 // Buttons, tabs, pointers on the map, and the texts that tell the state.
 const controls = (() => {
     "use strict";
-    const panels = selection.panels;
+    const { panels } = sides.own;
     /** @type {{run: Run, blocks: Blocks, note: string, said: number, resting: number}} */
     const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), note: "", said: 0, resting: 0 };
 
@@ -53,7 +53,7 @@ const controls = (() => {
         let moved = 0;
         area.addEventListener("wheel", event => {
             event.preventDefault();
-            set({ view: camera.zoomed(0.9985 ** event.deltaY, event.offsetX, event.offsetY, own.run.head) });
+            set({ view: camera.zoomed(0.9985 ** event.deltaY, sides.under(event.offsetX).x, event.offsetY, own.run.head) });
         }, { passive: false });
         area.addEventListener("pointerdown", event => {
             area.setPointerCapture(event.pointerId);
@@ -71,12 +71,12 @@ const controls = (() => {
             down.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
             if (!other) return set({ view: camera.moved(dx, dy) });
             const grown = Math.hypot(event.offsetX - other.x, event.offsetY - other.y) / Math.max(1, Math.hypot(before.x - other.x, before.y - other.y));
-            set({ view: camera.zoomed(grown, other.x, other.y, own.run.head) });
+            set({ view: camera.zoomed(grown, sides.under(other.x).x, other.y, own.run.head) });
         });
         area.addEventListener("pointerup", event => {
             down.delete(event.pointerId);
             if (moved >= 4 || drive.takes(event.offsetX, event.offsetY)) return;
-            const robot = robots.near(own.run, event.offsetX, event.offsetY, state.storey);
+            const robot = robot_at(event.offsetX, event.offsetY);
             selection.choose(robot, event.shiftKey);
             if (robot >= 0 && state.robots.length === 2) set({ panel: "pair" });
             else if (robot >= 0 && state.panel !== "events") set({ panel: "robot" });
@@ -84,9 +84,18 @@ const controls = (() => {
         area.addEventListener("pointercancel", event => down.delete(event.pointerId));
     }
 
+    /** Robot under a pixel of the canvas, or -1. @param {number} px @param {number} py */
+    function robot_at(px, py) {
+        const { i, x } = sides.under(px), r = sides.own.all[i].run, { t, storey } = selection.state;
+        robots.place(r, t);
+        const robot = robots.near(r, x, py, storey);
+        robots.place(own.run, t);
+        return robot;
+    }
+
     /** @param {number} px @param {number} py */
     function hover(px, py) {
-        const level = coverage.level_at(px, py);
+        const { i, x } = sides.under(px), level = coverage.level_at(sides.own.all[i].run, x, py);
         if (level) dom.by_id("status").textContent = level;
     }
 
@@ -97,7 +106,7 @@ const controls = (() => {
         dom.by_id("present").hidden = !live.is_live();
         dom.by_id("present").textContent = live.text();
         dom.by_id("present").setAttribute("aria-pressed", String(live.goes_on() && live.follows()));
-        dom.by_id("of-time").textContent = `of ${words.number(head.duration_ns / run.nanoseconds)} s`;
+        dom.by_id("of-time").textContent = `of ${words.number(own.run.duration / run.nanoseconds)} s`;
         const speed = clock.speed_text(state.speed), slider = dom.input("speed");
         dom.by_id("speed-text").textContent = speed;
         if (Math.abs(Number(slider.value) - clock.power()) > 0.05) slider.value = String(clock.power());
@@ -122,8 +131,8 @@ const controls = (() => {
         const chosen = state.robots.map(i => words.visible(own.run.name(i)));
         const label = `${words.seconds(state.t, 3)} s, ${words.counted(head.robots.length, "robot")}${chosen.length ? `, ${chosen.join(" and ")} selected` : ""}`;
         if (!state.playing) {
-            dom.by_id("map").setAttribute("aria-label", `Map: ${label}`);
-            dom.by_id("timeline").setAttribute("aria-label", `Time line: ${words.seconds(state.t, 3)} of ${words.number(head.duration_ns / run.nanoseconds)} s`);
+            dom.by_id("map").setAttribute("aria-label", `Map: ${sides.own.all[1] ? `${sides.title()}: ` : ""}${label}`);
+            dom.by_id("timeline").setAttribute("aria-label", `Time line: ${words.seconds(state.t, 3)} of ${words.number(own.run.duration / run.nanoseconds)} s`);
             clearTimeout(own.resting);
             own.resting = setTimeout(() => {
                 const seen = list.seen();
@@ -149,12 +158,12 @@ const controls = (() => {
     }
 
     /** @param {Run} r @param {Blocks} all */
-    function begin(r, all) {
-        own.run = r;
-        own.blocks = all;
+    function show(r, all) { Object.assign(own, { run: r, blocks: all }); }
+
+    function begin() {
         buttons();
         pointers();
     }
 
-    return { begin, tell, status, say };
+    return { begin, show, tell, status, say };
 })();

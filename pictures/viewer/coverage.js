@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Levels that a robot would bring to each place, as the server computes them.
-/** @typedef {{robot: number, t: number, storey: number, columns: number, rows: number, left: number, bottom: number, cell_width: number, cell_height: number, low: number, high: number, dbm: (number|null)[], picture: HTMLCanvasElement}} HeatMap */
+/** @typedef {{run: Run, robot: number, t: number, storey: number, columns: number, rows: number, left: number, bottom: number, cell_width: number, cell_height: number, low: number, high: number, dbm: (number|null)[], picture: HTMLCanvasElement}} HeatMap */
 const coverage = (() => {
     "use strict";
     const cells = 60000;
-    /** @type {{heat: HeatMap|null, version: number, changed: () => void, say: (text: string) => void, name: (robot: number) => string}} */
-    const own = { heat: null, version: 0, changed: () => {}, say: () => {}, name: () => "" };
+    /** @type {{heat: HeatMap|null, version: number, changed: () => void, say: (text: string) => void}} */
+    const own = { heat: null, version: 0, changed: () => {}, say: () => {} };
 
-    /** @param {any} a answer @param {number} robot @param {number} t @param {number} storey @returns {HeatMap} */
-    function heat_of(a, robot, t, storey) {
+    /** @param {any} a answer @param {Run} r @param {number} robot @param {number} t @param {number} storey @returns {HeatMap} */
+    function heat_of(a, r, robot, t, storey) {
         const { columns, rows, dbm } = a;
         if (!(columns > 0 && rows > 0 && Array.isArray(dbm) && dbm.length === columns * rows)) throw new Error("The server's coverage cannot be read.");
         const levels = dbm.filter(v => typeof v === "number"), high = levels.reduce((m, v) => Math.max(m, v), -300);
@@ -23,39 +23,40 @@ const coverage = (() => {
             image.data.set([...(table[share] ?? [0, 0, 0]), typeof dbm[i] === "number" ? 255 : 0], at);
         }
         c.putImageData(image, 0, 0);
-        return { robot, t, storey, columns, rows, left: a.left, bottom: a.bottom, cell_width: a.cell_width, cell_height: a.cell_height, low, high, dbm, picture };
+        return { run: r, robot, t, storey, columns, rows, left: a.left, bottom: a.bottom, cell_width: a.cell_width, cell_height: a.cell_height, low, high, dbm, picture };
     }
 
     /** Shows the coverage of a robot at this time, or takes it away. @param {number} robot */
     function toggle(robot) {
-        if (own.heat?.robot === robot || robot < 0) {
+        const r = sides.own.all[sides.lead()].run;
+        if (own.heat?.robot === robot && own.heat.run === r || robot < 0) {
             own.heat = null;
             own.version++;
             return own.changed();
         }
         const { t, storey } = selection.state;
         own.say("computing the coverage \u2026");
-        server.ask("coverage", { robot, t_ns: t, storey, cells }).then(answer => {
-            own.heat = heat_of(answer, robot, answer.t_ns ?? t, storey);
+        sides.ask("coverage", { robot, t_ns: t, storey, cells }).then(answer => {
+            own.heat = heat_of(answer, r, robot, answer.t_ns ?? t, storey);
             own.version++;
             own.say("");
             own.changed();
         }).catch(error => own.say(error.message));
     }
 
-    /** @param {CanvasRenderingContext2D} c @param {number} storey */
-    function paint(c, storey) {
+    /** @param {CanvasRenderingContext2D} c @param {Run} r @param {number} storey */
+    function paint(c, r, storey) {
         const h = own.heat;
-        if (!h || h.storey !== storey) return;
+        if (!h || h.run !== r || h.storey !== storey) return;
         const x = camera.to_x(h.left), y = camera.to_y(h.bottom + h.rows * h.cell_height);
         c.imageSmoothingEnabled = false;
         c.drawImage(h.picture, x, y, h.columns * h.cell_width * camera.now.scale, h.rows * h.cell_height * camera.now.scale);
     }
 
-    /** Level at a pixel of the map, or "". @param {number} px @param {number} py */
-    function level_at(px, py) {
+    /** Level at a pixel of a run's map, or "". @param {Run} r @param {number} px @param {number} py */
+    function level_at(r, px, py) {
         const h = own.heat;
-        if (!h) return "";
+        if (h?.run !== r) return "";
         const column = Math.floor((camera.from_x(px) - h.left) / h.cell_width), row = Math.floor((camera.from_y(py) - h.bottom) / h.cell_height);
         if (column < 0 || row < 0 || column >= h.columns || row >= h.rows) return "";
         const level = h.dbm[row * h.columns + column];
@@ -71,11 +72,11 @@ const coverage = (() => {
                 c.fillStyle = theme.on_scale(signs.look.colors.lagoon, x / 89);
                 c.fillRect(x, 3, 1, 10);
             }
-        }, `coverage of ${words.shortened(words.visible(own.name(h.robot)), 24)}, ${words.number(Math.round(h.low))} to ${words.number(Math.round(h.high))} dBm, at ${words.seconds(h.t, 3)} s`)];
+        }, `coverage of ${words.shortened(words.visible(h.run.name(h.robot)), 24)}, ${words.number(Math.round(h.low))} to ${words.number(Math.round(h.high))} dBm, at ${words.seconds(h.t, 3)} s`)];
     }
 
-    /** @param {(robot: number) => string} name @param {() => void} changed @param {(text: string) => void} say */
-    function begin(name, changed, say) { Object.assign(own, { name, changed, say }); }
+    /** @param {() => void} changed @param {(text: string) => void} say */
+    function begin(changed, say) { Object.assign(own, { changed, say }); }
 
     return { begin, toggle, paint, level_at, legend, version: () => own.version };
 })();

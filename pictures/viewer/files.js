@@ -9,16 +9,16 @@ const files = (() => {
 
     /** @param {Run} r @param {State} state */
     function picture(r, state) {
-        const map_canvas = dom.canvas("map"), { width, height } = camera.now, out = document.createElement("canvas");
+        const map_canvas = dom.canvas("map"), { height } = camera.now, width = map_canvas.clientWidth, out = document.createElement("canvas");
         const c = dom.sized(out, width + 2 * margin, height + heading + margin);
         c.fillStyle = theme.colors().paper;
         c.fillRect(0, 0, width + 2 * margin, height + heading + margin);
         c.fillStyle = theme.colors().ink;
         c.font = `bold 16px ${robots.font}`;
-        c.fillText(words.shortened(words.visible(r.head.name), 80), margin, 24);
+        c.fillText(words.shortened(sides.title(), 80), margin, 24);
         c.font = `12px ${robots.font}`;
         c.fillStyle = theme.colors().muted;
-        const length = camera.round_number(width / 6 / camera.now.scale), bar = length * camera.now.scale;
+        const length = camera.round_number(camera.now.width / 6 / camera.now.scale), bar = length * camera.now.scale;
         c.fillText(`t = ${words.seconds(state.t)} s`, margin, 42);
         c.fillText(`${length} m`, margin + width - c.measureText(`${length} m`).width, 42);
         c.fillRect(margin + width - bar - 50, 37, bar, 2);

@@ -37,7 +37,7 @@ const filters = (() => {
     }
 
     /** @param {Run} r */
-    function begin(r) { own.run = r; }
+    function show(r) { Object.assign(own, { run: r, filter: null }); }
 
-    return { begin, update };
+    return { show, update };
 })();

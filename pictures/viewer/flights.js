@@ -26,7 +26,6 @@ const flights = (() => {
     /** @param {CanvasRenderingContext2D} c @param {Blocks} all @param {State} state */
     function draw(c, all, state) {
         const { at } = robots, kept_ns = (kept_s + least_ring_s) * state.speed * run.nanoseconds;
-        shown.lines = shown.left_out = shown.frames = 0;
         /** @type {Map<number, Batch>} */ const batches = new Map();
         /** Rings of each kind of frame and shade. @type {Map<number, Path2D>} */ const rings = new Map();
         /** @param {number} sign @param {number} shade */
@@ -110,5 +109,8 @@ const flights = (() => {
         c.globalAlpha = 1;
     }
 
-    return { draw, shown, kind_color };
+    /** Counts what is shown anew, before the maps are drawn. */
+    function begin() { shown.lines = shown.left_out = shown.frames = 0; }
+
+    return { begin, draw, shown, kind_color };
 })();

@@ -82,6 +82,7 @@ std::uint32_t FrameColumns::index_of(MessageId id, const RecordContext& context)
     m.flow.push_back(static_cast<std::uint16_t>(std::min<std::uint32_t>(message.flow, 0xffff)));
     m.kind.push_back(message_kinds_.index_of(message.kind));
     m.payload.push_back(message.payload);
+    m.name.push_back({message.origin.value, message.kind.empty() ? message.number : no_index});
     return known.index;
 }
 

@@ -5,6 +5,7 @@
 #include "sim/record.hpp"
 #include "sim/sink.hpp"
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -27,6 +28,13 @@ struct FrameChoice {
     std::size_t payload_bytes = 64;
 };
 
+/// Message of an application by what is equal in all runs of a scenario.
+struct MessageName {
+    std::uint32_t origin;  ///< robot that sent the message
+    std::uint32_t number;  ///< number among the messages of that robot; no_index: a control packet
+    friend auto operator<=>(const MessageName&, const MessageName&) = default;
+};
+
 /// Sink that collects messages, frames, receptions and losses as columns of a view file
 /// (docs/view-format.md). The records may come from a network, or from a recorded trace.
 ///
@@ -42,6 +50,8 @@ class FrameColumns {
     std::size_t frames() const { return flights_.size(); }
     std::size_t receptions() const { return receptions_.size(); }
     std::size_t messages() const { return messages_.uid.size(); }
+    /// Names of the messages, by their index in the columns.
+    const std::vector<MessageName>& message_names() const { return messages_.name; }
     /// Number of frames that write() left out.
     std::size_t left_out() const { return left_out_; }
     /// Message that an application of a robot did not get, although the message was for it.
@@ -74,6 +84,7 @@ class FrameColumns {
         std::vector<std::uint16_t> flow;
         std::vector<std::uint8_t> kind;
         std::vector<std::string> payload;
+        std::vector<MessageName> name;
     };
     /// Frame on air.
     struct Flight {

@@ -13,7 +13,7 @@ const keys = (() => {
         ["+ \u2212 0", "map closer, wider, whole"], ["arrows in the map", "move the map"],
         ["< >", "time line closer, wider"], ["/", "search"],
         ["F", "follow the message of the current event"], ["C", "coverage of the robot chosen"], ["L", "links"],
-        ["1 2 3 4 5", "events, message, robot, pair, charts"], ["Page up, down", "storey"], ["Escape", "choose nothing"], ["?", "this help"]
+        ["1 2 3 4 5 6", "events, message, robot, pair, charts, compare"], ["A B S", "run A, run B (again: the other), side by side"], ["Page up, down", "storey"], ["Escape", "choose nothing"], ["?", "this help"]
     ];
 
     /** @param {number} factor */
@@ -54,11 +54,11 @@ const keys = (() => {
         "/": () => dom.input("search").focus(), f: follow,
         c: () => coverage.toggle(selection.state.robots.at(-1) ?? -1),
         l: links.toggle,
+        a: () => sides.show(selection.state.runs === "A" ? "B" : "A"), b: () => sides.show(selection.state.runs === "B" ? "A" : "B"), s: () => sides.show("AB"),
         PageUp: () => storey(1), PageDown: () => storey(-1),
         Escape: () => selection.set({ robots: [], message: -1 }),
         "?": () => /** @type {HTMLDialogElement} */ (dom.by_id("help")).showModal()
     };
-    selection.panels.forEach((panel, i) => actions[String(i + 1)] = () => selection.set({ panel }));
 
     /** @type {Record<string, [number, number]>} */
     const arrows = { ArrowLeft: [far, 0], ArrowRight: [-far, 0], ArrowUp: [0, far], ArrowDown: [0, -far] };
@@ -82,13 +82,15 @@ const keys = (() => {
     }
 
     /** @param {Run} r */
-    function begin(r) {
-        own.run = r;
+    function show(r) { own.run = r; }
+
+    function begin() {
+        sides.own.panels.forEach((panel, i) => actions[String(i + 1)] = () => selection.set({ panel }));
         document.addEventListener("keydown", pressed);
         dom.by_id("help-keys").replaceChildren(dom.facts(told));
         dom.by_id("help-open").addEventListener("click", () => /** @type {HTMLDialogElement} */ (dom.by_id("help")).showModal());
         dom.by_id("help-close").addEventListener("click", () => /** @type {HTMLDialogElement} */ (dom.by_id("help")).close());
     }
 
-    return { begin };
+    return { begin, show };
 })();

@@ -28,7 +28,7 @@ const links = (() => {
         own.busy = true;
         try {
             const t_ns = Math.floor(t);
-            const answer = await server.ask("links", robot < 0 ? { t_ns } : { t_ns, robot });
+            const answer = await sides.ask("links", robot < 0 ? { t_ns } : { t_ns, robot });
             own.lines = lines_of(answer);
             if (own.failed) own.say("");
             [own.key, own.t, own.failed] = [key, answer.t_ns ?? t, ""];
@@ -148,8 +148,11 @@ const links = (() => {
         return out;
     }
 
-    /** @param {Run} r @param {() => void} changed @param {(text: string) => void} say */
-    function begin(r, changed, say) { Object.assign(own, { run: r, changed, say }); }
+    /** @param {() => void} changed @param {(text: string) => void} say */
+    function begin(changed, say) { Object.assign(own, { changed, say }); }
+
+    /** @param {Run} r */
+    function show(r) { Object.assign(own, { run: r, lines: [], key: "", failed: "", t: -1, at: 0, up: new Set() }); }
 
     /** Shows links, or takes them away. */
     function toggle() {
@@ -160,5 +163,5 @@ const links = (() => {
         selection.set({ links: on });
     }
 
-    return { begin, update, draw, legend, toggle, shown, look, version: () => own.version };
+    return { begin, show, update, draw, legend, toggle, shown, look, version: () => own.version };
 })();

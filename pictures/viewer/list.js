@@ -136,10 +136,14 @@ const list = (() => {
         else if (who >= 0) selection.choose(who);
     }
 
-    /** @param {Run} r @param {Blocks} all */
-    function begin(r, all) {
-        own.run = r;
-        own.blocks = all;
+    /** Tells of another run. @param {Run} r @param {Blocks} all */
+    function show(r, all) {
+        clearTimeout(own.timer);
+        own.kept.clear();
+        Object.assign(own, { run: r, blocks: all, window: null, rows: new Uint32Array(0) });
+    }
+
+    function begin() {
         dom.by_id("events").addEventListener("scroll", () => draw(false));
         dom.by_id("events").addEventListener("click", clicked);
     }
@@ -157,5 +161,5 @@ const list = (() => {
         return current < 0 || !w || w.number !== own.blocks.at(selection.state.t) ? null : { time: w.time[own.rows[current]], text: events.text(own.run, w, own.rows[current]), rows: own.rows.length };
     }
 
-    return { begin, draw, step, renew, seen, own };
+    return { begin, show, draw, step, renew, seen, own };
 })();

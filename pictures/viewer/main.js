@@ -5,6 +5,7 @@ const main = (() => {
     const kept_times = 300, timeline_height = 86;
     /** @type {{run: Run|null, blocks: Blocks|null, waiting: boolean, frames: number, script: number[], whole: boolean}} */
     const own = { run: null, blocks: null, waiting: false, frames: 0, script: [], whole: true };
+    const parts = [list, timeline, message_panel, robot_panel, pair_panel, charts, links, controls, search, keys, filters];
 
     /** @param {string} text @returns {Uint8Array} */
     function from_base64(text) {
@@ -15,12 +16,11 @@ const main = (() => {
         return out;
     }
 
-    /** @returns {Promise<Uint8Array>} */
-    async function bytes_of_run() {
-        const embedded = document.getElementById("run");
-        if (embedded) {
-            const text = embedded.textContent ?? "";
-            embedded.remove();
+    /** View file inside the page, or of the server. @param {string} name @returns {Promise<Uint8Array>} */
+    async function bytes_of(name) {
+        const embedded = document.getElementById(name), text = embedded?.textContent ?? "";
+        embedded?.remove();
+        if (text) {
             try {
                 return from_base64(text);
             } catch {
@@ -28,7 +28,7 @@ const main = (() => {
             }
         }
         if (!location.protocol.startsWith("http")) return rvw.refuse("There is no run in this page.");
-        return server.run_bytes();
+        return server.run_bytes(name);
     }
 
     /** @param {unknown} error */
@@ -41,10 +41,31 @@ const main = (() => {
 
     function resize() {
         const place = dom.by_id("place"), footer = dom.by_id("timeline").parentElement;
-        camera.now.width = Math.max(50, place.clientWidth);
+        camera.now.width = Math.max(50, (place.clientWidth + 1) / sides.shown().length - 1);
         camera.now.height = Math.max(50, place.clientHeight);
         timeline.resize((footer?.clientWidth ?? 300) - 32, timeline_height);
         redraw();
+    }
+
+    /** Draws the map of a run; true if all of its frames were there. @param {CanvasRenderingContext2D} c @param {number} i number of the run @param {number} nth from the left */
+    function draw_map(c, i, nth) {
+        const { run: r, blocks: all } = sides.own.all[i], state = sides.state_of(i), { width, height } = camera.now;
+        c.save();
+        c.translate(sides.left(nth), 0);
+        c.beginPath();
+        c.rect(0, 0, width, height);
+        c.clip();
+        robots.place(r, state.t);
+        map.draw(c, r, state);
+        robots.trails(c, r, state);
+        if (i === sides.lead()) links.draw(c, state);
+        const whole = flights.draw(c, all, state);
+        message_panel.draw(c, compare.flood(i), state);
+        pair_panel.draw(c, i, state);
+        robots.draw(c, r, state);
+        compare.draw(c, selection.state);
+        c.restore();
+        return whole;
     }
 
     function draw() {
@@ -53,19 +74,20 @@ const main = (() => {
         if (!r || !all) return;
         const begin = performance.now();
         camera.aim(state, r.head);
-        robots.place(r, state.t);
-        const c = dom.sized(dom.canvas("map"), camera.now.width, camera.now.height);
-        map.draw(c, r, state);
-        robots.trails(c, r, state);
-        links.draw(c, state);
-        const whole = flights.draw(c, all, state);
-        message_panel.draw(c, state);
-        pair_panel.draw(c, state);
-        robots.draw(c, r, state);
+        flights.begin();
+        compare.update(state);
+        const maps = sides.shown(), c = dom.sized(dom.canvas("map"), sides.left(maps.length) - sides.left(1) + camera.now.width, camera.now.height);
+        const whole = maps.map((i, nth) => draw_map(c, i, nth)).every(Boolean);
+        if (maps.length > 1) {
+            c.fillStyle = theme.colors().line;
+            c.fillRect(sides.left(1) - 1, 0, 1, camera.now.height);
+            robots.place(r, state.t);
+        }
         timeline.draw();
         controls.tell(state);
+        sides.tell();
         controls.status(whole);
-        if (live.is_live()) introduce(r.head);
+        if (live.is_live()) introduce();
         filters.update(state);
         list.draw(true);
         message_panel.update(state);
@@ -88,43 +110,77 @@ const main = (() => {
     }
 
     /** @param {Head} head */
-    function introduce(head) {
-        document.title = `${words.visible(head.name)} \u00b7 rovernet`;
-        dom.by_id("name").textContent = words.visible(head.name);
-        const parts = [words.counted(head.robots.length, "robot"), `${words.number(head.duration_ns / run.nanoseconds)} s`, `seed ${head.seed}`];
-        if (head.replication) parts.push(`replication ${head.replication}`);
-        parts.push(words.counted(head.counts.messages, "message"), words.counted(head.counts.flights, "frame"), words.counted(head.counts.receptions, "reception"), `rovernet ${head.version.split(" ")[0]}`);
-        dom.by_id("caption").textContent = parts.join(" \u00b7 ");
-        const told = [...head.thinned, ...head.damage], state = live.state();
+    function counts(head) {
+        return [`seed ${head.seed}`, ...(head.replication ? [`replication ${head.replication}`] : []), words.counted(head.counts.messages, "message"),
+            words.counted(head.counts.flights, "frame"), words.counted(head.counts.receptions, "reception")];
+    }
+
+    /** Heading, and sentences about what is missing. */
+    function introduce() {
+        const { all } = sides.own, [{ run: { head, duration } }] = all, is_one = all.length === 1;
+        const title = all.map(side => side.label).join(" | ");
+        document.title = `${title} \u00b7 rovernet`;
+        dom.by_id("name").textContent = title;
+        /** @param {Side} side @param {string} text */
+        const of_run = (side, text) => is_one ? text : `${side.label[0]}: ${text}`;
+        dom.by_id("caption").textContent = [words.counted(head.robots.length, "robot"), `${words.number(duration / run.nanoseconds)} s`,
+            ...all.map(side => of_run(side, counts(side.run.head).join(is_one ? " \u00b7 " : ", "))), `rovernet ${head.version.split(" ")[0]}`].join(" \u00b7 ");
+        const told = all.flatMap(side => [...side.run.head.thinned, ...side.run.head.damage].map(text => of_run(side, text))), state = live.state();
         if (state?.left_out) told.push(`The first ${words.counted(state.left_out, "frame")} of the run ${state.left_out === 1 ? "is" : "are"} left out.`);
         dom.by_id("notice").hidden = told.length === 0;
         dom.by_id("notice").textContent = told.join(" ");
     }
 
-    /** @param {Uint8Array} bytes */
-    async function open(bytes) {
-        const file = rvw.open(bytes), r = own.run = await run.load(file), all = own.blocks = new blocks.Blocks(r);
-        signs.look.colors = r.head.colors;
+    /** @param {Uint8Array} bytes @returns {Promise<Side>} */
+    async function side_of(bytes) {
+        const r = await run.load(rvw.open(bytes)), all = new blocks.Blocks(r);
         all.arrived = redraw;
         all.failed = show_error;
+        return { run: r, blocks: all, label: words.visible(r.head.name) };
+    }
+
+    /** Lets the panels tell of the run that leads. */
+    function show_lead() {
+        const { run: r, blocks: all } = sides.own.all[sides.lead()];
+        if (own.run === r) return;
+        Object.assign(own, { run: r, blocks: all });
+        for (const part of parts) part.show(r, all);
+    }
+
+    /** @param {Uint8Array} bytes @param {Uint8Array} [other] second run */
+    async function open(bytes, other) {
+        const all = [await side_of(bytes)];
+        if (other) all.push(await side_of(other));
+        const r = all[0].run, same = other ? await compare.load(all) : [];
+        signs.look.colors = r.head.colors;
+        sides.begin(all, same);
         clock.begin(r.duration);
-        introduce(r.head);
-        for (const part of [list, timeline, robot_panel, controls]) part.begin(r, all);
-        for (const part of [search, keys, filters, charts]) part.begin(r);
-        message_panel.begin(r, all, redraw);
-        pair_panel.begin(r, redraw);
-        coverage.begin(robot => r.name(robot), redraw, controls.say);
-        links.begin(r, redraw, controls.say);
-        address.begin(r);
-        live.begin(r, all);
+        introduce();
+        address.begin();
+        show_lead();
+        for (const part of [list, timeline, controls, search, keys]) part.begin();
+        for (const part of [message_panel, pair_panel, compare]) part.begin(redraw);
+        coverage.begin(redraw, controls.say);
+        links.begin(redraw, controls.say);
+        live.begin(r, all[0].blocks);
         selection.listen(changed => {
             if (changed.has("t")) timeline.keep();
+            if (changed.has("runs")) {
+                show_lead();
+                resize();
+            }
             redraw();
         });
         theme.on_change(redraw);
         new ResizeObserver(resize).observe(dom.by_id("place"));
         resize();
         hooks.ready = true;
+    }
+
+    /** Opens what is in the page, or what its server has. */
+    async function open_recorded() {
+        const has_other = document.getElementById("other");
+        await open(await bytes_of("run"), has_other ? await bytes_of("other") : undefined);
     }
 
     /** What tests see and do. */
@@ -154,6 +210,6 @@ const main = (() => {
     Object.defineProperty(window, "rovernet", { value: hooks });
 
     if (document.getElementById("goes-on")) live.watch(open, redraw, show_error);
-    else bytes_of_run().then(open).catch(show_error);
+    else open_recorded().catch(show_error);
     return { redraw };
 })();

@@ -3,7 +3,7 @@
 const map = (() => {
     "use strict";
     const hatch_size = 6, thin_line = 0.4;  // [px]
-    const kept = { canvas: /** @type {HTMLCanvasElement|null} */ (null), key: "" };
+    /** Painted map of each run. @type {WeakMap<Run, {canvas: HTMLCanvasElement, key: string}>} */ const painted = new WeakMap();
 
     /** @param {CanvasRenderingContext2D} c @param {number} style @returns {string|CanvasPattern} */
     function wall_fill(c, style) {
@@ -108,7 +108,7 @@ const map = (() => {
         c.fillStyle = theme.colors().paper;
         c.fillRect(0, 0, width, height);
         if (place.open_field) grid(c);
-        coverage.paint(c, storey);
+        coverage.paint(c, r, storey);
         walls(c, r, storey);
         place.doors.forEach((d, i) => {
             if (r.storey(d.floor) === storey) door(c, camera.to_x(d.x0), camera.to_y(d.y0), camera.to_x(d.x1), camera.to_y(d.y1), closed[i] ?? false);
@@ -121,10 +121,11 @@ const map = (() => {
 
     /** @param {CanvasRenderingContext2D} c @param {Run} r @param {State} state */
     function draw(c, r, state) {
-        const closed = r.doors(state.t), { x, y, scale, width, height } = camera.now;
+        const closed = r.doors(state.t), kept = painted.get(r) ?? { canvas: document.createElement("canvas"), key: "" };
+        const { x, y, scale, width, height } = camera.now;
         const key = [x, y, scale, width, height, state.storey, closed.map(Number).join(""), theme.is_dark(), devicePixelRatio, coverage.version()].join(" ");
-        if (kept.key !== key || !kept.canvas) {
-            kept.canvas = kept.canvas ?? document.createElement("canvas");
+        if (kept.key !== key) {
+            painted.set(r, kept);
             paint(dom.sized(kept.canvas, width, height), r, state.storey, closed);
             kept.key = key;
         }

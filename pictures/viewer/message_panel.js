@@ -35,7 +35,7 @@ const message_panel = (() => {
         if (!server.is_served()) return out;
         line.append(dom.button("why?", "small", () => {
             text.textContent = "\u2026";
-            server.ask("why", { uid: own.run.col("messages.uid")[flood.message], robot }).then(answer => {
+            sides.ask("why", { uid: own.run.col("messages.uid")[flood.message], robot }).then(answer => {
                 text.textContent = after_name(String(answer.answer ?? ""), robot);
                 const frames = Array.isArray(answer.frames) ? answer.frames : [];
                 if (frames.length) out.after(dom.make("li", "wide", tables.of(frames)));
@@ -77,7 +77,7 @@ const message_panel = (() => {
     }
 
     /** @param {Flood} flood */
-    function show(flood) {
+    function tell(flood) {
         const r = own.run, message = flood.message, wanted = floods.wanted(r, message);
         const missing = wanted.filter(robot => !flood.first.has(robot));
         /** @type {Map<number, number[]>} */ const children = new Map();
@@ -114,7 +114,7 @@ const message_panel = (() => {
             if (own.wanted !== flood.message) return;
             own.flood = flood;
             own.changes++;
-            show(flood);
+            tell(flood);
             own.done();
         }, error => dom.by_id("message-panel").replaceChildren(dom.make("p", "", error.message)));
     }
@@ -133,11 +133,11 @@ const message_panel = (() => {
             dom.make("h3", "", missed.length ? "Messages that somebody missed" : "The first messages"), dom.make("ul", "plain", ...rows)];
     }
 
-    /** Lines of the way on the map: solid what has happened until now. @param {CanvasRenderingContext2D} c @param {State} state */
-    function draw(c, state) {
-        if (!own.flood) return;
+    /** Lines of a way on the map: solid what has happened until now. @param {CanvasRenderingContext2D} c @param {Flood|null} flood @param {State} state */
+    function draw(c, flood, state) {
+        if (!flood) return;
         const { at } = robots, color = theme.readable(theme.colors().accent);
-        for (const [robot, copy] of own.flood.first) {
+        for (const [robot, copy] of flood.first) {
             if (at.storey[robot] !== state.storey && at.storey[copy.from] !== state.storey) continue;
             const done = copy.at <= state.t;
             c.beginPath();
@@ -154,8 +154,8 @@ const message_panel = (() => {
         c.font = `bold 10px ${robots.font}`;
         c.textAlign = "center";
         c.textBaseline = "middle";
-        for (const [robot, copy] of own.flood.first) {
-            if (at.storey[robot] !== state.storey || copy.at > state.t || own.flood.first.size > 200) continue;
+        for (const [robot, copy] of flood.first) {
+            if (at.storey[robot] !== state.storey || copy.at > state.t || flood.first.size > 200) continue;
             c.fillStyle = color;
             c.beginPath();
             c.arc(at.x[robot] - 12, at.y[robot] + 11, 7, 0, 2 * Math.PI);
@@ -179,10 +179,11 @@ const message_panel = (() => {
         }, "way of the message, with its hops")];
     }
 
-    /** @param {Run} r @param {Blocks} all @param {() => void} done called when the way is known */
-    function begin(r, all, done) {
-        Object.assign(own, { run: r, blocks: all, done, wanted: -2 });
-    }
+    /** @param {Run} r @param {Blocks} all */
+    function show(r, all) { Object.assign(own, { run: r, blocks: all, flood: null, wanted: -2 }); }
 
-    return { begin, update, renew, draw, legend, version: () => own.changes, flood: () => own.flood };
+    /** @param {() => void} done called when the way is known */
+    function begin(done) { own.done = done; }
+
+    return { begin, show, update, renew, draw, legend, version: () => own.changes, flood: () => own.flood };
 })();

@@ -4,7 +4,7 @@
 /** @typedef {{from: string, to: string, distance_m: number, up: boolean, walls?: Crossing[]}} Link */
 const pair_panel = (() => {
     "use strict";
-    /** @type {{run: Run, pair: string, links: Link[], robots: number[], t: number, done: () => void}} */
+    /** @type {{run: Run, pair: string, links: Link[][], robots: number[], t: number, done: () => void}} */
     const own = { run: /** @type {any} */ (null), pair: "?", links: [], robots: [], t: 0, done: () => {} };
     /** Keys of a link that have a place of their own. */
     const told = ["from", "to", "walls", "id"];
@@ -22,11 +22,11 @@ const pair_panel = (() => {
     function ask(a, b) {
         const place = dom.by_id("pair-answer"), t = selection.state.t;
         place.textContent = "\u2026";
-        server.ask("pair", { a, b, t_ns: t }).then(answer => {
-            own.links = Array.isArray(answer.links) ? answer.links : [];
+        Promise.all(sides.own.all.map((_, i) => sides.ask("pair", { a, b, t_ns: t }, i))).then(answers => {
+            own.links = answers.map(answer => Array.isArray(answer.links) ? answer.links : []);
             own.robots = [a, b];
-            own.t = answer.t_ns ?? t;
-            place.replaceChildren(dom.make("p", "muted", `at ${words.seconds(own.t)} s`), ...own.links.flatMap(one));
+            own.t = answers[0].t_ns ?? t;
+            place.replaceChildren(dom.make("p", "muted", `at ${words.seconds(own.t)} s`), ...own.links.flatMap((links, i) => [...(own.links.length > 1 ? [dom.make("h2", "", sides.own.all[i].label)] : []), ...links.flatMap(one)]));
             own.done();
         }, error => place.textContent = error.message);
     }
@@ -54,11 +54,11 @@ const pair_panel = (() => {
         return dom.facts([["apart", `${Math.hypot(p.x - q.x, p.y - q.y, p.z - q.z).toFixed(2)} m at ${words.seconds(t, 3)} s`]]);
     }
 
-    /** The way from one robot to the other, its walls bold with their loss. @param {CanvasRenderingContext2D} c @param {State} state */
-    function draw(c, state) {
-        const link = own.links[0];
+    /** The way from one robot to the other in a run, its walls bold with their loss. @param {CanvasRenderingContext2D} c @param {number} i @param {State} state */
+    function draw(c, i, state) {
+        const link = own.links[i]?.[0];
         if (!link || state.panel !== "pair") return;
-        const [a, b] = own.robots.map(robot => own.run.pose(robot, own.t, { x: 0, y: 0, z: 0, vx: 0, vy: 0, heading: 0 }));
+        const [a, b] = own.robots.map(robot => sides.own.all[i].run.pose(robot, own.t, { x: 0, y: 0, z: 0, vx: 0, vy: 0, heading: 0 }));
         const x0 = camera.to_x(a.x), y0 = camera.to_y(a.y), x1 = camera.to_x(b.x), y1 = camera.to_y(b.y);
         const color = theme.on_scale(signs.look.colors.ember, 0.5);
         /** @param {number} from @param {number} to shares of the way @param {number} width */
@@ -94,8 +94,11 @@ const pair_panel = (() => {
         c.fillText(text, free[0], free[1]);
     }
 
-    /** @param {Run} r @param {() => void} done */
-    function begin(r, done) { Object.assign(own, { run: r, done }); }
+    /** @param {Run} r */
+    function show(r) { own.run = r; }
 
-    return { begin, update, draw };
+    /** @param {() => void} done */
+    function begin(done) { own.done = done; }
+
+    return { begin, show, update, draw };
 })();

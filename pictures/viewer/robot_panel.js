@@ -13,6 +13,7 @@ const robot_panel = (() => {
         const n = own.run.robots, counts = own.counts = new Uint32Array(n * signs.count), sent = own.sent = new Uint32Array(n);
         for (own.read = 0; own.read < own.blocks.info.length; own.read++) {
             const block = await own.blocks.load(own.read);
+            if (own.counts !== counts) return;
             for (const sender of block.sender) sent[sender]++;
             for (let k = 0; k < block.robot.length; k++) counts[block.robot[k] * signs.count + signs.of(block.outcome[k])]++;
         }
@@ -82,7 +83,7 @@ const robot_panel = (() => {
     function ask(robot) {
         const place = dom.by_id("robot-neighbours");
         place.textContent = "\u2026";
-        server.ask("robot", { robot, t_ns: selection.state.t }).then(answer => {
+        sides.ask("robot", { robot, t_ns: selection.state.t }).then(answer => {
             const rows = Array.isArray(answer.links) ? answer.links : [];
             place.replaceChildren(rows.length ? tables.of(rows, ["robot", "level_dbm", "margin_db", "noise_dbm", "quality"]) : dom.make("p", "muted", "nobody hears it"));
         }, error => place.textContent = error.message);
@@ -132,10 +133,7 @@ const robot_panel = (() => {
     }
 
     /** @param {Run} r @param {Blocks} all */
-    function begin(r, all) {
-        own.run = r;
-        own.blocks = all;
-    }
+    function show(r, all) { Object.assign(own, { run: r, blocks: all, robot: -2, counts: null }); }
 
-    return { begin, update, renew };
+    return { show, update, renew };
 })();

@@ -53,8 +53,9 @@ const search = (() => {
     }
 
     /** @param {Run} r */
-    function begin(r) {
-        own.run = r;
+    function show_run(r) { own.run = r; }
+
+    function begin() {
         dom.input("search").addEventListener("input", show);
         dom.by_id("finder").addEventListener("keydown", key);
         document.addEventListener("pointerdown", event => {
@@ -62,5 +63,5 @@ const search = (() => {
         });
     }
 
-    return { begin };
+    return { begin, show: show_run };
 })();

@@ -2,19 +2,19 @@
 // What is shown: one state, and those who want to know of its changes.
 /** @typedef {{robot: number, message: number, signs: number, kinds: number}} Filter */
 /** @typedef {{x: number, y: number, scale: number}} View */
-/** @typedef {{t: number, playing: boolean, speed: number, storey: number, view: View|null, span: {from: number, to: number}|null, robots: number[], message: number, filter: Filter, panel: string, trails: boolean, links: boolean, coverage: number}} State */
+/** @typedef {{t: number, playing: boolean, speed: number, storey: number, view: View|null, span: {from: number, to: number}|null, robots: number[], message: number, filter: Filter, panel: string, trails: boolean, links: boolean, coverage: number, runs: string}} State */
 /** @typedef {(changed: Set<keyof State>, state: State) => void} Listener */
 const selection = (() => {
     "use strict";
 
-    const everything = 0xffff, panels = ["events", "message", "robot", "pair", "charts"];
+    const everything = 0xffff;
     /** @returns {Filter} */
     const no_filter = () => ({ robot: -1, message: -1, signs: everything, kinds: everything });
 
     /** @type {State} */
     const state = {
         t: 0, playing: false, speed: 1, storey: 0, view: null, span: null, robots: [], message: -1,
-        filter: no_filter(), panel: "events", trails: true, links: false, coverage: -1
+        filter: no_filter(), panel: "events", trails: true, links: false, coverage: -1, runs: "A"
     };
     /** @type {Listener[]} */ const listeners = [];
 
@@ -38,5 +38,5 @@ const selection = (() => {
         set({ robots: robot < 0 ? [] : [...others, robot] });
     }
 
-    return { state, set, listen, choose, panels, everything, no_filter };
+    return { state, set, listen, choose, everything, no_filter };
 })();

@@ -76,14 +76,14 @@ const server = (() => {
     /** The page is served. A token leaves the address bar: addresses are copied. */
     function begin() {
         own.served = true;
-        own.query = location.search;
-        if (own.query) history.replaceState(null, "", location.pathname + location.hash);
+        own.query = location.search || own.query;
+        if (location.search) history.replaceState(null, "", location.pathname + location.hash);
     }
 
-    /** The recorded run that the server shows. @returns {Promise<Uint8Array>} */
-    async function run_bytes() {
+    /** A view file of the server. @param {string} name @returns {Promise<Uint8Array>} */
+    async function run_bytes(name) {
         begin();
-        const answer = await fetch("/run.rvw" + own.query);
+        const answer = await fetch(`/${name}.rvw${own.query}`);
         if (!answer.ok) return rvw.refuse(`The server refuses the run: ${answer.status} ${answer.statusText}.`);
         return new Uint8Array(await answer.arrayBuffer());
     }

@@ -3,9 +3,9 @@
 const timeline = (() => {
     "use strict";
     const shortest = 1000;                                 // [ns]
-    const axis = 18, top = 4, bar = 3, most_bars = 1500;  // [px], frames
-    /** @type {{run: Run, blocks: Blocks, width: number, height: number, layers: Numbers[], key: string, picture: HTMLCanvasElement|null}} */
-    const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), width: 100, height: 80, layers: [], key: "", picture: null };
+    const axis = 18, bar = 3, most_bars = 1500;  // [px], frames
+    /** @type {{run: Run, blocks: Blocks, width: number, height: number, layers: Numbers[], top: number, key: string, picture: HTMLCanvasElement|null}} */
+    const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), width: 100, height: 80, layers: [], top: 4, key: "", picture: null };
 
     function span() { return selection.state.span ?? { from: 0, to: Math.max(1, own.run.duration) }; }
     /** @param {number} t */
@@ -55,7 +55,7 @@ const timeline = (() => {
 
     /** @param {CanvasRenderingContext2D} c */
     function density(c) {
-        const all = columns(), room = own.height - axis - top - 11;
+        const all = columns(), room = own.height - axis - own.top - 11;
         let most = 0;
         const sums = new Float64Array(all[0].length);
         for (const column of all) column.forEach((v, x) => most = Math.max(most, sums[x] += v));
@@ -72,7 +72,7 @@ const timeline = (() => {
         });
         c.fillStyle = theme.colors().muted;
         c.textAlign = "right";
-        c.fillText(`at most ${words.count(most)} in a column`, own.width - 6, top + 8);
+        c.fillText(`at most ${words.count(most)} in a column`, own.width - 6, own.top + 8);
         c.textAlign = "left";
     }
 
@@ -87,14 +87,14 @@ const timeline = (() => {
         });
         if (!whole || found.length > most_bars) return whole ? false : true;
         found.sort((a, b) => a[0].start[a[1]] - b[0].start[b[1]]);
-        const rows = [0], height = 14, room = Math.floor((own.height - axis - top) / height);
+        const rows = [0], height = 14, room = Math.floor((own.height - axis - own.top) / height);
         for (const [block, i] of found) {
             const x = to_x(block.start[i]), w = Math.max(2, to_x(block.end(i)) - x);
             const name = words.shortened(words.visible(own.run.name(block.sender[i])), 20), text = c.measureText(name).width + 6, inside = text <= w;
             let row = rows.findIndex(until => until <= x);
             if (row < 0) row = rows.length < room ? rows.length : 0;
             rows[row] = x + (inside ? w : w + text) + 2;
-            const y = top + row * height;
+            const y = own.top + row * height;
             c.fillStyle = flights.kind_color(block.kind[i]);
             c.fillRect(x, y, w, height - 2);
             c.fillStyle = inside ? theme.colors().paper : theme.colors().ink;
@@ -111,6 +111,7 @@ const timeline = (() => {
             c.fillStyle = color;
             for (const t of times) if (to_x(t) >= 0 && to_x(t) <= own.width) c.fillRect(to_x(t) - 1, y - 8, 2, 8);
         };
+        compare.ticks(c, to_x, own.width, 9);
         ticks(r.col("doors.time"), theme.readable(signs.look.colors.door));
         ticks(r.col("states.time").filter((/** @type {number} */ _, /** @type {number} */ i) => r.col("states.what")[i] <= 1), theme.colors().ink);
     }
@@ -204,9 +205,10 @@ const timeline = (() => {
     }
 
     /** @param {Run} r @param {Blocks} all */
-    function begin(r, all) {
-        own.run = r;
-        own.blocks = all;
+    function show(r, all) { Object.assign(own, { run: r, blocks: all, key: "" }); }
+
+    function begin() {
+        if (compare.is_there()) own.top = 18;
         pointers(dom.by_id("timeline"));
     }
 
@@ -219,5 +221,5 @@ const timeline = (() => {
         return x >= 0 && x <= own.width ? x : own.width / 2;
     }
 
-    return { begin, draw, zoom, middle, keep, resize, columns, level };
+    return { begin, show, draw, zoom, middle, keep, resize, columns, level };
 })();

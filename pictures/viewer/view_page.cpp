@@ -39,15 +39,23 @@ std::string page(std::string_view connect, std::string_view data) {
     return html;
 }
 
-}  // namespace
-
-std::string page_with(std::string_view view_file) {
-    return page("'none'",
-                fmt::format("<script type=\"application/octet-stream\" id=\"run\">{}</script>",
-                            base64(view_file)));
+/// Element of the page that contains a view file.
+std::string element(std::string_view id, std::string_view view_file) {
+    return fmt::format("<script type=\"application/octet-stream\" id=\"{}\">{}</script>", id,
+                       base64(view_file));
 }
 
-std::string served_page() { return page("'self'", ""); }
+}  // namespace
+
+std::string page_with(std::string_view view_file, std::string_view other) {
+    std::string data = element("run", view_file);
+    if (!other.empty()) data += element("other", other);
+    return page("'none'", data);
+}
+
+std::string served_page(bool has_other) {
+    return page("'self'", has_other ? element("other", "") : "");
+}
 std::string live_page() { return page("'self'", "<i id=\"goes-on\" hidden></i>"); }
 
 }  // namespace rovernet

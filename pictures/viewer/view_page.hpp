@@ -12,10 +12,12 @@ extern const std::string_view viewer_html;
 extern const std::string_view viewer_policy;
 
 /// Page of the viewer as one HTML file that contains a view file. The page needs no network.
-std::string page_with(std::string_view view_file);
+/// @param other  view file of a second run, to be shown beside the first; empty: none
+std::string page_with(std::string_view view_file, std::string_view other = {});
 
 /// Page of the viewer for a server: it loads the view file from the server's path /run.rvw.
-std::string served_page();
+/// @param has_other  true: it loads a second view file, too, from /other.rvw
+std::string served_page(bool has_other = false);
 /// Page of the viewer for the server of a run that goes on: it gets the run's files by a WebSocket.
 std::string live_page();
 

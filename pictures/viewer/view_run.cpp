@@ -122,13 +122,16 @@ ViewedRun Viewed::write(const ViewChoice& choice) {
     columns_.motion.write(file, robots);
     columns_.series.write(file, head);
     columns_.frames.write(file, head, robots, end, choice.frames);
+    const std::vector<MessageName>& names = columns_.frames.message_names();
+    if (choice.comparison) write_comparison(*choice.comparison, names, robots, file, head);
     ViewedRun view{.name = scenario_.scenario.name,
                    .bytes = {},
                    .robots = robots,
                    .messages = columns_.frames.messages(),
                    .frames = columns_.frames.frames() - columns_.frames.left_out(),
                    .left_out = left_out(choice),
-                   .damage = reader_.damage()};
+                   .damage = reader_.damage(),
+                   .message_names = names};
     head.set("thinned", texts(view.left_out));
     view.bytes = file.bytes(std::move(head));
     return view;

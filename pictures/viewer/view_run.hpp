@@ -2,6 +2,7 @@
 #pragma once
 
 #include "pictures/viewer/frame_columns.hpp"
+#include "pictures/viewer/view_comparison.hpp"
 
 #include <cstddef>
 #include <limits>
@@ -17,6 +18,8 @@ struct ViewChoice {
     /// Largest size of the view file [bytes]: later frames are left out. Robots, legs and messages
     /// are always complete, so that a file without frames may be larger.
     std::size_t most_bytes = std::numeric_limits<std::size_t>::max();
+    /// Comparison with the run that is shown beside this one; null: none.
+    const ViewComparison* comparison = nullptr;
 };
 
 /// View file of a run, and its size.
@@ -27,6 +30,7 @@ struct ViewedRun {
     std::size_t frames;                 ///< number of frames in the file
     std::vector<std::string> left_out;  ///< sentences about what the file does not contain
     std::vector<std::string> damage;    ///< sentences about broken or missing parts of the trace
+    std::vector<MessageName> message_names = {};  ///< messages, by their index in the file
 };
 
 /// Makes a view file of a recorded trace.

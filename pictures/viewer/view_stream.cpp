@@ -42,6 +42,7 @@ std::string ViewStream::start(Table live) const {
     head.set("follow", Array{});
     head.set("damage", Array{});
     head.set("thinned", Array{});
+    head.set("series", Array{});
     head.set("live", std::move(live));
     head.set("map", view_map(scenario_, network_->settings(), now.bounds(), file));
     now.write(file, robots_.size());

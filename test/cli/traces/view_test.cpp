@@ -41,6 +41,30 @@ TEST_CASE("view writes a page of a scenario, of a run's folder and of its trace"
     CHECK(sizes[0] < 250'000);
 }
 
+TEST_CASE("view --with shows the run that replay --with plays") {
+    const TemporaryFolder folder;
+    const std::string run = folder.path("run"), page = folder.path("page.html");
+    REQUIRE(command(folder, {"run", rescue, "--record", "--out", run, "--quiet"}).exit == 0);
+    const std::string trace = run + "/trace.mcap", radio = "propagation.model=friis";
+    const auto table = command(folder, {"replay", trace, "--with", radio, "--json"});
+    CHECK(table.out.find("\"gained\": 53") != std::string::npos);
+    CHECK(table.out.find("\"lost\": 0") != std::string::npos);
+    const auto ended = command(folder, {"view", trace, "--with", radio, "-o", page});
+    CHECK(ended.exit == 0);
+    CHECK(ended.out.find("5 robots; A: 21 messages, 51 frames; B: 21 messages, 105 frames") !=
+          std::string::npos);
+    CHECK(ended.out.find("deliveries: 53 gained in B, 0 lost in B, 31 in both") !=
+          std::string::npos);
+    const auto twice = command(folder, {"view", trace, "--with", radio + ";radio.power=0 dBm",
+                                        "--with", "radio.sensitivity=-70 dBm", "-o", page});
+    CHECK(twice.exit == 0);
+    const auto same = command(folder, {"view", run, rescue, "-o", page});
+    CHECK(same.out.find("0 gained in B, 0 lost in B, 31 in both") != std::string::npos);
+    const auto small = command(folder, {"view", run, rescue, "-o", page, "--limit", "210 kB"});
+    CHECK(small.exit == 0);
+    CHECK(std::filesystem::file_size(page) <= 210'000);
+}
+
 TEST_CASE("view: a wrong input or option has an error that says what to do") {
     const TemporaryFolder folder;
     const std::string page = folder.path("page.html");
@@ -59,6 +83,12 @@ TEST_CASE("view: a wrong input or option has an error that says what to do") {
     has(error_of(folder, {rescue, "-o", page, "--limit", "5 kB"}, 0), "take more than that");
     has(error_of(folder, {rescue, "-o", page, "--from", "80 s"}, 0), "51 of 51 frames");
     CHECK_FALSE(std::filesystem::exists(folder.path("no")));
+    const std::string patrol = std::string(ROVERNET_EXAMPLES) + "/patrol/patrol.toml";
+    has(error_of(folder, {rescue, patrol, "-o", page}, 3), "patrol.toml: found 9 robots, and 5 in");
+    has(error_of(folder, {rescue, "no.toml", "-o", page}, 3), "no.toml: no such file");
+    has(error_of(folder, {rescue, rescue, "--with", "radio.power=1 dBm", "-o", page}, 2),
+        "expected one of them");
+    has(error_of(folder, {rescue, "--with", "radio.pover=1 dBm", "-o", page}, 3), "radio.pover");
 }
 
 }  // namespace view_test

@@ -2,6 +2,7 @@
 #include "live/viewer/answers.hpp"
 
 #include "experiment/replay/message_at_robot.hpp"
+#include "experiment/replay/recorded_day.hpp"
 #include "experiment/reports/link_report.hpp"
 #include "experiment/reports/link_table.hpp"
 #include "experiment/reports/network_at.hpp"
@@ -141,6 +142,20 @@ TEST_CASE("viewer answers: links under the model disc have neither level nor mar
     for (const Value& margin : margins) CHECK(std::holds_alternative<std::monostate>(margin.data));
 }
 
+TEST_CASE("viewer answers: run 1 is the second run") {
+    const Recorded run;
+    const std::string path = run.folder.path("other.mcap");
+    RecordedDay(run.path()).record(path, {"propagation.model=friis"});
+    ViewerAnswers both(run.path(), path), first(run.path()), second(path);
+    const std::string pair = R"({"id": 1, "op": "pair", "a": 0, "b": 4, "t_ns": 10000000000)";
+    CHECK(both.answer(pair + "}") == first.answer(pair + "}"));
+    CHECK(both.answer(pair + R"(, "run": 0})") == first.answer(pair + "}"));
+    CHECK(both.answer(pair + R"(, "run": 1})") == second.answer(pair + "}"));
+    CHECK(first.answer(pair + "}") != second.answer(pair + "}"));
+    CHECK(error_of(first, pair + R"(, "run": 1})") != "");
+    CHECK(error_of(both, pair + R"(, "run": 2})") != "");
+}
+
 TEST_CASE("viewer answers: a wrong question has an error and its id, and the next is answered") {
     const Recorded run;
     ViewerAnswers answers(run.path());
@@ -165,8 +180,9 @@ TEST_CASE("viewer answers: a wrong question has an error and its id, and the nex
 
 TEST_CASE("view server: the page, the view file and answers, and nothing else") {
     const std::string file("RVW1\0\xff data", 12);
-    ViewServer server({"127.0.0.1", 0}, file,
-                      [](std::string_view question) { return "to " + std::string(question); });
+    ViewServer server(
+        {"127.0.0.1", 0}, file,
+        [](std::string_view question) { return "to " + std::string(question); }, "RVW1 other");
     const std::string url = server.url();
     const int port = std::stoi(url.substr(url.rfind(':') + 1));
     std::atomic<bool> goes_on = true;
@@ -182,6 +198,8 @@ TEST_CASE("view server: the page, the view file and answers, and nothing else") 
     CHECK(page.find("HTTP/1.1 200") == 0);
     CHECK(page.find("connect-src 'self'") != page.npos);
     CHECK(get("/run.rvw", own).find(file) != std::string::npos);
+    CHECK(page.find("id=\"other\"") != page.npos);
+    CHECK(get("/other.rvw", own).find("RVW1 other") != std::string::npos);
     CHECK(get("/etc/passwd", own).find("HTTP/1.1 404") == 0);
     CHECK(get("/", "example.org").find("HTTP/1.1 403") == 0);
     test::WebClient client(port);
