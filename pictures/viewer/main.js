@@ -56,6 +56,7 @@ const main = (() => {
         robots.place(r, state.t);
         const c = dom.sized(dom.canvas("map"), camera.now.width, camera.now.height);
         map.draw(c, r, state);
+        pixels.begin(c);
         robots.trails(c, r, state);
         const whole = flights.draw(c, all, state);
         message_panel.draw(c, state);
@@ -65,7 +66,7 @@ const main = (() => {
         controls.tell(state);
         controls.status(whole);
         filters.update(state);
-        list.draw(true);
+        list.play();
         message_panel.update(state);
         robot_panel.update(state);
         pair_panel.update(state);
