@@ -68,7 +68,7 @@ const flights = (() => {
                 lines?.lineTo(x + dx * way, y + dy * way);
                 if (ended) ends.push(at.x[to], at.y[to]);
             }
-            if (!here || shade > 0 && shown.frames > crowd) return;
+            if (!here || shade > 0 && shown.frames > crowd || ended && !state.playing) return;
             const r = Math.max(8, Math.sqrt(square) * (theme.is_still() ? 0 : way)), { width, height } = camera.now;
             if (x < -r || y < -r || x > width + r || y > height + r) return;
             ring_count++;

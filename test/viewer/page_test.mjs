@@ -89,7 +89,7 @@ test("V5: a seek takes little of the script's time, and memory has a bound", () 
         await page.evaluate(t => window.rovernet.seek(t), begin_ns);
         await page.waitForFunction(() => window.rovernet.whole && window.rovernet.list());
     }
-    const cdp = await context.newCDPSession(page), seeks = 100;
+    const cdp = await context.newCDPSession(page), seeks = 40;
     await cdp.send("Performance.enable", { timeDomain: "threadTicks" });
     // CPU time, as other programs may have the machine, too.
     const script = async () => (await cdp.send("Performance.getMetrics")).metrics.find(metric => metric.name === "ScriptDuration").value;
@@ -104,8 +104,8 @@ test("V5: a seek takes little of the script's time, and memory has a bound", () 
     const taken = 1e3 * (await script() - begin) / seeks;
     assert.ok(taken <= 15, `${taken} ms`);
     await cdp.send("HeapProfiler.collectGarbage");
-    const { usedSize } = await cdp.send("Runtime.getHeapUsage");
-    assert.ok(usedSize <= 150e6, `${usedSize} bytes`);
+    const { usedSize, backingStorageSize } = await cdp.send("Runtime.getHeapUsage");
+    assert.ok(usedSize + backingStorageSize <= 150e6, `${usedSize} + ${backingStorageSize} bytes`);
 }));
 
 test("V6: the list follows a run that plays from block to block", () => with_page("many", {}, async page => {
