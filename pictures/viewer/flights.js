@@ -109,11 +109,12 @@ const flights = (() => {
             c.stroke(lines);
             c.setLineDash([]);
         }
-        if (!under_way && !(crowded && sign <= signs.received)) {
+        if (!under_way && crowded && sign > signs.received) pixels.marks(ends, sign, 3, strength, pixels.word(color));
+        if (!under_way && !crowded) {
             const marks = new Path2D();
-            for (let i = 0; i < ends.length; i += 2) signs.outline(marks, sign, ends[i] + 9, ends[i + 1] - 9, crowded ? 3 : 4);
+            for (let i = 0; i < ends.length; i += 2) signs.outline(marks, sign, ends[i] + 9, ends[i + 1] - 9, 4);
             c.globalAlpha = strength;
-            for (const [style, width] of /** @type {[string, number][]} */ (crowded ? [[color, 1.2]] : [[theme.colors().paper, 4.5], [color, 2]])) {
+            for (const [style, width] of /** @type {[string, number][]} */ ([[theme.colors().paper, 4.5], [color, 2]])) {
                 c.strokeStyle = style;
                 c.lineWidth = width;
                 c.stroke(marks);

@@ -6,8 +6,8 @@ const pixels = (() => {
     const parts = 4;          // of a pixel, at which squares begin
     const largest_ring = 60;  // [px], radius
     const ring_alpha = 0.6;
-    /** @type {{canvas: HTMLCanvasElement|null, image: ImageData|null, words: Int32Array, width: number, height: number, size: number, squares: Stamp[], rings: Map<number, Stamp>, ratio: number}} */
-    const own = { canvas: null, image: null, words: new Int32Array(0), width: 0, height: 0, size: 0, squares: [], rings: new Map(), ratio: 1 };
+    /** @type {{canvas: HTMLCanvasElement|null, image: ImageData|null, words: Int32Array, width: number, height: number, size: number, squares: Stamp[], shapes: Map<number, Stamp>, ratio: number}} */
+    const own = { canvas: null, image: null, words: new Int32Array(0), width: 0, height: 0, size: 0, squares: [], shapes: new Map(), ratio: 1 };
     /** Rows and columns that are not clear, now and in the picture before. */
     const box = { left: 0, top: 0, right: 0, bottom: 0 }, last = { ...box };
 
@@ -56,7 +56,7 @@ const pixels = (() => {
     function begin(c) {
         const { width, height } = c.canvas, ratio = width / camera.now.width;
         if (own.width !== width || own.ratio !== ratio) {
-            own.rings.clear();
+            own.shapes.clear();
             own.size = 0;
         }
         own.ratio = ratio;
@@ -100,11 +100,32 @@ const pixels = (() => {
     function ring(x, y, radius, color) {
         if (radius > largest_ring) return false;
         const { ratio } = own, size = Math.round(2 * radius * ratio) / 2;
-        let stamp = own.rings.get(size);
-        if (!stamp) own.rings.set(size, stamp = ring_of(size, 1.2 * ratio));
+        let stamp = own.shapes.get(size);
+        if (!stamp) own.shapes.set(size, stamp = ring_of(size, 1.2 * ratio));
         put(stamp, Math.floor(x * ratio), Math.floor(y * ratio), color);
         return true;
     }
 
-    return { begin, square, ring, paint, word };
+    /** Sign of what became of a frame. @param {number} sign @param {number} r half its size [px] @param {number} strength of 1 */
+    function mark_of(sign, r, strength) {
+        const reach = Math.ceil((r + 2) * own.ratio), side = 2 * reach + 1, canvas = document.createElement("canvas");
+        canvas.width = canvas.height = side;
+        const c = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { willReadFrequently: true }));
+        c.scale(own.ratio, own.ratio);
+        signs.outline(c, sign, side / 2 / own.ratio, side / 2 / own.ratio, r);
+        c.lineWidth = 1.2;
+        c.stroke();
+        const { data } = c.getImageData(0, 0, side, side);
+        return stamp_of(reach, (x, y) => strength * data[4 * ((y + reach) * side + x + reach) + 3] / 255);
+    }
+
+    /** Signs around places. @param {number[]} ends x and y of each [px] @param {number} sign @param {number} r half their size @param {number} strength of 1 @param {number} color */
+    function marks(ends, sign, r, strength, color) {
+        const { ratio } = own, key = -1 - sign - signs.count * Math.round(100 * strength);
+        let stamp = own.shapes.get(key);
+        if (!stamp) own.shapes.set(key, stamp = mark_of(sign, r, strength));
+        for (let i = 0; i < ends.length; i += 2) put(stamp, Math.floor((ends[i] + 9) * ratio), Math.floor((ends[i + 1] - 9) * ratio), color);
+    }
+
+    return { begin, square, ring, marks, paint, word };
 })();
