@@ -58,8 +58,8 @@ const dom = (() => {
             of.width = w;
             of.height = h;
         }
-        of.style.width = `${width}px`;
-        of.style.height = `${height}px`;
+        const shown = `width: ${width}px; height: ${height}px;`;
+        if (of.style.cssText !== shown) of.style.cssText = shown;
         const c = /** @type {CanvasRenderingContext2D} */ (of.getContext("2d"));
         c.setTransform(ratio, 0, 0, ratio, 0, 0);
         c.globalAlpha = 1;

@@ -5,7 +5,7 @@ const flights = (() => {
     const most_lines = 4000;
     /** Wall time that a frame stays after its end, and that its ring takes at least [s]. */
     const kept_s = 0.35, least_ring_s = 0.15;
-    const shades = 3, crowd = 600;
+    const shades = 3, crowd = 600, most_rings = 60;  // most rings that are paths
     const shown = { lines: 0, left_out: 0, frames: 0 };
     const kind_colors = [0, 5, 3, 6, 1, 4];
 
@@ -14,26 +14,30 @@ const flights = (() => {
 
     /** Lines and signs of one look, drawn together. @typedef {{lines: Path2D|null, ends: number[]}} Batch */
 
-    /** Share of the way that a frame has made, and its shade. @param {Block} block @param {number} flight @param {State} state */
+    /** Share of the way that a frame has made, and share of the time after it. */
+    const made = { way: 0, age: 0, ended: false };
+
+    /** @param {Block} block @param {number} flight @param {State} state */
     function progress(block, flight, state) {
         const start = block.start[flight], airtime = Math.max(1, block.airtime[flight]);
         const shown_ns = state.playing && !theme.is_still() ? Math.max(airtime, least_ring_s * state.speed * run.nanoseconds) : airtime;
-        const way = Math.min(1, (state.t - start) / shown_ns);
-        const age = Math.max(0, (state.t - start - Math.max(airtime, shown_ns)) / (kept_s * state.speed * run.nanoseconds));
-        return { way, age, ended: state.t >= start + airtime && way >= 1 };
+        made.way = Math.min(1, (state.t - start) / shown_ns);
+        made.age = Math.max(0, (state.t - start - Math.max(airtime, shown_ns)) / (kept_s * state.speed * run.nanoseconds));
+        made.ended = state.t >= start + airtime && made.way >= 1;
+        return made;
     }
 
     /** @param {CanvasRenderingContext2D} c @param {Blocks} all @param {State} state */
     function draw(c, all, state) {
         const { at } = robots, kept_ns = (kept_s + least_ring_s) * state.speed * run.nanoseconds;
-        /** @type {Map<number, Batch>} */ const batches = new Map();
+        const ring_colors = all.run.head.frame_kinds.map((_, kind) => pixels.word(kind_color(kind)));
+        let ring_count = 0;
+        /** @type {(Batch|undefined)[]} */ const batches = new Array((signs.count + 1) * shades);
+        const storeys = all.run.head.map.floors.length > 1;
         /** Rings of each kind of frame and shade. @type {Map<number, Path2D>} */ const rings = new Map();
         /** @param {number} sign @param {number} shade */
         const batch = (sign, shade) => {
-            const key = sign * shades + shade;
-            let out = batches.get(key);
-            if (!out) batches.set(key, out = { lines: new Path2D(), ends: [] });
-            return out;
+            return batches[sign * shades + shade] ??= { lines: new Path2D(), ends: [] };
         };
         const on_air = all.between(state.t - kept_ns, state.t, (block, i) => {
             const message = block.message[i];
@@ -42,24 +46,33 @@ const flights = (() => {
             if (age > 1) return;
             shown.frames++;
             const from = block.sender[i], shade = Math.min(shades - 1, Math.floor(age * shades));
-            const x = at.x[from], y = at.y[from];
-            let longest = 0;
-            for (let k = block.first[i]; k < block.first[i + 1]; k++) {
+            const x = at.x[from], y = at.y[from], here = !storeys || at.storey[from] === state.storey, last = block.first[i + 1];
+            let square = 0;  // of the longest line
+            for (let k = block.first[i]; k < last; k++) {
+                if (here && shown.lines >= most_lines) {
+                    shown.left_out += last - k;
+                    break;
+                }
                 const to = block.robot[k];
-                if (at.storey[from] !== state.storey && at.storey[to] !== state.storey) continue;
+                if (!here && at.storey[to] !== state.storey) continue;
                 if (shown.lines >= most_lines) {
                     shown.left_out++;
                     continue;
                 }
                 shown.lines++;
                 const dx = at.x[to] - x, dy = at.y[to] - y;
-                longest = Math.max(longest, Math.hypot(dx, dy));
+                square = Math.max(square, dx * dx + dy * dy);
                 const { lines, ends } = batch(ended ? signs.of(block.outcome[k]) : signs.count, shade);
                 lines?.moveTo(x, y);
                 lines?.lineTo(x + dx * way, y + dy * way);
                 if (ended) ends.push(at.x[to], at.y[to]);
             }
-            if (at.storey[from] === state.storey && (shade === 0 || shown.frames <= crowd)) ring(rings, block.kind[i] * shades + shade, x, y, way, longest);
+            if (!here || shade > 0 && shown.frames > crowd || ended && !state.playing) return;
+            const r = Math.max(8, Math.sqrt(square) * (theme.is_still() ? 0 : way)), { width, height } = camera.now;
+            if (x < -r || y < -r || x > width + r || y > height + r) return;
+            ring_count++;
+            if (shade === 0 && ring_count > most_rings && pixels.ring(x, y, r, ring_colors[block.kind[i]])) return;
+            ring(rings, block.kind[i] * shades + shade, x, y, r);
         });
         for (const [key, path] of rings) {
             c.globalAlpha = 0.6 * (1 - key % shades / shades);
@@ -68,18 +81,17 @@ const flights = (() => {
             c.stroke(path);
         }
         c.globalAlpha = 1;
-        for (const [key, { lines, ends }] of [...batches].sort((a, b) => b[0] - a[0])) {
-            const sign = Math.floor(key / shades), strength = 1 - (key % shades) / shades;
-            stroke(c, lines, ends, sign, strength, shown.lines > crowd);
+        for (let key = batches.length - 1; key >= 0; key--) {
+            const some = batches[key];
+            if (some) stroke(c, some.lines, some.ends, Math.floor(key / shades), 1 - (key % shades) / shades, shown.lines > crowd);
         }
         return on_air;
     }
 
-    /** @param {Map<number, Path2D>} rings @param {number} key @param {number} x @param {number} y @param {number} way @param {number} longest line [px] */
-    function ring(rings, key, x, y, way, longest) {
+    /** @param {Map<number, Path2D>} rings @param {number} key @param {number} x @param {number} y @param {number} r [px] */
+    function ring(rings, key, x, y, r) {
         let path = rings.get(key);
         if (!path) rings.set(key, path = new Path2D());
-        const r = Math.max(8, longest * (theme.is_still() ? 0 : way));
         path.moveTo(x + r, y);
         path.arc(x, y, r, 0, 2 * Math.PI);
     }
@@ -96,11 +108,12 @@ const flights = (() => {
             c.stroke(lines);
             c.setLineDash([]);
         }
-        if (!under_way && !(crowded && sign <= signs.received)) {
+        if (!under_way && crowded && sign > signs.received) pixels.marks(ends, sign, 3, strength, pixels.word(color));
+        if (!under_way && !crowded) {
             const marks = new Path2D();
-            for (let i = 0; i < ends.length; i += 2) signs.outline(marks, sign, ends[i] + 9, ends[i + 1] - 9, crowded ? 3 : 4);
+            for (let i = 0; i < ends.length; i += 2) signs.outline(marks, sign, ends[i] + 9, ends[i + 1] - 9, 4);
             c.globalAlpha = strength;
-            for (const [style, width] of /** @type {[string, number][]} */ (crowded ? [[color, 1.2]] : [[theme.colors().paper, 4.5], [color, 2]])) {
+            for (const [style, width] of /** @type {[string, number][]} */ ([[theme.colors().paper, 4.5], [color, 2]])) {
                 c.strokeStyle = style;
                 c.lineWidth = width;
                 c.stroke(marks);

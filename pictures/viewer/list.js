@@ -2,10 +2,10 @@
 // List of events: only the rows that are in sight are elements. Its first row is the last event until now.
 const list = (() => {
     "use strict";
-    const row_height = 22, spare = 3, most_kept = 3, moment_ms = 120;
+    const row_height = 22, spare = 3, most_kept = 3, moment_ms = 120, pause_ms = 100;
     const highest = 8e6;  // [px] that browsers lay out exactly
-    /** @type {{run: Run, blocks: Blocks, window: EventList|null, rows: Uint32Array, filter: Filter|null, kept: Map<number, EventList>, timer: number}} */
-    const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), window: null, rows: new Uint32Array(0), filter: null, kept: new Map(), timer: 0 };
+    /** @type {{run: Run, blocks: Blocks, window: EventList|null, rows: Uint32Array, filter: Filter|null, kept: Map<number, EventList>, filtered: WeakMap<EventList, {filter: Filter, rows: Uint32Array}>, timer: number, awaited: number, height: number, top: number, drawn: number}} */
+    const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), window: null, rows: new Uint32Array(0), filter: null, kept: new Map(), filtered: new WeakMap(), timer: 0, awaited: -1, height: 0, top: 0, drawn: 0 };
 
     /** @param {EventList} window */
     function keep(window) {
@@ -17,8 +17,11 @@ const list = (() => {
 
     /** Puts the events of another block in order when the time has stayed there a moment. @param {Run} r @param {number} number @param {Block|null} block @param {Block|null} before */
     function settle(r, number, block, before) {
+        if (own.awaited === number) return;
         clearTimeout(own.timer);
+        own.awaited = number;
         own.timer = setTimeout(() => {
+            own.awaited = -1;
             keep(events.window_of(r, number, block, before));
             own.blocks.arrived();
         }, moment_ms);
@@ -40,7 +43,9 @@ const list = (() => {
         }
         if (own.filter !== selection.state.filter) {
             own.filter = selection.state.filter;
-            own.rows = events.filtered(r, own.window, own.filter);
+            const before_this = own.filtered.get(own.window);
+            own.rows = before_this?.filter === own.filter ? before_this.rows : events.filtered(r, own.window, own.filter);
+            own.filtered.set(own.window, { filter: own.filter, rows: own.rows });
             rendered.first = -1;
             rendered.followed = -2;
         }
@@ -78,25 +83,33 @@ const list = (() => {
         return out;
     }
 
+    /** Rows follow a run that plays ten times a second. */
+    function play() {
+        const now = performance.now();
+        if (!selection.state.playing || now - own.drawn >= pause_ms) draw(true);
+    }
+
     /** @param {boolean} follow whether the current event comes to the top */
     function draw(follow) {
+        own.drawn = performance.now();
         const box = dom.by_id("events"), space = dom.by_id("events-space"), { t } = selection.state;
         if (!update(t)) {
             dom.by_id("events-count").textContent = "reading \u2026";
             return;
         }
-        if (box.clientHeight === 0) {
+        if (own.height === 0) {
             rendered.followed = -2;  // a hidden list forgets where it was
             return;
         }
-        const current = row_at(t), height = box.clientHeight, total = own.rows.length * row_height + Math.max(0, height - row_height);
+        const current = row_at(t), { height } = own, total = own.rows.length * row_height + Math.max(0, height - row_height);
         const room = Math.min(highest, total), ratio = Math.max(1, total - height) / Math.max(1, room - height);
         space.style.height = `${room}px`;
         if (follow && current !== rendered.followed) {
             rendered.followed = current;
             box.scrollTop = Math.max(0, current) * row_height / ratio;
         }
-        const offset = box.scrollTop * ratio, shift = offset - box.scrollTop;
+        own.top = box.scrollTop;
+        const offset = own.top * ratio, shift = offset - own.top;
         const first = Math.max(0, Math.floor(offset / row_height) - spare);
         const last = Math.min(own.rows.length, first + Math.ceil(height / row_height) + 2 * spare);
         if (first !== rendered.first || current !== rendered.current || shift !== rendered.shift) {
@@ -144,7 +157,13 @@ const list = (() => {
     }
 
     function begin() {
-        dom.by_id("events").addEventListener("scroll", () => draw(false));
+        dom.by_id("events").addEventListener("scroll", () => {
+            if (dom.by_id("events").scrollTop !== own.top) draw(false);
+        });
+        new ResizeObserver(() => {
+            own.height = dom.by_id("events").clientHeight;
+            draw(true);
+        }).observe(dom.by_id("events"));
         dom.by_id("events").addEventListener("click", clicked);
     }
 
@@ -161,5 +180,5 @@ const list = (() => {
         return current < 0 || !w || w.number !== own.blocks.at(selection.state.t) ? null : { time: w.time[own.rows[current]], text: events.text(own.run, w, own.rows[current]), rows: own.rows.length };
     }
 
-    return { begin, show, draw, step, renew, seen, own };
+    return { begin, show, play, step, renew, seen, own };
 })();

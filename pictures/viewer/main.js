@@ -57,6 +57,7 @@ const main = (() => {
         c.clip();
         robots.place(r, state.t);
         map.draw(c, r, state);
+        pixels.begin();
         robots.trails(c, r, state);
         if (i === sides.lead()) links.draw(c, state);
         const whole = flights.draw(c, all, state);
@@ -89,7 +90,7 @@ const main = (() => {
         controls.status(whole);
         if (live.is_live()) introduce();
         filters.update(state);
-        list.draw(true);
+        list.play();
         message_panel.update(state);
         robot_panel.update(state);
         links.update(state);

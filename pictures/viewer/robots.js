@@ -96,21 +96,22 @@ const robots = (() => {
         c.lineCap = "butt";
     }
 
-    /** Thousands of robots as squares, which leave room between them. @param {CanvasRenderingContext2D} c @param {State} state @param {number[]} bounds of the map */
-    function swarm(c, state, bounds) {
+    /** Thousands of robots as squares, which leave room between them. @param {State} state @param {number[]} bounds of the map */
+    function swarm(state, bounds) {
         const { scale, width, height } = camera.now, [left, bottom, right, top] = bounds;
         const shown = Math.min(width * height, Math.max(1, (right - left) * (top - bottom)) * scale * scale);
         const size = Math.min(2 * least_radius - 2, Math.max(1.5, 0.35 * Math.sqrt(shown / at.x.length)));
         for (const on of [1, 0]) {
-            c.fillStyle = on ? theme.colors().muted : theme.colors().off;
+            const color = pixels.word(on ? theme.colors().muted : theme.colors().off);
             for (let i = 0; i < at.x.length; i++) {
-                if (at.on[i] === on && at.storey[i] === state.storey && in_view(i, size)) c.fillRect(at.x[i] - size / 2, at.y[i] - size / 2, size, size);
+                if (at.on[i] === on && at.storey[i] === state.storey) pixels.square(at.x[i], at.y[i], size, color);
             }
         }
     }
 
     /** Names that find room beside their robots: right, left, above or below. @param {CanvasRenderingContext2D} c @param {Run} r @param {number[]} shown */
     function names(c, r, shown) {
+        if (shown.length === 0) return;
         const size = shown.length > 60 ? 9 : 12;
         /** @type {number[][]} */ const taken = shown.map(i => [at.x[i] - 5, at.y[i] - 5, at.x[i] + 5, at.y[i] + 5]);
         c.font = `${size}px ${font}`;
@@ -140,9 +141,9 @@ const robots = (() => {
             if (at.storey[i] === state.storey && in_view(i, 40)) shown.push(i);
         }
         const colored = state.trails && r.robots <= most_trails;
-        if (shown.length > many) {
-            swarm(c, state, r.head.map.bounds);
-        } else {
+        if (shown.length > many) swarm(state, r.head.map.bounds);
+        pixels.paint(c);
+        if (shown.length <= many) {
             for (const i of shown) {
                 const rim = colored ? theme.category(i) : theme.colors().ink;
                 disc(c, at.x[i], at.y[i], radius(r, i), rim, at.on[i] === 1, false, at.heading[i]);

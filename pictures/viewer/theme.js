@@ -12,8 +12,14 @@ const theme = (() => {
     const dark_wanted = typeof matchMedia === "function" ? matchMedia("(prefers-color-scheme: dark)") : null;
     const still_wanted = typeof matchMedia === "function" ? matchMedia("(prefers-reduced-motion: reduce)") : null;
 
-    function is_dark() { return Boolean(dark_wanted?.matches); }
-    function is_still() { return Boolean(still_wanted?.matches); }
+    /** The wishes, kept: asking the browser for each frame on air takes a millisecond. */
+    const now = { dark: false, still: false };
+    function look() { Object.assign(now, { dark: Boolean(dark_wanted?.matches), still: Boolean(still_wanted?.matches) }); }
+    for (const wish of [dark_wanted, still_wanted]) wish?.addEventListener("change", look);
+    look();
+
+    function is_dark() { return now.dark; }
+    function is_still() { return now.still; }
     function colors() { return is_dark() ? dark : light; }
 
     /** @param {string} hex @returns {number[]} */

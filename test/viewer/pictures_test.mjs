@@ -9,13 +9,14 @@ import { drawn, folder, with_page } from "./page.mjs";
 const most_different = 0.01, same = 16;  // share of pixels; of 255, in each channel
 const { ACCEPT: accept } = process.env;
 
-/** Makes the map 640 x 400 large: the room beside it does not depend on the window. */
+/** Makes the map 640 x 400 large: what stands around it has its own size, and more lines once frames were met. */
 async function resize(page) {
-    for (let i = 0; i < 5; i++) {
-        const { width, height } = await page.evaluate(() => ({ width: 640 - document.getElementById("place").clientWidth, height: 400 - document.getElementById("place").clientHeight }));
-        if (width === 0 && height === 0) return;
+    for (let i = 0, fitting = 0; i < 20 && fitting < 2; i++) {
+        const { width, height } = await page.evaluate(() => ({ width: 640 - document.getElementById("map").clientWidth, height: 400 - document.getElementById("map").clientHeight }));
+        fitting = width === 0 && height === 0 ? fitting + 1 : 0;
         const now = page.viewportSize();
-        await page.setViewportSize({ width: now.width + width, height: now.height + height });
+        if (!fitting) await page.setViewportSize({ width: now.width + width, height: now.height + height });
+        await drawn(page);
         await drawn(page);
     }
 }

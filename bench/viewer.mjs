@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// Measures for bench/viewer. CPU times of the page's script are those of its thread, so that a busy machine changes them little.
+import { execFileSync, spawn } from "node:child_process";
+import fs from "node:fs";
+import os from "node:os";
+import zlib from "node:zlib";
+import { chromium } from "playwright-core";
+
+const { COMMAND: command, CHROMIUM: browser_path, FOLDER: folder, RESCUE: rescue } = process.env;
+const ticks = Number(execFileSync("getconf", ["CLK_TCK"], { encoding: "utf8" }));
+
+function row(what, budget, measured) { console.log(`| ${what} | ${budget} | ${measured} |`); }
+const median = values => [...values].sort((a, b) => a - b)[values.length >> 1];
+const passed = ms => new Promise(done => setTimeout(done, ms));
+
+/** CPU time of a process and its descendants [ms]. */
+function cpu_of(root) {
+    const parents = new Map(), times = new Map();
+    for (const name of fs.readdirSync("/proc").filter(file => /^\d+$/.test(file))) {
+        try {
+            const fields = fs.readFileSync(`/proc/${name}/stat`, "utf8").replace(/^.*\) /, "").split(" ");
+            parents.set(Number(name), Number(fields[1]));
+            times.set(Number(name), (Number(fields[11]) + Number(fields[12])) * 1000 / ticks);
+        } catch {
+            // It ended meanwhile.
+        }
+    }
+    const is_of_root = pid => pid === root || pid > 1 && is_of_root(parents.get(pid) ?? 0);
+    return [...times].filter(([pid]) => is_of_root(pid)).reduce((sum, [, time]) => sum + time, 0);
+}
+
+/** A page in a browser of its own, ready: act(page, script_ms, all_ms). The last two return CPU times until now. */
+async function with_page(url, act) {
+    const server = await chromium.launchServer({ executablePath: browser_path, args: ["--no-sandbox", "--enable-unsafe-swiftshader"] });
+    const browser = await chromium.connect(server.wsEndpoint());
+    try {
+        const page = await browser.newPage({ viewport: { width: 1280, height: 720 } }), begin = performance.now();
+        await page.goto(url);
+        await page.waitForFunction(() => window.rovernet?.ready && window.rovernet.frames > 0);
+        const opened = performance.now() - begin, cdp = await page.context().newCDPSession(page);
+        await cdp.send("Performance.enable", { timeDomain: "threadTicks" });
+        const script = async () => 1e3 * (await cdp.send("Performance.getMetrics")).metrics.find(m => m.name === "ScriptDuration").value;
+        await act({ page, cdp, opened, script, all: () => cpu_of(server.process().pid) });
+    } finally {
+        await browser.close();
+        await server.close();
+    }
+}
+
+/** CPU time of the command [s]. */
+function cpu_of_command(...words) {
+    const text = execFileSync("bash", ["-c", 'TIMEFORMAT="%U %S"; { time "$@" > /dev/null 2>&1; } 2>&1', "bash", command, ...words], { encoding: "utf8" });
+    return text.trim().split(" ").reduce((sum, part) => sum + Number(part), 0);
+}
+
+/** Serves a run or a scenario: act(address, CPU time until then [s]). */
+async function served(file, act) {
+    const server = spawn(command, ["view", file], { stdio: ["ignore", "pipe", "ignore"] }), ended = new Promise(done => server.on("exit", done));
+    const address = await new Promise(done => server.stdout.on("data", text => done(/http:\S+/.exec(String(text))[0])));
+    try {
+        await act(address, cpu_of(server.pid) / 1e3);
+    } finally {
+        server.kill("SIGINT");
+        await ended;
+    }
+}
+
+/** Seeks and waits until all is drawn. */
+function seek(page, t) {
+    return page.evaluate(async at => {
+        const { frames } = window.rovernet, frame = () => new Promise(done => requestAnimationFrame(done));
+        window.rovernet.seek(at);
+        while (window.rovernet.frames === frames || !window.rovernet.whole || !window.rovernet.list()) await frame();
+    }, t);
+}
+
+async function frames_of_a_swarm({ page, script, all }) {
+    for (const t of [0.3e9, 2e9, 0.3e9]) await seek(page, t);
+    await page.keyboard.press("k");
+    await passed(1000);  // the browser compiles the script
+    const of = () => page.evaluate(() => window.rovernet.frames);
+    const [frames, begin, begin_all] = [await of(), await script(), all()];
+    await passed(3000);
+    const [drawn, end, end_all] = [await of() - frames, await script(), all()];
+    row("script a frame, 10,000 robots, 55,000 receptions/s", "4 ms", `${((end - begin) / drawn).toFixed(1)} ms`);
+    row("the whole browser a frame, the same", "60 ms", `${((end_all - begin_all) / drawn).toFixed(0)} ms`);
+}
+
+async function large_run({ page, cdp, opened, script, all }) {
+    const size = fs.statSync(`${folder}/large.html`).size;
+    row("opening the page of 7.5 million receptions (time on the wall)", "4 s", `${(opened / 1e3).toFixed(1)} s`);
+    row("its size", "12 MB", `${(size / 1e6).toFixed(1)} MB`);
+    const seeks = 200, taken = [];
+    for (let i = 0; i < 5; i++) await seek(page, 1e9 + i * 1e7);
+    const begin = await script();
+    for (let i = 1; i <= seeks; i++) await seek(page, (1 + i * 0.618034 % 1) * 1e9);
+    row("script of a seek, mean of 200", "10 ms", `${((await script() - begin) / seeks).toFixed(1)} ms`);
+    for (let i = 1; i <= 20; i++) {
+        const before = await script();
+        await seek(page, (i * 0.618034 % 1) * 60e9);
+        taken.push(await script() - before);
+    }
+    row("script of a seek that unpacks blocks, median of 20", "60 ms", `${median(taken).toFixed(0)} ms`);
+    await cdp.send("HeapProfiler.collectGarbage");
+    const { usedSize, backingStorageSize } = await cdp.send("Runtime.getHeapUsage");
+    row("memory of its script, with its columns", "150 MB", `${((usedSize + backingStorageSize) / 1e6).toFixed(0)} MB`);
+    await passed(1000);
+    const frames = await page.evaluate(() => window.rovernet.frames), rest = all();
+    await passed(3000);
+    row("frames of a page that stands, in 3 s", "0", `${await page.evaluate(() => window.rovernet.frames) - frames}`);
+    row("the whole browser meanwhile", "1 %", `${((all() - rest) / 30).toFixed(1)} %`);
+}
+
+/** Median time of an answer [ms], on the wall. */
+function answered(page, question) {
+    return page.evaluate(async asked => {
+        const socket = new WebSocket(location.href.replace("http", "ws").split("#")[0]), taken = [];
+        await new Promise(done => socket.onopen = done);
+        for (let id = 0; id < 7; id++) {
+            const begin = performance.now(), answer = new Promise(done => socket.onmessage = event => done(JSON.parse(event.data)));
+            socket.send(JSON.stringify({ id, ...asked }));
+            const { error } = await answer;
+            if (error) throw new Error(error);
+            taken.push(performance.now() - begin);
+        }
+        socket.close();
+        return taken.sort((a, b) => a - b)[3];
+    }, question);
+}
+
+console.log(`load ${os.loadavg()[0].toFixed(1)} at the begin\n\n| what | budget | measured |\n|---|--:|--:|`);
+await with_page(`file://${folder}/swarm.html`, frames_of_a_swarm);
+row("`view -o` of 7.5 million receptions", "4 s", `${cpu_of_command("view", `${folder}/large`, "-o", `${folder}/large.html`).toFixed(1)} s`);
+await with_page(`file://${folder}/large.html`, large_run);
+await served(`${folder}/large`, async (address, cpu) => {
+    row("`view` of it, until it serves", "2 s", `${cpu.toFixed(1)} s`);
+    await with_page(address, async ({ page }) => {
+        row("answer to why, in that run (time on the wall)", "50 ms", `${(await answered(page, { op: "why", uid: 6000, robot: 7 })).toFixed(0)} ms`);
+        row("answer to the budget of a pair, in that run", "50 ms", `${(await answered(page, { op: "pair", a: 1, b: 2, t_ns: 30e9 })).toFixed(0)} ms`);
+    });
+});
+await served(rescue, address => with_page(address, async ({ page }) => {
+    row("answer to the coverage of 200,000 cells of the rescue", "300 ms", `${(await answered(page, { op: "coverage", robot: 1, t_ns: 10e9, storey: 0, cells: 200000 })).toFixed(0)} ms`);
+}));
+const page = fs.readFileSync(`${folder}/swarm.html`, "utf8").replace(/(<script[^>]*id="run"[^>]*>)[^<]*/, "$1");
+row("page without a run", "150 kB", `${(page.length / 1e3).toFixed(0)} kB`);
+row("the same, packed by gzip", "45 kB", `${(zlib.gzipSync(page).length / 1e3).toFixed(0)} kB`);
+console.log(`\nload ${os.loadavg()[0].toFixed(1)} at the end`);
