@@ -65,8 +65,12 @@ foreach(text script style)
   string(REGEX REPLACE "\n[ \t]*/\\*[^\n]*\\*/[ \t]*\n" "\n" ${text} "${${text}}")
   string(REGEX REPLACE "\n[ \t]+" "\n" ${text} "${${text}}")
 endforeach()
-# Types beside the code are for the checker only; a style needs no blanks beside its signs.
+# Types beside the code are for the checker only. These signs, and those of a style, need no blanks;
+# no text of the page has them.
 string(REGEX REPLACE "/\\*\\* @[^*]*\\*/ ?" "" script "${script}")
+string(REGEX REPLACE "  //[^\n]*" "" script "${script}")
+string(REGEX REPLACE "\n\n+" "\n" script "${script}")
+string(REGEX REPLACE " (=>|===|!==|&&|\\|\\||\\+=) " "\\1" script "${script}")
 string(REGEX REPLACE " ?([{};,]|: ) ?" "\\1" style "${style}")
 string(REPLACE ": " ":" style "${style}")
 csp_hash("${style}" style_hash)

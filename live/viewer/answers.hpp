@@ -2,10 +2,12 @@
 #pragma once
 
 #include "experiment/recorded_scenario.hpp"
+#include "models/propagation/propagation.hpp"
 #include "scenario/document/value.hpp"
 #include "scenario/scenario.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,8 +37,10 @@ class ViewerAnswers {
     Table pair(const JsonElement& question) const;
     Table link_table(const JsonElement& question) const;
     Table links(const JsonElement& question);
-    Table coverage(const JsonElement& question) const;
+    Table coverage(const JsonElement& question);
     const std::string& robot(const JsonElement& question, std::string_view key) const;
+    /// Model of what a robot sends under the assignment of the key `with`, if the question has it.
+    std::optional<Propagation> other_model(const JsonElement& question, NodeId robot) const;
     Time time(const JsonElement& question) const;
     /// Network of the scenario at a time. It is kept, since the next question is often about the
     /// same time, or a little later.

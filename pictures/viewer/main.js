@@ -111,7 +111,7 @@ const main = (() => {
         for (const part of [search, keys, filters, charts]) part.begin(r);
         message_panel.begin(r, all, redraw);
         pair_panel.begin(r, redraw);
-        coverage.begin(robot => r.name(robot), redraw, controls.say);
+        coverage.begin(r, redraw, controls.say);
         links.begin(r, redraw, controls.say);
         address.begin(r);
         selection.listen(changed => {
@@ -140,7 +140,9 @@ const main = (() => {
         position(robot) { return own.run?.pose(robot, selection.state.t, { x: 0, y: 0, z: 0, vx: 0, vy: 0, heading: 0 }); },
         list: list.seen,
         density: timeline.columns,
-        charts: charts.values,
+        charts: charts.values, levels: coverage.levels,
+        /** @param {number} robot */
+        pixel: robot => [robots.at.x[robot], robots.at.y[robot]],
         links: () => selection.state.links ? links.shown(selection.state).map(l => ({ ...l, ...links.look(l.margin) })) : [],
         /** @param {number} uid @param {number} robot */
         async outcome(uid, robot) {

@@ -44,7 +44,7 @@ const server = (() => {
         });
     }
 
-    /** @param {string} op @param {Record<string, number>} fields @returns {Promise<any>} */
+    /** @param {string} op @param {Record<string, number|string>} fields @returns {Promise<any>} */
     async function ask(op, fields) {
         const socket = await connected(), id = own.next++;
         return new Promise((done, failed) => {

@@ -5,6 +5,7 @@
 #include "experiment/recorded_scenario.hpp"
 #include "experiment/replay/message_at_robot.hpp"
 #include "experiment/summary.hpp"
+#include "models/propagation/list.hpp"
 #include "pictures/viewer/motion_columns.hpp"
 #include "pictures/viewer/view_file.hpp"
 #include "pictures/viewer/view_map.hpp"
@@ -86,6 +87,12 @@ Array outcome_list() {
 
 Array texts(const std::vector<std::string>& list) { return {list.begin(), list.end()}; }
 
+Array model_list() {
+    Array list;
+    for_each_model([&]<class Model>() { list.emplace_back(Model::name); });
+    return list;
+}
+
 Array flow_list(const Scenario& scenario) {
     Array list{""};
     for (const TrafficTable& table : scenario.traffic) list.emplace_back(table.name);
@@ -130,6 +137,7 @@ Table Viewed::head() const {
     head.set("duration_ns", std::int64_t{scenario_.scenario.duration.count()});
     head.set("robots", robot_list(reader_.run(), scenario_));
     head.set("colors", view_colors());
+    head.set("models", model_list());
     head.set("outcomes", outcome_list());
     head.set("flows", flow_list(scenario_));
     Table metrics;
