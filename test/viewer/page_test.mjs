@@ -286,6 +286,18 @@ test("charts: they end at the metrics; the cursor is the time, a click seeks, a 
     assert.ok(Math.abs(span.from - 0.25 * duration_ns) < duration_ns / 100 && Math.abs(span.to - 0.5 * duration_ns) < duration_ns / 100);
 }));
 
+test("storeys: with All, a click finds a robot of another storey", () => with_page("storeys", { hash: "#t=10" }, async page => {
+    const box = await page.locator("#map").boundingBox(), [x, y] = await page.evaluate(() => window.rovernet.pixel(1));
+    const click = async () => {
+        await page.mouse.click(box.x + x, box.y + y);
+        await drawn(page);
+        return page.evaluate(() => window.rovernet.state.robots);
+    };
+    assert.deepEqual(await click(), []);
+    await page.getByRole("button", { name: "All", exact: true }).click();
+    assert.deepEqual(await click(), [1]);
+}));
+
 test("V15: a tour by keys alone", () => with_page("rescue", {}, async page => {
     const state = () => page.evaluate(() => structuredClone(window.rovernet.state));
     const press = async key => { await page.keyboard.press(key); await drawn(page); };
