@@ -7,14 +7,12 @@
 #include "experiment/reports/network_at.hpp"
 #include "live/carriers/json_object.hpp"
 #include "live/viewer/network_answers.hpp"
-#include "pictures/map/coverage.hpp"
+#include "models/medium/medium.hpp"
 #include "scenario/document/json.hpp"
 #include "traces/recorded/recorded_reader.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <exception>
 
 namespace rovernet {
@@ -34,20 +32,6 @@ JsonElement member(const JsonElement& object, std::string_view key) {
 bool has_member(const JsonElement& object, std::string_view key) {
     simdjson::dom::element value;
     return object.object()[key].get(value) == simdjson::SUCCESS;
-}
-
-/// Rectangle of the map, or of the robots and 10 m around them on an open field.
-std::array<Vec3, 2> shown_area(const Network& network) {
-    const Scene& scene = network.scene();
-    if (!scene.open_field()) return {scene.lower_left(), scene.upper_right()};
-    constexpr double around = 10;  // [m]
-    Vec3 low = network.position(NodeId{0}), high = low;
-    for (std::uint32_t i = 0; i < network.size(); ++i) {
-        const Vec3 p = network.position(NodeId{i});
-        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    }
-    return {low - Vec3{around, around}, high + Vec3{around, around}};
 }
 
 }  // namespace
@@ -165,25 +149,29 @@ Table ViewerAnswers::link_table(const JsonElement& question) {
     return answer;
 }
 
+std::optional<Propagation> ViewerAnswers::other_model(const JsonElement& question,
+                                                      NodeId robot) const {
+    if (!has_member(question, "with")) return {};
+    if (running_) {
+        throw RequestError("not_recorded", "with",
+                           "another model is shown for a recorded run, when this one is over");
+    }
+    const std::string with(member(question, "with").text());
+    if (!with.starts_with("propagation."))
+        throw RequestError("bad_value", "with", "expected such as \"propagation.model=friis\"");
+    const auto network = network_at(replayed_->with({with}), start_of_run);
+    return network->medium().stations().model(robot).median();
+}
+
 Table ViewerAnswers::coverage(const JsonElement& question) {
     const NodeId node = robot(question, "robot");
     const std::uint64_t cells = member(question, "cells").whole_number(1, most_cells);
-    const Network& network = this->network(question);
-    const std::size_t storeys = network.scene().storeys().size();
-    const std::uint64_t storey = member(question, "storey").whole_number(0, storeys - 1);
-    const auto [low, high] = shown_area(network);
-    const CoverageMap map =
-        rovernet::coverage(transmitter(network, node, node, storey, network.now()), low, high,
-                           static_cast<int>(cells));
-    Table answer;
-    answer.set("columns", map.columns);
-    answer.set("rows", map.rows);
-    answer.set("left", map.lower_left.x);
-    answer.set("bottom", map.lower_left.y);
-    answer.set("cell_width", map.cell_width);
-    answer.set("cell_height", map.cell_height);
-    answer.set("dbm", Array(map.dbm.begin(), map.dbm.end()));
-    return answer;
+    const Network& then = network(question);
+    const std::size_t storeys = then.scene().storeys().size();
+    return answer_coverage(then, {.robot = node,
+                                  .storey = member(question, "storey").whole_number(0, storeys - 1),
+                                  .cells = static_cast<int>(cells),
+                                  .other = other_model(question, node)});
 }
 
 }  // namespace rovernet

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "experiment/recorded_scenario.hpp"
+#include "models/propagation/propagation.hpp"
 #include "scenario/document/value.hpp"
 #include "scenario/scenario.hpp"
 #include "sim/ids.hpp"
@@ -48,6 +49,8 @@ class ViewerAnswers {
     Table coverage(const JsonElement& question);
     NodeId robot(const JsonElement& question, std::string_view key) const;
     const std::string& name_of(NodeId robot) const { return robots_[robot.index()]; }
+    /// Model of what a robot sends under the assignment of the key `with`, if the question has it.
+    std::optional<Propagation> other_model(const JsonElement& question, NodeId robot) const;
     Time time(const JsonElement& question) const;
     /// Network at the time of a question, or the one that runs. That of a recorded run is kept,
     /// since the next question is often about the same time, or a little later.

@@ -27,6 +27,10 @@ constexpr std::array ember_anchors{Color{0xf3, 0xb3, 0x4c}, Color{0xee, 0x8c, 0x
                                    Color{0x90, 0x28, 0x58}, Color{0x60, 0x1b, 0x59},
                                    Color{0x33, 0x12, 0x45}};
 
+constexpr std::array balance_anchors{Color{0x00, 0x5a, 0x9c}, Color{0x6f, 0xb1, 0xdc},
+                                     Color{0xff, 0xff, 0xff}, Color{0xf0, 0xa8, 0x5c},
+                                     Color{0xc0, 0x50, 0x00}};
+
 std::uint8_t sample(double v) {
     return static_cast<std::uint8_t>(std::floor(std::clamp(v, 0.0, 255.0) + 0.5));
 }
@@ -41,6 +45,7 @@ double linear(std::uint8_t v) {
 
 const ColorScale lagoon{lagoon_anchors};
 const ColorScale ember{ember_anchors};
+const ColorScale balance{balance_anchors};
 
 std::string hex(Color c) { return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue); }
 

@@ -49,5 +49,7 @@ class ColorScale {
 extern const ColorScale lagoon;
 /// Scale for lines on white: amber, red, purple; larger values are darker.
 extern const ColorScale ember;
+/// Scale for differences: blue below, white in the middle (no difference), orange above.
+extern const ColorScale balance;
 
 }  // namespace rovernet

@@ -3,13 +3,13 @@
 
 #include "experiment/reports/range_of_model.hpp"
 #include "files/base64.hpp"
+#include "pictures/map/coverage_levels.hpp"
 #include "scene/images/png.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <tuple>
 #include <utility>
 
@@ -19,18 +19,6 @@ namespace {
 constexpr const char* contour_color = "#00501e";
 constexpr double contour_width = 1.8;  // [px]
 constexpr double contour_seam = 3.2;   // [px] of the white below it
-
-/// Ends of the colour scale [dBm]: well below the weakest contour, and above the levels of all but
-/// 0.05 % of the picture.
-std::pair<double, double> color_range(std::vector<double> dbm, double weakest) {
-    constexpr double below = 20, least = 20, step = 5;  // [dB]
-    constexpr double rest = 0.0005;
-    const auto skipped = static_cast<std::ptrdiff_t>(rest * static_cast<double>(dbm.size()));
-    std::nth_element(dbm.begin(), dbm.begin() + skipped, dbm.end(), std::greater<>());
-    const double strongest = dbm[static_cast<std::size_t>(skipped)];
-    const double low = step * std::floor((weakest - below) / step);
-    return {low, std::max(step * std::ceil(strongest / step), low + least)};
-}
 
 /// The map as a picture, its bottom row last.
 Image image_of(const CoverageMap& map, double low, double high) {
@@ -103,12 +91,10 @@ void define_gradient(Svg& svg) {
 
 HeatLayer::HeatLayer(const Transmitter& transmitter, const Plot& plot, int cells)
     : map_(coverage(transmitter, plot.low, plot.high, cells)), range_(range_of(transmitter.model)) {
-    const Radio& radio = transmitter.receiver;
-    lines_.push_back({radio.sensitivity, "sensitivity", false});
-    if (radio.range_db && !range_) lines_.push_back({*radio.range_db, "range_db", true});
-    double weakest = radio.sensitivity.value;
-    for (const auto& line : lines_) weakest = std::min(weakest, line.level.value);
-    std::tie(low_, high_) = color_range(map_.dbm, weakest);
+    const std::vector<ContourLevel> levels = contour_levels(transmitter);
+    std::tie(low_, high_) = color_range(map_, levels);
+    for (const ContourLevel& each : levels)
+        lines_.push_back({each.level, each.meaning, !lines_.empty()});
 
     constexpr double smoothing = 3;  // [px]: what is narrower than a line's width is not seen
     for (auto& line : lines_) {

@@ -45,6 +45,14 @@ const controls = (() => {
             out.title = `floor at ${words.number(floor, 4)} m`;
             return out;
         }));
+        const all = dom.button("All", "", () => {
+            robots.others.shown = !robots.others.shown;
+            all.setAttribute("aria-pressed", String(robots.others.shown));
+            main.redraw();
+        });
+        all.title = "Robots of other storeys, too";
+        all.setAttribute("aria-pressed", "false");
+        dom.by_id("storeys").append(all);
     }
 
     function pointers() {
@@ -123,7 +131,7 @@ const controls = (() => {
             tab.setAttribute("aria-selected", String(chosen));
             tab.tabIndex = chosen ? 0 : -1;
         }
-        [...dom.by_id("storeys").children].forEach((tab, i) => {
+        [...dom.by_id("storeys").children].slice(0, -1).forEach((tab, i) => {
             tab.setAttribute("aria-pressed", String(i === state.storey));
             const here = robots.at.storey.reduce((n, storey) => n + (storey === i ? 1 : 0), 0);
             tab.textContent = `Storey ${i + 1} \u00b7 ${words.counted(here, "robot")}`;

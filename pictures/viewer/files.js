@@ -19,7 +19,7 @@ const files = (() => {
         c.font = `12px ${robots.font}`;
         c.fillStyle = theme.colors().muted;
         const length = camera.round_number(camera.now.width / 6 / camera.now.scale), bar = length * camera.now.scale;
-        c.fillText(`t = ${words.seconds(state.t)} s`, margin, 42);
+        c.fillText(`at ${words.seconds(state.t)} s`, margin, 42);
         c.fillText(`${length} m`, margin + width - c.measureText(`${length} m`).width, 42);
         c.fillRect(margin + width - bar - 50, 37, bar, 2);
         c.drawImage(map_canvas, margin, heading, width, height);

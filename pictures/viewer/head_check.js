@@ -27,10 +27,11 @@ const head_check = (() => {
             doors: list(door), stairs: list(stairs)
         }),
         colors: object({
-            category: list(color, 1), lagoon: list(color, 2), ember: list(color, 2), links: list(object({ from_db: number, width: number, color }), 1),
+            category: list(color, 1), lagoon: list(color, 2), ember: list(color, 2), balance: list(color, 2), links: list(object({ from_db: number, width: number, color }), 1),
             walls: list(object({ color, hatch: v => v === null || text(v) }), 1),
             door: color, stairs: color, robot: color, outcomes: list(color, outcomes)
         }),
+        models: list(text),
         outcomes: list(text, outcomes),
         drops: list(object({ code: text, layer: text, text })),
         frame_kinds: list(text, 1),

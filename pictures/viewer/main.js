@@ -5,7 +5,7 @@ const main = (() => {
     const kept_times = 300, timeline_height = 86;
     /** @type {{run: Run|null, blocks: Blocks|null, waiting: boolean, frames: number, script: number[], whole: boolean}} */
     const own = { run: null, blocks: null, waiting: false, frames: 0, script: [], whole: true };
-    const parts = [list, timeline, message_panel, robot_panel, pair_panel, charts, links, controls, search, keys, filters];
+    const parts = [list, timeline, message_panel, robot_panel, pair_panel, charts, links, coverage, controls, search, keys, filters];
 
     /** @param {string} text @returns {Uint8Array} */
     function from_base64(text) {
@@ -200,7 +200,9 @@ const main = (() => {
         position(robot) { return own.run?.pose(robot, selection.state.t, { x: 0, y: 0, z: 0, vx: 0, vy: 0, heading: 0 }); },
         list: list.seen,
         density: timeline.columns,
-        charts: charts.values,
+        charts: charts.values, levels: coverage.levels,
+        /** @param {number} robot */
+        pixel: robot => [robots.at.x[robot], robots.at.y[robot]],
         links: () => selection.state.links ? links.shown(selection.state).map(l => ({ ...l, ...links.look(l.margin) })) : [],
         /** @param {number} uid @param {number} robot */
         async outcome(uid, robot) {

@@ -117,6 +117,7 @@ const map = (() => {
             const here = r.storey(foot[2] ?? 0) === storey || r.storey(head[2] ?? 0) === storey;
             if (here) stairs(c, camera.to_x(foot[0]), camera.to_y(foot[1]), camera.to_x(head[0]), camera.to_y(head[1]));
         }
+        coverage.lines(c, r, storey);
     }
 
     /** @param {CanvasRenderingContext2D} c @param {Run} r @param {State} state */

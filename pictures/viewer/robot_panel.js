@@ -98,6 +98,7 @@ const robot_panel = (() => {
         neighbours.append(dom.make("p", "muted", server.is_served() ? "asked at the time shown" : server.how));
         const actions = dom.make("p", "actions", dom.button("its events", "", () => selection.set({ filter: { ...selection.state.filter, robot }, panel: "events" })),
             dom.button("coverage", "", () => coverage.toggle(robot)));
+        if (server.is_served()) actions.append(coverage.choice());
         const title = dom.make("h3", "", "Neighbours");
         if (server.is_served()) title.append(" ", dom.button("ask", "small", () => ask(robot), "ask for neighbours"));
         dom.by_id("robot-panel").replaceChildren(dom.make("h2", "", words.shortened(words.visible(own.run.name(robot)), 60)), place, actions,

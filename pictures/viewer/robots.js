@@ -134,8 +134,35 @@ const robots = (() => {
     }
     const font = "'DejaVu Sans', Verdana, Helvetica, Arial, sans-serif";
 
+    /** Whether robots of other storeys are shown, too. */
+    const others = { shown: false };
+
+    /** Robots of other storeys, pale: a triangle on the first storey, a square on the second, and so on. @param {CanvasRenderingContext2D} c @param {Run} r @param {number} storey that is shown */
+    function elsewhere(c, r, storey) {
+        c.globalAlpha = 0.5;
+        c.strokeStyle = c.fillStyle = theme.colors().ink;
+        c.lineWidth = 1.6;
+        c.font = `10px ${font}`;
+        c.textBaseline = "middle";
+        let named = 0;
+        for (let i = 0; i < r.robots; i++) {
+            if (at.storey[i] === storey || !in_view(i, 40)) continue;
+            const corners = at.storey[i] + 3, size = radius(r, i) + 2;
+            c.beginPath();
+            for (let k = 0; k < corners; k++) {
+                const angle = (2 * k + 1) * Math.PI / corners + Math.PI / 2;
+                c.lineTo(at.x[i] + size * Math.cos(angle), at.y[i] + size * Math.sin(angle));
+            }
+            c.closePath();
+            c.stroke();
+            if (++named <= most_named / 4) c.fillText(`${words.shortened(words.visible(r.name(i)), 24)}, storey ${at.storey[i] + 1}`, at.x[i] + size + 4, at.y[i]);
+        }
+        c.globalAlpha = 1;
+    }
+
     /** @param {CanvasRenderingContext2D} c @param {Run} r @param {State} state */
     function draw(c, r, state) {
+        if (others.shown) elsewhere(c, r, state.storey);
         /** @type {number[]} */ const shown = [];
         for (let i = 0; i < r.robots && shown.length <= many; i++) {
             if (at.storey[i] === state.storey && in_view(i, 40)) shown.push(i);
@@ -161,12 +188,12 @@ const robots = (() => {
     function near(r, px, py, storey) {
         let best = -1, nearest = Infinity;
         for (let i = 0; i < at.x.length; i++) {
-            if (at.storey[i] !== storey) continue;
+            if (at.storey[i] !== storey && !others.shown) continue;
             const away = Math.hypot(at.x[i] - px, at.y[i] - py);
             if (away < nearest && away <= radius(r, i) + 6) [best, nearest] = [i, away];
         }
         return best;
     }
 
-    return { at, place, trails, draw, near, disc, radius, font };
+    return { at, place, trails, draw, near, disc, radius, others, font };
 })();

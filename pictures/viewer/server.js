@@ -49,7 +49,8 @@ const server = (() => {
 
     /** @param {string} op @param {Record<string, unknown>} fields @returns {Promise<any>} */
     async function ask(op, fields) {
-        const socket = await connected(), id = own.next++;
+        const socket = await connected(), id = own.next++, { t_ns } = fields;
+        if (typeof t_ns === "number") fields = { ...fields, t_ns: Math.floor(t_ns) };  // a time between two ns is shown, too
         return new Promise((done, failed) => {
             own.open.set(id, { done, failed });
             setTimeout(() => {

@@ -42,7 +42,7 @@ const sides = (() => {
         return { i: shown()[nth] ?? 0, x: px - left(nth) };
     }
 
-    /** Asks the server about a run: the one of the panels, or that number. @param {string} op @param {Record<string, number>} fields @param {number} [i] */
+    /** Asks the server about a run: the one of the panels, or that number. @param {string} op @param {Record<string, any>} fields @param {number} [i] */
     function ask(op, fields, i = lead()) {
         const { t_ns } = fields, end = own.all[i].run.head.duration_ns;
         return server.ask(op, { ...fields, ...(t_ns > end ? { t_ns: end } : {}), ...(i ? { run: i } : {}) });

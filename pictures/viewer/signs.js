@@ -22,7 +22,7 @@ const signs = (() => {
     function color(sign) { return theme.readable(look.colors.outcomes[kinds[sign]?.outcome ?? 0] ?? "#777777"); }
 
     /** Colours of this run, set when it is there. @type {{colors: Colors}} */
-    const look = { colors: { category: [], lagoon: [], ember: [], links: [], walls: [], door: "#d55e00", stairs: "#0072b2", robot: "#111111", outcomes: [] } };
+    const look = { colors: { category: [], lagoon: [], ember: [], balance: [], links: [], walls: [], door: "#d55e00", stairs: "#0072b2", robot: "#111111", outcomes: [] } };
 
     /** @param {CanvasPath} c @param {number} sign @param {number} x @param {number} y @param {number} r half its size [px] */
     function outline(c, sign, x, y, r) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/viewer/view_head.hpp"
 
+#include "models/propagation/list.hpp"
 #include "pictures/viewer/view_map.hpp"
 #include "scenario/scenario.hpp"
 #include "sim/fate.hpp"
@@ -59,6 +60,12 @@ Array outcome_list() {
     return list;
 }
 
+Array model_list() {
+    Array list;
+    for_each_model([&]<class Model>() { list.emplace_back(Model::name); });
+    return list;
+}
+
 Array flow_list(const Scenario& scenario) {
     Array list{""};
     for (const TrafficTable& table : scenario.traffic) list.emplace_back(table.name);
@@ -78,6 +85,7 @@ Table view_head(const Scenario& scenario, const std::vector<std::string>& robots
     head.set("duration_ns", std::int64_t{scenario.scenario.duration.count()});
     head.set("robots", robot_list(robots, scenario));
     head.set("colors", view_colors());
+    head.set("models", model_list());
     head.set("outcomes", outcome_list());
     head.set("flows", flow_list(scenario));
     return head;

@@ -146,6 +146,7 @@ Table view_colors() {
     colors.set("category", std::move(category));
     colors.set("lagoon", colors_of(lagoon));
     colors.set("ember", colors_of(ember));
+    colors.set("balance", colors_of(balance));
     colors.set("walls", std::move(walls));
     colors.set("hatch_size", hatch_size);
     colors.set("door", hex(door_color));

@@ -230,7 +230,7 @@ for (const colorScheme of ["light", "dark"]) {
         await page.addScriptTag({ path: path.join(folder, "node_modules/axe-core/axe.min.js") }).catch(async () => {
             await page.evaluate(fs.readFileSync(path.join(folder, "node_modules/axe-core/axe.min.js"), "utf8"));
         });
-        for (const panel of ["events", "message", "robot", "pair"]) {
+        for (const panel of ["events", "message", "robot", "pair", "charts"]) {
             await page.evaluate(chosen => window.rovernet.select({ panel: chosen }), panel);
             await drawn(page);
             const { violations } = await page.evaluate(() => window.axe.run({ runOnly: ["wcag2a", "wcag2aa"] }));

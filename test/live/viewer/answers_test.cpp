@@ -8,6 +8,7 @@
 #include "experiment/reports/network_at.hpp"
 #include "experiment/run.hpp"
 #include "live/viewer/view_server.hpp"
+#include "pictures/map/coverage.hpp"
 #include "scenario/document/json.hpp"
 #include "scenario/scenario_file.hpp"
 #include "test/live/web_client.hpp"
@@ -16,6 +17,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -154,6 +156,67 @@ TEST_CASE("viewer answers: run 1 is the second run") {
     CHECK(first.answer(pair + "}") != second.answer(pair + "}"));
     CHECK(error_of(first, pair + R"(, "run": 1})") != "");
     CHECK(error_of(both, pair + R"(, "run": 2})") != "");
+}
+
+TEST_CASE("viewer answers: coverage, contours, and the difference of two models") {
+    const Recorded run;
+    ViewerAnswers answers(run.path());
+    const auto levels_under = [&](std::vector<std::string> set) {
+        ScenarioOptions options;
+        options.set = std::move(set);
+        const auto network = network_at(load_scenario(rescue, options), Time(10s));
+        const NodeId b{1};
+        const Scene& scene = network->scene();
+        return coverage(transmitter(*network, b, b, 0, network->now()), scene.lower_left(),
+                        scene.upper_right(), 2000);
+    };
+    const CoverageMap own = levels_under({}), other = levels_under({"propagation.model=friis"});
+    const Value answer =
+        ask(answers, R"({"id": 1, "op": "coverage", "robot": 1, "t_ns": 10000000000, "storey": 0,
+                         "cells": 2000, "with": "propagation.model=friis"})");
+    const Array& dbm = *answer.table()->find("dbm")->array();
+    const Array& difference = *answer.table()->find("difference_db")->array();
+    REQUIRE(dbm.size() == own.dbm.size());
+    REQUIRE(difference.size() == own.dbm.size());
+    constexpr double half_digit = 0.5001e-3;  // of three decimals
+    double most = 0;
+    const auto number = [](const Value& value) {
+        const auto* whole = std::get_if<std::int64_t>(&value.data);
+        return whole ? static_cast<double>(*whole) : std::get<double>(value.data);
+    };
+    for (std::size_t i = 0; i < dbm.size(); ++i) {
+        CHECK(std::abs(number(dbm[i]) - own.dbm[i]) < half_digit);
+        CHECK(std::abs(number(difference[i]) - (other.dbm[i] - own.dbm[i])) < half_digit);
+        most = std::max(most, number(difference[i]));
+    }
+    CHECK(most > 10);
+    const Array& contours = *answer.table()->find("contours")->array();
+    REQUIRE(contours.size() == 2);
+    const Array& lines = *contours[0].table()->find("lines")->array();
+    const Array& points = *lines[0].array();
+    CHECK(points.size() > 10);
+    CHECK(points.size() % 2 == 0);
+    for (const char* with : {"radio.power=1 dBm", "propagation.model=nothing",
+                             "scene.map=/etc/passwd", "propagation.model=disc"}) {
+        CAPTURE(with);
+        const std::string question = fmt::format(
+            R"({{"id": 1, "op": "coverage", "robot": 1, "t_ns": 0, "storey": 0, "cells": 100, "with": "{}"}})",
+            with);
+        CHECK(error_of(answers, question) != "");
+    }
+}
+
+TEST_CASE("viewer answers: coverage under the model disc is its range, without levels") {
+    const Recorded run({"propagation.model=disc", "propagation.range=12 m"});
+    ViewerAnswers answers(run.path());
+    const Value answer =
+        ask(answers,
+            R"({"id": 1, "op": "coverage", "robot": 1, "t_ns": 0, "storey": 0, "cells": 1000})");
+    for (const Value& level : *answer.table()->find("dbm")->array())
+        CHECK(std::holds_alternative<std::monostate>(level.data));
+    const Table& contour = *(*answer.table()->find("contours")->array())[0].table();
+    CHECK(json(contour.find("range_m")) == "12.0\n");
+    CHECK(!contour.find("lines")->array()->empty());
 }
 
 TEST_CASE("viewer answers: a wrong question has an error and its id, and the next is answered") {

@@ -51,6 +51,20 @@ TEST_CASE("color: the scale for lines gets darker all the way, from middle to da
     CHECK(luminance(ember.at(1)) < 0.05);
 }
 
+TEST_CASE("color: the scale for differences is blue, white in its middle, and orange") {
+    CHECK(balance.at(0.5) == Color{0xff, 0xff, 0xff});
+    const Color low = balance.at(0), high = balance.at(1);
+    CHECK(low.blue > low.red);
+    CHECK(high.red > high.blue);
+    for (int i = 0; i < 8; ++i) {
+        const double rise = luminance(balance.at((i + 1) / 16.0)) - luminance(balance.at(i / 16.0));
+        const double fall =
+            luminance(balance.at((i + 8) / 16.0)) - luminance(balance.at((i + 9) / 16.0));
+        CHECK(rise > 0.01);
+        CHECK(fall > 0.01);
+    }
+}
+
 TEST_CASE("color: grey steps between the grades of a scale are wide enough to be told apart") {
     constexpr double least = 0.01;  // of luminance, at the dark end
     for (int i = 0; i < 8; ++i) {
