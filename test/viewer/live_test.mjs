@@ -20,7 +20,7 @@ test("V10: the run waits for its page, and goes on in it; pause, step, speed, th
         assert.equal(await page.textContent("#present"), "live");
         await page.click("#play");
         await until(page, () => live.state().paused);
-        assert.equal(await page.textContent("#present"), "run paused");
+        await until(page, () => document.getElementById("present").textContent === "run paused");
         const paused = await state(page);
         await drawn(page);
         assert.equal(await page.evaluate(() => rovernet.t), paused.now_ns);
