@@ -66,12 +66,11 @@ foreach(text script style)
   string(REGEX REPLACE "(/\\*\\*[^*\n]*\\*/ ?|  //[^\n]*)" "" ${text} "${${text}}")
   string(REGEX REPLACE "\n[ \t\n]+" "\n" ${text} "${${text}}")
 endforeach()
-# Types beside the code are for the checker only; a style needs no blanks beside its signs.
-string(REGEX REPLACE "/\\*\\* @[^*]*\\*/ ?" "" script "${script}")
 # Without ends of lines where a statement, a list or a block goes on or ends: no text of the page spans lines.
+# A style needs no blanks beside its signs either.
 string(REGEX REPLACE "([;{,([])\n" "\\1" script "${script}")
 string(REGEX REPLACE "\n([]})])" "\\1" script "${script}")
-string(REGEX REPLACE "([:;,{]) " "\\1" style "${style}")
+string(REGEX REPLACE "([:;,{])[ \n]" "\\1" style "${style}")
 string(REGEX REPLACE ";? ?\n?}\n?" "}" style "${style}")
 # Strict mode once, for the whole script.
 string(REPLACE "\"use strict\";" "" script "${script}")
