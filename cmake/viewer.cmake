@@ -66,14 +66,13 @@ foreach(text script style)
   string(REGEX REPLACE "(/\\*\\*[^*\n]*\\*/ ?|  //[^\n]*)" "" ${text} "${${text}}")
   string(REGEX REPLACE "\n[ \t\n]+" "\n" ${text} "${${text}}")
 endforeach()
-# Types beside the code are for the checker only. These signs, and those of a style, need no blanks;
-# no text of the page has them.
-string(REGEX REPLACE "/\\*\\* @[^*]*\\*/ ?" "" script "${script}")
+# These signs need no blanks; no text of the page has them between blanks.
 string(REGEX REPLACE " (=|=>|===|!==|&&|\\|\\||\\+=) " "\\1" script "${script}")
 # Without ends of lines where a statement, a list or a block goes on or ends: no text of the page spans lines.
+# A style needs no blanks beside its signs either.
 string(REGEX REPLACE "([;{,([])\n" "\\1" script "${script}")
 string(REGEX REPLACE "\n([]})])" "\\1" script "${script}")
-string(REGEX REPLACE "([:;,{]) " "\\1" style "${style}")
+string(REGEX REPLACE "([:;,{])[ \n]" "\\1" style "${style}")
 string(REGEX REPLACE ";? ?\n?}\n?" "}" style "${style}")
 # Strict mode once, for the whole script.
 string(REPLACE "\"use strict\";" "" script "${script}")

@@ -229,7 +229,8 @@ void view(const ViewArguments& a) {
                                      "them: --with makes the second run from the first",
                                      *a.other, a.with[0]));
     }
-    ViewChoice choice = choice_of(a, page_with("").size());
+    ViewChoice choice =
+        choice_of(a, page_with("", a.other || !a.with.empty() ? "other" : "").size());
     const std::size_t most_bytes = choice.most_bytes;
     const TraceToView trace(a.file);
     Beside beside{.trace = second_trace(a, trace), .comparison = {}, .run = {}};

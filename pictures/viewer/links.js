@@ -10,7 +10,7 @@ const links = (() => {
     /** Robot whose links are shown, or -1: all. @param {State} state */
     function chosen(state) { return state.robots.at(-1) ?? -1; }
     /** @param {State} state */
-    function key_of(state) { return `${chosen(state)} ${state.t}`; }
+    function key_of(state) { return `${sides.lead()} ${chosen(state)} ${state.t}`; }
 
     /** @param {any} a answer @returns {LinkLine[]} */
     function lines_of(a) {

@@ -15,6 +15,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -54,6 +55,7 @@ class Viewed {
           settings_(network_settings(scenario_)),
           columns_(reader_, start_of_run + scenario_.scenario.duration) {
         check_robots(reader_.run(), scenario_, path);
+        follow_ = follow_list();
     }
     ViewedRun write(const ViewChoice& choice);
 
@@ -68,6 +70,7 @@ class Viewed {
     Scenario scenario_;
     NetworkSettings settings_;
     Columns columns_;
+    Array follow_;  // entry `follow` of the head
 };
 
 /// Entries of the head that describe the run, without those of columns.
@@ -79,7 +82,7 @@ Table Viewed::head() const {
     Table metrics;
     append_metrics(metrics, columns_.metrics.values());
     head.set("metrics", std::move(metrics));
-    head.set("follow", follow_list());
+    head.set("follow", follow_);
     head.set("damage", texts(reader_.damage()));
     return head;
 }
@@ -141,12 +144,17 @@ ViewedRun Viewed::write(const ViewChoice& choice) {
 
 ViewedRun view_of_trace(const std::string& path, const ViewChoice& choice) {
     Viewed viewed(path);
+    ViewedRun view = viewed.write(choice);
+    if (view.bytes.size() <= choice.most_bytes) return view;
     ViewChoice tried = choice;
-    ViewedRun view = viewed.write(tried);
+    tried.frames.most_frames = 0;
+    ViewedRun bare = viewed.write(tried);
+    if (bare.bytes.size() >= choice.most_bytes) return bare;
+    const double room = static_cast<double>(choice.most_bytes - bare.bytes.size());
     while (view.bytes.size() > choice.most_bytes && view.frames > 0) {
-        // Nearly all bytes are those of frames; the margin makes most files fit at once.
-        const double share =
-            0.95 * static_cast<double>(choice.most_bytes) / static_cast<double>(view.bytes.size());
+        // The bytes of the frames; the margin makes most files fit at once.
+        const double taken = static_cast<double>(view.bytes.size() - bare.bytes.size());
+        const double share = std::min(0.95 * room / taken, 0.99);
         tried.frames.most_frames =
             static_cast<std::size_t>(share * static_cast<double>(view.frames));
         view = viewed.write(tried);

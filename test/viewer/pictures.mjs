@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// pictures.mjs ADDRESS FOLDER: pictures of the served rescue for docs/view.md.
+// pictures.mjs ADDRESS FOLDER PAGE: pictures of the served rescue for docs/view.md, and of a page with two runs.
 import { chromium } from "playwright-core";
 
-const [address, folder] = process.argv.slice(2);
+const [address, folder, both] = process.argv.slice(2);
 const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox", "--enable-unsafe-swiftshader"] });
 const page = await browser.newPage({ viewport: { width: 1280, height: 720 } });
 await page.goto(address);
@@ -33,4 +33,10 @@ await page.evaluate(() => window.rovernet.select({ robots: [], message: 1 }));
 await page.getByRole("tab", { name: "Message" }).click();
 await settled();
 await page.screenshot({ path: `${folder}/view-message.png` });
+
+await page.goto(`file://${both}`);
+await page.waitForFunction(() => window.rovernet?.ready);
+await page.locator("#compare-panel li button").first().click();
+await settled();
+await page.screenshot({ path: `${folder}/view-compare.png` });
 await browser.close();
