@@ -88,8 +88,8 @@ async function frames_of_a_swarm({ page, script, all }) {
 
 async function large_run({ page, cdp, opened, script, all }) {
     const size = fs.statSync(`${folder}/large.html`).size;
-    row("opening the page of 7.5 million receptions (time on the wall)", "4 s", `${(opened / 1e3).toFixed(1)} s`);
-    row("its size", "12 MB", `${(size / 1e6).toFixed(1)} MB`);
+    row("opening its page (time on the wall)", "4 s", `${(opened / 1e3).toFixed(1)} s`);
+    row("size of its page", "12 MB", `${(size / 1e6).toFixed(1)} MB`);
     const seeks = 200, taken = [];
     for (let i = 0; i < 5; i++) await seek(page, 1e9 + i * 1e7);
     const begin = await script();
@@ -128,12 +128,12 @@ function answered(page, question) {
     }, question);
 }
 
-console.log(`load ${os.loadavg()[0].toFixed(1)} at the begin\n\n| what | budget | measured |\n|---|--:|--:|`);
+console.log(`load ${os.loadavg()[0].toFixed(1)} at the begin\n\n| what | goal | takes |\n|---|--:|--:|`);
 await with_page(`file://${folder}/swarm.html`, frames_of_a_swarm);
-row("`view -o` of 7.5 million receptions", "4 s", `${cpu_of_command("view", `${folder}/large`, "-o", `${folder}/large.html`).toFixed(1)} s`);
+row("`view -o` of the large run", "4 s", `${cpu_of_command("view", `${folder}/large`, "-o", `${folder}/large.html`).toFixed(1)} s`);
 await with_page(`file://${folder}/large.html`, large_run);
 await served(`${folder}/large`, async (address, cpu) => {
-    row("`view` of it, until it serves", "2 s", `${cpu.toFixed(1)} s`);
+    row("`view` of the large run, until it serves", "2 s", `${cpu.toFixed(1)} s`);
     await with_page(address, async ({ page }) => {
         row("answer to why, in that run (time on the wall)", "50 ms", `${(await answered(page, { op: "why", uid: 6000, robot: 7 })).toFixed(0)} ms`);
         row("answer to the budget of a pair, in that run", "50 ms", `${(await answered(page, { op: "pair", a: 1, b: 2, t_ns: 30e9 })).toFixed(0)} ms`);

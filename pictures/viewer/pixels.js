@@ -13,7 +13,9 @@ const pixels = (() => {
 
     /** @param {number} reach @param {(dx: number, dy: number) => number} share of a pixel that is covered @returns {Stamp} */
     function stamp_of(reach, share) {
-        /** @type {number[]} */ const dx = [], dy = [], cover = [];
+        /** @type {number[]} */ const dx = [];
+        /** @type {number[]} */ const dy = [];
+        /** @type {number[]} */ const cover = [];
         for (let y = -reach; y <= reach; y++) {
             for (let x = -reach; x <= reach; x++) {
                 const part = Math.round(255 * Math.min(1, share(x, y)));
