@@ -132,7 +132,7 @@ function answered(page, question) {
 /** Share of a processor that a run paced by the clock takes, without pages or with one that reads everything. */
 async function share_of_run(with_page) {
     const server = spawn(command, ["live", `${folder}/viewer.toml`, "--view", "--out", `${folder}/live`], { stdio: ["ignore", "pipe", "ignore"] }), ended = new Promise(done => server.on("exit", done));
-    const { port } = await new Promise(done => server.stdout.on("data", text => done(new URL(/http:\S+/.exec(String(text))[0]))));
+    const { port } = await new Promise(done => server.stdout.once("data", text => done(new URL(/http:\S+/.exec(String(text))[0]))));
     const client = net.connect(Number(port), "127.0.0.1").on("error", () => {});
     if (with_page) client.write(`GET / HTTP/1.1\r\nHost: 127.0.0.1:${port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n`);
     client.resume();
