@@ -6,13 +6,13 @@
 #include "live/carriers/web_sockets.hpp"
 #include "live/input_log.hpp"
 #include "live/run_clock.hpp"
+#include "live/served_front.hpp"
 #include "traces/fingerprint.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <list>
-#include <set>
 #include <utility>
 
 namespace rovernet {
@@ -36,7 +36,7 @@ class PacedServer {
     /// Prepares the fronts for a run, before its first event. Fronts of a run that begins anew are
     /// new, unless they asked for it.
     void prepare(ScenarioRun& run, const Scenario& scenario) {
-        for (Open& each : open_) {
+        for (ServedFront& each : open_) {
             if (new_seed_ && !each.front->new_seed()) replace(each);
             each.front->prepare(run.session(), scenario);
         }
@@ -47,7 +47,7 @@ class PacedServer {
         run_ = &run;
         session_ = &run.session();
         session_->step(start_of_run);  // movements may draw where robots begin
-        for (Open& each : open_) begin(each, scenario);
+        for (ServedFront& each : open_) begin(each, scenario);
         new_seed_.reset();
         clock_.set(start_of_run);
         promised_ = start_of_run;
@@ -60,7 +60,7 @@ class PacedServer {
             tell_held();
         }
         look();  // it may have been told to stop while it was late
-        for (const Open& each : open_) {
+        for (const ServedFront& each : open_) {
             if (!new_seed_) new_seed_ = each.front->new_seed();
         }
         session_ = nullptr;
@@ -73,14 +73,14 @@ class PacedServer {
     std::string close(const RunResult& result) {
         Table metrics;
         append_metrics(metrics, result.metrics);
-        for (const Open& each : open_) each.front->ended(result.fingerprint, metrics);
+        for (const ServedFront& each : open_) each.front->ended(result.fingerprint, metrics);
         stay(result);
         constexpr auto soon = 400ms;
         web_.close(soon);
         const bool is_hurried = !options_.stop.go_on();
         std::vector<std::string> faults = listeners_.close(soon, is_hurried ? soon : 10s);
         if (is_hurried) faults.clear();
-        for (const Open& each : open_) faults.insert(faults.begin(), each.front->fault());
+        for (const ServedFront& each : open_) faults.insert(faults.begin(), each.front->fault());
         faults.insert(faults.begin(), fault_);
         std::erase(faults, "");
         return fmt::format("{}", fmt::join(faults, "; "));
@@ -94,7 +94,7 @@ class PacedServer {
             counts.set("late_max_s", seconds(lateness_.most));
             counts.set("late_share", lateness_.share());
         }
-        for (const Open& each : open_) each.front->report(counts);
+        for (const ServedFront& each : open_) each.front->report(counts);
         return counts;
     }
     std::optional<Lateness> lateness() const {
@@ -102,19 +102,8 @@ class PacedServer {
     }
 
   private:
-    /// Front with its listeners.
-    struct Open {
-        const FrontListeners& listeners;
-        std::unique_ptr<Front> front = nullptr;
-        FrontListeners::Ports ports = {};
-        std::set<Front::Connection> clients = {};
-        Time due = never;      // its next(), before the session went on
-        Time held_at = never;  // its limit(), at which the run waits
-        Clock::time_point held_since = {};
-    };
-
     void open(const FrontListeners& listeners) {
-        Open& opened = open_.emplace_back(Open{listeners});
+        ServedFront& opened = open_.emplace_back(ServedFront{listeners});
         opened.front = listeners.make(carrier_for(opened));
         for (const std::string& each : listeners.programs) {
             listeners_.start(each, streams_for(opened, {}));
@@ -125,7 +114,7 @@ class PacedServer {
         options_.say("listening on " + *listeners.unix_path);
     }
 
-    Front::Carrier carrier_for(Open& opened) {
+    Front::Carrier carrier_for(ServedFront& opened) {
         if (opened.listeners.open_ports) {
             return {.send = [&opened](auto to, auto packet) { opened.ports[to]->write(packet); },
                     .close = [](auto) {}};
@@ -146,7 +135,7 @@ class PacedServer {
     }
 
     /// Handlers of the connections of a front. A front that was replaced has none.
-    Listeners::Streams streams_for(Open& opened, std::shared_ptr<ListenerId> listener) {
+    Listeners::Streams streams_for(ServedFront& opened, std::shared_ptr<ListenerId> listener) {
         const FrontListeners& wanted = opened.listeners;
         Listeners::Streams streams;
         streams.opened = [this, &opened, listener](auto client) {
@@ -167,7 +156,7 @@ class PacedServer {
         return streams;
     }
 
-    void listen(Open& opened, std::size_t number) {
+    void listen(ServedFront& opened, std::size_t number) {
         const FrontListeners::Entry& entry = opened.listeners.entries[number];
         const auto listener = std::make_shared<ListenerId>(ListenerId{number, 0});
         Listeners::Streams streams = streams_for(opened, listener);
@@ -176,9 +165,7 @@ class PacedServer {
                          : listeners_.listen(entry.at, std::move(streams));
         listener->port = address.port;
         if (!opened.listeners.pages.empty()) {
-            return options_.say("page at http://" + (address.is_loopback()
-                                                         ? address.text() + "/"
-                                                         : web_.address_with_token(address)));
+            return options_.say("page at " + web_.page_address(address));
         }
         const std::string_view scheme = entry.is_web && entry.what.empty() ? "ws://" : "";
         const std::string what = entry.what.empty() ? "" : fmt::format(" ({})", entry.what);
@@ -187,7 +174,7 @@ class PacedServer {
     }
 
     /// Replaces a front by a new one, without clients.
-    void replace(Open& opened) {
+    void replace(ServedFront& opened) {
         for (const auto client : std::exchange(opened.clients, {})) {
             client < WebSockets::first ? listeners_.close(client) : web_.close(client);
         }
@@ -195,13 +182,13 @@ class PacedServer {
     }
 
     /// Starts a run at a front.
-    void begin(Open& opened, const Scenario& scenario) {
+    void begin(ServedFront& opened, const Scenario& scenario) {
         opened.held_at = never;
         opened.front->begin(*session_, scenario);
         if (opened.listeners.open_ports && opened.ports.empty()) open_ports(opened);
     }
 
-    void open_ports(Open& opened) {
+    void open_ports(ServedFront& opened) {
         opened.ports = opened.listeners.open_ports(session_->network());
         for (Front::Connection robot = 0; robot < opened.ports.size(); ++robot) {
             PacketPort& port = *opened.ports[robot];
@@ -219,7 +206,7 @@ class PacedServer {
     bool is_over() const {
         const auto any = [this](auto holds) {
             return std::any_of(open_.begin(), open_.end(),
-                               [&](const Open& each) { return holds(*each.front); });
+                               [&](const ServedFront& each) { return holds(*each.front); });
         };
         if (now() >= session_->end() && !any([](const Front& f) { return f.holds_end(); })) {
             return true;
@@ -230,7 +217,7 @@ class PacedServer {
     /// Tells fronts at whose limits the run waits for how long it does.
     void tell_held() {
         const auto time = options_.clock();
-        for (Open& each : open_) {
+        for (ServedFront& each : open_) {
             const Time limit = each.front->limit();
             if (limit > now() || limit != each.held_at) each.held_since = time;
             each.held_at = limit;
@@ -244,14 +231,14 @@ class PacedServer {
     /// Time beyond which fronts do not let the run go.
     Time limit() const {
         Time limit = never;
-        for (const Open& each : open_) limit = std::min(limit, each.front->limit());
+        for (const ServedFront& each : open_) limit = std::min(limit, each.front->limit());
         return limit;
     }
 
     /// Time up to which the run can go before a front has something to say.
     Time next_stop() {
         Time stop = std::min(session_->end(), limit());
-        for (Open& each : open_) {
+        for (ServedFront& each : open_) {
             each.due = each.front->next();
             stop = std::min(stop, each.due);
         }
@@ -293,7 +280,7 @@ class PacedServer {
         const Time until = std::min(next_stop(), by_clock());
         is_behind_ = until > now() && !session_->advance(until, events_a_slice);
         if (is_behind_) session_->step(now());
-        for (Open& each : open_) {
+        for (ServedFront& each : open_) {
             if (each.due > now()) continue;
             note_lateness();
             each.front->tell();
@@ -313,15 +300,15 @@ class PacedServer {
     }
 
     /// Runs up to the current time of the clock. @return whether the front has clients to serve
-    bool is_served(const Open& opened) { return reach_present() || opened.front->stays(); }
+    bool is_served(const ServedFront& opened) { return reach_present() || opened.front->stays(); }
 
     /// Serves the clients of fronts that stay after the run, until the user stops the program.
     void stay(const RunResult& result) {
-        const auto stays = [](const Open& each) { return each.front->stays(); };
+        const auto stays = [](const ServedFront& each) { return each.front->stays(); };
         if (!options_.stop.go_on() || std::none_of(open_.begin(), open_.end(), stays)) return;
         options_.finished(result);
         while (options_.stop.go_on() && std::any_of(open_.begin(), open_.end(), stays)) {
-            for (const Open& each : open_) each.front->held({});
+            for (const ServedFront& each : open_) each.front->held({});
             listeners_.wait(longest_wait);
         }
     }
@@ -375,7 +362,7 @@ class PacedServer {
     RunClock clock_{options_.clock, options_.speed};
     Listeners listeners_;
     WebSockets web_{listeners_};
-    std::list<Open> open_;
+    std::list<ServedFront> open_;
     ScenarioRun* run_ = nullptr;  // the last that was served
     Session* session_ = nullptr;  // while it is served
     std::optional<std::uint64_t> new_seed_;

@@ -35,13 +35,11 @@ constexpr std::uint32_t longest_request = 8U << 10U;          // [bytes]
 constexpr std::size_t longest_input = std::size_t{1} << 20U;  // [bytes] of a client
 constexpr std::size_t most_input = std::size_t{64} << 20U;    // [bytes] of all clients
 constexpr std::size_t most_connections = 500;
-constexpr std::size_t most_messages = 1'024;                 // queued messages of a client
-constexpr std::size_t most_waiting = std::size_t{4} << 20U;  // [bytes] of queued messages
-constexpr std::size_t much_waiting =
-    std::size_t{256} << 10U;  // [bytes] queued output from which on input is not read
-constexpr int system_buffer =
-    256 << 10;  // [bytes] socket buffer; small, since buffered messages become outdated
-constexpr std::size_t portion = 16'384;  // [bytes] of one read
+constexpr std::size_t most_messages = 1'024;                   // queued messages of a client
+constexpr std::size_t most_waiting = std::size_t{4} << 20U;    // [bytes] of queued messages
+constexpr std::size_t much_waiting = std::size_t{256} << 10U;  // [bytes]; then input is not read
+constexpr int system_buffer = 256 << 10;  // [bytes] of a socket; small, as messages become outdated
+constexpr std::size_t portion = 16'384;   // [bytes] of one read
 
 struct Output {
     std::string bytes;
@@ -354,13 +352,15 @@ std::string WebSockets::address_with_token(const Address& own) const {
     return fmt::format("{}/?token={}", at, state_->token);
 }
 
+std::string WebSockets::page_address(const Address& own) const {
+    return "http://" + (own.is_loopback() ? own.text() + "/" : address_with_token(own));
+}
+
 std::string WebSockets::token_notice(const Address& own) const {
     return fmt::format("for {}: ws://{}",
                        own.is_loopback() ? "a page" : "each client, the token in the address",
                        address_with_token(own));
 }
-
-const std::string& WebSockets::token() const { return state_->token; }
 
 void WebSockets::send(Connection to, std::string_view text) {
     state_->send(to, {std::string(text), true});

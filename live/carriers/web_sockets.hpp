@@ -68,10 +68,11 @@ class WebSockets {
     Address listen(const Address& address, Listeners::Streams users, WebPages pages = {});
     /// Address of this server for other machines, with their token: "HOST:PORT/?token=TOKEN".
     std::string address_with_token(const Address& own) const;
+    /// Address of the page "/" for browsers: "http://127.0.0.1:7007/", with the token where it is
+    /// needed.
+    std::string page_address(const Address& own) const;
     /// Sentence for the user with the token that clients of the address `own` need.
     std::string token_notice(const Address& own) const;
-    /// Token that clients from other machines or sites need, see Admission.
-    const std::string& token() const;
 
     /// Sends a text message to a client; send_binary() sends a binary message.
     void send(Connection to, std::string_view text);

@@ -36,11 +36,7 @@ ViewServer::ViewServer(const Address& address, std::string view_file,
 
 ViewServer::~ViewServer() = default;
 
-std::string ViewServer::url() const {
-    const Address& own = state_->address;
-    return "http://" +
-           (own.is_loopback() ? own.text() + "/" : state_->sockets.address_with_token(own));
-}
+std::string ViewServer::url() const { return state_->sockets.page_address(state_->address); }
 
 void ViewServer::serve(const std::function<bool()>& go_on) {
     while (go_on()) state_->listeners.wait(100ms);

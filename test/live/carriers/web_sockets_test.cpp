@@ -38,8 +38,10 @@ class Echo {
             return std::size_t{1};
         };
         users.closed = [this](auto gone) { here_.erase(gone); };
-        port = web_.listen({"127.0.0.1", 0}, users, std::move(pages)).port;
-        token = web_.token();
+        const Address own = web_.listen({"127.0.0.1", 0}, users, std::move(pages));
+        const std::string address = web_.address_with_token(own);
+        port = own.port;
+        token = address.substr(address.find("token=") + 6);
         thread_ = std::thread([this] {
             while (!stopped_) {
                 listeners_.wait(10ms);
