@@ -113,6 +113,7 @@ ViewChoice choice_of(const ViewArguments& a, std::size_t page) {
     }
     if (a.no_payloads) choice.frames.payload_bytes = 0;
     choice.map = !a.no_map;
+    choice.packs = a.out || a.listen;  // a browser on this machine reads plain columns sooner
     if (!a.limit) return choice;
     // In the page, the view file takes 4 bytes for 3.
     const std::size_t limit = option_size(*a.limit);

@@ -8,6 +8,7 @@
 #include "live/carriers/json_object.hpp"
 #include "live/viewer/network_answers.hpp"
 #include "models/medium/medium.hpp"
+#include "pictures/map/picture.hpp"
 #include "scenario/document/json.hpp"
 #include "traces/recorded/recorded_reader.hpp"
 
@@ -81,9 +82,10 @@ Table ViewerAnswers::answer_of(std::string_view op, const JsonElement& question)
     if (op == "robot") return link_table(question);
     if (op == "links") return links(question);
     if (op == "coverage") return coverage(question);
+    if (op == "svg") return svg(question);
     throw RequestError(
         "unknown_op", "op",
-        fmt::format("found \"{}\", expected why, pair, robot, links or coverage", op));
+        fmt::format("found \"{}\", expected why, pair, robot, links, coverage or svg", op));
 }
 
 NodeId ViewerAnswers::robot(const JsonElement& question, std::string_view key) const {
@@ -146,6 +148,20 @@ Table ViewerAnswers::link_table(const JsonElement& question) {
     Table answer;
     for_each_link_table(network, name_of(node),
                         [&](const LinkTable& table) { answer = link_table_document(table); });
+    return answer;
+}
+
+Table ViewerAnswers::svg(const JsonElement& question) const {
+    if (running_) throw RequestError("not_recorded", "op", "a run is drawn as SVG when it is over");
+    const std::size_t storeys = 1000;
+    PictureOptions options{
+        .at = time(question),
+        .links = has_member(question, "links") && member(question, "links").truth(),
+        .trails = has_member(question, "trails") && member(question, "trails").truth(),
+        .storey = 1 + static_cast<int>(member(question, "storey").whole_number(0, storeys))};
+    if (has_member(question, "coverage")) options.coverage = name_of(robot(question, "coverage"));
+    Table answer;
+    answer.set("svg", draw_svg(scenario_, options));
     return answer;
 }
 

@@ -47,6 +47,7 @@ class ViewerAnswers {
     Table link_table(const JsonElement& question);
     Table links(const JsonElement& question);
     Table coverage(const JsonElement& question);
+    Table svg(const JsonElement& question) const;
     NodeId robot(const JsonElement& question, std::string_view key) const;
     const std::string& name_of(NodeId robot) const { return robots_[robot.index()]; }
     /// Model of what a robot sends under the assignment of the key `with`, if the question has it.

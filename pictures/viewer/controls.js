@@ -20,6 +20,8 @@ const controls = (() => {
         on_click("trails", () => set({ trails: !state.trails }));
         on_click("links", links.toggle);
         on_click("picture", () => files.picture(own.run, state));
+        on_click("drawing", () => files.drawing(own.run, state));
+        dom.by_id("drawing").hidden = !server.is_served() || live.is_live() || Boolean(document.getElementById("goes-on"));
         on_click("table", () => files.table(own.run, own.blocks, state));
         on_click("closer", () => zoom(1.4));
         on_click("wider", () => zoom(1 / 1.4));

@@ -148,5 +148,5 @@ const coverage = (() => {
     /** @param {Run} r */
     function show(r) { own.run = r; }
 
-    return { begin, show, toggle, choice, paint, lines, level_at, levels, legend, version: () => own.version };
+    return { begin, show, shown: () => own.heat?.robot ?? -1, toggle, choice, paint, lines, level_at, levels, legend, version: () => own.version };
 })();

@@ -56,5 +56,15 @@ const files = (() => {
     /** @param {Run} r @param {Blocks} all @param {State} state */
     async function table(r, all, state) { dom.save(name(r, "-events.csv"), new Blob(await rows(r, all, state.filter), { type: "text/csv" })); }
 
-    return { picture, table, rows };
+    /** The whole map as the server draws it. @param {Run} r @param {State} state */
+    function drawing(r, state) {
+        const shown = coverage.shown();
+        controls.say("drawing \u2026");
+        sides.ask("svg", { t_ns: state.t, storey: Math.max(0, state.storey), trails: state.trails, links: state.links, ...shown < 0 ? {} : { coverage: shown } }).then(answer => {
+            dom.save(name(r, `-${Number((state.t / 1e9).toFixed(6))}s.svg`), new Blob([String(answer.svg)], { type: "image/svg+xml" }));
+            controls.say("");
+        }, error => controls.say(error.message));
+    }
+
+    return { picture, drawing, table, rows };
 })();

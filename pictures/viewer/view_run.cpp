@@ -118,7 +118,7 @@ ViewedRun Viewed::write(const ViewChoice& choice) {
     const std::size_t robots = reader_.run().robots.size();
     const Time end = start_of_run + scenario_.scenario.duration;
     const NetworkSettings field{};
-    ViewFile file;
+    ViewFile file(choice.packs);
     Table head = this->head();
     head.set("map",
              view_map(scenario_, choice.map ? settings_ : field, columns_.motion.bounds(), file));

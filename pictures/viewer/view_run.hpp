@@ -14,7 +14,8 @@ namespace rovernet {
 /// Choice of the content of a view file.
 struct ViewChoice {
     FrameChoice frames = {};
-    bool map = true;  ///< walls, doors and stairs
+    bool map = true;    ///< walls, doors and stairs
+    bool packs = true;  ///< whether the columns are compressed
     /// Largest size of the view file [bytes]: later frames are left out. Robots, legs and messages
     /// are always complete, so that a file without frames may be larger.
     std::size_t most_bytes = std::numeric_limits<std::size_t>::max();

@@ -9,6 +9,7 @@
 #include "experiment/run.hpp"
 #include "live/viewer/view_server.hpp"
 #include "pictures/map/coverage.hpp"
+#include "pictures/map/picture.hpp"
 #include "scenario/document/json.hpp"
 #include "scenario/scenario_file.hpp"
 #include "test/live/web_client.hpp"
@@ -217,6 +218,16 @@ TEST_CASE("viewer answers: coverage under the model disc is its range, without l
     const Table& contour = *(*answer.table()->find("contours")->array())[0].table();
     CHECK(json(contour.find("range_m")) == "12.0\n");
     CHECK(!contour.find("lines")->array()->empty());
+}
+
+TEST_CASE("viewer answers: the drawing is that of the command draw") {
+    const Recorded run;
+    ViewerAnswers answers(run.path());
+    const Value answer = ask(answers, R"({"id": 1, "op": "svg", "t_ns": 10000000000, "storey": 0,
+                                          "links": true})");
+    const PictureOptions options{.at = Time(10s), .links = true};
+    CHECK(*answer.table()->find("svg")->string() == draw_svg(load_scenario(rescue, {}), options));
+    CHECK(error_of(answers, R"({"id": 1, "op": "svg", "t_ns": 0, "storey": 1})") != "");
 }
 
 TEST_CASE("viewer answers: a wrong question has an error and its id, and the next is answered") {
