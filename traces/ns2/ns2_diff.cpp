@@ -118,7 +118,7 @@ void count_rest(Side& side, std::vector<NumberedLine>& shown, Count count) {
 }  // namespace
 
 TraceDifference diff_ns2(Ns2Source source_a, Ns2Source source_b, Duration tolerance,
-                         Ns2Strictness strictness) {
+                         Ns2Strictness strictness, DiffExtent extent) {
     TraceDifference result;
     Side a(std::move(source_a), strictness), b(std::move(source_b), strictness);
     a.next(), b.next();
@@ -132,6 +132,11 @@ TraceDifference diff_ns2(Ns2Source source_a, Ns2Source source_b, Duration tolera
     if (!a.event() != !b.event()) result.field = a.event() ? "the second ends" : "the first ends";
     result.is_equal = result.field.empty();
     result.place = result.a.size();
+    if (extent == DiffExtent::first_difference) {
+        a.keep(result.a, around + 1), b.keep(result.b, around + 1);
+        result.counts_a = a.counts(), result.counts_b = b.counts();
+        return result;
+    }
     count_rest(a, result.a,
                [&](const std::string& kind) -> std::uint64_t& { return result.kinds[kind].first; });
     count_rest(b, result.b, [&](const std::string& kind) -> std::uint64_t& {

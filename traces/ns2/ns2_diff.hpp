@@ -32,12 +32,16 @@ struct TraceDifference {
     Ns2Counts counts_a, counts_b;
 };
 
+/// How far two traces are read: to the end, or up to the first difference. Then `kinds` and the
+/// counts end there, and no events follow the different one.
+enum class DiffExtent { whole, first_difference };
+
 /// Compares two ns-2 traces event by event, in any formats, by the fields that both lines have.
 /// Lines that are not events, and blanks, are ignored. Reason and payload are ignored between
 /// different formats.
 /// @param tolerance  largest time difference of equal events
 /// @throws InputError as Ns2File
 TraceDifference diff_ns2(Ns2Source a, Ns2Source b, Duration tolerance,
-                         Ns2Strictness = Ns2Strictness::tolerant);
+                         Ns2Strictness = Ns2Strictness::tolerant, DiffExtent = DiffExtent::whole);
 
 }  // namespace rovernet

@@ -52,11 +52,12 @@ Made cut(const std::string& text, const TraceCut& piece) {
     return {content(folder / "out"), made};
 }
 
-TraceDifference difference(const std::string& a, const std::string& b, Duration tolerance = {}) {
+TraceDifference difference(const std::string& a, const std::string& b, Duration tolerance = {},
+                           DiffExtent extent = DiffExtent::whole) {
     const TempFolder folder;
     write_file(folder / "a.tr", a);
     write_file(folder / "b.tr", b);
-    return diff_ns2(folder / "a.tr", folder / "b.tr", tolerance);
+    return diff_ns2(folder / "a.tr", folder / "b.tr", tolerance, Ns2Strictness::tolerant, extent);
 }
 
 const std::string moves =
@@ -253,6 +254,23 @@ TEST_CASE(
     CHECK(changed("(3.00, 4.00)", "(3.00, 5.00)") == "goal");
     CHECK(changed("message", "cbr") == "type");
     CHECK(changed("M 0.00000 1", "M 0.00000 2") == "robot");
+}
+
+TEST_CASE("trace diff: read up to the first difference, it is the same one") {
+    const std::string a = moves + sent_0 + got_1 + on_to_2;
+    std::string b = a;
+    b.replace(b.find("r 1.500000000"), 13, "r 1.500000001");
+    for (const std::string& other : {b, moves + sent_0, std::string(a)}) {
+        const auto whole = difference(a, other);
+        const auto first = difference(a, other, {}, DiffExtent::first_difference);
+        CHECK(first.is_equal == whole.is_equal);
+        CHECK(first.field == whole.field);
+        CHECK(first.place == whole.place);
+        if (whole.is_equal) continue;
+        REQUIRE(first.a.size() == first.place + 1);
+        CHECK(first.a[first.place].line == whole.a[whole.place].line);
+        CHECK((first.b.size() > first.place) == (whole.b.size() > whole.place));
+    }
 }
 
 TEST_CASE("trace diff: the files of one run of ns-2 are equal in each format") {
