@@ -23,6 +23,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <random>
 #include <string>
 #include <thread>
 #include <utility>
@@ -250,6 +251,41 @@ TEST_CASE("viewer answers: a wrong question has an error and its id, and the nex
     const Value last = ask(answers, R"({"id": 3, "op": "robot", "robot": 9, "t_ns": 0})");
     CHECK(json(last.table()->find("id")) == "3\n");
     CHECK(error_of(answers, R"({"id": 1, "op": "robot", "robot": 0, "t_ns": 0})").empty());
+}
+
+TEST_CASE("viewer answers: whatever a page sends, it gets an answer in JSON") {
+    const Recorded run;
+    ViewerAnswers answers(run.path());
+    const std::vector<std::string> questions = {
+        R"({"id": 1, "op": "pair", "a": 0, "b": 4, "t_ns": 10000000000})",
+        R"({"id": 1, "op": "robot", "robot": 3, "t_ns": 0})",
+        R"({"id": 1, "op": "links", "t_ns": 5000000000, "robot": 1})",
+        R"({"id": 1, "op": "coverage", "robot": 1, "t_ns": 0, "storey": 0, "cells": 50})"};
+    std::mt19937 draw(7);
+    const auto below = [&](std::size_t n) { return static_cast<std::size_t>(draw() % n); };
+    int errors = 0, rounds = 0;
+    for (; rounds < 1500; ++rounds) {
+        std::string question = questions[below(questions.size())];
+        for (std::size_t changes = 1 + below(3); changes > 0; --changes) {
+            const std::size_t at = below(question.size());
+            switch (below(4)) {
+                case 0: question[at] = static_cast<char>(below(256)); break;
+                case 1: question.erase(at, 1 + below(8)); break;
+                case 2:
+                    question.insert(at, std::string(1 + below(5), "9[{\"-e.\\"[below(9)]));
+                    break;
+                default: question.insert(at, question.substr(below(question.size()), 12)); break;
+            }
+            if (question.empty()) question = "{";
+        }
+        CAPTURE(question);
+        const Value answer = parse_json(answers.answer(question));
+        REQUIRE(answer.table());
+        errors += answer.table()->find("error") ? 1 : 0;
+    }
+    CHECK(errors > rounds / 2);
+    CHECK(errors < rounds);
+    CHECK(error_of(answers, questions[0]).empty());
 }
 
 TEST_CASE("view server: the page, the view file and answers, and nothing else") {
