@@ -364,7 +364,7 @@ TEST_CASE("live: ROS clients beside those of Player, until Ctrl-C; a page needs 
         return ended.err;
     };
     CHECK(error({"--listen-json", "127.0.0.1:0", "--speed", "2"})
-              .find("--speed needs --player or --rosbridge") != std::string::npos);
+              .find("--speed needs --player, --rosbridge or --view") != std::string::npos);
     CHECK(error({"--rosbridge", "0.0.0.0:9090"}).find("an address of this machine") !=
           std::string::npos);
 }

@@ -51,7 +51,7 @@ TEST_CASE("view page: the data is in base64, and no mark is left") {
     }
     CHECK(one.find("connect-src 'none'") != one.npos);
     CHECK(served_page().find("connect-src 'self'") != one.npos);
-    CHECK(served_page().size() < 170'000);
+    CHECK(served_page().size() < 175'000);
 }
 
 }  // namespace view_file_test
