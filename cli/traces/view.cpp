@@ -139,12 +139,6 @@ std::string short_name(const std::string& file) {
         .string();
 }
 
-std::string joined(const std::vector<std::string>& list) {
-    std::string text;
-    for (const std::string& each : list) text += (text.empty() ? "" : "; ") + each;
-    return text;
-}
-
 /// Second run and its view file, for a comparison with the first run.
 struct Beside {
     std::optional<TraceToView> trace;
@@ -174,7 +168,8 @@ std::string scenario_name(const std::string& trace) {
 std::array<std::string, 2> names_of(const ViewArguments& a, const std::string& trace,
                                     const std::string& other) {
     const std::string first = scenario_name(trace), second = scenario_name(other);
-    if (!a.with.empty()) return {first, second + ", with " + joined(a.with)};
+    if (!a.with.empty())
+        return {first, fmt::format("{}, with {}", second, fmt::join(a.with, "; "))};
     if (first != second) return {first, second};
     return {fmt::format("{} ({})", first, short_name(a.file)),
             fmt::format("{} ({})", second, short_name(*a.other))};

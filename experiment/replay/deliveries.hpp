@@ -27,6 +27,18 @@ struct Delivery {
     friend bool operator==(const Delivery& a, const Delivery& b) { return (a <=> b) == 0; }
 };
 
+/// Calls use(delivery, reception) for each reception of an application's message in a record, as if
+/// the message were delivered; whether it was is in the reception.
+template <class Use>
+void for_each_reception(const Record& record, const RecordContext& context, Use use) {
+    const auto* received = std::get_if<Received>(&record);
+    if (!received) return;
+    const Message& message = context.messages[received->frame.message];
+    if (!message.kind.empty()) return;
+    for (const Reception& each : received->receptions)
+        use(Delivery{message.origin, message.number, each.node, message.created}, each);
+}
+
 /// Sink that stores every delivery of an application's message, in order of time. Memory: 24 bytes
 /// for each delivery.
 struct Deliveries {
@@ -34,14 +46,9 @@ struct Deliveries {
 
     KindMask kinds() const { return kind_of<Received>(); }
     void on(const Record& record, const RecordContext& context) {
-        const auto* received = std::get_if<Received>(&record);
-        if (!received) return;
-        const Message& message = context.messages[received->frame.message];
-        if (!message.kind.empty()) return;
-        for (const Reception& each : received->receptions) {
-            if (!each.delivered) continue;
-            all.push_back({message.origin, message.number, each.node, message.created});
-        }
+        for_each_reception(record, context, [&](const Delivery& delivery, const Reception& each) {
+            if (each.delivered) all.push_back(delivery);
+        });
     }
 };
 

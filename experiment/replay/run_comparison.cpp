@@ -47,12 +47,7 @@ struct ChangeSink {
 
     KindMask kinds() const { return kind_of<Received>(); }
     void on(const Record& record, const RecordContext& context) {
-        const auto* received = std::get_if<Received>(&record);
-        if (!received) return;
-        const Message& message = context.messages[received->frame.message];
-        if (!message.kind.empty()) return;
-        for (const Reception& each : received->receptions)
-            take({message.origin, message.number, each.node, message.created}, each);
+        for_each_reception(record, context, [&](const auto&... each) { take(each...); });
     }
 
   private:

@@ -67,7 +67,8 @@ void ViewFront::prepare(Session& session, const Scenario& scenario) {
 
 void ViewFront::begin(Session&, const Scenario&) {
     answers_.emplace(network_);
-    if (control_.is_for_page) limit_ = now();
+    waits_ = control_.is_for_page;
+    if (waits_) limit_ = now();
 }
 
 /// Begins to keep what happens.
@@ -81,7 +82,7 @@ void ViewFront::observe() {
 void ViewFront::opened(Connection client, ListenerId) {
     observe();
     if (log_.is_empty()) log_.begin(stream_->start(live()));
-    if (control_.is_for_page && now() == start_of_run && limit_ == start_of_run && !is_over_) {
+    if (std::exchange(waits_, false)) {
         limit_ = never;
         is_changed_ = true;
     }
@@ -93,8 +94,10 @@ void ViewFront::closed(Connection gone) {
     watching_.erase(gone);
     last_seen_ = Clock::now();
     if (!watching_.empty() || !session_) return;
-    for (const auto& [robot, client] : drives_) session_->detach(client);
-    drives_.clear();
+    for (auto* clients : {&drives_, &sends_}) {
+        for (const auto& [robot, client] : *clients) session_->detach(client);
+        clients->clear();
+    }
     if (!control_.is_for_page) limit_ = never;  // nobody is left who could let it go on
 }
 
@@ -165,15 +168,21 @@ Time ViewFront::limit() const { return limit_; }
 
 void ViewFront::held(std::chrono::nanoseconds) { send_parts(); }
 
+/// @throws RequestError if pages are not allowed to do something, or if the run is over
+void ViewFront::check_control(bool is_allowed, std::string_view what) const {
+    if (!is_allowed) {
+        throw RequestError(
+            "not_allowed", "op",
+            fmt::format("pages may not {}; the option --view-control lets them", what));
+    }
+    if (is_over_) throw RequestError("over", "op", "the run has ended");
+}
+
 /// Sets the speed of the run, and whether it is paused.
 Table ViewFront::pace(const JsonElement& question) {
     const auto [id, op, speed, paused] =
         members(question, std::array<std::string_view, 4>{"id", "op", "speed", "paused"});
-    if (!control_.of_time) {
-        throw RequestError("not_allowed", "op",
-                           "pages may not pace this run; the option --view-control lets them");
-    }
-    if (is_over_) throw RequestError("over", "op", "the run has ended");
+    check_control(control_.of_time, "pace this run");
     if (speed) {
         speed_ = speed->value.is_null() ? std::nullopt : std::optional(speed->number(speeds));
         carrier_.set_speed(speed_);
@@ -188,10 +197,7 @@ Table ViewFront::pace(const JsonElement& question) {
 Table ViewFront::step(const JsonElement& question) {
     const auto [id, op, length] =
         members(question, std::array<std::string_view, 3>{"id", "op", "ns"});
-    if (!control_.of_time) {
-        throw RequestError("not_allowed", "op",
-                           "pages may not pace this run; the option --view-control lets them");
-    }
+    check_control(control_.of_time, "pace this run");
     const std::uint64_t ns =
         needed(length, question, "ns", "\"ns\":1000").whole_number(1, longest_step);
     limit_ = now() + Duration{static_cast<std::int64_t>(ns)};
@@ -199,9 +205,12 @@ Table ViewFront::step(const JsonElement& question) {
     return accepted();
 }
 
-/// Client of the session that drives a robot for the pages.
-ClientId ViewFront::driver_of(NodeId robot) {
-    if (const auto found = drives_.find(robot); found != drives_.end()) return found->second;
+/// Client of the session by which pages command a robot. One that only sends does not drive the
+/// robot, which goes on with its own movement.
+ClientId ViewFront::client_of(NodeId robot, bool drives) {
+    auto& clients = drives ? drives_ : sends_;
+    if (const auto found = clients.find(robot); found != clients.end()) return found->second;
+    if (!drives) return sends_[robot] = session_->attach_radios({robot}, "viewer", false);
     if (session_->driver(robot)) {
         throw RequestError("taken", "robot",
                            "robot " + network_->name(robot) + " is driven by another program");
@@ -213,11 +222,7 @@ ClientId ViewFront::driver_of(NodeId robot) {
 Table ViewFront::command(const JsonElement& question) {
     const auto [id, op, index, what] =
         members(question, std::array<std::string_view, 4>{"id", "op", "robot", "do"});
-    if (!control_.of_robots) {
-        throw RequestError("not_allowed", "op",
-                           "pages may not command robots; the option --view-control lets them");
-    }
-    if (!session_) throw RequestError("over", "op", "the run has ended");
+    check_control(control_.of_robots, "command robots");
     const NodeId robot{static_cast<std::uint32_t>(
         needed(index, question, "robot", "0").whole_number(0, network_->size() - 1))};
     const JsonElement& given = needed(what, question, "do", R"({"stop":true})");
@@ -226,7 +231,8 @@ Table ViewFront::command(const JsonElement& question) {
     if (!command) given.fail("bad_value", "expected a command, such as {\"goal\":[3,4]}");
     const std::string why = session_->why_not(robot, *command);
     if (!why.empty()) throw RequestError("no_room", "do", why);
-    const auto uid = session_->carry_out(driver_of(robot), robot, *command, ++commands_);
+    const bool drives = !std::holds_alternative<SendCommand>(*command);
+    const auto uid = session_->carry_out(client_of(robot, drives), robot, *command, ++commands_);
     is_changed_ = true;
     Table answer = accepted();
     if (uid) answer.set("uid", *uid);
@@ -243,13 +249,12 @@ void ViewFront::ended(std::string_view fingerprint, const Table&) {
 FrontListeners view_listener(const Address& at, const ViewControl& control) {
     WebPages pages;
     pages["/"] = {"text/html; charset=utf-8", live_page()};
-    return {.entries = {{.at = at, .what = "viewer", .is_web = true}},
+    return {.entries = {{.at = at, .is_web = true}},
             .make =
                 [control](Front::Carrier carrier) {
                     return std::make_unique<ViewFront>(control, std::move(carrier));
                 },
-            .pages = std::move(pages),
-            .closing_message = {}};
+            .pages = std::move(pages)};
 }
 
 }  // namespace rovernet

@@ -63,7 +63,8 @@ class ViewFront : public Front {
     Table pace(const JsonElement& question);
     Table step(const JsonElement& question);
     Table command(const JsonElement& question);
-    ClientId driver_of(NodeId robot);
+    void check_control(bool is_allowed, std::string_view what) const;
+    ClientId client_of(NodeId robot, bool drives);
     Time now() const { return network_->now(); }
 
     ViewControl control_;
@@ -76,12 +77,14 @@ class ViewFront : public Front {
     std::unique_ptr<JsonParser> parser_;
     ViewLog log_;
     std::map<Connection, ViewLog::Place> watching_;
-    std::map<NodeId, ClientId> drives_;  // clients of the session that drive robots for pages
+    // Clients of the session that drive robots, and that send messages from them, for pages.
+    std::map<NodeId, ClientId> drives_, sends_;
     std::uint64_t commands_ = 0;
     std::optional<double> speed_;
     Time limit_ = never, next_ = never;
     RealTime last_part_ = {}, last_seen_ = {};
     bool is_changed_ = false;  // a part is due at once: the run was paused, or has another speed
+    bool waits_ = false;       // for the first page
     bool is_over_ = false;
     std::string fingerprint_;
 };

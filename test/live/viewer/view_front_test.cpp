@@ -201,7 +201,9 @@ TEST_CASE("view front: pages change nothing that they may not, and their command
     CHECK(viewed.ask(R"({"id": 4, "op": "command", "robot": 3, "do": {"stop": true}})")
               .find("another program") != std::string::npos);
     viewed.front.closed(1);
-    CHECK(inputs.size() == 4);  // the robots that the pages drove stop
+    REQUIRE(inputs.size() == 3);  // the robot that the pages drove stops, the one that sent goes on
+    CHECK(inputs[2].robot == NodeId{0});
+    CHECK(std::holds_alternative<StopCommand>(inputs[2].command));
 }
 
 TEST_CASE("view front: questions are about the present") {
