@@ -21,6 +21,7 @@ struct RunArguments : FileArguments {
     bool print_scenario = false;
     bool record = false;
     ViewOption view;
+    Reach reach;
 };
 void run(const RunArguments& arguments);
 /// Runs a scenario that a page in a browser shows and paces, and serves the page until Ctrl-C.

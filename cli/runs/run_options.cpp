@@ -21,7 +21,11 @@ void add_run(Command app) {
             [](const std::string& text) { return text.starts_with('x') ? text.substr(1) : text; })
         .check(above_zero());
     run.add_flag("--record", a.record, "write trace.mcap, too: all records, to replay");
-    a.view.add_to(run);
+    const Option view = a.view.add_to(run);
+    run.add_option("--listen", a.reach.listen,
+                   "IP address of this machine by which others reach the page, or 0.0.0.0: they "
+                   "need the token in the address that is printed")
+        .needs(view);
     add_json(run, a.json);
     run.add_flag("--print-scenario", a.print_scenario,
                  "print the scenario with every default, and do not run it");

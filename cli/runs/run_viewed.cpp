@@ -19,7 +19,7 @@ void run_viewed(const RunArguments& a, const Scenario& scenario) {
     options.speed = a.speed.value_or(1);
     options.say = announcer(a.json ? Announced::by_notice : Announced::by_output);
     options.fronts.push_back(
-        a.view.listeners({}, {.of_time = true, .is_for_page = true, .speed = options.speed}));
+        a.view.listeners(a.reach, {.of_time = true, .is_for_page = true, .speed = options.speed}));
     bool is_printed = false;
     options.finished = [&](const RunResult& result) {
         print_run(scenario, result, a.json);
