@@ -55,7 +55,6 @@ void write_comparison(const ViewComparison& comparison, const std::vector<Messag
                       std::size_t robots, ViewFile& file, Table& head) {
     head.set("compare", comparison_table(comparison));
     const auto in_first = index_of(comparison.messages), in_second = index_of(messages);
-    const std::size_t count_first = comparison.messages.size(), count_second = messages.size();
     const auto of = [&](auto number, auto value) {
         return column<decltype(number)>(comparison.result.changes, value);
     };
@@ -64,23 +63,17 @@ void write_comparison(const ViewComparison& comparison, const std::vector<Messag
     };
     constexpr std::uint32_t index = 0;
     constexpr std::uint8_t small = 0;
-    file.add_indices(
-        "compare.messages",
-        column<std::uint32_t>(messages,
-                              [&](const auto& name) {
-                                  return name.number == no_index ? no_index : found(in_first, name);
-                              }),
-        count_first);
+    file.add("compare.messages", column<std::uint32_t>(messages, [&](const auto& name) {
+                 return name.number == no_index ? no_index : found(in_first, name);
+             }));
     file.add_times("compare.time",
                    of(std::int64_t{}, [](const auto& c) { return whole_ns(c.time); }));
     file.add_indices("compare.robot", of(index, [](const auto& c) { return c.delivery.at.value; }),
                      robots);
-    file.add_indices("compare.first",
-                     of(index, [&](const auto& c) { return found(in_first, name_of(c)); }),
-                     count_first);
-    file.add_indices("compare.second",
-                     of(index, [&](const auto& c) { return found(in_second, name_of(c)); }),
-                     count_second);
+    file.add("compare.first",
+             of(index, [&](const auto& c) { return found(in_first, name_of(c)); }));
+    file.add("compare.second",
+             of(index, [&](const auto& c) { return found(in_second, name_of(c)); }));
     file.add("compare.gained", of(small, [](const auto& c) { return c.is_gained ? 1 : 0; }));
     file.add("compare.outcome", of(small, [](const auto& c) {
                  return c.other ? 2 * static_cast<int>(*c.other) : int{no_frame};

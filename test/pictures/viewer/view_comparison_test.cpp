@@ -45,7 +45,7 @@ test::ViewReader written(const ViewComparison& made) {
 
 TEST_CASE("view of a comparison: messages are found by origin and number, in both files") {
     const test::ViewReader view = written(comparison());
-    constexpr double nobody = 65'535;
+    constexpr double nobody = 4'294'967'295;
     CHECK(view.numbers("compare.messages") == std::vector<double>{1, nobody, nobody});
     CHECK(view.numbers("compare.first") == std::vector<double>{0, 1, nobody});
     CHECK(view.numbers("compare.second") == std::vector<double>{nobody, 0, 2});
