@@ -63,7 +63,8 @@ struct LinkGain {
 /// transmitter, + gain - cable loss - sensitivity of the receiver. The link is up if its path loss
 /// is at most this budget. Two radios with all defaults have 16.53 dBm - (-75 dBm) = 91.53 dB.
 ///
-/// Source: the 2007 thesis (docs/worlds.md), table 3.1, corrected: the sensitivity is subtracted.
+/// Source: the 2007 thesis (docs/formats/worlds.md), table 3.1, corrected: the sensitivity is
+/// subtracted.
 constexpr Db link_budget(const Radio& from, const Radio& to, LinkGain gain) {
     return (from.power - to.sensitivity) + gain.sender + gain.receiver;
 }

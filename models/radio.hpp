@@ -42,8 +42,8 @@ struct EnumNames<WifiMode> {
 };
 
 /// Radio of a robot. Power, frequency and sensitivity have the defaults of a 2007 thesis
-/// (docs/worlds.md): 45 mW, 2450 MHz, -75 dBm. Other defaults are from IEEE 802.11b (11 Mb/s, long
-/// preamble). In free space two default radios hear each other up to 367 m.
+/// (docs/formats/worlds.md): 45 mW, 2450 MHz, -75 dBm. Other defaults are from IEEE 802.11b (11
+/// Mb/s, long preamble). In free space two default radios hear each other up to 367 m.
 struct Radio {
     /// Output power of the transmitter [dBm]; the default is 45 mW.
     Dbm power{16.532125137753436};

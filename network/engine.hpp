@@ -26,7 +26,7 @@ namespace rovernet {
 /// A message goes down from Applications through Routing and Mac to Channel, which finds the
 /// receivers that can decode the message; receptions go up in the reverse order. Motion and
 /// LinkMonitor work beside these layers. Network is the public interface and calls these parts.
-/// docs/inside.md has a picture.
+/// docs/inside/code.md has a picture.
 class Engine {
   public:
     /// Creates all parts, and Metrics if the settings enable them.

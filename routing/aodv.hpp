@@ -11,7 +11,8 @@
 
 namespace rovernet {
 
-/// Variant of AODV: the text of RFC 3561, or the implementation in ns-2.35 (docs/routing.md).
+/// Variant of AODV: the text of RFC 3561, or the implementation in ns-2.35
+/// (docs/methods/routing.md).
 enum class AodvProfile { rfc, ns2 };
 
 template <>

@@ -10,7 +10,8 @@
 
 namespace rovernet {
 
-/// Variant of DSR: the text of RFC 4728, or the implementation in ns-2.35 (docs/routing.md).
+/// Variant of DSR: the text of RFC 4728, or the implementation in ns-2.35
+/// (docs/methods/routing.md).
 enum class DsrProfile { rfc, ns2 };
 
 template <>

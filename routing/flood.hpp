@@ -23,8 +23,8 @@ struct EnumNames<Duplicates> {
 /// "suppress": each node forwards a message once. With `upgrade`, a later copy with a higher TTL
 /// raises the TTL of the waiting copy, or is forwarded if the first copy was not, so that a long
 /// path heard first does not shorten the flood. "forward": every copy is forwarded, also by its
-/// source, and only the TTL limits the flood. This is the rule of the 2007 thesis (docs/worlds.md),
-/// whose load grows with the number of walks in the network.
+/// source, and only the TTL limits the flood. This is the rule of the 2007 thesis
+/// (docs/formats/worlds.md), whose load grows with the number of walks in the network.
 struct Flood {
     static constexpr std::string_view name = "flood";
 

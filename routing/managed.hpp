@@ -17,7 +17,7 @@ namespace rovernet {
 /// Roles (Robot::role): "client", the default; "router" relays early, even if another relay was
 /// first; "router_late" relays after all other relays if another relay was first; "mute" never
 /// relays. Messages to one robot go over one hop. A node sends its own messages immediately.
-/// docs/routing.md lists the rules M1 to M6, and the parts of Meshtastic that are left out.
+/// docs/methods/routing.md lists the rules M1 to M6, and the parts of Meshtastic that are left out.
 struct Managed {
     static constexpr std::string_view name = "managed";
     /// Roles that a node may have, see Robot::role.

@@ -10,8 +10,8 @@
 namespace rovernet {
 
 /// Routing protocol with the parameters of a Managed. For each message in use it stores eight bytes
-/// per node. M1 to M6 in comments are rules of docs/routing.md. A copy is called queued while it
-/// waits for its send time, but not later, in the queue of the MAC.
+/// per node. M1 to M6 in comments are rules of docs/methods/routing.md. A copy is called queued
+/// while it waits for its send time, but not later, in the queue of the MAC.
 class ManagedRouter {
   public:
     static constexpr bool wants_levels = true;

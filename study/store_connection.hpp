@@ -8,7 +8,8 @@
 #include <memory>
 #include <string>
 
-// Opening the SQLite file of a store. The method depends on the file system, see docs/slurm.md:
+// Opening the SQLite file of a store. The method depends on the file system, see
+// docs/guide/slurm.md:
 //
 //   local, with locks and shared mappings         journal WAL: readers work while a process writes
 //   shared by hosts, or no shared mappings        rollback journal: readers wait for a moment

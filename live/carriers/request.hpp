@@ -16,8 +16,8 @@
 #include <variant>
 #include <vector>
 
-// Requests of the lock-step protocol: one JSON object per line, from a controller. docs/live.md has
-// the table of keys.
+// Requests of the lock-step protocol: one JSON object per line, from a controller.
+// docs/guide/live.md has the table of keys.
 
 namespace rovernet {
 

@@ -19,10 +19,10 @@ namespace rovernet {
 ///   driver ( name "comdriver" provides [ "6665:opaque:1" ] requires [ "6665:wifi:0" ]
 ///            mapping [ "192.168.0.2" 6666 ] )
 ///
-/// The comdriver is the driver of the 2007 thesis that added radio to Stage (docs/worlds.md): it
-/// sends messages by radio, and the first byte of a message is the time-to-live. Its mapping gives
-/// the Player port of the robot with each IP address. Other drivers of a Player server are not
-/// supported; a notice names them.
+/// The comdriver is the driver of the 2007 thesis that added radio to Stage
+/// (docs/formats/worlds.md): it sends messages by radio, and the first byte of a message is the
+/// time-to-live. Its mapping gives the Player port of the robot with each IP address. Other drivers
+/// of a Player server are not supported; a notice names them.
 struct PlayerConfig {
     /// Entry of the key `mapping` of a comdriver (radio driver): a robot's IP address and its
     /// Player port.

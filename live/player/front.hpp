@@ -24,7 +24,7 @@ struct PlayerSettings {
     std::size_t wait_for = 1;
 };
 
-/// Player server, for programs written for Player and Stage. docs/live.md lists the supported
+/// Player server, for programs written for Player and Stage. docs/guide/live.md lists the supported
 /// messages.
 ///
 /// A client in PULL mode requests data and is answered at the next multiple of 100 ms: data of each

@@ -18,8 +18,8 @@
 
 namespace rovernet {
 
-/// Server of the rosbridge protocol, version 2, for ROS clients such as roslib. docs/live.md lists
-/// its topics and services. The server receives and sends whole messages.
+/// Server of the rosbridge protocol, version 2, for ROS clients such as roslib. docs/guide/live.md
+/// lists its topics and services. The server receives and sends whole messages.
 ///
 /// An error is answered with the id of the client's request: an error of a service call in the
 /// response, any other error in a status message. The connection stays open.

@@ -20,9 +20,9 @@ struct JsonElement;
 class JsonParser;
 class Network;
 
-/// Answers to the questions of the viewer's page about a run (docs/view-format.md): why a robot has
-/// a message, link budgets, link tables, coverage. Each answer is computed by the function that the
-/// command line calls for the same question.
+/// Answers to the questions of the viewer's page about a run (docs/formats/view-format.md): why a
+/// robot has a message, link budgets, link tables, coverage. Each answer is computed by the
+/// function that the command line calls for the same question.
 class ViewerAnswers {
   public:
     /// Answers about a recorded run, at any of its times.

@@ -11,8 +11,8 @@
 
 namespace rovernet {
 
-/// Links of a network now, as the answer to the page's question `links` (docs/view-format.md): all
-/// links, or those from and to the robot `of`.
+/// Links of a network now, as the answer to the page's question `links`
+/// (docs/formats/view-format.md): all links, or those from and to the robot `of`.
 /// @throws RunError for more links, or more robots, than a picture can show
 Table answer_links(const Network& network, std::optional<NodeId> of);
 
@@ -26,7 +26,7 @@ struct CoverageQuestion {
 };
 
 /// Coverage of a robot's transmitter now, as the answer to the page's question `coverage`
-/// (docs/view-format.md): levels and contours, and differences to those of another model.
+/// (docs/formats/view-format.md): levels and contours, and differences to those of another model.
 /// @throws RunError if levels of the model disc, which gives none, are compared
 Table answer_coverage(const Network& network, const CoverageQuestion& question);
 

@@ -31,7 +31,7 @@ struct ViewControl {
 
 /// Front of a live run for the viewer's page: sends what happens as parts of a view file, answers
 /// questions about the present, and lets pages control the run as far as ViewControl permits
-/// (docs/view-format.md, "A run that goes on").
+/// (docs/formats/view-format.md, "A run that goes on").
 ///
 /// The front observes the run while pages are there, and for some seconds after the last one has
 /// left. Without pages it costs the run nothing.

@@ -14,7 +14,7 @@ namespace rovernet {
 ///
 /// `rovernet loss disc range=50 --distance 50,51` prints "in range" and "out of range".
 ///
-/// Source: the 2007 thesis (docs/worlds.md), model "simple"; link iff d <= range.
+/// Source: the 2007 thesis (docs/formats/worlds.md), model "simple"; link iff d <= range.
 struct Disc {
     static constexpr std::string_view name = "disc";
     /// Loss beyond the range [dB], larger than any link budget.

@@ -23,10 +23,10 @@ struct EnumNames<Environment> {
 ///
 /// N is `coefficient`, or the table value for `environment` at the nearest frequency (by ratio, at
 /// most 1.5). The floor loss Lf is a table value in the same way, with Lf(0) = 0; without an
-/// environment there is no floor loss, as in the 2007 thesis (docs/worlds.md). For more floors than
-/// the table has, the value of its last floor is used. N includes the walls: do not add them. In a
-/// scene of several storeys, n counts the ceilings whose material has no loss. The losses of other
-/// ceilings are added, unless `floors` is given or there is no environment.
+/// environment there is no floor loss, as in the 2007 thesis (docs/formats/worlds.md). For more
+/// floors than the table has, the value of its last floor is used. N includes the walls: do not add
+/// them. In a scene of several storeys, n counts the ceilings whose material has no loss. The
+/// losses of other ceilings are added, unless `floors` is given or there is no environment.
 ///
 /// Site-general, from 900 MHz to 100 GHz: a median over buildings with a standard deviation of 8-12
 /// dB, not a prediction for a single building. With N = 30 at 2450 MHz `rovernet loss itu_indoor`

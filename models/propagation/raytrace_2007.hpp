@@ -5,8 +5,8 @@
 
 namespace rovernet {
 
-/// Path loss [dB] by the ray rule of the 2007 thesis (docs/worlds.md), for d >= 1 m; below 1 m the
-/// loss is fixed at its value at 1 m:
+/// Path loss [dB] by the ray rule of the 2007 thesis (docs/formats/worlds.md), for d >= 1 m; below
+/// 1 m the loss is fixed at its value at 1 m:
 ///
 ///   L = 20 log10 f + N log10 d - 28 + 100 w l      (f in MHz, d in m, l metres of wall)
 ///

@@ -36,7 +36,7 @@ struct MessageName {
 };
 
 /// Sink that collects messages, frames, receptions and losses as columns of a view file
-/// (docs/view-format.md). The records may come from a network, or from a recorded trace.
+/// (docs/formats/view-format.md). The records may come from a network, or from a recorded trace.
 ///
 /// Memory: 40 bytes for each frame, 12 for each reception, 16 for each loss, and the messages.
 class FrameColumns {

@@ -12,8 +12,8 @@ namespace rovernet {
 
 class ViewFile;
 
-/// Sink that collects the robots' motion as columns of a view file (docs/view-format.md): legs,
-/// states and link changes. The records may come from a network, or from a recorded trace.
+/// Sink that collects the robots' motion as columns of a view file (docs/formats/view-format.md):
+/// legs, states and link changes. The records may come from a network, or from a recorded trace.
 ///
 /// Memory: 104 bytes for each leg, 16 for each change of a state, 24 for each link change.
 class MotionColumns {

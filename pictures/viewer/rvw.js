@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// View file: head and columns of a run, as in docs/view-format.md.
+// View file: head and columns of a run, as in docs/formats/view-format.md.
 /** @typedef {{name: string, type: string, count: number, offset: number, bytes: number, raw?: boolean}} Section */
 /** @typedef {{name: string, radius: number, model: string, power_dbm: number, sensitivity_dbm: number, antenna_z: number}} Robot */
 /** @typedef {{name: string, floor: number, x0: number, y0: number, x1: number, y1: number, closed: boolean}} Door */

@@ -25,7 +25,7 @@ concept ColumnNumber = std::same_as<T, std::uint8_t> || std::same_as<T, std::uin
 inline constexpr std::uint32_t no_index = std::numeric_limits<std::uint32_t>::max();
 
 /// Writer of a view file, the file that the viewer's page reads: a head in JSON, and named columns
-/// of numbers. Each column is compressed when it is added, by default. docs/view-format.md
+/// of numbers. Each column is compressed when it is added, by default. docs/formats/view-format.md
 /// describes the bytes.
 ///
 ///   ViewFile file;

@@ -26,7 +26,7 @@ struct ViewChoice {
 /// View file of a run, and its size.
 struct ViewedRun {
     std::string name;   ///< name of the scenario
-    std::string bytes;  ///< the view file, see docs/view-format.md
+    std::string bytes;  ///< the view file, see docs/formats/view-format.md
     std::size_t robots, messages;
     std::size_t frames;                 ///< number of frames in the file
     std::vector<std::string> left_out;  ///< sentences about what the file does not contain

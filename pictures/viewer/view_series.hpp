@@ -20,7 +20,7 @@ class ViewFile;
 /// Sink that collects series over the time of a run for the charts of the viewer's page: delivery
 /// ratio, latency, receptions by outcome, use of the channel, and the topology if the records
 /// contain links. The time of the run is divided into at most 300 equal bins; a series has a
-/// value for each bin (docs/view-format.md).
+/// value for each bin (docs/formats/view-format.md).
 ///
 /// Memory: 16 bytes for each message in use, and for each link that is up; about 50 kB for the
 /// bins.

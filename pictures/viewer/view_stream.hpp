@@ -15,9 +15,9 @@ namespace rovernet {
 
 struct Scenario;
 
-/// View of a network that runs, as a sequence of view files (docs/view-format.md): first the map
-/// and the robots, then what has happened since the file before. The network's records become
-/// columns by the same sinks as those of a recorded trace.
+/// View of a network that runs, as a sequence of view files (docs/formats/view-format.md): first
+/// the map and the robots, then what has happened since the file before. The network's records
+/// become columns by the same sinks as those of a recorded trace.
 ///
 /// Memory: that of MotionColumns and FrameColumns for the records since the last part.
 class ViewStream {

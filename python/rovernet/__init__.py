@@ -8,7 +8,7 @@
     env = rn.ParallelEnv("rescue.toml", reward=lambda session, heard: ...)
 
 Lengths are in metres, angles in radians, levels in dBm; times are in seconds, or whole nanoseconds where
-they are called t_ns. docs/python.md tells more.
+they are called t_ns. docs/guide/python.md tells more.
 """
 from . import spaces
 from ._core import Heard, InputError, Run, RunError, Session, __version__, run

@@ -10,7 +10,7 @@ __version__: str
 
 Path = Union[str, "os.PathLike[str]"]
 Scenario = Union[Path, Mapping[str, Any]]
-Kind = str  # of the table in docs/python.md: "sent", "received", "link_up"
+Kind = str  # of the table in docs/guide/python.md: "sent", "received", "link_up"
 
 class InputError(ValueError):
     """Mistake in a scenario or another input. str() is what the command prints."""

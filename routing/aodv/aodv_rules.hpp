@@ -12,7 +12,7 @@
 namespace rovernet {
 
 /// Constants of AODV (RFC 3561, section 10), computed from the parameters in an Aodv; and the
-/// differences of ns-2.35, each of which docs/routing.md lists.
+/// differences of ns-2.35, each of which docs/methods/routing.md lists.
 struct AodvRules {
     /// Constants for the parameters `aodv`.
     /// @throws std::invalid_argument if a parameter is out of its range

@@ -237,8 +237,8 @@ std::string validation_page(const Validation& validation) {
     for (const ValidationChart& chart : validation.charts) {
         out += fmt::format("## {}\n\n", chart.title);
         for (const std::string& sentence : chart.sentences) out += fmt::format("* {}\n", sentence);
-        out += fmt::format("\n![{0}](accuracy-{1}.svg)\n\n{2}{3}\n\n", chart.title, chart.name,
-                           chart.truth, not_drawn(chart));
+        out += fmt::format("\n![{0}](../pictures/accuracy-{1}.svg)\n\n{2}{3}\n\n", chart.title,
+                           chart.name, chart.truth, not_drawn(chart));
         for (const ValidationPanel& panel : chart.panels) {
             if (!panel.title.empty()) out += fmt::format("**{}**\n\n", panel.title);
             out += markdown_table(rows_of(panel)) + "\n";

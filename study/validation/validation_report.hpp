@@ -22,7 +22,7 @@ std::string validation_csv(const ValidationChart& chart);
 /// Self-contained HTML page of a validation, with sentences, pictures and tables.
 std::string validation_html(const Validation& validation);
 
-/// Text of the documentation page docs/accuracy.md: sentences and tables, with links to the
+/// Text of the documentation page docs/methods/accuracy.md: sentences and tables, with links to the
 /// pictures. Costs are rounded to two digits.
 std::string validation_page(const Validation& validation);
 

@@ -84,7 +84,7 @@ const Line exposed{{{0, 0}, {200, 0}, {400, 0}, {600, 0}}, {{1, 0}, {2, 3}}, 250
 // The first sender senses the second and its receiver, and decodes neither.
 const Line sensed{{{0, 0}, {100, 0}, {275, 0}, {275, 100}}, {{0, 1}, {2, 3}}, 550};
 
-/// Their noise in 10 s, and what sets us apart from the peers: docs/agreement.md.
+/// Their noise in 10 s, and what sets us apart from the peers: docs/methods/agreement.md.
 constexpr double share = 0.03;
 
 }  // namespace

@@ -205,7 +205,7 @@ TEST_CASE("coverage: the price of it, as widths beside Student's where that is r
     struct Price {
         double deviation;  ///< of normal values around 0.5, nearly all in [0, 1]
         std::size_t n;
-        double of_betting, of_star;  ///< as the table in docs/intervals.md has them
+        double of_betting, of_star;  ///< as the table in docs/methods/intervals.md has them
     };
     for (const auto& [deviation, n, of_betting, of_star] : {Price{0.05, 10, 5.6, 4.7},
                                                             {0.05, 30, 4.2, 3.4},
@@ -238,7 +238,8 @@ TEST_CASE("coverage: STaR-Bets are within 10 % of Gaffke's width, whose proof is
     constexpr int studies = 20;
     constexpr double last_digit = 0.005, level = (1 - confidence) / 2;
     constexpr std::array<std::size_t, 3> sizes = {10, 30, 100};
-    // Ratios of the widths by distribution and n, as the table in docs/intervals.md has them.
+    // Ratios of the widths by distribution and n, as the table in docs/methods/intervals.md has
+    // them.
     const std::vector<std::array<double, 3>> ratios = {
         {1.04, 0.98, 1.04}, {1.05, 1.02, 1.09}, {1.05, 1.03, 1.05}, {1.07, 1.03, 1.00},
         {1.05, 1.00, 0.99}, {1.05, 0.97, 1.02}, {1.02, 0.99, 1.02}};

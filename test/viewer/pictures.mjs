@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// pictures.mjs ADDRESS FOLDER PAGE: pictures of the served rescue for docs/view.md, and of a page with two runs.
+// pictures.mjs ADDRESS FOLDER PAGE: pictures of the served rescue for docs/guide/view.md, and of a page with two runs.
 import { chromium } from "playwright-core";
 
 const [address, folder, both] = process.argv.slice(2);

@@ -24,7 +24,7 @@ struct LegParts {
 };
 
 /// Writer of the fields of records and their parts, as bytes of a recorded trace. There is an
-/// overload of put() for each type of field. docs/trace-format.md describes the bytes.
+/// overload of put() for each type of field. docs/formats/trace-format.md describes the bytes.
 class FieldWriter {
   public:
     FieldWriter(ByteWriter& to, Time time) : to_(to), time_(time) {}

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-// Encoding of records in a recorded trace. docs/trace-format.md describes it for other readers. The
-// time of a record is stored by the container, all other data here.
+// Encoding of records in a recorded trace. docs/formats/trace-format.md describes it for other
+// readers. The time of a record is stored by the container, all other data here.
 //
 // Letters of the layouts: `v` unsigned varint, `z` signed varint (folded), `b` one byte, `d` 8
 // bytes of a double, `s` a varint of the length and that many bytes. `node?` is 0 for everyone or

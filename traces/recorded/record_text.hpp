@@ -8,9 +8,9 @@
 namespace rovernet {
 
 /// Appends a record as lines of text, for people and for comparisons: its time [ns], its kind, then
-/// its fields in the order of docs/trace-format.md, with the uid of a message instead of its slot.
-/// A Received has one line per reception. Two records that are equal in a recorded trace have the
-/// same text.
+/// its fields in the order of docs/formats/trace-format.md, with the uid of a message instead of
+/// its slot. A Received has one line per reception. Two records that are equal in a recorded trace
+/// have the same text.
 ///
 ///     2000193 Received 0 4 2 1 - 0 0 7 waiting+
 ///

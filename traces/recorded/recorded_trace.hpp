@@ -13,7 +13,8 @@
 namespace rovernet {
 
 /// Sink that writes the run as a recorded trace: all its records, and the data for running it
-/// again, in one MCAP file. RecordedReader reads it; docs/trace-format.md describes the format.
+/// again, in one MCAP file. RecordedReader reads it; docs/formats/trace-format.md describes the
+/// format.
 ///
 /// The simulation thread only copies records. When about a megabyte of records is collected, a
 /// second thread encodes, packs and writes them as a chunk. At most 4 such batches wait; then the

@@ -169,7 +169,7 @@ TEST_CASE("a recorded trace of several storeys is repeated without their maps") 
     CHECK_FALSE(verify_replay(run.trace, {}).difference);
 }
 
-TEST_CASE("a reader in Python, written from docs/trace-format.md, reads the same records") {
+TEST_CASE("a reader in Python, written from docs/formats/trace-format.md, reads the same records") {
     if (std::system("python3 --version > /dev/null && zstd --version > /dev/null") != 0) {
         MESSAGE("python3 or zstd is missing: not checked");
         return;

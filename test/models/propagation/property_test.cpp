@@ -22,7 +22,7 @@ using namespace rovernet;
 namespace {
 
 /// Where a model's loss may change by more than half a decibel within a millimetre;
-/// docs/stability.md says why.
+/// docs/methods/stability.md says why.
 enum class Steps { nowhere, at_walls, anywhere };
 /// A model that is added is held to be smooth on an open field.
 template <class Model>

@@ -13,7 +13,7 @@
 
 namespace rovernet::test {
 
-/// Reader of view files for tests, written from docs/view-format.md.
+/// Reader of view files for tests, written from docs/formats/view-format.md.
 class ViewReader {
   public:
     explicit ViewReader(const std::string& bytes) {

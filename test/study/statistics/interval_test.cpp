@@ -45,7 +45,7 @@ TEST_CASE("interval: values with two bounds have STaR-Bets, others Student's t")
 TEST_CASE("interval: of a ratio that was 1 in every replication it reaches below 1") {
     const std::vector<double> ones(30, 1.0);
     const auto fixed = interval_of(ones, share);
-    CHECK(std::abs(fixed->low - 0.8828) < 5e-5);  // as docs/intervals.md says
+    CHECK(std::abs(fixed->low - 0.8828) < 5e-5);  // as docs/methods/intervals.md says
     CHECK(fixed->high == 1);
     const auto betting = interval_of(ones, share, 0.95, IntervalMethod::betting);
     CHECK(std::abs(betting->low - 0.8475) < 5e-5);

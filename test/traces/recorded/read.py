@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """read.py TRACE: prints the records of a recorded trace, one a line.
 
-Written from docs/trace-format.md and the MCAP specification alone. Chunks are unpacked by the command zstd.
+Written from docs/formats/trace-format.md and the MCAP specification alone. Chunks are unpacked by the command zstd.
 """
 import struct
 import subprocess
