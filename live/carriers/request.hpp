@@ -17,7 +17,7 @@
 #include <vector>
 
 // Requests of the lock-step protocol: one JSON object per line, from a controller.
-// docs/guide/live.md has the table of keys.
+// docs/guide/live-json.md has the table of keys.
 
 namespace rovernet {
 

@@ -24,8 +24,8 @@ struct PlayerSettings {
     std::size_t wait_for = 1;
 };
 
-/// Player server, for programs written for Player and Stage. docs/guide/live.md lists the supported
-/// messages.
+/// Player server, for programs written for Player and Stage. docs/guide/player.md lists the
+/// supported messages.
 ///
 /// A client in PULL mode requests data and is answered at the next multiple of 100 ms: data of each
 /// subscribed device, then SYNCH. If no device has data, the request stays open until a device has

@@ -18,7 +18,7 @@
 
 namespace rovernet {
 
-/// Server of the rosbridge protocol, version 2, for ROS clients such as roslib. docs/guide/live.md
+/// Server of the rosbridge protocol, version 2, for ROS clients such as roslib. docs/guide/ros.md
 /// lists its topics and services. The server receives and sends whole messages.
 ///
 /// An error is answered with the id of the client's request: an error of a service call in the
