@@ -57,7 +57,7 @@ struct PacketContent {
 };
 /// UDP port of source and destination in captured packets.
 inline constexpr std::uint16_t capture_port = 49'600;
-/// Size of the header before the message in a UDP packet [bytes]; docs/formats/trace.md has its
+/// Size of the header before the message in a UDP packet [bytes]; docs/formats/capture.md has its
 /// layout.
 inline constexpr std::size_t message_header = 32;
 /// Size of the longest message that a packet can contain completely [bytes]; a longer one is
