@@ -20,7 +20,7 @@ set(ROVERNET_PUBLIC_HEADERS
     models/propagation/propagation.hpp models/propagation/propagation_model.hpp
     models/propagation/rays.hpp models/propagation/raytrace_2007.hpp
     models/propagation/two_ray.hpp
-    models/radio.hpp
+    models/radio.hpp models/radio_labels.hpp
     models/reception/collision.hpp models/reception/judge.hpp models/reception/sinr.hpp
     models/variation/fading.hpp models/variation/shadowing.hpp
     network/neighbour.hpp network/network.hpp network/robot.hpp network/settings.hpp

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "models/antenna.hpp"
+#include "models/radio_labels.hpp"
 #include "sim/fields.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
@@ -30,15 +31,6 @@ enum class Gate {
 template <>
 struct EnumNames<Gate> {
     static constexpr std::array<std::string_view, 2> values = {"network", "none"};
-};
-
-/// Mode of a radio in its network (IEEE 802.11); a label for tables, without effect on links.
-enum class WifiMode { automatic, adhoc, infrastructure, master, repeater, secondary };
-/// Names of the values of `mode` in scenario files.
-template <>
-struct EnumNames<WifiMode> {
-    static constexpr std::array<std::string_view, 6> values = {
-        "auto", "adhoc", "infrastructure", "master", "repeater", "secondary"};
 };
 
 /// Radio of a robot. Power, frequency and sensitivity have the defaults of a 2007 thesis
@@ -91,18 +83,8 @@ struct Radio {
     int channel = 0;
     /// Gate of the radio: links only with radios of its own network, or with any radio.
     Gate gate = Gate::network;
-    /// IP address of the radio, unique; generated if not given.
-    std::optional<std::string> ip = std::nullopt;
-    /// Netmask of the IP address; a label without effect.
-    std::string netmask = "255.255.255.0";
-    /// MAC address of the radio, unique; generated if not given.
-    std::optional<std::string> mac = std::nullopt;
-    /// Mode of the radio in its network (IEEE 802.11); a label without effect.
-    WifiMode mode = WifiMode::adhoc;
-    /// Whether the network is encrypted; a label without effect.
-    bool encryption = false;
-    /// Received power [dBm] at which pictures draw a contour line around the radio.
-    std::optional<Dbm> range_db = std::nullopt;
+    /// Labels, without effect on links.
+    RadioLabels labels = {};
 
     /// Whether the gain of the radio's antenna depends on the direction.
     bool is_directional() const {
@@ -111,8 +93,7 @@ struct Radio {
 
     friend bool operator==(const Radio&, const Radio&) = default;
 
-    /// Parameters in scenario files. Labels and addresses are included: tables and pictures show
-    /// labels and addresses, but links do not depend on them.
+    /// Parameters in scenario files; RadioLabels::fields() has the labels beside them.
     static constexpr auto fields() {
         return describe(
             field("power", &Radio::power, "transmitter output power"),
@@ -146,13 +127,7 @@ struct Radio {
                   "share of its frames that get through where they reach"),
             field("essid", &Radio::essid, "name of its network; \"any\" joins all"),
             field("channel", &Radio::channel, non_negative, "number that both ends must share"),
-            field("gate", &Radio::gate, "network: same essid, channel and frequency; or none"),
-            field("ip", &Radio::ip, "address; unique, given if left out"),
-            field("netmask", &Radio::netmask, "of its address; a label"),
-            field("mac", &Radio::mac, "hardware address; unique, given if left out"),
-            field("mode", &Radio::mode, "how it takes part in its network; a label"),
-            field("encryption", &Radio::encryption, "a label"),
-            field("range_db", &Radio::range_db, "level that pictures draw as a contour"));
+            field("gate", &Radio::gate, "network: same essid, channel and frequency; or none"));
     }
 };
 

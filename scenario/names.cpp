@@ -114,8 +114,8 @@ void check_addresses(const Scenario& scenario) {
     if (scenario.scene.world) return;
     Given ips, macs;
     for (const RobotTable& robot : scenario.robots) {
-        check_address(ips, robot.radio.ip, "ip", robot);
-        check_address(macs, robot.radio.mac, "mac", robot);
+        check_address(ips, robot.radio.labels.ip, "ip", robot);
+        check_address(macs, robot.radio.labels.mac, "mac", robot);
     }
 }
 

@@ -130,12 +130,18 @@ void read_air(TableReader& table, RobotTable& robot, const Scenario& scenario) {
     }
 }
 
+template <Described T>
+void append_difference(Table& table, const T& own, const T& usual) {
+    for_each_field<T>([&](const auto& f) {
+        if (own.*f.member != usual.*f.member) append_field(table, f.name, own.*f.member);
+    });
+}
+
 /// The keys of a robot's radio that differ from [radio].
 Table difference(const Radio& own, const Radio& usual) {
     Table table;
-    for_each_field<Radio>([&](const auto& f) {
-        if (own.*f.member != usual.*f.member) append_field(table, f.name, own.*f.member);
-    });
+    append_difference(table, own, usual);
+    append_difference(table, own.labels, usual.labels);
     return table;
 }
 
@@ -188,6 +194,7 @@ Table place_document(const PlaceTable& place) {
 void read_radio(const Value& value, const std::string& name, Radio& out, RadioPlaces& places) {
     TableReader table(value, name);
     table.read_fields(out);
+    table.read_fields(out.labels);
     table.reject_unknown();
     for (const char* label : {"essid", "ip", "netmask", "mac"}) {
         if (const Value* text = table.take(label)) check_printable(*text, label, *text->string());

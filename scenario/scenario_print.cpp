@@ -12,6 +12,13 @@ Table section(const T& value) {
     return table;
 }
 
+Table section(const Radio& radio) {
+    Table table;
+    append_fields(table, radio);
+    append_fields(table, radio.labels);
+    return table;
+}
+
 Table section(const TrafficTable& traffic) {
     Table table;
     table.set("kind", to_value(traffic.kind));

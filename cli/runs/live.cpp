@@ -80,7 +80,7 @@ void tell_of(const PlayerConfig& config, const Scenario& scenario) {
         const auto found =
             std::find_if(scenario.robots.begin(), scenario.robots.end(),
                          [&](const RobotTable& robot) { return robot.name == each.model; });
-        ips.push_back(found == scenario.robots.end() ? "" : found->radio.ip.value_or(""));
+        ips.push_back(found == scenario.robots.end() ? "" : found->radio.labels.ip.value_or(""));
     }
     for (const std::string& text : config.notices) notice(text);
     for (const std::string& text : mapping_notices(config, ips)) notice(text);

@@ -29,19 +29,20 @@ std::string mac_of(std::uint32_t number) {
 class Addresses {
   public:
     using Make = std::string (*)(std::uint32_t);
-    Addresses(const std::vector<const Radio*>& radios, std::optional<std::string> Radio::*given,
-              Make make)
+    Addresses(const std::vector<const Radio*>& radios,
+              std::optional<std::string> RadioLabels::*given, Make make)
         : given_(given), make_(make) {
         for (const Radio* const radio : radios) {
-            if (const auto& address = radio->*given) taken_.insert(in_small_letters(*address));
+            if (const auto& address = radio->labels.*given)
+                taken_.insert(in_small_letters(*address));
         }
     }
 
     std::string of(const Radio& radio, NodeId node) {
-        if (radio.*given_) return *(radio.*given_);
-        std::string address = make_(node.value + 1);
-        while (!taken_.insert(address).second) address = make_(first_spare_++);
-        return address;
+        if (const auto& address = radio.labels.*given_) return *address;
+        std::string made = make_(node.value + 1);
+        while (!taken_.insert(made).second) made = make_(first_spare_++);
+        return made;
     }
 
   private:
@@ -53,7 +54,7 @@ class Addresses {
         return text;
     }
 
-    std::optional<std::string> Radio::*given_;
+    std::optional<std::string> RadioLabels::*given_;
     Make make_;
     std::set<std::string> taken_;
     std::uint32_t first_spare_ = 0x800001;  // beyond the robots' own numbers
@@ -98,13 +99,13 @@ namespace {
 
 std::vector<Device> devices(const std::vector<const Radio*>& radios,
                             const std::vector<std::string>& names) {
-    Addresses ips(radios, &Radio::ip, ip_of);
-    Addresses macs(radios, &Radio::mac, mac_of);
+    Addresses ips(radios, &RadioLabels::ip, ip_of);
+    Addresses macs(radios, &RadioLabels::mac, mac_of);
     std::vector<Device> all;
     for (std::uint32_t i = 0; i < names.size(); ++i) {
         const Radio& radio = *radios[i];
         all.push_back({names[i], ips.of(radio, NodeId{i}), macs.of(radio, NodeId{i}), radio.essid,
-                       radio.frequency, radio.mode, radio.encryption});
+                       radio.frequency, radio.labels.mode, radio.labels.encryption});
     }
     return all;
 }

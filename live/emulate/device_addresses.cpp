@@ -124,7 +124,7 @@ void DeviceAddresses::check_ip(const Addressed& each) {
                               "such as 10.0.0.1",
                               each.device.ip));
     }
-    const std::string& text = each.table->radio.netmask;
+    const std::string& text = each.table->radio.labels.netmask;
     const auto mask = read_ip(text);
     const bool is_mask = mask && std::countl_one(*mask) == std::popcount(*mask) && *mask != 0;
     if (!is_mask) {

@@ -38,7 +38,7 @@ FrontListeners::Ports tap_ports(const Network& network, const std::string& folde
         const NodeId robot{static_cast<std::uint32_t>(robots.size())};
         robots.push_back({.robot = device.robot,
                           .ip = device.ip,
-                          .netmask = network.robot(robot).radio.netmask,
+                          .netmask = network.robot(robot).radio.labels.netmask,
                           .mac = mac_bytes(device.mac).value()});
     }
     const auto namespaces = std::make_shared<Namespaces>(std::move(robots), folder, go_on);

@@ -20,13 +20,7 @@ std::uint32_t number_of(std::vector<T>& list, const T& value) {
 }
 
 Radio without_labels(Radio radio) {
-    const Radio plain;
-    radio.ip = plain.ip;
-    radio.mac = plain.mac;
-    radio.netmask = plain.netmask;
-    radio.mode = plain.mode;
-    radio.encryption = plain.encryption;
-    radio.range_db = plain.range_db;
+    radio.labels = {};
     return radio;
 }
 

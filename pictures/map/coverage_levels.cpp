@@ -13,8 +13,8 @@ namespace rovernet {
 std::vector<ContourLevel> contour_levels(const Transmitter& transmitter) {
     const Radio& radio = transmitter.receiver;
     std::vector<ContourLevel> levels{{radio.sensitivity, "sensitivity"}};
-    if (radio.range_db && !range_of(transmitter.model))
-        levels.push_back({*radio.range_db, "range_db"});
+    if (radio.labels.range_db && !range_of(transmitter.model))
+        levels.push_back({*radio.labels.range_db, "range_db"});
     return levels;
 }
 

@@ -15,8 +15,9 @@ struct ContourLevel {
     const char* meaning;  ///< "sensitivity" or "range_db"
 };
 
-/// Contours of a transmitter's coverage: at the receivers' sensitivity, and at Radio::range_db if
-/// it is set and the propagation model gives levels. The model disc has one contour, its range.
+/// Contours of a transmitter's coverage: at the receivers' sensitivity, and at
+/// RadioLabels::range_db if it is set and the propagation model gives levels. The model disc has
+/// one contour, its range.
 std::vector<ContourLevel> contour_levels(const Transmitter& transmitter);
 
 /// Ends of the colour scale [dBm]: well below the weakest contour, and above the levels of all but

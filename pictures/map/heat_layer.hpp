@@ -13,7 +13,8 @@
 namespace rovernet {
 
 /// Coverage of one robot's transmitter in a picture: received levels as colours, a colour bar, and
-/// contours at the receivers' sensitivity and at the level Radio::range_db [dBm], if it is set.
+/// contours at the receivers' sensitivity and at the level RadioLabels::range_db [dBm], if it is
+/// set.
 class HeatLayer {
   public:
     /// Computes the coverage of the plot area.

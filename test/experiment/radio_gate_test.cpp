@@ -96,7 +96,7 @@ TEST_CASE("success rate: another robot changes no draw") {
 TEST_CASE("addresses: those that are made pass over those that were given") {
     Network net;
     net.add({.name = "a", .at = {}});
-    net.add({.name = "b", .at = {}, .radio = {.ip = "10.0.0.1"}});
+    net.add({.name = "b", .at = {}, .radio = {.labels = {.ip = "10.0.0.1"}}});
     net.add({.name = "c", .at = {}});
     const auto all = devices(net);
     CHECK(all[0].ip != "10.0.0.1");

@@ -316,7 +316,7 @@ TEST_CASE("scenario: every key of the file arrives in its field") {
     CHECK(s.fading.model == FadingModel::rician);
     CHECK(s.fading.coherence == Coherence::place);
     CHECK(s.fading.m == 1.5);
-    CHECK(s.radio.range_db == Dbm{-60});
+    CHECK(s.radio.labels.range_db == Dbm{-60});
     CHECK(s.links.tolerance == 1us);
     CHECK(s.movement.syntax == MovementSyntax::tolerant);
     REQUIRE(s.scene.materials.size() == 2);

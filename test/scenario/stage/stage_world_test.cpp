@@ -372,8 +372,8 @@ TEST_CASE("stage world: the document reads as a scenario") {
     CHECK(robot.radio.power.value == 20);
     CHECK(robot.radio.frequency.value == 2400e6);
     CHECK(robot.radio.sensitivity.value == -80);
-    CHECK(robot.radio.ip == "1.2");
-    CHECK(robot.radio.range_db->value == -50);
+    CHECK(robot.radio.labels.ip == "1.2");
+    CHECK(robot.radio.labels.range_db->value == -50);
     CHECK(robot.radio.success_rate == 50.0 / 101);
     const auto& parameters = robot.propagation->parameters;
     CHECK(std::get<Raytrace2007>(parameters).coefficient == 28);
