@@ -24,7 +24,12 @@ Time Mac::transmit(const AirFrame& air) {
     if (data) world_.emit(Transmitted{world_.now, air.frame, air.heard_from});
     const Transmission how = transmission(air);  // a copy: others are made meanwhile
     if (world_.records.wants<AirSent>()) {
-        world_.emit(AirSent{world_.now, air, how.bytes, data ? header_ : 0, how.airtime()});
+        world_.emit(AirSent{.time = world_.now,
+                            .air = air,
+                            .bytes = how.bytes,
+                            .header = data ? header_ : 0,
+                            .airtime = how.airtime(),
+                            .rate = how.rate});
     }
     const auto receptions = channel_.transmit(air, how, audience_of(air.frame));
     const Time end = world_.now + how.airtime();

@@ -152,13 +152,14 @@ struct AirSent {
     std::uint32_t bytes;       ///< size [bytes], including the bytes that the access model adds
     std::uint32_t header = 0;  ///< bytes that the access model adds to a frame of a message
     Duration airtime{0};       ///< airtime of the frame [ns]
+    BitRate rate{0};           ///< bit rate of the payload [bit/s]
 
     static constexpr std::string_view name = "AirSent";
     static constexpr auto fields() {
-        return describe(field("time", &AirSent::time), field("air", &AirSent::air),
-                        field("bytes", &AirSent::bytes),
-                        field<since(2)>("header", &AirSent::header),
-                        field<since(3)>("airtime", &AirSent::airtime));
+        return describe(
+            field("time", &AirSent::time), field("air", &AirSent::air),
+            field("bytes", &AirSent::bytes), field<since(2)>("header", &AirSent::header),
+            field<since(3)>("airtime", &AirSent::airtime), field<since(4)>("rate", &AirSent::rate));
     }
 };
 

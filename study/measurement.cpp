@@ -59,7 +59,11 @@ std::vector<MetricValue> list_of(const RunResult& result, const Scenario* scenar
                       const PartValues* routed) {
                       const auto behind = fmt::format(".{}{}", kind == "robots" ? "at." : "", name);
                       append(list, metrics, behind);
-                      if (routed) append(list, metrics_of(routed->routed), behind);
+                      if (!routed) return;
+                      append(list, metrics_of(routed->routed), behind);
+                      for (std::size_t i = 0; i < routed->drops.size(); ++i)
+                          list.push_back({fmt::format("drops.{}{}", loss_codes.of[i], behind),
+                                          static_cast<double>(routed->drops[i])});
                   });
     if (scenario->metrics.topology)
         append(list, result.topology ? *result.topology : TopologyValues{});

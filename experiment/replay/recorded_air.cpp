@@ -97,9 +97,9 @@ void RecordedAir::take(const Record& record, const RecordContext& context) {
              .uid = is_data ? context.messages[sent->air.frame.message].uid : 0,
              .header = context.header ? *context.header : FrameHeader{},
              .bytes = sent->bytes,
-             .rate = {},
+             .rate = sent->rate,
              .begin = sent->time,
-             .end = {},
+             .end = sent->time + sent->airtime,
              .record = records_},
             sent->time);
     }
@@ -113,6 +113,8 @@ void RecordedAir::add(const RecordedFrame& frame, Time now) {
     while (!frames_.empty() && frames_.front().end + longest_delay < now) frames_.pop_front();
     frames_.push_back(frame);
     RecordedFrame& added = frames_.back();
+    if (frame.rate.value > 0) return;
+    // A trace of format 3 or earlier.
     added.rate = rate_of(added.air);
     const Radio& radio = medium_.stations().radio(from);
     added.end = now + phy_.transmission(radio, added.rate, added.bytes).airtime();

@@ -228,7 +228,7 @@ TEST_CASE("kinds of records: rows, names and channels are those of the kind") {
     CHECK(kinds.size() == std::variant_size_v<Record> + 1);
 }
 
-// The layouts are those of format 3, which readers elsewhere were written for.
+// The layouts are those of format 4, which readers elsewhere were written for.
 TEST_CASE("kinds of records: layouts in recorded traces") {
     const std::vector<RecordedKind> kinds = recorded_kinds();
     const std::string frame = "message:v sender:v ttl:v hops:v next_hop:node?";
@@ -251,7 +251,7 @@ TEST_CASE("kinds of records: layouts in recorded traces") {
         "node:v on:b",
         "from:v to:v",
         "from:v to:v",
-        air + " bytes:v header:v airtime:z",
+        air + " bytes:v header:v airtime:z rate:d",
         air + " node:v fate:b(2 fate + delivered) bytes:v",
         frame + " heard_from:node?",
     };

@@ -130,7 +130,12 @@ class FieldReader {
     }
     void take(MessageId& message) { take(message.value); }
     void take(Time& time) { time = after(time_, from_.signed_varint()); }
-    void take(Duration& duration) { duration = Duration{from_.signed_varint()}; }
+    /// Duration from the time of the record on; its end must lie between that time and `never`.
+    void take(Duration& duration) {
+        const std::int64_t ns = from_.signed_varint();
+        if (ns < 0) in_range_ = false;
+        duration = after(time_, ns) - time_;
+    }
     /// Reads a number that is valid as a position or a speed: at most 1e15 in magnitude.
     void take(double& value) {
         constexpr double largest = 1e15;

@@ -32,7 +32,9 @@ class Matcher {
 
   private:
     template <class T>
-    requires(!DescribedPart<T>) bool match(const T& a, const T& b) { return a == b; }
+    requires(!DescribedPart<T> && !Quantitative<T>) bool match(const T& a, const T& b) {
+        return a == b;
+    }
     /// Numbers match if all their bits are equal: 0 and -0 differ.
     bool match(double a, double b) {
         return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
