@@ -61,7 +61,8 @@ class Comparison {
         // An incomplete trace is compared up to its end.
         has_ended_ = !recorded && !trace_.damage().empty();
         if (has_ended_) return;
-        if (recorded && now && are_same(*recorded, trace_.context(), *now, *context)) {
+        if (recorded && now &&
+            are_same(*recorded, trace_.context(), *now, *context, trace_.format())) {
             ++result_.same;
             return;
         }

@@ -90,10 +90,11 @@ const Record* next_of(RecordedReader& trace, KindMask left_out) {
 /// which tells how they differ.
 bool are_equal(const std::string& path_a, const std::string& path_b, KindMask left_out) {
     RecordedReader a(path_a), b(path_b);
+    const unsigned format = std::min(a.format(), b.format());
     for (;;) {
         const Record *one = next_of(a, left_out), *other = next_of(b, left_out);
         if (!one || !other) return !one && !other;
-        if (!are_same(*one, a.context(), *other, b.context())) return false;
+        if (!are_same(*one, a.context(), *other, b.context(), format)) return false;
     }
 }
 

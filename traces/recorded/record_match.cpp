@@ -2,7 +2,6 @@
 #include "traces/recorded/record_match.hpp"
 
 #include "traces/record_walk.hpp"
-#include "traces/recorded/record_code.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -17,13 +16,15 @@ namespace {
 /// Compares two records of one kind, or two values inside.
 class Matcher {
   public:
-    Matcher(const RecordContext& of_a, const RecordContext& of_b) : of_a_(of_a), of_b_(of_b) {}
+    Matcher(const RecordContext& of_a, const RecordContext& of_b, unsigned format)
+        : of_a_(of_a), of_b_(of_b), format_(format) {}
 
     template <DescribedPart Part>
     bool match(const Part& a, const Part& b) {
         bool is_same = true;
         for_each_field_of<Part>([&]<class Field>(const Field& f) {
             if constexpr ((Field::use & not_recorded) == 0) {
+                if (first_format(Field::use) > format_) return;
                 is_same = is_same && match(a.*f.member, b.*f.member);
             }
         });
@@ -61,18 +62,19 @@ class Matcher {
 
     const RecordContext& of_a_;
     const RecordContext& of_b_;
+    unsigned format_;
     bool is_control_ = false;  // the frames of the records have no message
 };
 
 }  // namespace
 
 bool are_same(const Record& a, const RecordContext& of_a, const Record& b,
-              const RecordContext& of_b) {
+              const RecordContext& of_b, unsigned format) {
     if (a.index() != b.index()) return false;
     return std::visit(
         [&](const auto& one) {
             const auto* other = std::get_if<std::decay_t<decltype(one)>>(&b);
-            return other && Matcher(of_a, of_b).match(one, *other);
+            return other && Matcher(of_a, of_b, format).match(one, *other);
         },
         a);
 }

@@ -123,6 +123,16 @@ TEST_CASE("a run repeats itself with each model of propagation, reception and ac
     }
 }
 
+TEST_CASE("a trace of format 3, without the bit rates of its frames, can be repeated") {
+    // Two robots with 802.11b, recorded by the commit 155f421f.
+    const std::string path = std::string(ROVERNET_TEST_DATA) + "/recorded_format3.mcap";
+    RecordedReader trace(path);
+    CHECK(trace.format() == 3);
+    const Verification again = verify_replay(path, {});
+    CHECK_FALSE(again.difference);
+    CHECK(again.same == 28);
+}
+
 TEST_CASE("a trace that the scenario does not make any more differs, with both lines") {
     const RecordedRunOf run(examples + "/patrol/patrol.toml", {"scenario.duration=30 s"});
     std::string bytes = content(run.trace);

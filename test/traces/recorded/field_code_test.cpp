@@ -52,7 +52,7 @@ const Toy toy{.time = at(1'000),
               .on = true,
               .share = -0.25,
               .power = {-61.5},
-              .pause = Duration{-4},
+              .pause = Duration{4},
               .until = at(900),
               .reason = DropReason::end,
               .frame = {.message = {5}, .sender = {6}, .ttl = 7, .hops = 8, .next_hop = {9}},
@@ -117,6 +117,8 @@ TEST_CASE("fields of a record: values out of their range are refused") {
     CHECK(is_refused([](Toy& t) { t.share = 1e16; }));
     CHECK(is_refused([](Toy& t) { t.power = {std::numeric_limits<double>::quiet_NaN()}; }));
     CHECK(is_refused([](Toy& t) { t.until = at(-1); }));
+    CHECK(is_refused([](Toy& t) { t.pause = Duration{-4}; }));
+    CHECK(is_refused([](Toy& t) { t.pause = Duration::max(); }));
     CHECK(is_refused([](Toy& t) {
         t.reason = static_cast<DropReason>(static_cast<int>(last_drop_reason) + 1);
     }));
