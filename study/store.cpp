@@ -24,6 +24,25 @@ constexpr int format = 1;
 constexpr const char* property_query =
     "SELECT key AS \"study.key\", value AS \"study.value\" FROM study WHERE key = ?";
 
+/// Calls visit(field) for each member of a measurement that is a column of the table run.
+template <class Visit>
+void for_each_column(Visit visit) {
+    for_each_field<Measurement>([&]<class T>(const Field<Measurement, T>& field) {
+        if constexpr (!std::is_integral_v<T>) visit(field);  // not Measurement::searches
+    });
+}
+
+/// Columns of a measurement, as `pattern` writes each: {0} is its name, {1} its type in SQL.
+std::string columns(fmt::string_view pattern) {
+    std::vector<std::string> all;
+    for_each_column([&]<class T>(const Field<Measurement, T>& field) {
+        const char* const type = std::is_same_v<T, std::string> ? "TEXT" : "REAL";
+        all.push_back(fmt::format(fmt::runtime(pattern), field.name, type));
+    });
+    return fmt::format("{}", fmt::join(all, ", "));
+}
+
+/// Statements that make the tables; {} are the columns of a measurement.
 constexpr const char* schema = R"(
 CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE point (key INTEGER PRIMARY KEY, number INTEGER NOT NULL, id TEXT NOT NULL UNIQUE,
@@ -31,9 +50,7 @@ CREATE TABLE point (key INTEGER PRIMARY KEY, number INTEGER NOT NULL, id TEXT NO
 CREATE INDEX point_number ON point (number);
 CREATE TABLE run (key INTEGER PRIMARY KEY, id TEXT NOT NULL UNIQUE,
                   point INTEGER NOT NULL REFERENCES point, replication INTEGER NOT NULL,
-                  error TEXT NOT NULL, fingerprint TEXT NOT NULL, cpu_s REAL NOT NULL,
-                  wall_s REAL NOT NULL, started TEXT NOT NULL, host TEXT NOT NULL,
-                  UNIQUE (point, replication));
+                  error TEXT NOT NULL, {}, UNIQUE (point, replication));
 CREATE TABLE metric_name (key INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE);
 CREATE TABLE metric (run INTEGER NOT NULL REFERENCES run, name INTEGER NOT NULL REFERENCES metric_name,
                      value REAL, PRIMARY KEY (run, name)) WITHOUT ROWID;
@@ -68,14 +85,6 @@ auto told(const std::string& path, auto&& act) {
                 throw RunError(fmt::format("{}: {} (SQLite {}); what was finished is kept", path,
                                            error.what(), error.getExtendedErrorCode()));
         }
-    }
-}
-
-void bind_value(SQLite::Statement& statement, int index, const std::optional<double>& value) {
-    if (value) {
-        statement.bind(index, *value);
-    } else {
-        statement.bind(index);
     }
 }
 
@@ -119,7 +128,7 @@ struct Store::Database {
 
 void Store::Database::make_schema() {
     SQLite::Transaction transaction(sqlite);
-    sqlite.exec(schema);
+    sqlite.exec(fmt::format(schema, columns("{} {} NOT NULL")));
     sqlite.exec(
         fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", application, format));
     transaction.commit();
@@ -257,24 +266,23 @@ std::vector<StoredRun> Store::runs() const {
         std::vector<StoredRun> runs;
         SQLite::Statement select(
             database_->sqlite,
-            R"(SELECT run.key AS "run.key", run.id AS "run.id", point.number AS "run.point",
-               replication AS "run.replication", error AS "run.error",
-               fingerprint AS "run.fingerprint", cpu_s AS "run.cpu_s", wall_s AS "run.wall_s",
-               started AS "run.started", host AS "run.host"
+            fmt::format(
+                R"(SELECT run.key AS "run.key", run.id AS "run.id", point.number AS "run.point",
+               replication AS "run.replication", error AS "run.error", {}
                FROM run LEFT JOIN point ON point.key = run.point
-               ORDER BY point.number, replication)");
+               ORDER BY point.number, replication)",
+                columns("{0} AS \"run.{0}\"")));
         const StoredRow row(path_, select, 1);
         while (select.executeStep()) {
-            runs.push_back({.id = row.text(1),
-                            .point = row.number(2),
-                            .replication = row.number(3),
-                            .error = row.text(4),
-                            .measurement = {.metrics = {},
-                                            .fingerprint = row.text(5),
-                                            .cpu_s = row.real(6),
-                                            .wall_s = row.real(7),
-                                            .started = row.text(8),
-                                            .host = row.text(9)}});
+            runs.push_back({row.text(1), row.number(2), row.number(3), row.text(4), {}});
+            int column = 5;
+            for_each_column([&]<class T>(const Field<Measurement, T>& field) {
+                T& value = runs.back().measurement.*field.member;
+                if constexpr (std::is_same_v<T, std::string>)
+                    value = row.text(column++);
+                else
+                    value = row.real(column++);
+            });
         }
         return runs;
     });
@@ -284,10 +292,10 @@ void Store::record(const StoredRun& run) {
     told(path_, [&] {
         Database& d = *database_;
         if (!d.insert_run) {
-            d.insert_run.emplace(
-                d.sqlite,
-                "INSERT INTO run (id, point, replication, error, fingerprint, "
-                "cpu_s, wall_s, started, host) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
+            d.insert_run.emplace(d.sqlite,
+                                 fmt::format("INSERT INTO run (id, point, replication, error, {}) "
+                                             "VALUES (?, ?, ?, ?, {})",
+                                             columns("{}"), columns("?")));
             d.insert_metric.emplace(d.sqlite, "INSERT INTO metric VALUES (?, ?, ?)");
         }
         SQLite::Transaction transaction(d.sqlite);
@@ -296,8 +304,9 @@ void Store::record(const StoredRun& run) {
         remove.exec();
         const Measurement& m = run.measurement;
         d.insert_run->reset();
-        SQLite::bind(*d.insert_run, run.id, d.point_keys.at(run.point), run.replication, run.error,
-                     m.fingerprint, m.cpu_s, m.wall_s, m.started, m.host);
+        SQLite::bind(*d.insert_run, run.id, d.point_keys.at(run.point), run.replication, run.error);
+        int column = 5;
+        for_each_column([&](const auto& field) { d.insert_run->bind(column++, m.*field.member); });
         d.insert_run->exec();
         const std::int64_t key = d.sqlite.getLastInsertRowid();
         for (const MetricValue& metric : m.metrics) {
@@ -305,7 +314,10 @@ void Store::record(const StoredRun& run) {
             d.insert_metric->reset();
             d.insert_metric->bind(1, key);
             d.insert_metric->bind(2, name);
-            bind_value(*d.insert_metric, 3, metric.value);
+            if (metric.value)
+                d.insert_metric->bind(3, *metric.value);
+            else
+                d.insert_metric->bind(3);
             d.insert_metric->exec();
         }
         transaction.commit();
