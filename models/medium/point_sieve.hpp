@@ -5,65 +5,64 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#ifdef __SSSE3__
 #include <tmmintrin.h>
+#endif
 
 // Innermost loop of the search for receivers, in single precision. The caller adds a margin for
 // rounding to the reach: the loop may keep a few points too many, but never misses one.
 
 namespace rovernet {
 
-/// Sieve of points in a plane: selects the points within reach of a given point, four at a time and
-/// without a branch, which would often be mispredicted. NeighbourIndex searches its cells with it.
-/// The code needs SSSE3, which every build has (x86-64-v2): the search for links with shadowing
-/// takes 15 % fewer instructions.
-///
-/// @tparam squares_too  whether squared distances are also returned
-template <bool squares_too>
-class PointSieve {
+/// Step of a PointSieve: selects among four points those within reach of a given point, one by one
+/// and without a branch. For every processor; VectorSieveStep selects the same points.
+class PlainSieveStep {
   public:
-    /// Number of points processed in one step. As many points must be readable behind the last
-    /// point, and as many results writable behind the last selected one.
-    static constexpr std::uint32_t at_once = 4;
-
     /// @param xs, ys         coordinates of all points [m]
     /// @param x, y           centre of the query [m]
     /// @param squared_reach  square of the reach [m^2]
-    PointSieve(const float* xs, const float* ys, float x, float y, float squared_reach)
-        : xs_(xs), ys_(ys), x_(all(x)), y_(all(y)), squared_reach_(all(squared_reach)) {}
+    PlainSieveStep(const float* xs, const float* ys, float x, float y, float squared_reach)
+        : xs_(xs), ys_(ys), x_(x), y_(y), squared_reach_(squared_reach) {}
 
-    /// Selects the points within reach among the points `begin` to `end` - 1.
-    /// @param kept     receives the numbers of the selected points, in order
-    /// @param squares  receives the squared distances [m^2] of the selected points, if squares_too
+    /// Selects among the points `i` to `i` + 3.
+    /// @param wanted   a bit for each of them that is to be tested
+    /// @param kept     receives the numbers of the selected points, in order; room for four
+    /// @param squares  receives their squared distances [m^2], if squares_too; room for four
     /// @return number of selected points
-    std::size_t sift(std::uint32_t begin, std::uint32_t end, std::uint32_t* kept,
-                     float* squares) const {
+    template <bool squares_too>
+    std::size_t sift_four(std::uint32_t i, std::uint32_t wanted, std::uint32_t* kept,
+                          float* squares) const {
         std::size_t count = 0;
-        for (; end - begin >= at_once; begin += at_once) {
-            count += sift_four(begin, ~0U, kept + count, squares + count);
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            const float dx = xs_[i + k] - x_, dy = ys_[i + k] - y_;
+            const float square = dx * dx + dy * dy;
+            kept[count] = i + k;
+            if constexpr (squares_too) squares[count] = square;
+            count += static_cast<std::uint32_t>(square <= squared_reach_) & (wanted >> k);
         }
-        count += sift_four(begin, (1U << (end - begin)) - 1, kept + count, squares + count);
         return count;
     }
 
   private:
-    using Floats = __m128;
-    // Vector of four equal numbers.
-    static Floats all(float x) { return _mm_set1_ps(x); }
+    const float *xs_, *ys_;
+    float x_, y_, squared_reach_;
+};
 
-    // Byte shuffles, by a mask of four bits: each moves the selected values to the front.
-    using Packing = std::array<std::array<std::uint8_t, 16>, 16>;
-    alignas(16) static constexpr Packing packing = [] {
-        Packing each{};
-        for (std::size_t bits = 0; bits < each.size(); ++bits) {
-            std::size_t to = 0;
-            for (std::size_t byte = 0; byte < 16; ++byte) {
-                if (bits >> byte / 4 & 1) each[bits][to++] = static_cast<std::uint8_t>(byte);
-            }
-        }
-        return each;
-    }();
+#ifdef __SSSE3__
+/// Step of a PointSieve: the same by vectors of four numbers, which x86-64 builds have (x86-64-v2).
+/// The search for links with shadowing takes 15 % fewer instructions.
+class VectorSieveStep {
+  public:
+    /// Parameters as for PlainSieveStep.
+    VectorSieveStep(const float* xs, const float* ys, float x, float y, float squared_reach)
+        : xs_(xs),
+          ys_(ys),
+          x_(_mm_set1_ps(x)),
+          y_(_mm_set1_ps(y)),
+          squared_reach_(_mm_set1_ps(squared_reach)) {}
 
-    // Processes the points `i` to `i` + 3; `wanted` has a bit for each point to be tested.
+    /// As PlainSieveStep::sift_four.
+    template <bool squares_too>
     std::size_t sift_four(std::uint32_t i, std::uint32_t wanted, std::uint32_t* kept,
                           float* squares) const {
         const __m128 dx = _mm_sub_ps(_mm_loadu_ps(xs_ + i), x_);
@@ -82,9 +81,63 @@ class PointSieve {
         return static_cast<std::size_t>(std::popcount(keep));
     }
 
+  private:
+    // Byte shuffles, by a mask of four bits: each moves the selected values to the front.
+    using Packing = std::array<std::array<std::uint8_t, 16>, 16>;
+    alignas(16) static constexpr Packing packing = [] {
+        Packing each{};
+        for (std::size_t bits = 0; bits < each.size(); ++bits) {
+            std::size_t to = 0;
+            for (std::size_t byte = 0; byte < 16; ++byte) {
+                if (bits >> byte / 4 & 1) each[bits][to++] = static_cast<std::uint8_t>(byte);
+            }
+        }
+        return each;
+    }();
+
     // Coordinates of all points [m]; below them centre and squared reach of the query, as vectors.
     const float *xs_, *ys_;
-    Floats x_, y_, squared_reach_;
+    __m128 x_, y_, squared_reach_;
+};
+using SieveStep = VectorSieveStep;
+#else
+using SieveStep = PlainSieveStep;
+#endif
+
+/// Sieve of points in a plane: selects the points within reach of a given point, four at a time and
+/// without a branch, which would often be mispredicted. NeighbourIndex searches its cells with it.
+///
+/// @tparam squares_too  whether squared distances are also returned
+/// @tparam Step         how four points are tested
+template <bool squares_too, class Step = SieveStep>
+class PointSieve {
+  public:
+    /// Number of points processed in one step. As many points must be readable behind the last
+    /// point, and as many results writable behind the last selected one.
+    static constexpr std::uint32_t at_once = 4;
+
+    /// Parameters as for PlainSieveStep.
+    PointSieve(const float* xs, const float* ys, float x, float y, float squared_reach)
+        : step_(xs, ys, x, y, squared_reach) {}
+
+    /// Selects the points within reach among the points `begin` to `end` - 1.
+    /// @param kept     receives the numbers of the selected points, in order
+    /// @param squares  receives the squared distances [m^2] of the selected points, if squares_too
+    /// @return number of selected points
+    std::size_t sift(std::uint32_t begin, std::uint32_t end, std::uint32_t* kept,
+                     float* squares) const {
+        std::size_t count = 0;
+        for (; end - begin >= at_once; begin += at_once) {
+            count +=
+                step_.template sift_four<squares_too>(begin, ~0U, kept + count, squares + count);
+        }
+        count += step_.template sift_four<squares_too>(begin, (1U << (end - begin)) - 1,
+                                                       kept + count, squares + count);
+        return count;
+    }
+
+  private:
+    Step step_;
 };
 
 }  // namespace rovernet

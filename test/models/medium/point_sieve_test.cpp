@@ -51,10 +51,11 @@ struct Points {
     }
 };
 
-template <bool squares_too>
+template <bool squares_too, class Step>
 void check(const Points& points, std::uint32_t begin, std::uint32_t end, float squared_reach) {
     const Kept expected = points.near(begin, end, squared_reach);
-    const PointSieve<squares_too> sieve(points.x.data(), points.y.data(), 1, -2, squared_reach);
+    const PointSieve<squares_too, Step> sieve(points.x.data(), points.y.data(), 1, -2,
+                                              squared_reach);
     const std::size_t room = end - begin + sieve.at_once;
     std::vector<std::uint32_t> numbers(room + 1, untouched);
     std::vector<float> squares(room + 1, -1);
@@ -70,7 +71,9 @@ void check(const Points& points, std::uint32_t begin, std::uint32_t end, float s
 
 }  // namespace
 
-TEST_CASE("point sieve: any part of any points keeps those within reach, in order") {
+TEST_CASE(
+    "point sieve: any part of any points keeps those within reach, in order, with and without "
+    "vectors") {
     test::Draw draw(23);
     for (int count = 0; count < 40; ++count) {
         Points points(draw, count);
@@ -80,8 +83,10 @@ TEST_CASE("point sieve: any part of any points keeps those within reach, in orde
             const std::uint32_t end =
                 begin + static_cast<std::uint32_t>(draw.below(static_cast<int>(all - begin) + 1));
             for (const float squared_reach : {0.F, 25.F, 100.F, 1e9F}) {
-                check<true>(points, begin, end, squared_reach);
-                check<false>(points, begin, end, squared_reach);
+                check<true, PlainSieveStep>(points, begin, end, squared_reach);
+                check<false, PlainSieveStep>(points, begin, end, squared_reach);
+                check<true, SieveStep>(points, begin, end, squared_reach);
+                check<false, SieveStep>(points, begin, end, squared_reach);
             }
         }
     }
