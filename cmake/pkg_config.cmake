@@ -1,0 +1,15 @@
+# rovernet.pc, for pkg-config and what asks it. It finds the library from where it is itself, so that an installed
+# folder may be moved. A static library needs the libraries that it was built with, whoever links it.
+file(RELATIVE_PATH up_to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+set(libs "-L\${libdir} -lrovernet")
+set(requires fmt)
+set(requires_private libpng yaml-cpp zlib libxxhash libzstd sqlite3 simdjson tomlplusplus)
+if(NOT BUILD_SHARED_LIBS)
+  list(APPEND requires ${requires_private})
+  set(requires_private "")
+  string(APPEND libs " -lSQLiteCpp")
+endif()
+list(JOIN requires " " requires)
+list(JOIN requires_private " " requires_private)
+configure_file(cmake/rovernet.pc.in rovernet.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/rovernet.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT library)
