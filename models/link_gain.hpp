@@ -28,7 +28,7 @@ struct Headings {
 /// Gain of a directional antenna towards a place, relative to antenna_gain [dB], <= 0; equations in
 /// AntennaShape. Only the horizontal direction of the place counts; the gain is 0 dB straight above
 /// and below.
-/// @param radio  checked by check_antenna()
+/// @param radio  radio whose antenna check_antenna() has accepted
 Db pattern_gain(const Radio& radio, const Pose& pose, Vec3 place);
 
 /// Checks the pattern table of an antenna, which fields() cannot check: for the shape `table` the

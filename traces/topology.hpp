@@ -70,8 +70,9 @@ class Topology {
     std::vector<Robot> robots_;
     std::size_t there_ = 0, on_ = 0;
     std::map<std::pair<NodeId, NodeId>, Time> up_;  // start times of links that are up
-    double link_s_ = 0, on_s_ = 0, robot_s_ = 0;    // [s] sums of times: links up, robots on, all
-    double way_ = 0;                                // [m] sum of all robots' path lengths
+    // [s] total time of: links up, robots on, all robots
+    double link_s_ = 0, on_s_ = 0, robot_s_ = 0;
+    double way_ = 0;  // [m] sum of all robots' path lengths
     std::uint64_t samples_ = 0, components_ = 0;
     double lifetime_ = 0;  // [s] sum of lifetimes
     std::uint64_t ended_ = 0;

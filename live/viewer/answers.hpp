@@ -27,17 +27,17 @@ class ViewerAnswers {
   public:
     /// Answers about a recorded run, at any of its times.
     /// @param trace  path of the recorded trace
-    /// @param other  path of a second one, which questions with "run": 1 are about; empty: none
+    /// @param other  path of a second trace, for questions with "run": 1; empty: none
     /// @throws InputError if a trace has no scenario
     explicit ViewerAnswers(const std::string& trace, const std::string& other = {});
-    /// Answers about a network that runs, at its present time, which the answers name as `t_ns`.
+    /// Answers about a running network at its present time, which each answer contains as `t_ns`.
     explicit ViewerAnswers(std::shared_ptr<const Network> network);
     ~ViewerAnswers();
 
-    /// Other questions, by their key `op`; no answer: an unknown question.
+    /// Function that answers further questions; returns an empty result for an unknown question.
     using Others =
         std::function<std::optional<Table>(std::string_view op, const JsonElement& question)>;
-    /// Answer to a question, both as JSON. An error is an answer with the key `error`.
+    /// Answer to a question, both as JSON. If an error occurs, the answer has the key `error`.
     std::string answer(std::string_view question, const Others& others = {});
 
   private:
@@ -50,16 +50,17 @@ class ViewerAnswers {
     Table svg(const JsonElement& question) const;
     NodeId robot(const JsonElement& question, std::string_view key) const;
     const std::string& name_of(NodeId robot) const { return robots_[robot.index()]; }
-    /// Model of what a robot sends under the assignment of the key `with`, if the question has it.
+    /// Propagation model of a robot's transmissions under the assignments in the question's key
+    /// `with`; empty if the question has no such key.
     std::optional<Propagation> other_model(const JsonElement& question, NodeId robot) const;
     Time time(const JsonElement& question) const;
-    /// Network at the time of a question, or the one that runs. That of a recorded run is kept,
-    /// since the next question is often about the same time, or a little later.
+    /// Running network, or network of the recorded run at the time of the question. The latter is
+    /// kept, because the next question is often about the same or a slightly later time.
     const Network& network(const JsonElement& question);
 
-    std::string trace_;                       // empty: of a network that runs
-    std::shared_ptr<const Network> running_;  // null: of a trace
-    std::vector<std::string> robots_;         // names by NodeId
+    std::string trace_;                       // path of the trace; empty for a running network
+    std::shared_ptr<const Network> running_;  // running network; null for a trace
+    std::vector<std::string> robots_;         // names of the robots, by NodeId
     std::unique_ptr<ReplayedScenario> replayed_;
     Scenario scenario_;
     std::unique_ptr<Network> network_;

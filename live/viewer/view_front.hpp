@@ -19,22 +19,23 @@ namespace rovernet {
 struct JsonElement;
 class JsonParser;
 
-/// What the viewer's page may do with a run that goes on.
+/// Permissions of the viewer's page in a live run, and the start of the run.
 struct ViewControl {
-    bool of_time = false;    ///< pause, step, and change the speed of the run
-    bool of_robots = false;  ///< move robots and send messages from them
-    /// The run begins when the first page is there, and its pages stay after its end.
+    bool of_time = false;    ///< true: the page may pause, step, and change the speed of the run
+    bool of_robots = false;  ///< true: the page may move robots and send messages from them
+    /// True: the run begins when the first page connects, and the server stays after the end of the
+    /// run, until the last page is closed.
     bool is_for_page = false;
-    /// Speed with which the run begins, as in PacedOptions.
+    /// Speed at the start of the run, see PacedOptions.
     std::optional<double> speed = 1;
 };
 
-/// Front of a live run for the viewer's page: sends what happens as parts of a view file, answers
-/// questions about the present, and lets pages control the run as far as ViewControl permits
-/// (docs/formats/view-format.md, "A run that goes on").
+/// Front of a live run for the viewer's page: sends the run's events as parts of a view file,
+/// answers questions about the current state, and lets pages control the run as far as ViewControl
+/// permits (docs/formats/view-format.md, "A run that goes on").
 ///
-/// The front observes the run while pages are there, and for some seconds after the last one has
-/// left. Without pages it costs the run nothing.
+/// The front observes the run while pages are connected, and for some seconds after the last page
+/// has left. Without pages it costs the run nothing.
 class ViewFront : public Front {
   public:
     ViewFront(ViewControl control, Carrier carrier);
@@ -69,22 +70,24 @@ class ViewFront : public Front {
 
     ViewControl control_;
     Carrier carrier_;
-    Session* session_ = nullptr;  // none after the end of the run
+    Session* session_ = nullptr;  // null after the end of the run
     const Scenario* scenario_ = nullptr;
     std::shared_ptr<Network> network_;
-    std::optional<ViewStream> stream_;  // none: nobody watches
+    std::optional<ViewStream> stream_;  // empty if no page is connected
     std::optional<ViewerAnswers> answers_;
     std::unique_ptr<JsonParser> parser_;
     ViewLog log_;
     std::map<Connection, ViewLog::Place> watching_;
-    // Clients of the session that drive robots, and that send messages from them, for pages.
+    // Clients of the session that act for the pages: a client for each driven robot, and a client
+    // for each robot that sends messages.
     std::map<NodeId, ClientId> drives_, sends_;
     std::uint64_t commands_ = 0;
     std::optional<double> speed_;
     Time limit_ = never, next_ = never;
     RealTime last_part_ = {}, last_seen_ = {};
-    bool is_changed_ = false;  // a part is due at once: the run was paused, or has another speed
-    bool waits_ = false;       // for the first page
+    // the run was paused or its speed was changed, so that a part is due immediately
+    bool is_changed_ = false;
+    bool waits_ = false;  // the run waits for its first page
     bool is_over_ = false;
     std::string fingerprint_;
 };

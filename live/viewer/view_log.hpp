@@ -12,14 +12,14 @@
 
 namespace rovernet {
 
-/// Files of a ViewStream, kept for pages that come later or read slowly. Beyond a number of bytes
-/// the oldest frames are left out; the rest is kept.
+/// Files of a ViewStream, kept for pages that connect later or read slowly. If the files with
+/// frames exceed most_frame_bytes, the oldest of them are removed; all other files are kept.
 class ViewLog {
   public:
-    /// Bytes of files with frames that are kept.
+    /// Largest total size of the files with frames [bytes].
     static constexpr std::size_t most_frame_bytes = std::size_t{64} << 20U;
 
-    /// Place of a page in the log: number of parts that it has got; 0: not even the start.
+    /// Position of a page in the log: number of files sent to the page; 0: none yet.
     using Place = std::size_t;
 
     bool is_empty() const { return start_.empty(); }
@@ -34,10 +34,10 @@ class ViewLog {
             frames = {};
         }
     }
-    /// Number of frames that pages which come now do not get.
+    /// Number of removed frames: a page that connects now does not get these.
     std::size_t left_out() const { return left_out_; }
-    /// Sends the next files to a page as long as it reads them.
-    /// @param goes_on  whether the page has read enough for more
+    /// Sends the next files to a page, as long as the page reads them.
+    /// @param goes_on  function that returns whether the page can take more data
     void send(Place& place, const std::function<bool()>& goes_on,
               const std::function<void(std::string_view)>& send) const {
         for (; place <= parts_.size() && !is_empty() && goes_on(); ++place) {

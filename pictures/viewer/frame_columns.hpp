@@ -18,20 +18,22 @@ namespace rovernet {
 class ViewFile;
 struct ViewDraft;
 
-/// Choice of the frames in a view file.
+/// Limits for the frames that a view file contains.
 struct FrameChoice {
-    /// Times between which the frames start, both included.
+    /// Earliest and latest start of a frame.
     Time from = start_of_run, to = never;
     /// Largest number of frames; later frames are left out.
     std::size_t most_frames = std::numeric_limits<std::size_t>::max();
-    /// Largest number of bytes of a message's content that are written.
+    /// Number of bytes of a message's payload that are written; the rest is cut off.
     std::size_t payload_bytes = 64;
 };
 
-/// Message of an application by what is equal in all runs of a scenario.
+/// Identity of an application's message that is the same in all runs of a scenario, so that two
+/// runs can be compared message by message.
 struct MessageName {
     std::uint32_t origin;  ///< robot that sent the message
-    std::uint32_t number;  ///< number among the messages of that robot; no_index: a control packet
+    /// number of the message among those of its robot; no_index: a control packet
+    std::uint32_t number;
     friend auto operator<=>(const MessageName&, const MessageName&) = default;
 };
 
@@ -50,17 +52,18 @@ class FrameColumns {
     std::size_t frames() const { return flights_.size(); }
     std::size_t receptions() const { return receptions_.size(); }
     std::size_t messages() const { return messages_.uid.size(); }
-    /// Names of the messages, by their index in the columns.
+    /// Identity of each message (MessageName), by the message's index in the columns.
     const std::vector<MessageName>& message_names() const { return messages_.name; }
     /// Number of frames that write() left out.
     std::size_t left_out() const { return left_out_; }
     /// Message that an application of a robot did not get, although the message was for it.
     struct Missed {
-        std::uint32_t message;  ///< index in the columns
+        std::uint32_t message;  ///< index of the message in the columns
         std::uint64_t uid;
         std::uint32_t robot;
     };
-    /// Messages of applications that robots missed, in order of messages, at most `most`.
+    /// List of the messages that robots missed, in the order of the messages; at most `most`
+    /// entries.
     /// @param robots  number of robots
     std::vector<Missed> missed(std::size_t robots, std::size_t most) const;
     /// Writes the columns of messages, frames, receptions, losses and density, and the entries of
@@ -69,9 +72,10 @@ class FrameColumns {
     /// @param end     end of the run
     void write(ViewFile& file, Table& head, std::size_t robots, Time end,
                const FrameChoice& choice);
-    /// Writes what came since the last call, and forgets it: to `rest` messages, losses and
-    /// density, to `frames` the frames that have ended, with their receptions. Frames that began
-    /// later than one that has not ended are written by a later call.
+    /// Writes the data collected since the last call, and discards it: messages, losses and density
+    /// to `rest`; frames that have ended, with their receptions, to `frames`. Frames are written in
+    /// the order of their starts, so a frame still on air keeps back all later frames until a later
+    /// call.
     /// @param now  present time of the run; `never`: the run is over, and all frames have ended
     /// @return number of frames written
     std::size_t write_part(ViewDraft& rest, ViewDraft& frames, std::size_t robots, Time end,
@@ -90,7 +94,7 @@ class FrameColumns {
     struct Flight {
         std::int64_t start;  // [ns]
         std::uint32_t airtime, sender, to, message;
-        std::uint32_t before;  // last earlier flight of the sender; no_index: none
+        std::uint32_t before;  // index of the sender's previous flight; no_index: none
         std::uint8_t kind, ttl, hops;
         std::int64_t end() const { return start + airtime; }
     };
@@ -109,18 +113,19 @@ class FrameColumns {
         LossReason loss;
         friend bool operator==(const Reason&, const Reason&) = default;
     };
-    /// Message in a slot of the message table, and its index in the columns.
+    /// Message that occupies a slot of the message table, and its index in the columns.
     struct Known {
         std::uint64_t uid = ~std::uint64_t{0};
         std::uint32_t index = 0;
     };
-    /// Range of flights; `end` is not included.
+    /// Range of indices of flights, without `end`.
     struct Block {
         std::size_t begin, end;
     };
-    /// Intervals of time of the density: all of the run, or those in which receptions are.
+    /// Time intervals for which the density is written: all intervals of the run, or only intervals
+    /// with receptions.
     enum class Bins { all, used };
-    /// Different texts, in the order of first use.
+    /// List of distinct texts, in the order of first use.
     struct Names {
         std::vector<std::string> list;
         std::uint8_t index_of(std::string_view name);
@@ -144,13 +149,15 @@ class FrameColumns {
     void forget(std::size_t flights);
 
     MessageColumns messages_;
-    std::uint32_t forgotten_ = 0;  // number of messages before messages_
-    std::vector<Known> known_;     // by MessageId
+    // number of messages that were discarded before those in messages_
+    std::uint32_t forgotten_ = 0;
+    std::vector<Known> known_;  // messages in use, by MessageId
     std::vector<Flight> flights_;
-    std::vector<std::uint32_t> last_flights_;  // by NodeId; no_index: none
+    // last flight of each robot, by NodeId; no_index: none
+    std::vector<std::uint32_t> last_flights_;
     std::vector<RobotReception> receptions_;
     std::vector<Loss> losses_;
-    std::vector<Reason> reasons_;  // of losses_, in the order of first use
+    std::vector<Reason> reasons_;  // reasons in losses_, in the order of first use
     Names frame_kinds_{{"DATA"}}, message_kinds_{{""}};
     std::size_t left_out_ = 0;
 };

@@ -30,10 +30,10 @@ class MotionColumns {
 
     /// Writes the columns `legs`, `states` and `links`. @param robots  number of robots
     void write(ViewFile& file, std::size_t robots);
-    /// Forgets all records, so that the next call of write() writes what came since.
+    /// Discards all records so far; the next call of write() writes only later records.
     void forget();
 
-    /// Smallest axis-parallel rectangle [m].
+    /// Axis-parallel rectangle [m].
     struct Bounds {
         double left = 0, bottom = 0, right = 0, top = 0;
     };
@@ -46,7 +46,7 @@ class MotionColumns {
         std::uint32_t robot;
         Leg leg;
     };
-    /// Change of a robot's state: 0 off, 1 on, 2 arrived, 3 no way found.
+    /// Change of a robot's state: 0 off, 1 on, 2 arrived at its goal, 3 found no path to its goal.
     struct State {
         std::int64_t time;
         std::uint32_t robot;

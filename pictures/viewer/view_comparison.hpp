@@ -18,7 +18,7 @@ class ViewFile;
 struct ViewComparison {
     std::array<std::string, 2> names;  ///< names of the runs, as the page shows them
     RunComparison result;
-    /// Messages in the view file of the first run, by index.
+    /// Identities of the messages in the first run's view file, by index.
     std::vector<MessageName> messages = {};
 };
 

@@ -14,7 +14,7 @@ namespace rovernet {
 /// Choice of the content of a view file.
 struct ViewChoice {
     FrameChoice frames = {};
-    bool map = true;    ///< walls, doors and stairs
+    bool map = true;    ///< true: the file contains walls, doors and stairs
     bool packs = true;  ///< whether the columns are compressed
     /// Largest size of the view file [bytes]: later frames are left out. Robots, legs and messages
     /// are always complete, so that a file without frames may be larger.
@@ -26,12 +26,12 @@ struct ViewChoice {
 /// View file of a run, and its size.
 struct ViewedRun {
     std::string name;   ///< name of the scenario
-    std::string bytes;  ///< the view file, see docs/formats/view-format.md
+    std::string bytes;  ///< content of the view file, see docs/formats/view-format.md
     std::size_t robots, messages;
     std::size_t frames;                 ///< number of frames in the file
-    std::vector<std::string> left_out;  ///< sentences about what the file does not contain
+    std::vector<std::string> left_out;  ///< sentences about data that the file does not contain
     std::vector<std::string> damage;    ///< sentences about broken or missing parts of the trace
-    std::vector<MessageName> message_names = {};  ///< messages, by their index in the file
+    std::vector<MessageName> message_names = {};  ///< identities of the messages, by index
 };
 
 /// Makes a view file of a recorded trace.

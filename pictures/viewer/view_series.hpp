@@ -41,7 +41,7 @@ class ViewSeries {
 
   private:
     using Numbers = std::vector<double>;
-    /// Destinations of the message in a slot of the message table.
+    /// Number of destinations (`others`) of the message that occupies a slot of the message table.
     struct Expected {
         std::uint64_t uid = ~std::uint64_t{0};
         std::uint32_t others = 0;
@@ -65,11 +65,11 @@ class ViewSeries {
     std::size_t bins_;
     std::vector<Expected> expected_of_;          // by MessageId
     Numbers expected_, deliveries_;              // in each bin
-    Numbers latency_sum_, latency_most_;         // [s] of deliveries, in each bin
+    Numbers latency_sum_, latency_most_;         // [s] sum and largest value, in each bin
     std::map<std::size_t, Numbers> receptions_;  // in each bin, by outcome
-    Numbers busy_;                               // [ns] with a frame on air, in each bin
-    std::int64_t busy_until_ = 0;                // [ns] end of the frames so far
-    std::set<std::pair<NodeId, NodeId>> links_;  // that are up
+    Numbers busy_;                               // [ns] time with a frame on air, in each bin
+    std::int64_t busy_until_ = 0;                // [ns] end of the last frame so far
+    std::set<std::pair<NodeId, NodeId>> links_;  // links that are up
     std::vector<bool> is_on_;                    // by NodeId
     bool links_known_ = false, has_changed_ = true;
     std::uint64_t components_ = 0;

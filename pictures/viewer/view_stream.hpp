@@ -15,32 +15,32 @@ namespace rovernet {
 
 struct Scenario;
 
-/// View of a network that runs, as a sequence of view files (docs/formats/view-format.md): first
-/// the map and the robots, then what has happened since the file before. The network's records
-/// become columns by the same sinks as those of a recorded trace.
+/// View of a running network, as a sequence of view files (docs/formats/view-format.md). The first
+/// file contains the map and the robots; each later file contains the events since the previous
+/// file. The sinks are the same as for a recorded trace.
 ///
-/// Memory: that of MotionColumns and FrameColumns for the records since the last part.
+/// Memory: as for MotionColumns and FrameColumns, for the records since the last part.
 class ViewStream {
   public:
     /// Adds its sinks to the network.
     /// @param scenario  scenario of the network; must outlive this object
     ViewStream(const Scenario& scenario, std::shared_ptr<Network> network);
     ~ViewStream();
-    ViewStream(const ViewStream&) = delete;  // removes its sinks
+    ViewStream(const ViewStream&) = delete;  // removes the sinks from the network
     ViewStream& operator=(const ViewStream&) = delete;
 
     /// First file: map, robots with their current legs and states, no frames.
     /// @param live  entry `live` of the head
     std::string start(Table live) const;
 
-    /// What has happened since the last part, as two files: a viewer needs the first one to
-    /// understand later parts; the second one, with the frames, may be left out.
+    /// Events since the last part, as two view files: `rest`, which a viewer needs to understand
+    /// later parts, and `frames`, which may be left out.
     struct Part {
         std::string rest, frames;  ///< `frames` is empty if no frame has ended
         std::size_t number_of_frames = 0;
     };
     /// @param live     entry `live` of the heads
-    /// @param is_last  whether the run is over: frames on air are written, too
+    /// @param is_last  whether the run is over, so that frames on air are written, too
     Part part(const Table& live, bool is_last);
 
   private:

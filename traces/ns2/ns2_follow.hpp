@@ -59,7 +59,7 @@ class Ns2Follower {
     void take(const Ns2Line& line) {
         std::visit([&](const auto& event) { on(event); }, line);
     }
-    /// Adds a robot of the trace that an event of another message names.
+    /// Adds a robot of the trace that occurs in an event of another message.
     void tell_of(NodeId robot) { robots_.insert(robot.value); }
     /// Path of the message. @throws InputError if no message has this id
     /// @param trace  name of the trace, for the error
@@ -79,8 +79,10 @@ class Ns2Follower {
     std::map<std::uint32_t, FollowedRobot> by_robot_;
     std::vector<std::uint32_t> order_;  ///< robots in the order of their first copies
     std::set<std::uint32_t> robots_;
-    std::optional<std::uint64_t> least_;  ///< smallest message id before the message is found
-    std::uint64_t most_ = 0;              ///< largest message id before the message is found
+    /// smallest id of the messages read before the searched message
+    std::optional<std::uint64_t> least_;
+    /// largest id of the messages read before the searched message
+    std::uint64_t most_ = 0;
 };
 
 /// Finds the path of one message through the network, from an ns-2 trace. The message is the first

@@ -49,7 +49,7 @@ struct TraceStats {
     /// port 255, or of the type of a routing protocol (AODV, DSR, ...); each hop counts.
     std::uint64_t routing_packets = 0;
     std::uint64_t routing_bytes = 0;    ///< size of the routing packets, as in the lines [bytes]
-    std::uint64_t delivered_bytes = 0;  ///< size of the message, summed over deliveries [bytes]
+    std::uint64_t delivered_bytes = 0;  ///< sum of the sizes of the delivered messages [bytes]
 
     // Jitter of the latencies d of one flow at one receiver, in the order of arrival.
     std::optional<double> jitter_mean;  ///< mean of |d_i - d_(i-1)| [s], d_i: consecutive latencies

@@ -24,7 +24,7 @@ namespace rovernet {
 /// Size of PLCP preamble and header at 1 Mb/s, which ns-2 includes in a frame's size.
 inline constexpr std::uint32_t plcp_bytes = 24;
 
-/// MAC header fields of a packet; empty before a MAC has sent it.
+/// MAC header fields of a packet; zeros before a MAC has sent the packet.
 struct Ns2MacFields {
     std::uint32_t reserved_us = 0;
     NodeId to{0}, from{0};
@@ -54,13 +54,14 @@ struct Ns2PacketFields : Ns2LineFields {
 
     MessageId message;
     unsigned ttl;
-    std::uint32_t added = 0;       ///< [bytes] by what is below the router
-    const Frame* frame = nullptr;  ///< frame of the packet, if it has one yet
+    std::uint32_t added = 0;       ///< size of the headers added below the router [bytes]
+    const Frame* frame = nullptr;  ///< frame of the packet; null before the packet has a frame
 
     std::uint32_t size(const Message& m) const {
         return (frame ? frame->size_of(m) : m.size) + added;
     }
-    /// Source in the IP header: each forwarder of a protocol's broadcast writes itself.
+    /// Source in the IP header: for a control packet to everyone the robot that sends this copy,
+    /// for any other packet the origin.
     NodeId source(const Message& m) const {
         return frame && !m.kind.empty() && m.to == everyone ? frame->sender : m.origin;
     }
@@ -69,7 +70,7 @@ struct Ns2PacketFields : Ns2LineFields {
         if (!frame) return 0;
         return frame->sender == node && frame->hops > 0 ? frame->hops - 1U : frame->hops;
     }
-    /// Next hop, once a protocol has chosen it.
+    /// Next hop that the routing protocol has chosen; empty if it has not chosen a next hop.
     std::optional<NodeId> next_hop(const Message& m) const {
         const bool is_chosen =
             frame && frame->next_hop != everyone && (!m.kind.empty() || m.is_routed_unicast());
@@ -108,7 +109,8 @@ class Ns2Trace::Writer {
 
   private:
     static constexpr std::size_t size = 64 * 1024;
-    static constexpr std::size_t longest_line = 4096;  // five doubles of longest_decimal, and room
+    // enough for five numbers of longest_decimal, and more
+    static constexpr std::size_t longest_line = 4096;
 
     void lines(const Sent&, const RecordContext&);
     void lines(const Transmitted&, const RecordContext&);
@@ -132,7 +134,8 @@ class Ns2Trace::Writer {
                    std::uint32_t bytes);
     void new_start(const Ns2LineFields&, Vec3 position, std::optional<NodeId> next_hop = {});
 
-    // Inlined everywhere, so that a literal is a few stores: a fifth of a run's instructions.
+    // Inlining turns a literal into a few store instructions, and saves a fifth of a run's
+    // instructions.
     [[gnu::always_inline]] void text(std::string_view s) { at_ = write_text(at_, s); }
     void integer(std::uint64_t value) { at_ = write_integer(at_, value); }
     void destination(NodeId node) {
@@ -158,10 +161,10 @@ class Ns2Trace::Writer {
     MacTrace mac_;
     std::unique_ptr<char[]> buffer_;
     std::size_t used_ = 0;
-    char* at_ = nullptr;  ///< where the current line goes on
+    char* at_ = nullptr;  ///< end of the current line so far
     bool finished_ = false, closed_ = false;
-    std::string description_;  ///< of a control packet; kept to reuse its memory
-    Duration reserved_{0};     ///< by the last routed unicast that was received
+    std::string description_;  ///< description of a control packet; kept to reuse its memory
+    Duration reserved_{0};     ///< time reserved by the last routed unicast that was received [ns]
 };
 
 }  // namespace rovernet

@@ -42,17 +42,18 @@ struct PacketAddresses {
 };
 /// Protocol number of UDP in IP headers.
 inline constexpr std::uint8_t udp_protocol = 17;
-/// Type of IPv4 packets behind LLC and SNAP.
+/// EtherType of IPv4, in the SNAP header.
 inline constexpr std::uint16_t ipv4_ethertype = 0x0800;
-/// Content of a packet in place of the message's, or before it.
+/// Bytes that a captured packet has instead of the message, or before it: an ARP packet, a control
+/// packet of a routing protocol, or a header.
 struct PacketContent {
-    /// Type behind LLC and SNAP. Of another type than IPv4, the bytes are the whole packet.
+    /// EtherType in the SNAP header. If it is not IPv4, `bytes` follow the SNAP header directly.
     std::uint16_t ethertype = ipv4_ethertype;
     std::uint8_t ip_protocol = udp_protocol;
-    /// UDP port of source and destination; none with another IP protocol.
+    /// UDP port of source and destination; not used if `ip_protocol` is not UDP.
     std::uint16_t port = 0;
     std::string bytes;
-    /// Whether the bytes are a header between IP and UDP, with the message behind it.
+    /// True: `bytes` are a header between the IP and the UDP header, and the message follows.
     bool precedes_message = false;
 };
 /// UDP port of source and destination in captured packets.
@@ -66,11 +67,12 @@ inline constexpr std::size_t longest_captured = 65'000;
 
 /// Appends an 802.11 data frame (ad hoc mode) that contains the message in a UDP packet: headers of
 /// 802.11, LLC/SNAP, IPv4 and UDP, the header of message_header bytes, then Message::size bytes:
-/// the payload, padded with zeros. With `content` of another IP protocol there is no UDP header, of
-/// another type no IP header.
+/// the payload, padded with zeros. There is no UDP header if `content` has another IP protocol, and
+/// no IP header if it has another EtherType.
 ///
 /// @param bytes    size of the frame in the simulation [bytes], stored in the message header
-/// @param content  content that replaces message header and message, or precedes them; null: these
+/// @param content  bytes that replace message header and message, or precede them; null: no such
+///                 bytes
 ///
 /// Sources: IEEE 802.11-2020, 9.2 and 9.3.2; RFC 1042 (SNAP); RFC 791; RFC 768.
 void append_data_frame(const AirFrame& air, const Message& message, std::uint32_t bytes,

@@ -9,9 +9,8 @@ namespace rovernet {
 /// Whether two records are equal in all data of a recorded trace, bit for bit. True only if
 /// append_text() gives the same text for both; may be false for equal texts, such as those of two
 /// Received without receptions.
-/// @param format  format of the traces that have the records, the older one of two: the data that
-/// it
-///                lacks are not compared
+/// @param format  format of the traces, or the older format of two traces; data that this format
+///                lacks is not compared
 bool are_same(const Record& a, const RecordContext& of_a, const Record& b,
               const RecordContext& of_b, unsigned format = recorded_format);
 

@@ -34,8 +34,8 @@ struct RecordedRun {
     /// True if the attached file robots.txt, with the names of the robots, is complete.
     bool has_names = true;
 
-    /// Text for error messages: the number of named robots, and whether the attached file with the
-    /// names is missing or broken.
+    /// Description of `robots` for error messages: number of robots with names, and whether the
+    /// attached file of names is missing or broken.
     std::string names_in_words() const;
 };
 
