@@ -15,10 +15,10 @@
 
 namespace rovernet::bench {
 
-/// Poisson traffic of many robots to one in the same place, at the access model "aloha": the share
-/// of the time in which a frame gets through.
-/// @param load  G [-]: frames that begin in the time of one
-/// @param slot  0: pure, else that of a frame, 1 ms
+/// Throughput of the access model "aloha" [-]: share of the time in which a frame is received
+/// without a collision. Many robots in one place send Poisson traffic to one receiver.
+/// @param load  offered load G [-]: mean number of frames that begin in the duration of a frame
+/// @param slot  0: pure ALOHA; otherwise the duration of a frame, 1 ms
 inline double aloha_throughput(double load, Duration slot, int frames) {
     struct Count {
         std::uint64_t delivered = 0;
@@ -29,7 +29,7 @@ inline double aloha_throughput(double load, Duration slot, int frames) {
         }
     };
     constexpr std::uint32_t robots = 200;
-    static constexpr std::uint32_t bytes = 125;  // 1 ms at 1 Mb/s
+    static constexpr std::uint32_t bytes = 125;  // airtime of 1 ms at 1 Mb/s
     constexpr double frame = 1e-3;
     Network net({.propagation = Disc{.range = {1}},
                  .reception = Collision{},
@@ -40,7 +40,8 @@ inline double aloha_throughput(double load, Duration slot, int frames) {
     net.add_sink(Sink{count});
     const Radio receiver{.rate = {1e6}, .preamble = Duration{0}};
     Radio sender = receiver;
-    sender.sensitivity = Dbm{200};  // deaf: what senders hear decides nothing and takes long
+    // senders receive nothing, which saves time and does not affect the result
+    sender.sensitivity = Dbm{200};
     std::vector<NodeId> nodes = {net.add({.name = "", .at = {}, .radio = receiver})};
     for (std::uint32_t i = 0; i < robots; ++i) {
         nodes.push_back(net.add({.name = "", .at = {}, .radio = sender}));

@@ -8,9 +8,10 @@
 
 namespace rovernet {
 
-/// A cell of 802.11b at 1 Mb/s in which all send broadcasts of 1000 bytes: nothing is answered or
-/// repeated, the window stays at 32 slots. A station whose draw is 0 sends at once behind its last
-/// frame, which the theory leaves out: it holds up to some 10 stations.
+/// Theoretical throughput of broadcasts of 1000 bytes by 802.11b stations at 1 Mb/s that are all in
+/// range of each other. Broadcasts are neither acknowledged nor repeated, so the contention window
+/// stays at 32 slots. The theory neglects that a station whose backoff is 0 sends immediately after
+/// its last frame: it is valid for up to about 10 stations.
 struct BroadcastCell {
     static constexpr std::uint32_t payload = 1000;  ///< [bytes]
     static constexpr BitRate rate{1e6};
@@ -18,7 +19,7 @@ struct BroadcastCell {
     std::uint32_t header = data_header_bytes;  ///< [bytes]
 
     Csma csma() const { return {.eifs = EifsRule::none, .header = header}; }
-    /// Share of the time in which payload reaches a station, of `n` that send.
+    /// Share of the time [-] in which payload reaches a station if `n` stations send.
     double throughput(int n) const {
         constexpr double preamble = 192, difs = 50;
         const double busy = preamble + 8 * (payload + header) + difs;

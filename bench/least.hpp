@@ -15,14 +15,15 @@
 
 namespace rovernet::bench {
 
-/// Benchmarks by name and argument, and the least CPU time of each over its repetitions: what the
-/// machine's other work adds to a time is never negative.
+/// Least CPU time of each benchmark over its repetitions, by name and argument. The least time is
+/// used because other work of the machine can only increase a time.
 class Least : public benchmark::BenchmarkReporter {
   public:
-    /// @param per  [-] pieces of work in an iteration: times are of one piece
+    /// @param per  [-] number of operations in an iteration; times are for one operation
     explicit Least(double per = 1) : per_(per) {}
 
-    /// Adds a call: run() times `iterations` of `call` in each of three repetitions.
+    /// Adds a benchmark: run() measures `iterations` iterations of `call` in each of three
+    /// repetitions.
     static void add(const char* name, void (*call)(benchmark::State&), std::size_t argument,
                     int iterations) {
         benchmark::RegisterBenchmark(name, call)
@@ -31,8 +32,8 @@ class Least : public benchmark::BenchmarkReporter {
             ->Repetitions(3)
             ->Unit(benchmark::kNanosecond);
     }
-    /// Runs what was added, in its order, or what the options of google-benchmark leave of it.
-    /// False if the command line makes no sense.
+    /// Runs the added benchmarks in order, or those that the options of google-benchmark select.
+    /// @return false if the command line is invalid
     bool run(int argc, char** argv) {
         benchmark::Initialize(&argc, argv);
         if (benchmark::ReportUnrecognizedArguments(argc, argv)) return false;
@@ -40,12 +41,12 @@ class Least : public benchmark::BenchmarkReporter {
         return true;
     }
 
-    /// [ns]; 0 if it was not run.
+    /// Least CPU time [ns] of a benchmark; 0 if it was not run.
     double ns(const std::string& name, std::size_t argument) const {
         const auto found = ns_.find({name, std::to_string(argument)});
         return found == ns_.end() ? 0 : found->second;
     }
-    /// Ratio of its time to that of `base`.
+    /// Ratio [-] of the time of the benchmark `name` to the time of `base`.
     double times(const std::string& name, const std::string& base, std::size_t argument) const {
         return ns(name, argument) / ns(base, argument);
     }
@@ -65,7 +66,7 @@ class Least : public benchmark::BenchmarkReporter {
     std::map<std::pair<std::string, std::string>, double> ns_;
 };
 
-/// Prints the heads of a table's columns, each `width` wide.
+/// Prints the names of a table's columns, each padded to `width` characters.
 inline void print_heads(std::initializer_list<const char*> names, int width) {
     for (const char* name : names) fmt::print("{:>{}}", name, width);
 }

@@ -10,9 +10,9 @@
 
 namespace rovernet::bench {
 
-/// An office of 40 m x 20 m in cells of 5 cm: four rows of eight rooms, 5 m wide, along two
-/// corridors of 2 m; walls of 10 cm. Every room has a door to its corridor, those in the middle one
-/// to each other.
+/// Map of an office of 40 m x 20 m in cells of 5 cm: four rows of eight rooms, each 5 m wide, along
+/// two corridors of 2 m; walls of 10 cm. Every room has a door to its corridor. Rooms in the two
+/// middle rows also have a door to the opposite room.
 class Office {
   public:
     Office() {

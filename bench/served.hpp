@@ -28,7 +28,8 @@ namespace rovernet::bench {
     throw std::runtime_error(std::string(what) + ": " + std::strerror(errno));
 }
 
-/// A command in the background that tells the addresses it listens on. It is ended with its object.
+/// Command in the background that prints the addresses at which it listens. The destructor ends the
+/// command.
 class Served {
   public:
     explicit Served(std::vector<std::string> words) {
@@ -40,7 +41,7 @@ class Served {
         pid_ = fork();
         if (pid_ < 0) fail_by_system("fork");
         if (pid_ == 0) {
-            prctl(PR_SET_PDEATHSIG, SIGKILL);  // it does not outlive a bench whose output is cut
+            prctl(PR_SET_PDEATHSIG, SIGKILL);  // ends the command if the bench is killed
             dup2(ends[1], STDOUT_FILENO);
             dup2(open("/dev/null", O_WRONLY), STDERR_FILENO);
             execv(argv[0], argv.data());
@@ -59,7 +60,7 @@ class Served {
         if (said_) std::fclose(said_);
     }
 
-    /// Port of the next address that it says it listens on.
+    /// Port in the next line in which the command prints an address.
     int port() {
         constexpr std::string_view words = "listening on 127.0.0.1:";
         std::array<char, 256> line{};
@@ -70,7 +71,7 @@ class Served {
         throw std::runtime_error("the command listens on nothing");
     }
     void interrupt() const { kill(pid_, SIGINT); }
-    /// Waits for its end. @return CPU time that it took [s]
+    /// Waits for the end of the command. @return CPU time of the command [s]
     double end() {
         const auto [status, usage] = wait();
         if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
@@ -81,7 +82,7 @@ class Served {
         };
         return seconds(usage.ru_utime) + seconds(usage.ru_stime);
     }
-    /// Memory that it has now [bytes].
+    /// Current resident memory of the command [bytes].
     double memory() const {
         std::ifstream file("/proc/" + std::to_string(pid_) + "/statm");
         double all = 0, resident = 0;  // [pages]
@@ -100,7 +101,7 @@ class Served {
     std::FILE* said_ = nullptr;
 };
 
-/// A TCP socket on any free port of this machine.
+/// TCP socket that listens on any free port of this machine.
 class Listener {
   public:
     Listener() : socket_(socket(AF_INET, SOCK_STREAM, 0)) {
@@ -118,7 +119,7 @@ class Listener {
     Listener& operator=(const Listener&) = delete;
 
     int port() const { return port_; }
-    /// Sends back what one client sends, until it goes.
+    /// Accepts one client and sends back all its bytes, until the client disconnects.
     void echo() const {
         const int client = accept(socket_, nullptr, nullptr);
         const int on = 1;

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <new>
 
-// Allocations of a test program, counted. It replaces operator new: one file of a program includes
-// it.
+// Counter of the allocations of a test program. This header replaces operator new, so only one file
+// of a program may include it.
 
 namespace rovernet::test {
 

@@ -22,10 +22,9 @@
 #include <string>
 #include <unistd.h>
 
-/// Parts that the programs of ns-3.37 in bench/peers share: options, radios, and how they run and
-/// end.
+/// Common parts of the ns-3.37 programs in bench/peers: options, radios, run and output.
 
-constexpr std::uint16_t protocol = 0x88b5;  // IEEE 802: for local experiments
+constexpr std::uint16_t protocol = 0x88b5;  // EtherType for local experiments (IEEE 802)
 
 /// Options of every program: --payload and --seed.
 struct PeerOptions {
@@ -33,7 +32,7 @@ struct PeerOptions {
     std::uint32_t seed = 1;
 
     explicit PeerOptions(std::uint32_t usual_payload) : payload(usual_payload) {}
-    /// Reads the options that `line` has, and these.
+    /// Reads the options of `line` and the options of every program.
     void read(ns3::CommandLine& line, int argc, char** argv) {
         line.AddValue("payload", "[B]", payload);
         line.AddValue("seed", "run number of ns-3's streams", seed);
@@ -45,8 +44,9 @@ struct PeerOptions {
     }
 };
 
-/// Stations of 802.11b ad hoc, long preamble, that send all data at `rate`, broadcasts included.
-/// @param rts_threshold  [B] unicasts of more ask first
+/// Installs 802.11b ad hoc devices with the long preamble that send all data at `rate`, including
+/// broadcasts.
+/// @param rts_threshold  size [bytes] above which a unicast is preceded by an RTS
 inline ns3::NetDeviceContainer install_ad_hoc(const ns3::YansWifiPhyHelper& phy,
                                               const ns3::NodeContainer& nodes,
                                               const std::string& rate,
@@ -62,16 +62,19 @@ inline ns3::NetDeviceContainer install_ad_hoc(const ns3::YansWifiPhyHelper& phy,
     return wifi.Install(phy, mac, nodes);
 }
 
-/// Received power [dBm] over flat ground, 24.5 dBm sent, both antennas 1.5 m high, beyond 86 m.
+/// Received power [dBm] over flat ground at a distance [m] > 86 m, for 24.5 dBm of transmit power
+/// and antennas 1.5 m high.
 inline double two_ray_dbm(double distance) {
     return 24.5 + 40 * std::log10(1.5) - 40 * std::log10(distance);
 }
 
-/// Frames are decoded over `decode` [m] of flat ground, and sensed over `sense` [m].
+/// Sets flat ground, on which frames are decoded up to the distance `decode` [m] and sensed up to
+/// `sense` [m].
 inline void set_two_ray(ns3::YansWifiChannelHelper& channel, ns3::YansWifiPhyHelper& phy,
                         double decode, double sense) {
     using ns3::DoubleValue;
-    // ns-3 compares the sensitivity with 20 MHz, of which a channel of 802.11b has 22.
+    // ns-3 compares the sensitivity with the power in 20 MHz, but a channel of 802.11b is 22 MHz
+    // wide.
     const double of_20_mhz = two_ray_dbm(sense) - 10 * std::log10(22.0 / 20);
     channel.AddPropagationLoss("ns3::TwoRayGroundPropagationLossModel", "Frequency",
                                DoubleValue(914e6), "HeightAboveZ", DoubleValue(1.5));
@@ -83,8 +86,8 @@ inline void set_two_ray(ns3::YansWifiChannelHelper& channel, ns3::YansWifiPhyHel
                                   DoubleValue(two_ray_dbm(decode)));
 }
 
-/// Runs for `length` [s] and prints what `bench` counted. The program is over then: ns-3 spends
-/// long on taking its objects apart, and not always in peace.
+/// Runs for `length` [s], prints the counts of `bench` and ends the program without destructors,
+/// because ns-3's destructors take long and sometimes crash.
 template <class Bench>
 [[noreturn]] void run_and_print(const Bench& bench, double length) {
     const Usage ready = Usage::now();
@@ -95,7 +98,7 @@ template <class Bench>
     _exit(0);
 }
 
-/// Calls `run`; if that throws, says why: the program's exit code.
+/// Calls `run` and prints the message of an exception. @return exit code of the program
 template <class Run>
 int exit_of(Run run) {
     try {

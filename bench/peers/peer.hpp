@@ -10,9 +10,9 @@
 #include <map>
 #include <string>
 
-/// Parts that the programs of rovernet in bench/peers share: options, and the radio of ns-2.
+/// Common parts of the rovernet programs in bench/peers: options, and the radio of ns-2.
 
-/// Options --name=value of a command line.
+/// Options of the form --name=value on a command line.
 class Options {
   public:
     Options(int argc, char** argv) {
@@ -39,7 +39,7 @@ class Options {
     std::map<std::string, std::string> values_;
 };
 
-/// ns-2.35's default radio: 914 MHz, 0.28183815 W, antennas 1.5 m over flat ground.
+/// Default radio of ns-2.35: 914 MHz, 0.28183815 W, antenna 1.5 m above flat ground.
 inline rovernet::Radio ns2_radio() {
     using rovernet::Dbm;
     rovernet::Radio radio{

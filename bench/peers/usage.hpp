@@ -2,7 +2,7 @@
 #pragma once
 #include <sys/resource.h>
 
-/// Usage of this process so far.
+/// CPU time and memory that this process has used so far.
 struct Usage {
     double cpu_s;   ///< user and system time [s]
     double rss_mb;  ///< largest resident set [MiB]

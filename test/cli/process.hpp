@@ -27,11 +27,11 @@ inline std::string content(const std::string& path) {
 }
 
 struct Ended {
-    int exit;  // -1: by a signal, or not at all
+    int exit;  // exit code; -1: killed by a signal, or not ended
     std::string out, err;
 };
 
-/// The command, or another program, with its output in files of a folder.
+/// Process of the command rovernet or of another program, with its output in files of a folder.
 class Process {
   public:
     Process(const TemporaryFolder& folder, std::vector<std::string> arguments,
@@ -50,7 +50,7 @@ class Process {
         posix_spawn_file_actions_destroy(&files);
     }
 
-    /// Nothing is left of a test that failed before it waited.
+    /// Kills the process if a test failed before it waited for the process.
     ~Process() {
         if (has_ended_) return;
         kill(pid_, SIGKILL);
@@ -62,7 +62,7 @@ class Process {
     void interrupt() const { kill(pid_, SIGINT); }
     pid_t pid() const { return pid_; }
 
-    /// Interrupts it again and again until it ends.
+    /// Interrupts the process (SIGINT) repeatedly until it ends.
     Ended stop() const {
         using namespace std::chrono_literals;
         int status = 0;
@@ -76,7 +76,7 @@ class Process {
         return ended(status);
     }
 
-    /// Waits for its end, and kills it if that takes too long.
+    /// Waits for the end of the process, and kills the process if that takes too long.
     Ended wait() const {
         using namespace std::chrono_literals;
         int status = 0;
@@ -104,7 +104,7 @@ inline Ended command(const TemporaryFolder& folder, const std::vector<std::strin
     return Process(folder, arguments).wait();
 }
 
-/// The one JSON document that a command prints; it must succeed.
+/// JSON document that a command prints; the command must succeed.
 inline Json json_of(const TemporaryFolder& folder, std::vector<std::string> arguments) {
     arguments.push_back("--json");
     const Ended ended = command(folder, arguments);

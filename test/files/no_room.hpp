@@ -6,7 +6,8 @@
 
 namespace rovernet::test {
 
-/// While it lives no file can have a byte, as on a full disk ("File too large").
+/// Simulated full disk: during the lifetime of the object, writing to any file fails ("File too
+/// large").
 class NoRoom {
   public:
     NoRoom() {

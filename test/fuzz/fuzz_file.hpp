@@ -11,7 +11,7 @@
 
 namespace rovernet::test {
 
-/// A file in memory with these bytes, for the readers that want a path; gone with its object.
+/// File in memory with the given bytes, for readers that need a path; removed by the destructor.
 class FuzzFile {
   public:
     FuzzFile(const std::uint8_t* bytes, std::size_t size) : file_(memfd_create("fuzz", 0)) {

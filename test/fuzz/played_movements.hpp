@@ -9,7 +9,8 @@
 
 namespace rovernet::test {
 
-/// Aborts unless the bytes are a movement file, whose commands are then in order, or an InputError.
+/// Reads the bytes as a movement file. Aborts unless the reader throws an InputError or returns
+/// valid commands in order of time.
 inline void play_movements(const std::uint8_t* bytes, std::size_t size) {
     const FuzzFile file(bytes, size);
     for (const auto syntax : {MovementSyntax::strict, MovementSyntax::tolerant}) {

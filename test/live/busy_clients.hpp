@@ -13,21 +13,21 @@
 #include <thread>
 #include <utility>
 
-// Clients that do something all the time, until the run has ended: of Player, of ROS, and programs
-// that send datagrams. Each function is for a thread of its own.
+// Clients that send commands without pause until the end of the run: Player clients, ROS clients,
+// and programs that send datagrams. Each function runs in a separate thread.
 
 namespace rovernet::test {
 
-/// What a client did.
+/// Counts of a client's actions.
 struct Busy {
-    int said = 0;   ///< commands and packets
-    int heard = 0;  ///< messages that it was told
+    int said = 0;   ///< number of commands and packets sent
+    int heard = 0;  ///< number of messages received
 };
 
-/// A velocity that differs from one round to the next.
+/// Velocity that differs from round to round.
 inline double some_speed(int round) { return 0.1 * (round % 7) - 0.3; }
 
-/// The next message of a Player server; false if the connection has ended.
+/// Reads the next message of a Player server. @return false if the connection has ended
 inline bool read_message(LineClient& client, Wire& message) {
     std::string bytes = client.bytes(40);
     if (bytes.size() < 40) return false;
@@ -38,11 +38,11 @@ inline bool read_message(LineClient& client, Wire& message) {
     return true;
 }
 
-/// Player client that drives its robot, lets it speak by radio, and is told of it: unasked, or as
-/// it asks.
+/// Player client that drives its robot, sends messages by the robot's radio, and receives data: in
+/// PUSH mode, or on request.
 inline Busy player_client(LineClient client, std::uint32_t how) {
     Busy busy;
-    client.bytes(32);  // the banner
+    client.bytes(32);  // banner of the server
     client.send_bytes(mode(how) + device(4, 0) + device(23, 0) + device(51, 1));
     Wire message;
     for (int round = 0;; ++round) {
@@ -51,14 +51,15 @@ inline Busy player_client(LineClient client, std::uint32_t how) {
         if (how == pull) words += ask();
         if (!client.send_bytes(words)) return busy;
         ++busy.said;
-        do {  // to the end of the round, or to the next data of position2d
+        do {  // read up to the end of the round, or the next data of position2d
             if (!read_message(client, message)) return busy;
             busy.heard += message.type == data;
         } while (how == pull ? message.type != sync_message : message.interface != 4);
     }
 }
 
-/// ROS client that drives a robot, sends it somewhere, puts it elsewhere and lets it speak.
+/// ROS client that drives a robot, sends it to a goal, places it elsewhere, and sends messages by
+/// its radio.
 inline Busy ros_client(WebClient client, const std::string& robot) {
     Busy busy;
     for (const char* topic : {"/odom", "/radio/received", "/radio/neighbors"}) {
@@ -95,8 +96,8 @@ inline Busy ros_client(WebClient client, const std::string& robot) {
     }
 }
 
-/// Program that sends datagrams by a robot while it is told to, to everyone and to the robot
-/// `other` in turns, and is told what it hears.
+/// Program that sends datagrams by a robot while `goes_on` is true, alternately to everyone and to
+/// the robot `other`, and counts the datagrams that it receives.
 inline Busy packet_program(int port, char other, const std::atomic<bool>& goes_on) {
     using namespace std::string_literals;
     const std::string to_all = "\xff\xff\xff\xff"s, to_one = std::string(1, other) + "\0\0\0"s;

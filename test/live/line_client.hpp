@@ -16,7 +16,7 @@
 
 namespace rovernet::test {
 
-/// Program's end of a connection: it sends and receives lines or bytes, and waits 20 s at most.
+/// Client end of a connection, which sends and receives lines or bytes, and waits at most 20 s.
 class LineClient {
   public:
     explicit LineClient(int port) : socket_(socket(AF_INET, SOCK_STREAM, 0)) {
@@ -39,7 +39,7 @@ class LineClient {
     void close() {
         if (socket_ >= 0) ::close(std::exchange(socket_, -1));
     }
-    /// Ends it as a process does that is killed with bytes unread.
+    /// Resets the connection, as when a process is killed before it has read all bytes.
     void reset() {
         const linger at_once{1, 0};
         setsockopt(socket_, SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);
@@ -47,7 +47,7 @@ class LineClient {
     }
     void end_sending() const { shutdown(socket_, SHUT_WR); }
 
-    /// Sends bytes as they are. @return whether all were taken
+    /// Sends bytes unchanged. @return whether all bytes were sent
     bool send_bytes(std::string_view bytes) const {
         while (!bytes.empty()) {
             const ssize_t sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
@@ -56,7 +56,7 @@ class LineClient {
         }
         return true;
     }
-    /// The next line; empty if the connection has ended.
+    /// Next line received; empty if the connection has ended.
     std::string line() {
         for (;;) {
             const std::size_t end = received_.find('\n');
@@ -71,7 +71,7 @@ class LineClient {
             received_.append(bytes, static_cast<std::size_t>(got));
         }
     }
-    /// The next bytes; fewer if the connection has ended.
+    /// Next `number` bytes received; fewer if the connection has ended.
     std::string bytes(std::size_t number) {
         char portion[65536];
         while (received_.size() < number) {

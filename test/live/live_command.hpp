@@ -17,11 +17,12 @@
 #include <utility>
 #include <vector>
 
-// The command `live` as tests run it, and what its clients say first.
+// Functions that run the command `live` in tests, and the first messages of its clients.
 
 namespace rovernet::test {
 
-/// Three robots in a row, of which neighbours hear one another; A says something now and then.
+/// Scenario of three robots in a row. Only neighbours hear each other, and A sends messages at
+/// times.
 inline const std::string live_row = R"([scenario]
 name = "row"
 duration = "2 s"
@@ -40,7 +41,7 @@ payload = "tick"
 every = "0.3 s"
 )";
 
-/// Scenario of live_row, for a longer time.
+/// Scenario live_row with a longer run.
 inline std::string long_live_row() {
     std::string text = live_row;
     return text.replace(text.find("2 s"), 3, "9999 s");
@@ -51,7 +52,8 @@ inline int read_port(const std::string& line) {
     return std::stoi(line.substr(line.find(host) + host.size()));
 }
 
-/// The line of standard output of a command in a folder that begins and ends so; waits for it.
+/// Waits for a line of the command's standard output that begins with `words` and ends with
+/// `last_words`, and returns the line.
 inline std::string said(const TemporaryFolder& folder, const std::string& words,
                         const std::string& last_words = {}) {
     using namespace std::chrono_literals;
@@ -66,21 +68,21 @@ inline std::string said(const TemporaryFolder& folder, const std::string& words,
     return {};
 }
 
-/// A live run in the background.
+/// Process of `rovernet live` in the background.
 class Live {
   public:
-    /// @param options  in which SOCKET and PIDFILE stand for files in the folder
-    /// @param program  text of the Python program that is meant by "PROGRAM" in an option
+    /// @param options  options of the command; SOCKET and PIDFILE stand for files in the folder
+    /// @param program  text of the Python program for which PROGRAM stands in an option
     explicit Live(std::vector<std::string> options, const std::string& file = live_row,
                   const std::string& program = {})
         : process_(folder, arguments(std::move(options), file, program)) {}
 
-    /// Port that it says it listens on; waits for that.
-    /// @param what  end of that line: "(rosbridge)"
+    /// Port at which the command listens, from its output; waits for the line.
+    /// @param what  end of the line, such as "(rosbridge)"
     int port(const std::string& what = {}) const {
         return read_port(said("listening on 127.0.0.1:", what));
     }
-    /// The line of standard output that begins and ends so.
+    /// Line of standard output that begins with `words` and ends with `last_words`.
     std::string said(const std::string& words, const std::string& last_words = {}) const {
         return test::said(folder, words, last_words);
     }
@@ -125,12 +127,12 @@ inline long megabytes_of(pid_t pid) {
     return 0;
 }
 
-/// First line of a controller. @param robots  "\"A\",\"B\""
+/// First line that a controller sends. @param robots  names, such as "\"A\",\"B\""
 inline std::string hello(const std::string& robots, const std::string& step = "100 ms") {
     return R"({"type":"hello","protocol":1,"robots":[)" + robots + R"(],"step":")" + step + "\"}";
 }
 
-/// The next message of a Player server.
+/// Next message of a Player server.
 inline Wire message_of(LineClient& client) {
     std::string bytes = client.bytes(40);
     REQUIRE(bytes.size() == 40);
@@ -138,7 +140,7 @@ inline Wire message_of(LineClient& client) {
     return take_messages(bytes).at(0);
 }
 
-/// Opens position2d of the first robot, to pull.
+/// Opens position2d of the first robot, in PULL mode.
 inline void open_position(LineClient& client) {
     CHECK(client.bytes(32).starts_with("Player v."));
     client.send_bytes(mode(pull) + device(4, 0));

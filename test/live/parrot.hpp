@@ -11,8 +11,8 @@
 
 namespace rovernet::test {
 
-/// A front for tests: every byte that a client sends makes robot 0 speak and turn, and every 100 ms
-/// all clients are told the time in a line. `flood` bytes more are told with it.
+/// Front for tests. For every byte from a client, robot 0 sends a message and turns. Every 100 ms
+/// all clients receive a line with the time, followed by `flood` more bytes.
 class Parrot : public Front {
   public:
     explicit Parrot(Carrier carrier, std::size_t flood = 0)

@@ -8,7 +8,7 @@
 
 namespace rovernet::test {
 
-/// Lets the time of a session go on to `end`, as run_paced() does, but without a clock.
+/// Advances a session with a front to `end` like run_paced(), but without a clock.
 inline void run_front(Session& session, Front& front, Time end) {
     for (;;) {
         const Time now = session.network().now();

@@ -17,10 +17,10 @@
 
 namespace rovernet::test {
 
-/// Run by the clock in a thread of its own, which serves by the fronts given.
+/// Paced run in a separate thread, which serves the given fronts.
 class ServedRun {
   public:
-    /// Waits until it listens at so many addresses.
+    /// Starts the run, and waits until it listens at `addresses` addresses.
     ServedRun(const Scenario& scenario, std::vector<FrontListeners> fronts, std::size_t addresses) {
         PacedOptions options;
         options.folder = folder_.path("out");
@@ -35,7 +35,7 @@ class ServedRun {
         opened_.get_future().wait();
     }
 
-    /// Port of the address that is for this: "(rosbridge)".
+    /// Port of the address for the protocol `what`, such as "(rosbridge)".
     int port(std::string_view what) const {
         const std::string host = "127.0.0.1:";
         for (const std::string& line : said_) {
@@ -46,7 +46,7 @@ class ServedRun {
     }
     LiveResult end() { return run_.get(); }
     InputReplay replay() const { return replay_inputs(folder_.path("out"), {}); }
-    /// Log of inputs, as far as it is written.
+    /// Log of inputs written so far.
     std::string log() const { return content(folder_.path("out/inputs.jsonl")); }
 
   private:

@@ -17,7 +17,7 @@
 
 namespace rovernet::test {
 
-/// A lock-step whose lines are carried by a test.
+/// Lock-step run without sockets: the test passes the lines to it and back.
 class Talk {
   public:
     explicit Talk(const Scenario& scenario, Lockstep::Settings settings = {})
@@ -29,7 +29,8 @@ class Talk {
         begin();
     }
 
-    /// Carries a line, and lets time go on where nobody owes a question.
+    /// Passes a line to the lock-step run, and advances the time while the run waits for no
+    /// controller.
     void say(Lockstep::Connection from, std::string_view line) {
         lockstep.received(from, line);
         go_on();
@@ -41,7 +42,7 @@ class Talk {
         begin();
         go_on();
     }
-    /// What is answered to a line.
+    /// Answer to a line.
     std::string ask(Lockstep::Connection from, std::string_view line) {
         told[from].clear();
         say(from, line);
@@ -69,7 +70,8 @@ class Talk {
     Lockstep lockstep;
 };
 
-/// Three robots in a row, of which neighbours hear one another; A says something now and then.
+/// Scenario of three robots in a row. Only neighbours hear each other, and A sends messages at
+/// times.
 inline Scenario three_in_a_row(const std::string& more = {}) {
     const TemporaryFolder folder;
     return load_scenario(folder.write("row.toml", R"([scenario]

@@ -9,12 +9,12 @@
 
 namespace rovernet::test {
 
-/// Client of a WebSocket, from RFC 6455 alone: the server's library is another.
+/// WebSocket client, written from RFC 6455 and independent of the server's library.
 class WebClient {
   public:
-    /// Asks for a WebSocket with the key of the RFC's example (1.3).
-    /// @param lines   of the request beside the needed ones, each with its "\r\n"
-    /// @param host    instead of the address
+    /// Requests a WebSocket with the key of the RFC's example (1.3).
+    /// @param lines   additional lines of the request, each with its "\r\n"
+    /// @param host    value of the header `Host`; empty: the address
     explicit WebClient(int port, const std::string& lines = {}, const std::string& target = "/",
                        std::string host = {})
         : socket_(port) {
@@ -29,7 +29,7 @@ class WebClient {
         }
     }
 
-    /// Lines of the server's answer to the request.
+    /// Header lines of the server's answer to the request.
     const std::string& answer() const { return answer_; }
     bool is_in() const { return answer_.starts_with("HTTP/1.1 101 "); }
     LineClient& socket() { return socket_; }
@@ -38,7 +38,7 @@ class WebClient {
         int kind = -1;  ///< opcode (5.2); -1: the connection has ended
         bool is_last = true;
         std::string bytes = {};
-        /// Reason of a close frame (7.4); 0 if it has none.
+        /// Reason of a close frame (7.4); 0 if the frame has no reason.
         int reason() const {
             if (kind != 8 || bytes.size() < 2) return 0;
             return static_cast<unsigned char>(bytes[0]) << 8 | static_cast<unsigned char>(bytes[1]);
@@ -66,7 +66,8 @@ class WebClient {
         const std::string head = socket_.bytes(2);
         if (head.size() < 2) return {};
         Frame found{head[0] & 0x0f, (head[0] & 0x80) != 0, {}};
-        std::uint64_t size = static_cast<unsigned char>(head[1]);  // a server does not mask
+        // frames of a server are not masked
+        std::uint64_t size = static_cast<unsigned char>(head[1]);
         if (size >= 126) {
             const std::string number = socket_.bytes(size == 126 ? 2 : 8);
             size = 0;
@@ -75,7 +76,7 @@ class WebClient {
         found.bytes = socket_.bytes(size);
         return found;
     }
-    /// The next message, of frames that are none of control.
+    /// Next message, without control frames.
     std::string message() {
         std::string whole;
         for (;;) {
@@ -91,8 +92,8 @@ class WebClient {
         send(question);
         return message();
     }
-    /// Reason for which the server closes, to which it agrees; other frames before are lost. 0: it
-    /// just ended.
+    /// Waits for the server's close frame, answers it and returns its reason; earlier frames are
+    /// discarded. 0: the connection ended without a close frame.
     int reason() {
         for (;;) {
             const Frame next = frame();

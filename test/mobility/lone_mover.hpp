@@ -14,11 +14,11 @@
 
 namespace rovernet::test {
 
-/// A robot that walks without a Network: as many robots as a test likes, each alone.
+/// Robot that moves by a movement model without a Network, for tests of many independent robots.
 class LoneMover {
   public:
-    /// @param planners  of a scene that outlives the mover
-    /// @param robot     its key: other draws for each
+    /// @param planners  path planners; their scene must outlive the mover
+    /// @param robot     key of the robot, which determines its random draws
     explicit LoneMover(Planners& planners, std::uint64_t robot = 0, Vec3 at = {},
                        Meters radius = {0.2})
         : planners_(&planners), robot_(robot), radius_(radius) {
@@ -36,7 +36,7 @@ class LoneMover {
                 .draws = {.seed = 7, .a = robot_}};
     }
 
-    /// Takes up the model's next leg, or says that there is none.
+    /// Begins the model's next leg. @return false if there is no further leg
     template <class Model>
     bool walk(Model& model, const Legs& legs = {}) {
         Mover asking = mover(legs);
@@ -44,7 +44,7 @@ class LoneMover {
         if (const auto* next = std::get_if<Leg>(&step)) leg = *next;
         return std::holds_alternative<Leg>(step);
     }
-    /// Walks until the leg of `t` after the start is reached.
+    /// Moves until the current leg contains the time `t` after the start.
     template <class Model>
     bool walk_until(Model& model, Duration t) {
         while (leg.end <= start_of_run + t)
@@ -55,7 +55,7 @@ class LoneMover {
     double speed() const { return std::sqrt(dot(leg.velocity, leg.velocity)); }
     double length() const { return distance(leg.from, leg.to); }
 
-    Leg leg;  ///< the present one
+    Leg leg;  ///< current leg
     MetersPerSecond top_speed{std::numeric_limits<double>::infinity()};
 
   private:
@@ -64,7 +64,7 @@ class LoneMover {
     Meters radius_;
 };
 
-/// Mean and standard deviation of numbers as they come.
+/// Mean and standard deviation of a sequence of numbers.
 struct Sample {
     double n = 0, sum = 0, squares = 0;
     void add(double x) {
@@ -74,13 +74,14 @@ struct Sample {
     }
     double mean() const { return sum / n; }
     double deviation() const { return std::sqrt(squares / n - mean() * mean()); }
-    /// How many standard errors the mean is off, for a known standard deviation of one number.
+    /// Deviation of the mean from `mean_expected` in standard errors, for a known standard
+    /// deviation `sigma` of one number.
     double errors_off(double mean_expected, double sigma) const {
         return std::abs(mean() - mean_expected) / (sigma / std::sqrt(n));
     }
 };
 
-/// Counts in the cells of a square grid over an area, against what a density says.
+/// Numbers of positions in the cells of a square grid over an area, for comparison with a density.
 class Histogram {
   public:
     Histogram(Vec3 lower, Vec3 upper, int side)
@@ -93,8 +94,8 @@ class Histogram {
         ++counts_[index(cell(p.x, lower_.x, upper_.x), cell(p.y, lower_.y, upper_.y))];
         ++n_;
     }
-    /// Pearson's chi-square in standard deviations from its mean; `share(column, row)` is the
-    /// expected part of all in a cell.
+    /// Deviation of Pearson's chi-square from its mean, in standard deviations. `share(column,
+    /// row)` is the expected share of all positions in a cell [-].
     template <class Share>
     double chi_square_sigmas(Share share) const {
         double chi = 0;

@@ -15,7 +15,7 @@
 
 namespace rovernet::test {
 
-/// Splits a line at its commas; a quoted cell may hold some.
+/// Splits a line at its commas; a quoted cell may contain commas.
 inline std::vector<std::string> csv_cells(const std::string& line) {
     std::vector<std::string> cells(1);
     bool quoted = false;
@@ -31,13 +31,13 @@ inline std::vector<std::string> csv_cells(const std::string& line) {
     return cells;
 }
 
-/// A table of test vectors: a header, then rows of cells; lines that start with # are comments.
+/// Table of test vectors: a header, then rows of cells; lines that start with # are comments.
 class Vectors {
   public:
-    /// @param file  in test/data
+    /// @param file  name of a file in test/data
     explicit Vectors(const std::string& file)
         : Vectors(std::string(ROVERNET_TEST_DATA) + "/", file) {}
-    /// @param folder  with a slash at its end
+    /// @param folder  folder, with a slash at its end
     Vectors(const std::string& folder, const std::string& file) {
         std::ifstream in(folder + file);
         for (std::string line; std::getline(in, line);) {
@@ -62,12 +62,13 @@ class Vectors {
     std::vector<std::vector<std::string>> rows_;
 };
 
-/// The vectors carry 15 digits, so that losses of up to 4079 dB are good to 1e-11 dB.
+/// Tolerance of the vectors [dB]. They have 15 digits, so that losses of up to 4079 dB are accurate
+/// to 1e-11 dB.
 inline constexpr double vector_tolerance = 1e-9;  // [dB]
 
 inline constexpr double no_cutoff = std::numeric_limits<double>::infinity();
 
-/// One link, for a batch with one receiver.
+/// Link from one transmitter to one receiver.
 struct OneLink {
     Hertz frequency{2450e6};
     Vec3 from{};
@@ -78,7 +79,7 @@ struct OneLink {
     std::uint64_t seed = 0;
     std::uint32_t replication = 0;
 
-    /// Its loss [dB] through the library.
+    /// Loss of the link [dB] by a model.
     double loss(const Propagation& model, double cutoff = no_cutoff) const {
         const Scene open_field;
         double out = std::numeric_limits<double>::quiet_NaN();
@@ -96,7 +97,7 @@ struct OneLink {
     }
 };
 
-/// The loss [dB] at distance d [m] along x.
+/// Loss [dB] by a model at distance d [m] along the x axis.
 inline double loss_at(const Propagation& model, double d, Hertz f = {2450e6}) {
     return OneLink{.frequency = f, .to = {d, 0, 0}}.loss(model);
 }

@@ -25,7 +25,7 @@ inline bool in_order(std::span<const Reception> receptions) {
     return std::is_sorted(receptions.begin(), receptions.end());
 }
 
-/// Every reception there is, how they came, and what was sent after what.
+/// Log of all receptions of a run, of their groups, and of the order of transmissions.
 struct ReceptionLog {
     using Entry = std::tuple<std::uint64_t, std::uint64_t, Time, NodeId, Fate, bool>;
 
@@ -51,7 +51,7 @@ struct ReceptionLog {
     }
 };
 
-/// What a network runs on.
+/// Models and radio of a network.
 struct Setting {
     Propagation propagation = Disc{.range = {150}};
     ReceptionModel reception = Threshold{};
@@ -61,7 +61,7 @@ struct Setting {
     bool reference = false;
 };
 
-/// Every model and every way to flood.
+/// Settings that together use every model and every kind of flood.
 inline std::vector<Setting> settings() {
     using namespace std::chrono_literals;
     const LogDistance shadowed{.exponent = 3, .sigma = 4_dB};
@@ -72,12 +72,13 @@ inline std::vector<Setting> settings() {
             {.flood = {.ttl = 2, .upgrade = false, .jitter = 0us}},
             {.flood = forward},
             {.propagation = shadowed, .flood = at_once},
-            {.propagation = Disc{.range = 320_m}, .flood = at_once},  // over 1 us of flight
+            // propagation delays above 1 us
+            {.propagation = Disc{.range = 320_m}, .flood = at_once},
             {.reception = Collision{}},
             {.propagation = shadowed, .reception = Collision{.capture_ratio = Db{3}}},
             {.propagation = LogDistance{.exponent = 3}, .reception = Sinr{}},
             {.reception = Collision{}, .access = Csma{}},
-            // Frames that are over before those that they come between have arrived.
+            // Frames so short that they end before earlier frames have arrived at all receivers.
             {.radio = {.sensitivity = {-90}, .rate = {1e12}, .preamble = 0ns}}};
 }
 

@@ -16,18 +16,19 @@
 
 namespace rovernet::test {
 
-/// A link layer for tests of a protocol: keeps what the protocol does, and hands it receptions that
-/// the test makes up. Nothing happens by itself.
+/// Link layer for tests of a routing protocol: records the protocol's calls, and passes receptions
+/// to the protocol when the test requests it. Nothing happens by itself.
 class FakeLinkLayer final : public LinkLayer {
   public:
-    /// State of a frame: before its time, in its sender's queue, or neither any more.
+    /// State of a frame: waiting for its send time, in its sender's queue, or removed from the
+    /// queue.
     enum class Stage { waiting, queued, gone };
     /// A frame that the protocol sent, by its SendHandle.
     struct Sending {
         QueuedFrame queued;
         Time at;
         Stage stage = Stage::waiting;
-        std::uint64_t uid = 0;  ///< of its message, whose slot may be reused
+        std::uint64_t uid = 0;  ///< uid of the message, whose slot may be reused
     };
     struct Timer {
         NodeId node;
@@ -43,11 +44,12 @@ class FakeLinkLayer final : public LinkLayer {
 
     explicit FakeLinkLayer(std::size_t nodes) : on(nodes, true), positions(nodes) {}
 
-    /// A message of an application.
+    /// Creates a message of an application.
     MessageId message_from(NodeId from, NodeId to = everyone, std::string payload = {}) {
         return add({.origin = from, .to = to, .payload = std::move(payload), .is_routed = true});
     }
-    /// The frame arrives at these nodes now. @return what the protocol made of it
+    /// Passes a frame to the protocol, as received now at the given nodes. @return receptions after
+    /// the protocol has set their fates
     template <class Protocol>
     std::vector<Reception> arrive(Protocol& protocol, const Frame& frame,
                                   std::initializer_list<std::uint32_t> nodes) {
@@ -56,13 +58,14 @@ class FakeLinkLayer final : public LinkLayer {
         protocol.on_receive(*this, frame, receptions);
         return receptions;
     }
-    /// The time of the last frame that was sent has come: it is in its sender's queue. @return it
+    /// Advances to the send time of the last sent frame, which enters its sender's queue. @return
+    /// the frame
     Frame go() {
         sent.back().stage = Stage::queued;
         time = sent.back().at;
         return sent.back().queued.frame;
     }
-    /// A frame in a queue ends with this result, which the protocol is told.
+    /// Removes a frame from its queue, and reports the result to the protocol.
     template <class Protocol>
     void end(Protocol& protocol, std::size_t handle, SendResult result) {
         const QueuedFrame frame = sent[handle].queued;
@@ -149,17 +152,19 @@ class FakeLinkLayer final : public LinkLayer {
     std::vector<bool> on;
     std::vector<Vec3> positions;
     std::vector<std::string_view> roles{};
-    std::vector<std::uint64_t> keys{};  ///< of nodes; beyond the end the id is the key
+    /// keys of nodes; a node beyond the end has its id as its key
+    std::vector<std::uint64_t> keys{};
     Dbm received_power{-60}, noise{-95};
-    double drawn = 0.5;  ///< by every draw
-    /// By draws of an index, in place of `drawn`.
+    double drawn = 0.5;  ///< result of every random draw
+    /// Results of the draws with these indices, in place of `drawn`.
     std::map<std::uint64_t, double> drawn_at{};
     MessageTable messages{};
     std::vector<Sending> sent{};
     std::vector<Timer> timers{};
     std::vector<Drop> drops{};
-    std::map<std::uint32_t, int> headers{};  ///< references to each header of frames
-    /// Called after the last reference to a message or a header: the protocol's functions.
+    std::map<std::uint32_t, int> headers{};  ///< number of references to each header of frames
+    /// Functions of the protocol that are called after the last reference to a message or header
+    /// was removed.
     std::function<void(MessageId)> on_forgotten{};
     std::function<void(std::uint32_t)> on_header_forgotten{};
 

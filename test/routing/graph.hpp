@@ -21,9 +21,9 @@
 
 namespace rovernet::test {
 
-/// A graph that runs any routing protocol without radio: a frame takes `hop_time` to each
-/// neighbour, none is lost, and a unicast over an edge that is not there ends with `retries`. With
-/// `faults` frames are lost and late, too.
+/// Graph on which any routing protocol runs without radio. A frame takes `hop_time` to each
+/// neighbour, and no frame is lost. A unicast over a missing edge fails with `retries`. With
+/// `faults`, frames are also lost or late.
 class Graph final : public LinkLayer {
   public:
     using Edge = std::pair<std::uint32_t, std::uint32_t>;
@@ -37,32 +37,32 @@ class Graph final : public LinkLayer {
         send_outbox();
     }
 
-    /// What may happen to frames: shares that are lost, and of unicasts that arrive without the
-    /// sender's notice; longest time of a frame; seed of the draws.
+    /// Faults of frames: share of lost frames, share of unicasts whose acknowledgement is lost [-],
+    /// longest time of a frame [ns], and seed of the draws.
     struct Faults {
         double loss = 0, unnoticed = 0;
         Duration longest = hop_time;
         std::uint64_t seed = 0;
     };
     Faults faults{};
-    /// Seed of the draws of the protocol.
+    /// Seed of the protocol's random draws.
     std::uint64_t seed = 0;
     /// Positions of nodes [m]; nodes beyond the end are at the origin.
     std::vector<Vec3> positions{};
-    /// Ratio to the noise with which a node hears another; 30 dB if not given.
+    /// Signal to noise ratio [dB] at which `to` hears `from`; 30 dB if not given.
     std::function<Db(NodeId from, NodeId to)> snr_between{};
-    /// Roles of nodes; nodes beyond the end have none.
+    /// Roles of nodes; nodes beyond the end have no role.
     std::vector<std::string_view> roles{};
-    /// Keys of nodes; beyond the end the id is the key.
+    /// Keys of nodes; a node beyond the end has its id as its key.
     std::vector<std::uint64_t> keys{};
-    /// Called as a frame is sent.
+    /// Called when a frame is sent.
     std::function<void(const Frame&)> on_transmit{};
     /// Called after each event.
     std::function<void()> after_event{};
-    /// Called as a message of an application arrives at a node.
+    /// Called when a message of an application arrives at a node.
     std::function<void(const Message&, NodeId)> on_message_at{};
 
-    /// Does something at a time.
+    /// Calls `act` at `time`.
     void at(Time time, std::function<void()> act) { schedule(time, std::move(act)); }
     void switch_node(std::uint32_t node, bool on) {
         if (on ? off_.erase(node) == 0 : !off_.insert(node).second) return;
@@ -71,12 +71,13 @@ class Graph final : public LinkLayer {
     }
     void join(std::uint32_t a, std::uint32_t b) { edges_.insert({a, b}), edges_.insert({b, a}); }
     void cut(std::uint32_t a, std::uint32_t b) { edges_.erase({a, b}), edges_.erase({b, a}); }
-    /// Cuts all edges of a node.
+    /// Removes all edges of a node.
     void isolate(std::uint32_t node) {
         std::erase_if(edges_, [&](const Edge& e) { return e.first == node || e.second == node; });
     }
 
-    /// Sends a message of an application at `at`. @return its number, an index into `delivered`
+    /// Sends a message of an application at `at`. @return number of the message, an index into
+    /// `delivered`
     std::size_t send(std::uint32_t from, std::uint32_t to, Time at) {
         delivered.emplace_back();
         const std::size_t number = delivered.size() - 1;
@@ -154,7 +155,7 @@ class Graph final : public LinkLayer {
     void cancel(SendHandle handle) override {
         if (const auto frame = std::exchange(waiting_[handle], std::nullopt)) release(frame->frame);
     }
-    /// Frames leave at once, so that none is queued.
+    /// Returns no frames: all frames leave immediately, so that none is queued.
     std::vector<QueuedFrame> take_queued(NodeId, NodeId) override { return {}; }
     void drop(NodeId, const Frame&, DropReason reason, std::string_view own_code = {}) override {
         ++drops[reason == DropReason::own ? own_code : reason_of(reason).code];
@@ -189,11 +190,11 @@ class Graph final : public LinkLayer {
         return uniform({.seed = seed, .purpose = purpose, .a = key(node), .index = index});
     }
 
-    /// Nodes at which each message of an application was delivered, with the hops.
+    /// Nodes to which each message of an application was delivered, with the number of hops.
     std::vector<std::vector<std::pair<NodeId, int>>> delivered{};
-    /// Number of frames by kind of their message; "" for those of applications.
+    /// Number of frames by kind of message; "" for messages of applications.
     std::map<std::string_view, int> frames{};
-    /// Number of drops by the protocol, by code.
+    /// Number of messages dropped by the protocol, by code of the reason.
     std::map<std::string_view, int> drops{};
     /// Number of messages in use.
     std::size_t messages_in_use() const { return messages_.size(); }
@@ -221,7 +222,8 @@ class Graph final : public LinkLayer {
         return messages_.add(std::move(message));
     }
     void send_outbox() {
-        for (std::size_t i = 0; i < outbox_.size(); ++i) transmit(outbox_[i]);  // may grow
+        // outbox_ may grow in the loop
+        for (std::size_t i = 0; i < outbox_.size(); ++i) transmit(outbox_[i]);
         outbox_.clear();
     }
     void transmit(const QueuedFrame& queued) {
@@ -275,7 +277,7 @@ class Graph final : public LinkLayer {
         release(frame);
     }
 
-    /// Draw for a fault, in (0, 1).
+    /// Random draw for a fault, in (0, 1).
     double fault() {
         return uniform({.seed = faults.seed,
                         .purpose = Purpose::bit_errors,
@@ -293,7 +295,7 @@ class Graph final : public LinkLayer {
     NodeId arriving_from_{};
     std::priority_queue<Event> events_;
     std::uint64_t next_event_ = 0, next_uid_ = 0;
-    std::map<std::uint32_t, std::uint64_t> packets_;  // made by each node
+    std::map<std::uint32_t, std::uint64_t> packets_;  // number of packets made by each node
     MessageTable messages_;
     std::vector<QueuedFrame> outbox_;
     std::vector<std::optional<QueuedFrame>> waiting_;

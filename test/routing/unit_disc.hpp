@@ -11,13 +11,13 @@
 
 namespace rovernet::test {
 
-/// Nodes at random places of a square, which hear each other up to a range.
+/// Nodes at random positions in a square, which hear each other up to a range.
 struct UnitDisc {
     std::vector<Vec3> at;
     std::vector<Graph::Edge> edges;
     std::uint32_t source = 0;
 
-    /// @param side   of the square, and `range` [m]
+    /// @param side   side of the square [m]; `range` is in [m], too
     UnitDisc(std::size_t nodes, double side, double range, std::uint64_t seed) {
         const auto draw = [&](std::uint64_t index) {
             return uniform({.seed = seed, .purpose = Purpose::placement, .index = index});
@@ -37,7 +37,7 @@ struct UnitDisc {
         for (const auto& [a, b] : edges) of[a].push_back(b), of[b].push_back(a);
         return of;
     }
-    /// Number of nodes that a chain of edges connects to the source, without it.
+    /// Number of nodes that a chain of edges connects to the source, without the source.
     std::size_t reachable() const {
         const auto of = neighbours();
         std::vector<bool> is_reached(at.size());

@@ -10,7 +10,8 @@
 
 namespace rovernet::test {
 
-/// A map as it looks: top row first, '#' occupied, '?' unknown, anything else free; cells of 1 m.
+/// Map drawn as text: top row first, '#' occupied, '?' unknown, any other character free. Cells
+/// have the size `cell` [m].
 inline OccupancyGrid drawn_map(const std::vector<std::string>& rows, double cell = 1) {
     OccupancyGrid grid;
     grid.columns = static_cast<int>(rows.front().size());
@@ -22,7 +23,7 @@ inline OccupancyGrid drawn_map(const std::vector<std::string>& rows, double cell
     return grid;
 }
 
-/// Numbers that are the same everywhere.
+/// Generator of random numbers that are equal on all machines.
 class Draw {
   public:
     explicit Draw(std::uint32_t seed) : bits_(seed) {}
@@ -34,7 +35,7 @@ class Draw {
     std::mt19937 bits_;
 };
 
-/// Cells occupied at random, so many in a hundred, with some long walls.
+/// Map with `percent` % of its cells occupied at random, and some long walls.
 inline OccupancyGrid random_map(Draw& draw, int columns, int rows, int percent) {
     OccupancyGrid grid;
     grid.columns = columns;

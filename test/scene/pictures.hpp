@@ -7,7 +7,7 @@
 
 namespace rovernet::test {
 
-/// Bytes from their hexadecimal digits.
+/// Bytes given by hexadecimal digits.
 inline std::string from_hex(std::string_view digits) {
     const auto value = [](char c) { return c <= '9' ? c - '0' : c - 'a' + 10; };
     std::string bytes;
@@ -25,8 +25,8 @@ inline std::string gray_jpeg() {
         "000000000000000000000000000000ffda0008010100003f001566ffd9");
 }
 
-/// JPEG in colours of 16 x 8 pixels: the left half (200, 30, 40), the right half white. At quality
-/// 20 the former is decoded to (204, 29, 46), by Pillow.
+/// Colour JPEG of 16 x 8 pixels: the left half (200, 30, 40), the right half white. At quality 20,
+/// Pillow decodes the left half to (204, 29, 46).
 inline std::string color_jpeg() {
     return from_hex(
         "ffd8ffe000104a46494600010100000100010000ffdb004300281c1e231e19282321232d2b28303c64413c37"
@@ -38,22 +38,23 @@ inline std::string color_jpeg() {
         "00000000000000ffda000c03010002110311003f0030d414444f7fffd9");
 }
 
-/// GIF of 3 x 2 pixels: black, white and (200, 30, 40), and the same from right to left.
+/// GIF of 3 x 2 pixels: the first row is black, white and (200, 30, 40); the second row has the
+/// same colours from right to left.
 inline std::string opaque_gif() {
     return from_hex(
         "47494638376103000200810000000000ffffffc81e280000002c000000000300020000080900010410202000"
         "8080003b");
 }
-/// GIF of the same pixels, the white ones transparent.
+/// GIF with the pixels of opaque_gif(), in which white is transparent.
 inline std::string transparent_gif() {
     return from_hex(
         "47494638396103000200810000000000ffffffc81e2800000021f90401000001002c00000000030002000008"
         "09000104102020008080003b");
 }
 
-/// Header of a BMP of that many bits per pixel, without pixels.
+/// Header of a BMP with `bits` bits per pixel, without pixels.
 /// @param height   negative: the first row is the top row
-/// @param colors   of the palette, each blue, green, red, 0
+/// @param colors   colours of the palette, each blue, green, red, 0
 inline std::string bmp_header(std::int32_t width, std::int32_t height, int bits,
                               const std::string& colors = "", int compression = 0) {
     std::string bytes = "BM";

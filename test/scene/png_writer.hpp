@@ -9,7 +9,7 @@
 
 namespace rovernet::test {
 
-/// A PNG to write; rows are the packed bytes of the file format.
+/// PNG image to be written; rows are packed bytes in the file's format.
 struct PngPicture {
     png_uint_32 width = 1;
     png_uint_32 height = 1;
@@ -17,8 +17,8 @@ struct PngPicture {
     int color_type = PNG_COLOR_TYPE_GRAY;
     std::vector<std::vector<png_byte>> rows;
     std::vector<png_color> palette{};
-    std::vector<png_byte> palette_alpha{};  ///< of the first palette entries
-    int transparent_gray = -1;              ///< the gray that is transparent
+    std::vector<png_byte> palette_alpha{};  ///< alpha of the first palette entries
+    int transparent_gray = -1;              ///< transparent gray value; -1: none
     bool interlaced = false;
 };
 
@@ -27,7 +27,8 @@ inline void on_bytes(png_structp png, png_bytep bytes, png_size_t size) {
         ->append(reinterpret_cast<const char*>(bytes), size);
 }
 
-/// The file's bytes. The pictures of the tests are valid: libpng has no error to report.
+/// Bytes of the PNG file. The images of the tests must be valid, because errors of libpng are not
+/// handled.
 inline std::string png_bytes(PngPicture picture) {
     std::string bytes;
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);

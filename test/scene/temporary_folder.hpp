@@ -9,7 +9,7 @@
 
 namespace rovernet::test {
 
-/// A folder that vanishes with its object.
+/// Temporary folder, removed by the destructor.
 class TemporaryFolder {
   public:
     TemporaryFolder() {

@@ -16,7 +16,7 @@ static_assert(std::numeric_limits<long double>::digits >= 64, "the oracle needs 
 
 constexpr int samples = 100'000;
 
-/// The distance of `value` from `exact` in units of the last place of `exact`.
+/// Distance of `value` from `exact` in units of the last place of `exact`.
 inline double error_ulp(double value, long double exact) {
     const int exponent = std::max(std::ilogb(static_cast<double>(exact)), Limits::min_exponent - 1);
     return static_cast<double>(std::abs(value - exact) /
@@ -41,7 +41,7 @@ inline bool same_bits(double a, double b) {
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
-/// The bits of f over many arguments as one number.
+/// Hash of the bits of f(x) for many arguments x.
 template <class Function>
 std::uint64_t fingerprint(Function f, double from, double to) {
     std::uint64_t sum = 0;

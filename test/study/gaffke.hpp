@@ -11,11 +11,11 @@
 namespace rovernet::test {
 
 /// Lower end of Gaffke's interval for the mean of values in [0, 1]: the quantile `level` of the sum
-/// of D_i x_i, with D uniform on the simplex of n + 1 weights and a value 0 added to the x. It is
-/// the yardstick of widths: its coverage is right in every case tried, but not proven. Source: E.
-/// Learned-Miller, P. S. Thomas, A new confidence interval for the mean of a bounded random
-/// variable, arXiv 1905.06208, 2019; N. Gaffke, Three test statistics for a nonparametric one-sided
-/// hypothesis on the mean of a nonnegative variable, 2005.
+/// of D_i x_i, with D uniform on the simplex of n + 1 weights and a value 0 added to the x. Tests
+/// compare widths of intervals with this interval. Its coverage was sufficient in every case tried,
+/// but is not proven. Source: E. Learned-Miller, P. S. Thomas, A new confidence interval for the
+/// mean of a bounded random variable, arXiv 1905.06208, 2019; N. Gaffke, Three test statistics for
+/// a nonparametric one-sided hypothesis on the mean of a nonnegative variable, 2005.
 inline double gaffke_low(std::span<const double> values, double level) {
     constexpr std::uint32_t draws = 2000;
     std::vector<double> means;

@@ -10,7 +10,7 @@
 
 namespace rovernet::test {
 
-/// The numbers of a cell, between blanks.
+/// Numbers in a table cell, separated by blanks.
 inline std::vector<double> listed_numbers(const std::string& cell) {
     std::vector<double> numbers;
     std::istringstream in(cell);

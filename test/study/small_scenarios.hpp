@@ -5,11 +5,11 @@
 
 #include <string>
 
-// Scenarios that take a millisecond or two, for tests of studies and of their commands.
+// Scenarios whose runs take one or two milliseconds, for tests of studies and their commands.
 
 namespace rovernet::test {
 
-/// Eight robots on an open field that talk.
+/// Scenario of eight robots on an open field that send messages.
 inline const std::string talkers = R"([scenario]
 name = "talkers"
 duration = "4 s"
@@ -31,8 +31,8 @@ size = "64 B"
 every = "500 ms"
 )";
 
-/// A at the origin, and B on the x axis [m]; A says something each second.
-/// @param more  tables before the robots
+/// Scenario with robot A at the origin and B at (x, 0) [m]; A sends a message each second.
+/// @param more  further tables of the scenario, placed before the robots
 inline std::string two_robots(double x, const std::string& more) {
     return fmt::format(R"([scenario]
 duration = "5 s"
@@ -55,7 +55,7 @@ every = "1 s"
                        more, x);
 }
 
-/// A disc of 10 m.
+/// Table [propagation] with a disc of 10 m.
 inline const std::string disc = R"([propagation]
 model = "disc"
 range = "10 m"

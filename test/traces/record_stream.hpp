@@ -27,7 +27,7 @@ using namespace std::chrono_literals;
 
 inline Time at(std::int64_t ns) { return Time{Duration{ns}}; }
 
-/// A folder that goes with the test.
+/// Temporary folder, removed by the destructor.
 class TempFolder {
   public:
     TempFolder() {
@@ -60,7 +60,7 @@ inline void write_file(const std::string& path, const std::string& text) {
     std::ofstream(path, std::ios::binary) << text;
 }
 
-/// Records made by hand, and the sinks that hear them.
+/// Functions that emit single records to sinks.
 class Stream {
   public:
     Legs legs;
@@ -118,8 +118,8 @@ inline Frame frame(MessageId m, NodeId sender, unsigned ttl, unsigned hops) {
             .hops = static_cast<std::uint8_t>(hops)};
 }
 
-/// Any records in any order that a network might emit, the same for the same seed: moving robots,
-/// echoes to the origin, duplicates, copies at the end of their ttl, radios switched off.
+/// Random sequence of records as a network may emit it, determined by a seed: moving robots, echoes
+/// to the origin, duplicates, copies whose ttl has expired, radios switched off.
 class RandomRecords {
   public:
     RandomRecords(Stream& stream, unsigned seed) : stream_(stream), draw_(seed) {}
@@ -196,7 +196,8 @@ class RandomRecords {
     Time now_{};
     std::vector<MessageId> sent_;
     std::vector<std::uint8_t> ttls_;
-    std::set<std::pair<std::size_t, std::size_t>> got_;  ///< message and robot of deliveries
+    /// pairs of message and robot for which the message was delivered
+    std::set<std::pair<std::size_t, std::size_t>> got_;
 };
 
 }  // namespace rovernet::testing

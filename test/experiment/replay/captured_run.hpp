@@ -15,7 +15,7 @@
 
 namespace rovernet::testing {
 
-/// A run with a recorded trace, and the names of the files that are made of it.
+/// Run with a recorded trace, and the paths of files made from the trace.
 struct CapturedRun {
     TempFolder folder;
     std::string trace = folder / "trace.mcap", capture = folder / "run.pcapng";
@@ -27,7 +27,7 @@ struct CapturedRun {
         set.emplace_back("trace.record=true");
         run_scenario(load_scenario(folder / "s.toml", {.set = set}), to);
     }
-    /// What tshark prints of the capture with these options.
+    /// Output of tshark for the capture, with these options.
     std::string tshark(const std::string& options) const {
         const std::string printed = folder / "printed", errors = folder / "errors";
         const std::string line = "HOME=" + (folder / ".") + " tshark -n -r " + capture + " " +
@@ -37,7 +37,7 @@ struct CapturedRun {
     }
 };
 
-/// Whether tshark is installed; says so if it is not.
+/// Whether tshark is installed; prints a message if not.
 inline bool has_tshark() {
     if (std::system("tshark --version > /dev/null 2>&1") == 0) return true;
     MESSAGE("tshark is missing: not checked");

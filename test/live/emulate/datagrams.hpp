@@ -14,7 +14,7 @@
 
 namespace rovernet::test {
 
-/// Program's socket to a robot's UDP port.
+/// Socket of a program, connected to a robot's UDP port.
 class Datagrams {
   public:
     explicit Datagrams(int port) : socket_(socket(AF_INET, SOCK_DGRAM, 0)) {
@@ -29,12 +29,13 @@ class Datagrams {
     Datagrams& operator=(const Datagrams&) = delete;
 
     void send(std::string_view bytes) const { REQUIRE(offer(bytes)); }
-    /// Sends a datagram, whether or not anybody listens there.
-    /// @return whether it was sent: not if the last one found nobody
+    /// Sends a datagram to the robot's port, at which no program has to listen.
+    /// @return whether the datagram was sent; false if no program listened when the last datagram
+    /// arrived
     bool offer(std::string_view bytes) const {
         return ::send(socket_, bytes.data(), bytes.size(), 0) >= 0;
     }
-    /// The next datagram; empty if none comes in time.
+    /// Next datagram received; empty if none arrives in time.
     std::string next(std::chrono::milliseconds most) const {
         const timeval longest{most.count() / 1000, most.count() % 1000 * 1000};
         setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &longest, sizeof longest);

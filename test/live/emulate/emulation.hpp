@@ -12,7 +12,7 @@
 
 namespace rovernet::test {
 
-/// `rovernet emulate` in the background.
+/// Process of `rovernet emulate` in the background.
 class Emulation {
   public:
     Emulation(const std::string& scenario, std::vector<std::string> options)
@@ -23,7 +23,8 @@ class Emulation {
     Emulation(const Emulation&) = delete;
     Emulation& operator=(const Emulation&) = delete;
 
-    /// Waits until it listens at so many ports. @return the lines that say so; fewer if it ended
+    /// Waits until the process listens at `ports` ports. @return its lines about the ports; fewer
+    /// if it has ended
     std::vector<std::string> listening(std::size_t ports) const {
         using namespace std::chrono_literals;
         std::vector<std::string> said;
@@ -34,11 +35,12 @@ class Emulation {
             for (std::string line; std::getline(out, line) && !out.eof();) {
                 if (line.starts_with("listening on ")) said.push_back(line);
             }
-            if (!told.empty() && told.find("for a page: ") == told.npos) break;  // it failed
+            // the process has printed an error
+            if (!told.empty() && told.find("for a page: ") == told.npos) break;
         }
         return said;
     }
-    /// Port of the line that ends so, among so many lines: "(rosbridge)".
+    /// Port in the line that ends with `what`, such as "(rosbridge)", among `ports` lines.
     int port(std::size_t ports, const std::string& what) const {
         for (const std::string& line : listening(ports)) {
             if (line.ends_with(what)) return std::stoi(line.substr(line.find("127.0.0.1:") + 10));
@@ -46,7 +48,7 @@ class Emulation {
         FAIL("it does not listen for " << what);
         return 0;
     }
-    /// UDP ports of its robots.
+    /// UDP ports of the robots.
     std::vector<int> ports(std::size_t robots) const {
         std::vector<int> ports;
         for (const std::string& line : listening(robots)) {

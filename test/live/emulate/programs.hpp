@@ -12,7 +12,7 @@
 
 namespace rovernet::test {
 
-/// Programs of robots whose packets are carried by a test.
+/// Programs of robots, whose packets the test passes to the front and back.
 class Programs {
   public:
     struct Packet {
@@ -34,7 +34,7 @@ class Programs {
     }
 
     void send(std::uint32_t robot, const std::string& packet) { front_.received(robot, packet); }
-    /// Lets time go on, from one event to the next.
+    /// Advances the session to `end`, from event to event.
     void run_to(Time end) {
         while (session_.network().now() < end) {
             session_.step(std::min(front_.next(), end));
@@ -42,14 +42,14 @@ class Programs {
         }
     }
     Session& session() { return session_; }
-    /// A number of those that the front counts.
+    /// Value of one of the front's counters.
     std::uint64_t count(std::string_view what) const {
         Table counts;
         front_.report(counts);
         return static_cast<std::uint64_t>(std::get<std::int64_t>(counts.find(what)->data));
     }
 
-    std::vector<Packet> got;  // by programs
+    std::vector<Packet> got;  // packets that the programs have received
 
   private:
     Session session_;

@@ -10,12 +10,12 @@
 #include <utility>
 #include <vector>
 
-// Runs of `emulate` with TAP devices, and programs inside.
+// Runs of `emulate` with TAP devices, and programs in the robots' networks.
 
 namespace rovernet::test {
 
-/// A and B hear one another, and a ping takes 2 ms each way: 84 bytes at 11 Mb/s behind a preamble.
-/// W is out of range.
+/// Scenario in which A and B hear each other, and W is out of range. A ping takes 2 ms in each
+/// direction: 84 bytes at 11 Mb/s after a preamble.
 inline const std::string tap_scenario = R"([scenario]
 name = "tap"
 duration = "90 s"
@@ -35,7 +35,7 @@ name = "W"
 at = ["1 km", "0 m"]
 )";
 
-/// The emulation, if this machine allows it.
+/// Emulation with TAP devices; null if this machine does not allow them.
 inline std::unique_ptr<Emulation> emulated_by_tap(const std::string& text = tap_scenario) {
     auto emulation = std::make_unique<Emulation>(
         text, std::vector<std::string>{"--late", "60 s", "--set", "scenario.seed=1"});
@@ -45,14 +45,14 @@ inline std::unique_ptr<Emulation> emulated_by_tap(const std::string& text = tap_
     return nullptr;
 }
 
-/// A program with a robot's network.
+/// Process of a program that runs in a robot's network.
 inline Process in(const TemporaryFolder& folder, const Emulation& run, const std::string& robot,
                   std::vector<std::string> program) {
     program.insert(program.begin(), {"in", robot, "--run", std::to_string(run.pid()), "--"});
     return {folder, std::move(program)};
 }
 
-/// Whether something of a run is left on the machine.
+/// Whether sockets of the run with this process id exist on the machine.
 inline bool has_listeners(pid_t run) {
     return content("/proc/net/unix").find("@rovernet/" + std::to_string(run) + "/") !=
            std::string::npos;

@@ -24,7 +24,8 @@ inline Scenario player_scenario(const std::string& text) {
     return load_scenario(folder.write("player.toml", text), {});
 }
 
-/// Player clients whose bytes are carried by a test, and time that goes on when it says so.
+/// Player clients and a session without sockets and clock: the test passes the bytes, and advances
+/// the time.
 class PlayerTalk {
   public:
     explicit PlayerTalk(Scenario scenario, PlayerSettings settings = {})
@@ -38,7 +39,7 @@ class PlayerTalk {
         front.begin(session, scenario_);
     }
 
-    /// A new client, its banner taken off.
+    /// Connects a new client and removes the banner from its input.
     Front::Connection come(std::size_t listener = 0) {
         const Front::Connection client = next_client_++;
         front.opened(client, {listener, static_cast<std::uint16_t>(6665 + listener)});
@@ -47,7 +48,7 @@ class PlayerTalk {
     }
     void say(Front::Connection client, const std::string& bytes) { front.received(client, bytes); }
     void go(Front::Connection client) { front.closed(client); }
-    /// Messages that a client was told since the last call.
+    /// Messages that a client has received since the last call.
     std::vector<Wire> told(Front::Connection client) { return take_messages(told_[client]); }
     std::vector<Wire> ask(Front::Connection client, const std::string& bytes) {
         told(client);
@@ -59,7 +60,7 @@ class PlayerTalk {
     void run_for(Duration time) { run_until(session.network().now().time_since_epoch() + time); }
 
   private:
-    /// Robot k at listener k, unless it is said otherwise.
+    /// Settings with robot k at listener k, unless `settings` place robots otherwise.
     PlayerSettings placed(PlayerSettings settings) const {
         if (!settings.places.empty()) return settings;
         for (const RobotTable& robot : scenario_.robots) {

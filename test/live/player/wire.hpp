@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-// Player's messages as a test writes and reads them, without the code that it tests.
+// Encoding of Player's messages for tests, independent of the tested code.
 
 namespace rovernet::test {
 
@@ -27,7 +27,7 @@ inline std::string doubles(std::initializer_list<double> numbers) {
     for (const double number : numbers) out += be64(number);
     return out;
 }
-/// Counts, bytes, padding.
+/// Array of bytes as encoded by Player: its counts, the bytes, and padding.
 inline std::string counted(const std::string& bytes) {
     const std::string count = be32(bytes.size());
     return count + count + bytes + std::string((4 - bytes.size() % 4) % 4, '\0');
@@ -65,7 +65,7 @@ inline std::string to_hex(std::string_view bytes) {
 
 enum WireType : std::uint32_t { data = 1, cmd, req, ack, sync_message, nack };
 
-/// A message as it is on the wire.
+/// Message of Player's protocol: header and payload.
 struct Wire {
     std::uint32_t host = 0, robot = 0, interface = 0, index = 0, type = 0, subtype = 0;
     double time = 0;
@@ -79,7 +79,7 @@ struct Wire {
         }
         return out + be64(time) + be32(sequence) + be32(payload.size()) + payload;
     }
-    /// What counts of an answer: all but the time and the sequence.
+    /// Text of an answer for comparisons, without time and sequence number.
     std::string gist() const {
         std::ostringstream out;
         out << std::hex << host << ' ' << std::dec << robot << ' ' << interface << ':' << index
@@ -88,7 +88,7 @@ struct Wire {
     }
 };
 
-/// Takes the messages off a stream.
+/// Removes all complete messages from the front of `bytes`, and returns them.
 inline std::vector<Wire> take_messages(std::string& bytes) {
     std::vector<Wire> found;
     while (bytes.size() >= 40) {
@@ -112,7 +112,7 @@ inline std::string order(std::uint32_t interface, std::uint32_t index, std::stri
     return Wire{0, 0, interface, index, cmd, 1, 0, 0, std::move(payload)}.bytes();
 }
 inline std::string mode(std::uint32_t pull_or_push) { return request(1, 0, 5, be32(pull_or_push)); }
-/// Opens a device (access 1) or closes it (2).
+/// Request that opens a device (access 1) or closes it (2).
 inline std::string device(std::uint32_t interface, std::uint32_t index, std::uint32_t access = 1) {
     return request(1, 0, 3,
                    be32(0) + be32(0) + be32(interface) + be32(index) + be32(access) + counted(""));

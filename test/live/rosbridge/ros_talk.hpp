@@ -19,7 +19,8 @@ namespace rovernet::test {
 
 using Json = nlohmann::json;
 
-/// ROS clients whose messages are carried by a test, and time that goes on when it says so.
+/// ROS clients and a session without sockets and clock: the test passes the messages, and advances
+/// the time.
 class RosTalk {
   public:
     explicit RosTalk(Scenario scenario)
@@ -39,7 +40,7 @@ class RosTalk {
     void say(const std::string& message, Front::Connection client = 0) {
         front.received(client, message);
     }
-    /// What a client was told since the last call.
+    /// Messages that a client has received since the last call.
     std::vector<Json> told(Front::Connection client = 0) {
         return std::exchange(told_[client], {});
     }
@@ -48,7 +49,8 @@ class RosTalk {
         say(message, client);
         return told(client);
     }
-    /// Values of the only answer to a call.
+    /// Calls a service. @return values of the answer; all answers unless there is exactly one, with
+    /// success
     Json call(const std::string& service, const Json& args = Json::object()) {
         const auto answers = ask(
             Json{{"op", "call_service"}, {"id", "1"}, {"service", service}, {"args", args}}.dump());
@@ -62,7 +64,8 @@ class RosTalk {
     void publish(const std::string& topic, const Json& message, Front::Connection client = 0) {
         say(Json{{"op", "publish"}, {"topic", topic}, {"msg", message}}.dump(), client);
     }
-    /// Messages of a topic among those that a client was told since the last call; others are lost.
+    /// Messages of a topic that a client has received since the last call; its other messages are
+    /// discarded.
     std::vector<Json> messages(const std::string& topic, Front::Connection client = 0) {
         std::vector<Json> found;
         for (Json& each : told(client)) {
@@ -77,7 +80,7 @@ class RosTalk {
     void run_for(Duration time) { run_until(session.network().now().time_since_epoch() + time); }
 
   private:
-    /// CBOR as JSON; typed arrays are binary there.
+    /// Converts CBOR to JSON; typed arrays become binary values.
     static Json decoded(std::string_view bytes) {
         return Json::from_cbor(bytes, true, true, Json::cbor_tag_handler_t::ignore);
     }

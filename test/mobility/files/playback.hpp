@@ -11,7 +11,7 @@
 
 namespace rovernet::test {
 
-/// A movement file, played: where its robots are at any time.
+/// Playback of a movement file: positions and velocities of its robots at any time.
 class Playback {
   public:
     explicit Playback(const std::string& path, MovementSyntax syntax = MovementSyntax::strict)
@@ -28,9 +28,9 @@ class Playback {
         }
         throw std::out_of_range("no robot " + name);
     }
-    /// Where it is [m], its commands at `t` done.
+    /// Position of a robot [m] at `t` [s], after its commands at `t`.
     Vec3 position(const std::string& name, double t) const { return state(name, t).at; }
-    /// How fast it is [m/s] from `t` on.
+    /// Velocity of a robot [m/s] from `t` [s] on.
     Vec3 velocity(const std::string& name, double t) const { return state(name, t).velocity; }
     bool present(const std::string& name, double t) const { return state(name, t).present; }
 
@@ -43,13 +43,14 @@ class Playback {
         Vec3 velocity = {};
         bool present = true;
     };
-    /// Straight on from `from`; stands at `to` from `arrival` on.
+    /// State at `t` of a robot that moves straight from `from` to `to`, and stands there from
+    /// `arrival` on.
     static State moving(Vec3 from, Vec3 to, double start, double arrival, double t) {
         if (t >= arrival) return {to};
         const Vec3 velocity = (1 / (arrival - start)) * (to - from);
         return {from + (t - start) * velocity, velocity};
     }
-    /// What the command `c`, given at the place `from`, has led to at `t`.
+    /// State at `t` of a robot that received the command `c` at the place `from`.
     static State after(const MovementCommand& c, Vec3 from, double t) {
         const double start = seconds(c.time);
         switch (c.kind) {
@@ -80,7 +81,8 @@ class Playback {
     std::vector<std::vector<MovementCommand>> by_robot_;
 };
 
-/// The error that reading the file gives; "" if none. Without the folder of the file.
+/// Message of the error when the file is read, without the folder of the file; empty if there is no
+/// error.
 inline std::string movement_error(const std::string& path,
                                   MovementSyntax syntax = MovementSyntax::strict) {
     try {

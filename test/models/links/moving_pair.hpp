@@ -9,7 +9,7 @@
 
 namespace rovernet::test {
 
-/// Two robots and the air between them.
+/// Two moving robots and the medium between them.
 struct MovingPair {
     const Scene* scene;
     Meters floor_height = no_storeys;
@@ -20,7 +20,7 @@ struct MovingPair {
         medium.add(radio, legs.size() + 1, model);
         legs.add(leg);
     }
-    /// All changes in (after, until].
+    /// Times of all link changes in (after, until].
     std::vector<Time> changes(NodeId from, NodeId to, Time after, Time until,
                               const LinkSearch& search = {}) const {
         const WallPassages walls(*scene);

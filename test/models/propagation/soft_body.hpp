@@ -13,17 +13,18 @@
 
 namespace rovernet::test {
 
-/// Exact wave past a body on whose sides the field is 0, in two dimensions: Helmholtz's equation as
-/// an integral over the outline, by points. Nothing of it is optics: no rays, edges or angles.
+/// Exact two-dimensional wave past a body on whose sides the field is 0: Helmholtz's equation as an
+/// integral over the outline, which is divided into points. The method uses no ray optics: no rays,
+/// edges or angles.
 ///
-/// The scattered field is that of a layer phi on the outline, u = integral of (dG/dn' + j k G) phi,
-/// G = -j/4 H0(2)(k r), and phi / 2 + K phi + j k S phi = -u_incident: H. Brakhage, P. Werner,
-/// Arch. Math. 16, 1965. Losses of 14 dB are
-/// 0.26 dB off with 10 points a wavelength, against 20; beyond some 40 dB the error is the field.
+/// The scattered field is the field of a layer phi on the outline, u = integral of (dG/dn' + j k G)
+/// phi, G = -j/4 H0(2)(k r), and phi / 2 + K phi + j k S phi = -u_incident: H. Brakhage, P. Werner,
+/// Arch. Math. 16, 1965. With 10 points in a wavelength, a loss of 14 dB differs by 0.26 dB from
+/// the result with 20 points; beyond about 40 dB the error is as large as the field.
 class SoftBody {
   public:
-    /// @param corners  of a convex outline, counter-clockwise [m]
-    /// @param points   a wavelength
+    /// @param corners  corners of a convex outline, counter-clockwise [m]
+    /// @param points   number of points in a wavelength
     SoftBody(const std::vector<Vec3>& corners, double wavelength, int points = 10)
         : k_(2 * std::numbers::pi / wavelength) {
         for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -38,7 +39,8 @@ class SoftBody {
         factor();
     }
 
-    /// Loss over that in the open [dB], of the mean power at some places, from a line source.
+    /// Loss [dB] relative to free space of the mean power at `places` [m], from a line source at
+    /// `from` [m].
     double loss(Vec3 from, const std::vector<Vec3>& places) const {
         const std::vector<Complex> layer = solve(from);
         double power = 0;
@@ -62,7 +64,7 @@ class SoftBody {
         const double x = k_ * r;
         return {-std::cyl_neumann(0, x) / 4, -std::cyl_bessel_j(0, x) / 4};
     }
-    /// dG/dn' + j k G from a point of piece j.
+    /// Kernel dG/dn' + j k G for a point of piece j.
     Complex kernel(Vec3 at, Vec3 from, std::size_t j) const {
         const Vec3 way = at - from;
         const double r = std::sqrt(dot(way, way)), x = k_ * r;
@@ -101,7 +103,8 @@ class SoftBody {
     const Complex& m(std::size_t row, std::size_t column) const {
         return matrix_[row * pieces_.size() + column];
     }
-    /// Gauss without exchanges of rows: the matrix is near a half of the unit matrix.
+    /// LU factorisation without pivoting, which suffices because the matrix is near half of the
+    /// identity.
     void factor() {
         for (std::size_t c = 0; c < pieces_.size(); ++c)
             for (std::size_t r = c + 1; r < pieces_.size(); ++r) {

@@ -12,7 +12,7 @@ namespace rovernet::test {
 constexpr ChartKind chart_kinds[] = {ChartKind::lines, ChartKind::bars, ChartKind::scatter,
                                      ChartKind::cdf, ChartKind::heat_map};
 
-/// A chart of one series, "s".
+/// Chart with one series, named "s".
 inline Chart one_series(ChartKind kind, std::vector<ChartPoint> points) {
     return {.kind = kind, .series = {{"s", std::move(points)}}};
 }

@@ -14,12 +14,12 @@
 
 namespace rovernet::test {
 
-/// An element of a well-formed SVG document.
+/// Element of a well-formed SVG document.
 struct SvgElement {
     std::string name;
     std::map<std::string, std::string> attributes = {};
-    std::string group = {};  ///< the class of the nearest group around it that has one
-    std::string text = {};   ///< right behind its start
+    std::string group = {};  ///< class of the nearest enclosing group that has a class
+    std::string text = {};   ///< text directly after the start tag
 
     double number(const std::string& key) const {
         const std::string& value = attributes.at(key);
@@ -34,7 +34,7 @@ struct SvgElement {
     }
 };
 
-/// The elements in the order of their starts.
+/// Elements of a document in the order of their start tags.
 inline std::vector<SvgElement> svg_elements(std::string_view svg) {
     std::vector<SvgElement> out;
     std::vector<std::string> groups{""};
@@ -66,7 +66,7 @@ inline std::vector<SvgElement> svg_elements(std::string_view svg) {
     return out;
 }
 
-/// Those of a class, but for the signs of a legend.
+/// Elements of a class, without the symbols of a legend.
 inline std::vector<SvgElement> of_class(const std::vector<SvgElement>& all,
                                         std::string_view shape) {
     std::vector<SvgElement> out;
@@ -76,7 +76,7 @@ inline std::vector<SvgElement> of_class(const std::vector<SvgElement>& all,
     return out;
 }
 
-/// The corners of a path of the commands that SvgPath knows, each beginning a piece where moved to.
+/// Corners of a path made of SvgPath's commands. Each move command begins a new piece.
 inline std::vector<std::vector<PicturePoint>> corners(const SvgElement& path) {
     std::vector<std::vector<PicturePoint>> out;
     const std::string& data = path.attributes.at("d");
@@ -101,7 +101,7 @@ inline std::vector<std::vector<PicturePoint>> corners(const SvgElement& path) {
     return out;
 }
 
-/// The middle of the corners of a mark.
+/// Mean position of the corners of a mark.
 inline PicturePoint middle(const SvgElement& mark) {
     PicturePoint sum;
     const auto points = corners(mark).at(0);

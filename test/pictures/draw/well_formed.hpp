@@ -8,12 +8,12 @@
 
 namespace rovernet::test {
 
-/// Walks through an XML document of elements, attributes and text.
+/// Checker of XML documents that consist of elements, attributes and text.
 class XmlCheck {
   public:
     explicit XmlCheck(std::string_view text) : rest_(text) {}
 
-    /// The first thing that is wrong with it, or "".
+    /// Description of the first fault; empty if the document is well-formed.
     std::string fault() {
         skip_declaration();
         bool any = false;
@@ -101,7 +101,7 @@ class XmlCheck {
     std::string fault_{};
 };
 
-/// What is wrong with a small XML document, or "" if it is well-formed.
+/// Description of the first fault of an XML document; empty if the document is well-formed.
 inline std::string xml_fault(std::string_view text) { return XmlCheck(text).fault(); }
 
 }  // namespace rovernet::test

@@ -15,14 +15,14 @@
 
 namespace rovernet::test {
 
-/// One node, 0, among neighbours that the test plays.
+/// AODV node with id 0, and functions by which a test acts as its neighbours.
 struct AodvNode {
     explicit AodvNode(Aodv aodv = {}, std::size_t nodes = 10)
         : link(nodes), router(AodvRules::of(aodv)) {
         link.on_forgotten = [this](MessageId id) { router.forget(id); };
     }
 
-    /// A packet of a neighbour arrives. @return its fate
+    /// Passes a packet from a neighbour to node 0. @return fate of the packet
     Fate hear(std::uint32_t from, const std::string& bytes, std::string_view kind, Hops hops = 1,
               Hops ttl = 10) {
         const MessageId id = link.originate(NodeId{from}, everyone, kind, 24, bytes);
@@ -40,7 +40,7 @@ struct AodvNode {
     Fate hear(std::uint32_t from, const aodv::Error& e) {
         return hear(from, aodv::to_bytes(e), aodv::error_kind);
     }
-    /// A route to `to` over a neighbour, by a reply to node 0.
+    /// Gives node 0 a route to `to` over the neighbour `over`, by a reply.
     void learn(std::uint32_t to, std::uint32_t over, std::uint32_t number, std::uint8_t hops = 1) {
         hear(over, aodv::Reply{.hops = hops,
                                .destination = NodeId{to},
@@ -48,7 +48,7 @@ struct AodvNode {
                                .originator = NodeId{0},
                                .lifetime = std::chrono::seconds{3}});
     }
-    /// A message of another node, from a neighbour, for `to`.
+    /// Passes to node 0 a message for `to` from the neighbour `from`. @return fate of the message
     Fate forward(std::uint32_t origin, std::uint32_t from, std::uint32_t to, Hops ttl = 10) {
         const MessageId id = link.message_from(NodeId{origin}, NodeId{to});
         const auto got = link.arrive(
@@ -63,7 +63,7 @@ struct AodvNode {
         router.send(link, NodeId{0}, id);
         link.release(id);
     }
-    /// The timer that is due next rings.
+    /// Advances to the next timer, and serves it.
     void wait() {
         const auto next =
             std::min_element(link.timers.begin(), link.timers.end(),
@@ -74,19 +74,20 @@ struct AodvNode {
         link.time = timer.at;
         router.on_timer(link, timer.node, timer.tag);
     }
-    /// All timers ring that are due until `end`.
+    /// Serves all timers that are due until `end`.
     void run(Time end) {
         while (std::any_of(link.timers.begin(), link.timers.end(),
                            [&](const auto& each) { return each.at <= end; }))
             wait();
         link.time = end;
     }
-    /// The last frame that was sent fails: its next hop does not answer.
+    /// Reports to the protocol that the last sent frame failed: its next hop did not acknowledge
+    /// it.
     void fail_last() {
         link.go();
         link.end(router, link.sent.size() - 1, SendResult::retries);
     }
-    /// A route of node `origin` to `to` over node 0, whose neighbours are `from` and `over`.
+    /// Gives node `origin` a route to `to` over node 0, whose neighbours are `from` and `over`.
     void pass_reply(std::uint32_t origin, std::uint32_t from, std::uint32_t to, std::uint32_t over,
                     std::uint32_t number = 9) {
         hear(from,
@@ -110,7 +111,7 @@ struct AodvNode {
         }
         return {};
     }
-    /// Packets of a kind that were sent so far.
+    /// Packets of one kind sent so far.
     template <class Packet>
     std::vector<std::pair<Frame, Packet>> sent() const {
         std::vector<std::pair<Frame, Packet>> all;
@@ -122,7 +123,7 @@ struct AodvNode {
         }
         return all;
     }
-    /// Messages of applications that were sent so far.
+    /// Frames with messages of applications sent so far.
     std::vector<Frame> data() const {
         std::vector<Frame> all;
         for (const auto& each : link.sent) {
@@ -137,7 +138,7 @@ struct AodvNode {
     std::uint32_t last_id = 1000;
 };
 
-/// Request for a destination whose number is not known.
+/// Request for a destination with an unknown sequence number.
 inline aodv::Request request(std::uint32_t from, std::uint32_t to, std::uint32_t id = 1,
                              std::uint32_t number = 5) {
     return {.id = id,

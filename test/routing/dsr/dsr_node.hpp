@@ -31,14 +31,14 @@ inline std::vector<std::uint32_t> values(const Path& path) {
 }
 using Nodes = std::vector<std::uint32_t>;
 
-/// Nodes of one router, of which the test plays the others. Node 0 is the one that is tested.
+/// DSR router whose node 0 is tested, and functions by which a test acts as the other nodes.
 struct DsrNode {
     explicit DsrNode(Dsr dsr = {}, std::size_t nodes = 40) : link(nodes), router(dsr) {
         link.on_forgotten = [this](MessageId id) { router.forget(id); };
         link.on_header_forgotten = [this](std::uint32_t header) { router.forget_header(header); };
     }
 
-    /// A packet arrives at node `at`. @return its fate
+    /// Passes a packet to node `at`. @return fate of the packet
     Fate hear(const Frame& frame, const dsr::Packet& packet, std::uint32_t from, std::uint32_t to,
               std::string_view kind, std::uint32_t at = 0) {
         const MessageId id =
@@ -49,14 +49,14 @@ struct DsrNode {
         link.release(id);
         return got[0].fate;
     }
-    /// A request that these nodes passed on, the first one its originator.
+    /// Passes to node 0 a request that `nodes` have forwarded; the first node is its originator.
     Fate request(const Path& nodes, std::uint32_t target, std::uint16_t id = 1, Hops ttl = 10,
                  std::optional<dsr::Error> error = {}) {
         return hear({.message = {}, .sender = nodes.back(), .ttl = ttl, .hops = 1},
                     {.request = dsr::Request{id, NodeId{target}, nodes}, .error = error},
                     nodes.front().value, target, dsr::request_kind);
     }
-    /// A reply with a route, on its way back along `back`, from the node at place `place`.
+    /// Passes to node `at` a reply that travels along `back`, sent by the node with index `place`.
     Fate reply(const Path& route, const Path& back, std::size_t place, std::uint32_t at = 0) {
         return hear({.message = {},
                      .sender = back[place],
@@ -66,12 +66,13 @@ struct DsrNode {
                     {.reply = dsr::Reply{route}, .route = back}, back.front().value,
                     back.back().value, dsr::reply_kind, at);
     }
-    /// Node `at` learns a route by a reply of the last node.
+    /// Gives the first node of a route this route, by a reply of the last node.
     void learn(const Path& route) {
         const Path back = route.reversed();
         reply(route, back, back.size() - 2, route.front().value);
     }
-    /// An error on its way along `back`, from the node at place `place`.
+    /// Passes to node `at` a route error that travels along `back`, sent by the node with index
+    /// `place`.
     Fate error(const dsr::Error& error, const Path& back, std::size_t place, std::uint32_t at = 0) {
         return hear({.message = {},
                      .sender = back[place],
@@ -87,17 +88,17 @@ struct DsrNode {
         link.release(id);
         return id;
     }
-    /// The last message that was sent arrives at its next hop, or at another node.
+    /// Delivers the last sent message to its next hop, or to node `at`.
     Reception arrive(std::optional<std::uint32_t> at = {}) {
         const Frame frame = link.go();
         return link.arrive(router, frame, {at.value_or(frame.next_hop.value)})[0];
     }
-    /// The last frame that was sent does not reach its next hop.
+    /// Reports to the protocol that the last sent frame did not reach its next hop.
     void fail() {
         link.go();
         link.end(router, link.sent.size() - 1, SendResult::retries);
     }
-    /// The timer that is due next rings.
+    /// Advances to the next timer, and serves it.
     void wait() {
         const auto next =
             std::min_element(link.timers.begin(), link.timers.end(),
@@ -108,7 +109,7 @@ struct DsrNode {
         link.time = timer.at;
         router.on_timer(link, timer.node, timer.tag);
     }
-    /// Route that a node knows; empty if it knows none.
+    /// Route to `to` that node `at` knows; empty if it knows no route.
     Nodes route(std::uint32_t to, std::uint32_t at = 0) const {
         for (const RouteState& each : router.routes(NodeId{at}, link.time)) {
             Nodes all;
@@ -117,12 +118,12 @@ struct DsrNode {
         }
         return {};
     }
-    /// Source Route option of a frame's header, read by the layout of RFC 4728, 6.7: "1 2, salvage
+    /// Text of the Source Route option in a frame's header, decoded by RFC 4728, 6.7: "1 2, salvage
     /// 0, left 1".
     std::string route_on_air(const Frame& frame) const {
         const FrameHeader header = router.header_bytes(frame);
         CHECK(header.protocol == "DSR");
-        CHECK(header.bytes.size() + 20 == frame.bytes);  // the fake's messages have no size
+        CHECK(header.bytes.size() + 20 == frame.bytes);  // messages of FakeLinkLayer have size 0
         const auto byte = [&](std::size_t at) {
             return static_cast<std::uint8_t>(header.bytes[at]);
         };
@@ -134,7 +135,7 @@ struct DsrNode {
         return text + ", salvage " + std::to_string((byte(6) & 3) << 2 | byte(7) >> 6) + ", left " +
                std::to_string(byte(7) & 63);
     }
-    /// Control packets of a kind that were sent so far.
+    /// Control packets of one kind sent so far.
     std::vector<std::pair<Frame, dsr::Packet>> sent(std::string_view kind) const {
         std::vector<std::pair<Frame, dsr::Packet>> all;
         for (const auto& each : link.sent) {
@@ -143,7 +144,7 @@ struct DsrNode {
         }
         return all;
     }
-    /// Messages of applications that were sent so far.
+    /// Frames with messages of applications sent so far.
     std::vector<Frame> data() const {
         std::vector<Frame> all;
         for (const auto& each : link.sent) {

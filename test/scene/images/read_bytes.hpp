@@ -9,13 +9,14 @@
 
 namespace rovernet::test {
 
-/// Picture of a file with these bytes.
+/// Image read from a file with these bytes.
 inline Image read_bytes(const std::string& bytes) {
     const TemporaryFolder folder;
     return read_image(folder.write("image", bytes));
 }
 
-/// Message of the error that reading these bytes ends in, without its place; "" if none.
+/// Message of the error when these bytes are read, without the file name; empty if there is no
+/// error.
 inline std::string picture_error(const std::string& bytes) {
     try {
         read_bytes(bytes);

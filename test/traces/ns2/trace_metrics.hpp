@@ -9,7 +9,8 @@
 
 namespace rovernet::testing {
 
-/// Metrics of an ns-2 trace: equal to the last digit to those of the run that wrote it.
+/// Metrics of an ns-2 trace. They equal the metrics of the run that wrote the trace, to the last
+/// digit.
 /// @throws InputError as read_ns2_trace()
 inline MetricValues trace_metrics(Ns2Source source,
                                   Ns2Strictness strictness = Ns2Strictness::tolerant) {

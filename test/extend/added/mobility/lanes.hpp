@@ -9,13 +9,13 @@
 
 namespace rovernet {
 
-/// Up and down an area in parallel lanes, as a mower goes; straight, whatever stands in the way.
+/// Movement up and down an area in parallel lanes, like a lawn mower; straight through obstacles.
 struct Lanes {
     static constexpr std::string_view name = "lanes";
 
     std::vector<Vec3> area = {};  ///< [m] lower-left and upper-right corner
-    Meters width{1};              ///< [m] of a lane, > 0
-    MetersPerSecond speed{1};     ///< [m/s], > 0
+    Meters width{1};              ///< width of a lane [m], > 0
+    MetersPerSecond speed{1};     ///< speed [m/s], > 0
 
     static constexpr auto fields() {
         return describe(field("area", &Lanes::area, "lower-left and upper-right corner"),
@@ -27,7 +27,7 @@ struct Lanes {
     Step next_leg(Mover& mover);
 
   private:
-    int corner_ = 0;  // of the way, gone to so far
+    int corner_ = 0;  // number of corners of the path reached so far
 };
 
 }  // namespace rovernet

@@ -10,14 +10,15 @@
 
 namespace rovernet {
 
-/// Gossip: a robot forwards a message once, and only with probability p, after 1 us + U(0, jitter).
+/// Routing protocol "gossip": a robot forwards a message at most once, with probability p, after 1
+/// us + U(0, jitter).
 ///
 /// Source: Z. Haas, J. Halpern, L. Li, Gossip-based ad hoc routing, INFOCOM 2002.
 struct Gossip {
     static constexpr std::string_view name = "gossip";
 
     double probability = 0.7;                         ///< p [-], 0 ... 1
-    Duration jitter = std::chrono::milliseconds{10};  ///< [ns] upper end of the uniform delay
+    Duration jitter = std::chrono::milliseconds{10};  ///< longest random delay [ns]
 
     static constexpr auto fields() {
         return describe(field("probability", &Gossip::probability,
@@ -28,7 +29,7 @@ struct Gossip {
     operator Router() const;
 };
 
-/// The protocol that runs a Gossip.
+/// Routing protocol with the parameters of a Gossip.
 class GossipRouter {
   public:
     /// @throws std::invalid_argument if a parameter is out of its range
@@ -40,7 +41,8 @@ class GossipRouter {
 
   private:
     Gossip gossip_;
-    std::set<std::pair<NodeId, std::uint64_t>> heard_;  // by a node, a message's uid
+    // pairs of a node and the uid of a message that the node has received
+    std::set<std::pair<NodeId, std::uint64_t>> heard_;
 };
 
 }  // namespace rovernet

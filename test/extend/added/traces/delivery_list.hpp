@@ -10,10 +10,11 @@
 
 namespace rovernet {
 
-/// Writes the deliveries of a run as CSV: time_s, robot, from, hops.
+/// Sink that writes the deliveries of a run as CSV: time_s, robot, from, hops.
 class DeliveryList {
   public:
-    /// Begins the file; it gets its name when it is whole. @throws RunError if it cannot be written
+    /// Begins the file, which gets its final name when it is complete. @throws RunError if it
+    /// cannot be written
     explicit DeliveryList(const std::string& path) : file_(path) {}
 
     KindMask kinds() const { return kind_of<Received>(); }

@@ -8,7 +8,7 @@
 
 namespace rovernet {
 
-/// Front that tells its clients the simulated time each second, and hears nothing.
+/// Front that sends the simulated time to its clients each second, and ignores their input.
 class WallClockFront : public Front {
   public:
     explicit WallClockFront(Carrier carrier) : carrier_(std::move(carrier)) {}
@@ -27,7 +27,7 @@ class WallClockFront : public Front {
     Time next_ = start_of_run;
 };
 
-/// Server of the time at an address; port 0: any free port.
+/// Listener that serves the time at an address; port 0: any free port.
 FrontListeners wall_clock_listener(const Address& at);
 
 inline constexpr FrontOption wall_clock_option{"--wall-clock", "clients that want to know the time",

@@ -10,8 +10,8 @@
 
 namespace rovernet {
 
-/// Physical layer "chirp": two spreading factors, of 1 and 8 kb/s. The slow one is received 10 dB
-/// weaker, and neither interferes with the other.
+/// Physical layer "chirp" with two spreading factors, for 1 and 8 kb/s. Receivers are 10 dB more
+/// sensitive to the slow one. Frames of different spreading factors hardly interfere.
 struct Chirp {
     static constexpr std::string_view name = "chirp";
 

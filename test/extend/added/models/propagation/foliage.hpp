@@ -5,10 +5,11 @@
 
 namespace rovernet {
 
-/// Free space with plants all the way [dB]:  L(d) = friis(d) + a d.
+/// Path loss [dB] through plants along the whole path:  L(d) = friis(d) + a d.
 ///
 /// Valid for antennas within the plants, some metres apart; a is measured at the frequency in use.
-/// Leaves out the ground, and the wave along the tops that wins beyond some 100 m.
+/// The model neglects the ground, and the wave along the tops of the plants that dominates beyond
+/// about 100 m.
 struct Foliage {
     static constexpr std::string_view name = "foliage";
 

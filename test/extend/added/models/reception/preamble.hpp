@@ -9,12 +9,12 @@
 
 namespace rovernet {
 
-/// Reception model "preamble": only another frame in the first part of a frame destroys it, and a
-/// robot that sends hears nothing.
+/// Reception model "preamble": a frame is lost only if another frame overlaps its first part. A
+/// transmitting robot receives nothing.
 struct Preamble {
     static constexpr std::string_view name = "preamble";
 
-    Duration length{192'000};  ///< [ns] of the part that must be clear
+    Duration length{192'000};  ///< length [ns] of the first part, which no other frame may overlap
 
     static constexpr auto fields() {
         return describe(
