@@ -5,48 +5,62 @@
 namespace rovernet::cli {
 namespace {
 
-constexpr const char* only_points = "only points with KEY=VALUE, such as ttl=6";
+constexpr const char* only_points = "use only points of the study with KEY=VALUE, such as ttl=6";
 constexpr const char* only_cells =
-    "where rows lack runs, average only over the cells that all of them have";
+    "if rows lack runs, average only over the combinations of values and replications that all "
+    "rows have";
 
 void add_results(Command app) {
-    const auto [results, a] = add_command(app, "results", "What a study came to", cli::results);
+    const auto [results, a] =
+        add_command(app, "results", "Print the results of a study", cli::results);
     results.add_examples({"rovernet results patrol.db --metric delivery_ratio",
                           "rovernet results patrol.db --sql 'SELECT * FROM result'",
                           "rovernet results patrol.db --csv > patrol.csv"});
-    results.add_option("STUDY", a.store, "store of a study, as sweep makes it").required();
-    Option metric =
-        results.add_option("--metric", a.metrics, "which, such as delivery_ratio,latency_mean_s")
-            .delimiter(',');
-    Option group_by =
-        results.add_option("--group-by", a.group_by, "keys that vary; the others are averaged over")
-            .delimiter(',');
+    results.add_option("STUDY", a.store, "store of a study, as written by rovernet sweep")
+        .required();
+    Option metric = results
+                        .add_option("--metric", a.metrics,
+                                    "metrics to print, such as delivery_ratio,latency_mean_s")
+                        .delimiter(',');
+    Option group_by = results
+                          .add_option("--group-by", a.group_by,
+                                      "varied keys, one row for each combination of their values; "
+                                      "results are averaged over all other varied keys")
+                          .delimiter(',');
     Option where = results.add_option("--where", a.where, only_points);
     where.one_word();
     Option common = results.add_flag("--common", a.common, only_cells);
     Option confidence =
-        results.add_option("--confidence", a.confidence, "of the intervals, such as 0.95")
+        results
+            .add_option(
+                "--confidence", a.confidence,
+                "confidence level of the intervals, such as 0.95 (default: [study] confidence)")
             .range(0.5, 0.9999);
     add_interval(results, a.interval);
-    Option quantile =
-        results
-            .add_option("--quantile", a.quantile, "this quantile in place of the mean, such as 0.9")
-            .range(0.0001, 0.9999);
+    Option quantile = results
+                          .add_option("--quantile", a.quantile,
+                                      "compute this quantile instead of the mean, such as 0.9")
+                          .range(0.0001, 0.9999);
     Option csv = results
                      .add_flag("--csv", a.csv,
-                               "a row per run and metric, for pandas and R; with --group-by "
-                               "one per row, metric and replication")
+                               "print CSV for pandas and R, with a line for each run and metric; "
+                               "with --group-by a line for each row, metric and replication")
                      .excludes(confidence)
                      .excludes(results.option("--interval"))
                      .excludes(quantile);
     Option provenance =
         results
-            .add_flag("--provenance", a.provenance, "with --csv: a row per run, its times and host")
+            .add_flag("--provenance", a.provenance,
+                      "with --csv: print a line for each run, with its times and host")
             .needs(csv);
     Option failures =
-        results.add_flag("--failures", a.failures, "the runs that failed, and why").excludes(csv);
+        results.add_flag("--failures", a.failures, "list the failed runs with their errors")
+            .excludes(csv);
     Option sql =
-        results.add_option("--sql", a.sql, "answer this question, such as 'SELECT * FROM result'")
+        results
+            .add_option(
+                "--sql", a.sql,
+                "print the result of this SQL query on the store, such as 'SELECT * FROM result'")
             .excludes(csv)
             .excludes(failures)
             .excludes(where);
@@ -61,49 +75,59 @@ void add_results(Command app) {
 }
 
 void add_plot(Command app) {
-    const auto [plot, p] = add_command(app, "plot", "Draw what a study came to", cli::plot);
+    const auto [plot, p] = add_command(app, "plot", "Draw the results of a study", cli::plot);
     plot.add_examples(
         {"rovernet plot density.db -x robot.r.count -y delivery_ratio -o density.svg"});
-    plot.add_option("STUDY", p.store, "store of a study, as sweep makes it").required();
-    plot.add_option("-x", p.x, "key that varies, such as robots or radio.power");
+    plot.add_option("STUDY", p.store, "store of a study, as written by rovernet sweep").required();
+    plot.add_option("-x", p.x, "varied key along the x axis, such as robots or radio.power");
     plot.add_option("-y", p.y,
-                    "metrics, such as delivery_ratio or airtime_s/messages: a chart each")
+                    "metrics along the y axis, such as delivery_ratio or airtime_s/messages; each "
+                    "metric has a chart")
         .delimiter(',')
         .required();
-    plot.add_option("--by", p.by, "key of the lines, or of the rows of a heat map");
+    plot.add_option("--by", p.by,
+                    "varied key; each of its values has a line, or a row of a heat map");
     plot.add_option("--where", p.where, only_points).one_word();
     plot.add_flag("--common", p.common, only_cells);
-    plot.add_option("--beside", p.beside,
-                    "CSV file with values of another source: marks beside the lines");
+    plot.add_option(
+        "--beside", p.beside,
+        "CSV file with values from a different source, drawn as marks beside the lines");
     plot.add_option("--kind", p.kind,
-                    "lines, bars, cdf or heat_map (default: lines over numbers, "
-                    "bars over words)");
-    plot.add_option("--confidence", p.confidence, "of the intervals, such as 0.95")
+                    "kind of chart: lines, bars, cdf or heat_map (default: lines if the values of "
+                    "x are numbers, otherwise bars)");
+    plot.add_option("--confidence", p.confidence,
+                    "confidence level of the intervals, such as 0.95 (default: [study] confidence)")
         .range(0.5, 0.9999);
     add_interval(plot, p.interval);
-    plot.add_option("--quantile", p.quantile, "this quantile in place of the mean, such as 0.9")
+    plot.add_option("--quantile", p.quantile,
+                    "compute this quantile instead of the mean, such as 0.9")
         .range(0.0001, 0.9999);
     plot.add_flag("--log-x", p.log_x, "a logarithmic axis");
     plot.add_flag("--log-y", p.log_y, "a logarithmic axis");
     plot.add_option("--width", p.width,
-                    "of the picture, in pixels (points of a PDF); all is scaled "
+                    "width of the picture in pixels (of a PDF in points); all parts are scaled "
                     "(default: 672, for several charts 352 each)")
         .range(100, 10000);
     plot.add_option("--font-size", p.font_size,
-                    "in points, of which a chart is 672 wide, 352 beside others")
+                    "font size in points; a chart is 672 points wide, or 352 beside other charts")
         .range(4, 36)
         .shows_default();
-    plot.add_option("-o,--output", p.out,
-                    "NAME.svg, NAME.png or NAME.pdf; to restyle it NAME.gp (gnuplot)")
+    plot.add_option(
+            "-o,--output", p.out,
+            "picture to write: NAME.svg, NAME.png or NAME.pdf; or NAME.gp, a gnuplot script")
         .required();
 }
 
 void add_explain(Command app) {
     const auto [explain, e] =
-        add_command(app, "explain", "How one run of a study came about", cli::explain);
+        add_command(app, "explain", "Print how to repeat one run of a study", cli::explain);
     explain.add_examples({"rovernet explain patrol.db 0/2"});
-    explain.add_option("STUDY", e.store, "store of a study, as sweep makes it").required();
-    explain.add_option("RUN", e.run, "POINT/REPLICATION, or the beginning of its id").required();
+    explain.add_option("STUDY", e.store, "store of a study, as written by rovernet sweep")
+        .required();
+    explain
+        .add_option("RUN", e.run,
+                    "run, given as POINT/REPLICATION or by the first characters of its id")
+        .required();
     add_json(explain, e.json);
 }
 

@@ -127,46 +127,52 @@ void run_in(const InArguments& a) {
 
 void add_emulate(Command app) {
     const auto [command, a] = add_command(
-        app, "emulate", "Carry the packets of real programs by the robots' radios, in real time",
+        app, "emulate", "Pass the packets of real programs over the robots' radios, in real time",
         emulate);
     command.add_examples({"rovernet emulate examples/emulate/emulate.toml",
                           "rovernet emulate examples/rescue/rescue.toml --udp --rosbridge"});
     add_file(command, a, any_file);
     command
         .add_option("--udp", a.udp,
-                    "serve datagrams, at 127.0.0.1:PORT and the ports that follow, one for each "
-                    "robot; port 0: any that is free (default: 7100)")
+                    "serve UDP datagrams, one port for each robot: 127.0.0.1:PORT and the ports "
+                    "that follow; port 0 selects free ports (default port: 7100)")
         .usually(relay_address.data());
     command
         .add_option("--player", a.player,
-                    "serve Player clients, too, at 127.0.0.1:PORT and the ports that follow; port "
-                    "0: any that is free (default: 6665)")
+                    "also serve Player clients, one port for each robot: 127.0.0.1:PORT and the "
+                    "ports that follow; port 0 selects free ports (default port: 6665)")
         .usually(player_address.data());
     a.fronts.add_to(command);
     a.view.add_to(command);
-    command.add_option("--speed", a.speed, "simulated per real time").check(above_zero());
-    command.add_option("--late", a.late, "real time by which it may be behind the clock")
+    command.add_option("--speed", a.speed, "speed relative to real time (default: 1)")
+        .check(above_zero());
+    command
+        .add_option("--late", a.late, "longest real time by which the run may lag behind the clock")
         .shows_default();
-    command.add_option("--on-late", a.on_late, "then: warn, once; or fail, and end the run")
+    command
+        .add_option(
+            "--on-late", a.on_late,
+            "what to do when the run lags further behind: warn (once), or fail (end the run)")
         .one_of({"warn", "fail"})
         .shows_default();
-    command.add_option("--out", a.out, "folder for the results (default: as that of run)");
+    command.add_option("--out", a.out, "folder for the results (default: as for rovernet run)");
     a.reach.add_to(command);
     add_json(command, a.json);
 }
 
 void add_in(Command app) {
     const auto [command, a] = add_command(
-        app, "in", "Run a program with the network of a robot of rovernet emulate", run_in);
+        app, "in", "Run a program in the network of a robot of rovernet emulate", run_in);
     command.add_examples(
         {"rovernet in A -- ping 10.0.0.2", "rovernet in --run runs/emulate-s1 A -- ping 10.0.0.2"});
     command.add_option("ROBOT", a.robot, "name of the robot").required();
-    command.add_option("PROGRAM", a.program, "program and its arguments, behind --").required();
-    command.add_option("--run", a.run,
-                       "process of the run or folder of its results, if several have such a robot");
+    command.add_option("PROGRAM", a.program, "program and its arguments, after --").required();
+    command.add_option(
+        "--run", a.run,
+        "process id or results folder of the run, if several runs have a robot of this name");
     command.add_option("--user", a.user,
-                       "user whose run it is, for root; that user reads and changes what the "
-                       "program sends (default: your own)");
+                       "for root: user who started the run, and who can read and change all "
+                       "packets of the program (default: yourself)");
 }
 
 }  // namespace rovernet::cli

@@ -12,9 +12,9 @@ std::vector<Option> FrontArguments::add_to(Command command) {
     for (std::size_t i = 0; i < addresses.size(); ++i) {
         const FrontOption& front = *front_options[i];
         const std::string_view port = front.usual.substr(front.usual.rfind(':') + 1);
-        const std::string help =
-            fmt::format("serve {}, at 127.0.0.1:PORT; port 0: any that is free (default: {})",
-                        front.serves, port);
+        const std::string help = fmt::format(
+            "serve {}, at 127.0.0.1:PORT; port 0 selects a free port (default port: {})",
+            front.serves, port);
         options.push_back(
             command.add_option(front.name, addresses[i], help.c_str()).usually(front.usual.data()));
     }

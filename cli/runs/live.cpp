@@ -127,20 +127,23 @@ void run_live(const LiveArguments& a) {
 
 /// Options of runs in lock-step, by JSON lines.
 void add_lockstep(Command live, LiveArguments& a) {
-    live.add_option(
-            "--controller", a.controllers,
-            "program to start, which speaks by its standard input and output; several times")
+    live.add_option("--controller", a.controllers,
+                    "controller program to start, which exchanges lines by standard input and "
+                    "output; may be given several times")
         .one_word();
     live.add_option("--listen-json", a.listen,
-                    "127.0.0.1:PORT to listen on for controllers; port 0: any that is free");
-    live.add_option("--listen-web", a.web,
-                    "127.0.0.1:PORT to listen on for controllers by WebSocket, a message a line");
-    live.add_option("--unix", a.unix_path, "path of a Unix socket to listen on for controllers");
-    live.add_option("--patience", a.patience,
-                    "real time that a controller may take for a step, such as 30s (default: any)");
+                    "listen for controllers at 127.0.0.1:PORT; port 0 selects a free port");
     live.add_option(
-            "--on-loss", a.on_loss,
-            "when a controller has gone without a bye: end; stop its robots; or wait for it")
+        "--listen-web", a.web,
+        "listen for controllers by WebSocket at 127.0.0.1:PORT; each message is one line");
+    live.add_option("--unix", a.unix_path,
+                    "listen for controllers at a Unix socket with this path");
+    live.add_option(
+        "--patience", a.patience,
+        "longest real time that a controller may take for a step, such as 30s (default: no limit)");
+    live.add_option("--on-loss", a.on_loss,
+                    "what to do when a controller disconnects without `bye`: end the run, stop its "
+                    "robots, or wait for it")
         .one_of({"end", "stop", "wait"})
         .shows_default();
 }
@@ -148,23 +151,24 @@ void add_lockstep(Command live, LiveArguments& a) {
 /// Options of runs by the clock.
 void add_by_clock(Command live, LiveArguments& a) {
     const Option player =
-        live.add_option(
-                "--player", a.player,
-                "serve Player clients, at 127.0.0.1:PORT and the ports that follow, one for "
-                "each robot; port 0: any that is free (default: 6665)")
+        live.add_option("--player", a.player,
+                        "serve Player clients, one port for each robot: 127.0.0.1:PORT and the "
+                        "ports that follow; port 0 selects free ports (default port: 6665)")
             .usually(player_address.data());
     const std::vector<Option> others = a.fronts.add_to(live);
     a.view.add_to(live);
     live.add_flag("--player-one-port", a.one_port,
-                  "all robots at one port: the devices of the first have index 0, and so on")
+                  "serve all robots at one port: devices of the first robot have index 0, of the "
+                  "second index 1, and so on")
         .needs(player);
-    const Option lockstep =
-        live.add_flag("--player-lockstep", a.lockstep,
-                      "time goes on by 0.1 s once all clients that pull have asked for data")
-            .needs(player);
+    const Option lockstep = live.add_flag("--player-lockstep", a.lockstep,
+                                          "advance the simulated time by 0.1 s whenever all "
+                                          "clients in PULL mode have requested data")
+                                .needs(player);
     for (const Option& each : others) lockstep.excludes(each);
-    live.add_option("--speed", a.speed,
-                    "simulated per real time, with --player, --rosbridge or --view (default: 1)")
+    live.add_option(
+            "--speed", a.speed,
+            "speed relative to real time, with --player, --rosbridge or --view (default: 1)")
         .check(above_zero())
         .excludes(lockstep);
 }
@@ -173,7 +177,7 @@ void add_by_clock(Command live, LiveArguments& a) {
 
 void add_live(Command app) {
     const auto [live, a] = add_command(
-        app, "live", "Run a scenario whose robots are driven by programs outside", run_live);
+        app, "live", "Run a scenario whose robots are driven by external programs", run_live);
     live.add_examples(
         {"rovernet live examples/search/search.toml --controller \"python3 "
          "examples/search/search.py\"",
@@ -184,11 +188,11 @@ void add_live(Command app) {
     add_lockstep(live, a);
     add_by_clock(live, a);
     live.add_option("--wait-for", a.wait_for,
-                    "controllers with which a run in lock-step begins (default: those started, or "
-                    "1)")
+                    "number of controllers that must connect before a lock-step run begins "
+                    "(default: number of started programs, or 1)")
         .range(1, 500);
     a.reach.add_to(live);
-    live.add_option("--out", a.out, "folder for the results (default: as that of run)");
+    live.add_option("--out", a.out, "folder for the results (default: as for rovernet run)");
     add_json(live, a.json);
 }
 

@@ -27,11 +27,11 @@ std::string results_folder(const std::optional<std::string>& out, const Scenario
 void Reach::add_to(Command command) {
     const Option option = command.add_option(
         "--listen", listen,
-        "IP address of this machine by which others reach it, or 0.0.0.0: those that speak "
-        "WebSocket, with the token that is printed");
+        "serve WebSocket clients on other machines, too, at this IP address of this machine "
+        "(0.0.0.0: at all its addresses); they need the printed token");
     command
         .add_flag("--insecure", insecure,
-                  "others that --listen lets in may speak the protocols without a token, too")
+                  "with --listen: also serve protocols that have no token to other machines")
         .needs(option);
 }
 

@@ -4,15 +4,14 @@
 namespace rovernet::cli {
 
 Option ViewOption::add_to(Command command) {
-    const Option view =
-        command
-            .add_option("--view", address,
-                        "show the run in a browser, by a page at 127.0.0.1:PORT; port 0: any that "
-                        "is free (default: 0)")
-            .usually("127.0.0.1:0");
+    const Option view = command
+                            .add_option("--view", address,
+                                        "show the run in a browser, by a page at 127.0.0.1:PORT; "
+                                        "port 0 selects a free port (default port: 0)")
+                            .usually("127.0.0.1:0");
     command
         .add_flag("--view-control", control,
-                  "let pages pause the run, move its robots and send messages")
+                  "allow the page to pause the run, to move robots and to send messages")
         .needs(view);
     return view;
 }

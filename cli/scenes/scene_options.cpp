@@ -7,86 +7,94 @@ namespace {
 
 void add_link(Command app) {
     const auto [link, a] =
-        add_command(app, "link", "The budget of the link from robot A to robot B", cli::link);
+        add_command(app, "link", "Print the budget of the link from robot A to robot B", cli::link);
     link.add_examples({"rovernet link examples/rescue/rescue.toml A B --at 10s"});
     add_file(link, a, any_file);
     link.add_option("A", a.from, "transmitting robot").required();
     link.add_option("B", a.to, "receiving robot").required();
-    link.add_option("--at", a.at, "time of the run, such as 12.5s").shows_default();
+    link.add_option("--at", a.at, "simulated time, such as 12.5s").shows_default();
     add_json(link, a.json);
 }
 
 void add_links(Command app) {
-    const auto [links, a] = add_command(app, "links", "What every robot's radio hears", cli::links);
+    const auto [links, a] = add_command(
+        app, "links", "List the robots that each robot's radio hears, with signal levels",
+        cli::links);
     links.add_examples({"rovernet links examples/rescue/rescue.toml --robot A",
                         "rovernet links examples/rescue/rescue.toml --history"});
     add_file(links, a, any_file);
-    links.add_option("--at", a.at, "time of the run, such as 12.5s").shows_default();
+    links.add_option("--at", a.at, "simulated time, such as 12.5s").shows_default();
     links.add_option("--robot", a.robot, "of this robot only");
-    Option history = links.add_flag("--history", a.history, "every link change of the run, as CSV");
-    links.add_flag("--json", a.json, "print one JSON document").excludes(history);
+    Option history =
+        links.add_flag("--history", a.history, "print all link changes of the run, as CSV");
+    links.add_flag("--json", a.json, "print the result as one JSON document").excludes(history);
 }
 
 void add_routes(Command app) {
     const auto [routes, a] =
-        add_command(app, "routes", "The routing table of every robot", cli::routes);
+        add_command(app, "routes", "Print the routing table of every robot", cli::routes);
     routes.add_examples({"rovernet routes examples/detour/detour.toml --at 20s --robot west",
                          "rovernet routes examples/detour/detour.toml --at 20s --csv"});
     add_file(routes, a, any_file);
-    routes.add_option("--at", a.at, "time of the run, such as 12.5s").required();
+    routes.add_option("--at", a.at, "simulated time, such as 12.5s").required();
     routes.add_option("--robot,--node", a.robot, "of this robot only");
-    Option csv = routes.add_flag("--csv", a.csv, "a line for each route, as CSV");
-    routes.add_flag("--json", a.json, "print one JSON document").excludes(csv);
+    Option csv = routes.add_flag("--csv", a.csv, "print CSV, with a line for each route");
+    routes.add_flag("--json", a.json, "print the result as one JSON document").excludes(csv);
 }
 
 void add_scene(Command app) {
-    const auto [scene, a] =
-        add_command(app, "scene", "The map, the robots and how links join them", cli::scene);
+    const auto [scene, a] = add_command(
+        app, "scene", "Describe the map, the robots and the links between them", cli::scene);
     scene.add_examples({"rovernet scene examples/rescue/rescue.toml",
                         "rovernet scene examples/rescue/office.png --size 48x24"});
-    add_file(scene, a, "as for run; or a map alone: map.yaml, or a picture with --size");
-    scene.add_option("--size", a.size, "of a picture, in metres: 16x16");
-    scene.add_option("--at", a.at, "time of the run, such as 12.5s").shows_default();
-    scene.add_flag("--json", a.json, "print one JSON document, with every wall");
+    add_file(scene, a,
+             "file as for rovernet run; or only a map: map.yaml, or an image with --size");
+    scene.add_option("--size", a.size, "size of an image map in metres, such as 16x16");
+    scene.add_option("--at", a.at, "simulated time, such as 12.5s").shows_default();
+    scene.add_flag("--json", a.json, "print the result as one JSON document, including all walls");
 }
 
 void add_where(Command app) {
-    const auto [where, a] = add_command(app, "where", "Where every robot is", cli::where);
+    const auto [where, a] =
+        add_command(app, "where", "Print the position of every robot", cli::where);
     where.add_examples({"rovernet where examples/rescue/rescue.toml --at 10s,31.25s"});
     add_file(where, a, any_file);
-    where.add_option("--at", a.at, "times of the run, such as 10s,31.25s")
-        .delimiter(',')
-        .required();
+    where.add_option("--at", a.at, "simulated times, such as 10s,31.25s").delimiter(',').required();
     add_json(where, a.json);
 }
 
 void add_draw(Command app) {
-    const auto [draw, a] = add_command(app, "draw", "Draw map, robots and radio", cli::draw);
+    const auto [draw, a] = add_command(
+        app, "draw", "Draw the map with robots, links, routes or radio coverage", cli::draw);
     draw.add_examples({"rovernet draw examples/rescue/rescue.toml --links --at 10s -o rescue.svg",
                        "rovernet draw examples/rescue/rescue.toml --coverage A -o coverage.svg",
                        "rovernet draw examples/rescue/rescue.toml --coverage A --for B -o b.svg",
                        "rovernet draw examples/detour/detour.toml --routes west,east --search --at "
                        "20s -o route.svg"});
     add_file(draw, a, any_file);
-    draw.add_option("--at", a.at, "time of the run, such as 12.5s").shows_default();
-    Option coverage =
-        draw.add_option("--coverage", a.coverage, "robot whose received power is shown");
+    draw.add_option("--at", a.at, "simulated time, such as 12.5s").shows_default();
+    Option coverage = draw.add_option("--coverage", a.coverage,
+                                      "transmitting robot; draw its received power over the map");
     draw.add_option("--for", a.receiver,
-                    "robot whose radio and antenna's height receive it (default: like its own)")
+                    "robot whose radio and antenna height are used for reception (default: those "
+                    "of the transmitting robot)")
         .needs(coverage);
-    draw.add_flag("--links", a.links, "show who hears whom");
-    draw.add_option("--routes", a.route, "show the route in use from A to B, as A,B")
+    draw.add_flag("--links", a.links, "draw the links between the robots");
+    draw.add_option("--routes", a.route,
+                    "draw the route in use from robot A to robot B, given as A,B")
         .delimiter(',');
     draw.add_flag("--search", a.search,
-                  "show who sent the last request of a route, of A of --routes, or of anybody");
-    draw.add_flag("--trails", a.trails, "show where the robots have been");
-    draw.add_option("--storey", a.storey, "storey that is drawn, the lowest is 1").shows_default();
-    draw.add_flag("--axes", a.axes, "show axes in metres");
+                  "draw the robots that sent the last route request: of robot A in --routes, or of "
+                  "any robot");
+    draw.add_flag("--trails", a.trails, "draw the paths of the robots so far");
+    draw.add_option("--storey", a.storey, "storey to draw; the lowest is 1").shows_default();
+    draw.add_flag("--axes", a.axes, "draw axes in metres");
     draw.add_option("--width", a.width,
-                    "of the picture, in pixels (points of a PDF); all is scaled")
+                    "width of the picture in pixels (of a PDF in points); all parts are scaled")
         .range(100, 10000)
         .shows_default();
-    draw.add_option("--font-size", a.font_size, "in points, of which the width is 1200")
+    draw.add_option("--font-size", a.font_size,
+                    "font size in points; the picture is 1200 points wide")
         .range(4, 36)
         .shows_default();
     draw.add_option("-o,--output", a.out, "picture to write: NAME.svg, NAME.png or NAME.pdf")
@@ -96,12 +104,14 @@ void add_draw(Command app) {
 void add_move(Command app) {
     Command move = app.add_command("move", "Work with movement files");
     move.needs_command();
-    const auto [convert, a] =
-        add_command(move, "convert", "Write the motion of a scenario or movement file for others",
-                    cli::convert_movements);
+    const auto [convert, a] = add_command(
+        move, "convert", "Convert the motion of a scenario or movement file to another format",
+        cli::convert_movements);
     convert.add_examples({"rovernet move convert examples/patrol/patrol.toml patrol.tcl"});
     add_file(convert, a, any_file);
-    convert.add_option("OUT", a.out, "NAME.tcl (ns-2) or NAME.movements (BonnMotion)").required();
+    convert
+        .add_option("OUT", a.out, "file to write: NAME.tcl (ns-2) or NAME.movements (BonnMotion)")
+        .required();
 }
 
 }  // namespace

@@ -66,8 +66,8 @@ Located locate(const LocateArguments& a) {
     if (a.links) return locate_levels(*a.links, scenario, question);
     if (a.anchors.empty())
         throw CommandEnd(usage,
-                         "locate: expected --anchors, robots whose places are known, or "
-                         "--links, a file of measured levels");
+                         "locate: expected --anchors, names of the robots whose positions are "
+                         "known, or --links, a file of measured levels");
     return locate_robots(scenario, a.anchors, times_of(scenario, a.at), question);
 }
 
@@ -135,32 +135,37 @@ void locate_command(const LocateArguments& a) {
 }  // namespace
 
 void add_locate(Command app) {
-    const auto [locate, a] =
-        add_command(app, "locate", "Where robots are, by the levels of anchors", locate_command);
+    const auto [locate, a] = add_command(app, "locate",
+                                         "Estimate the positions of robots from signal levels of "
+                                         "anchors (robots at known positions)",
+                                         locate_command);
     locate.add_examples(
         {"rovernet locate examples/rescue/rescue.toml --anchors A,B,C --sigma \"4 dB\"",
          "rovernet locate office.toml --links levels.csv --sigma \"4 dB\""});
     add_file(locate, a, "scenario (.toml), Stage world (.world), movement file or folder of a run");
     const Option anchors =
-        locate.add_option("--anchors", a.anchors, "robots whose places are known").delimiter(',');
-    const Option at = locate
-                          .add_option("--at", a.at,
-                                      "times of the run, such as 10s,31.25s (default: every "
-                                      "tenth of it)")
-                          .delimiter(',');
+        locate.add_option("--anchors", a.anchors, "names of the robots whose positions are known")
+            .delimiter(',');
+    const Option at =
+        locate
+            .add_option("--at", a.at,
+                        "simulated times, such as 10s,31.25s (default: every tenth of the run)")
+            .delimiter(',');
     locate
         .add_option("--links", a.links,
-                    "measured levels (.csv) of anchors (from_x_m, from_y_m), by receiver (to_x_m, "
-                    "to_y_m, or place); see rovernet fit")
+                    "CSV file of measured levels: columns of the anchors (from_x_m, from_y_m) and "
+                    "of the receivers (to_x_m, to_y_m, or place); see rovernet fit")
         .excludes(anchors)
         .excludes(at);
     locate.add_option("--sigma", a.sigma,
-                      "standard deviation of levels (default: that of the scenario's shadowing)");
-    locate.add_flag("--unknown-power", a.unknown_power,
-                    "the power of the anchors is not known, but the same for all");
+                      "standard deviation of the levels, such as \"4 dB\" (default: sigma of the "
+                      "scenario's shadowing)");
+    locate.add_flag(
+        "--unknown-power", a.unknown_power,
+        "treat the transmit power of the anchors as unknown, but equal for all anchors");
     locate
         .add_option("--margin", a.margin,
-                    "on an open field: how far outside of the anchors places are looked for")
+                    "on an open field: distance around the anchors in which positions are searched")
         .shows_default();
     add_json(locate, a.json);
 }

@@ -63,48 +63,53 @@ void print_man_page(const ManualArguments& a) { fmt::print("{}", man_page(a.prog
 
 void add_verbosity(Command command) {
     Option quiet = command.add_flag(
-        "-q,--quiet", [] { set_verbosity(Verbosity::errors); }, "say errors only");
+        "-q,--quiet", [] { set_verbosity(Verbosity::errors); }, "print only errors");
     command
         .add_flag(
             "-v,--verbose", [] { set_verbosity(Verbosity::everything); },
-            "say also what takes how long")
+            "also print what was read, and how long each step took")
         .excludes(quiet);
 }
 
 void add_study_file(Command command, FileArguments& a, const char* what) {
     command.add_option("FILE", a.file, what).required();
-    command.add_option("--seed", a.seed, "seed of every random draw").check(whole_number());
+    command.add_option("--seed", a.seed, "seed of all random draws (default: [scenario] seed)")
+        .check(whole_number());
     command
         .add_option("--set", a.options.set,
-                    "key=value over the file's, such as radio.power=\"15 dBm\"")
+                    "KEY=VALUE: set a key of the scenario, such as radio.power=\"15 dBm\"")
         .one_word();
     command
         .add_option("--world-path", a.options.world_path,
-                    "folder for the includes and bitmaps of a Stage world")
+                    "folder to search for includes and bitmaps of a Stage world")
         .one_word();
     command
         .add_option("--bitmap", a.options.bitmaps,
-                    "OLD=NEW: another bitmap for one that a Stage world names")
+                    "OLD=NEW: read bitmap NEW wherever a Stage world names OLD")
         .one_word();
     command.add_flag("--lenient", a.options.lenient,
-                     "go on without an include or bitmap that is missing");
+                     "ignore missing includes and bitmaps of a Stage world");
 }
 
 void add_file(Command command, FileArguments& a, const char* what) {
     add_study_file(command, a, what);
-    command.add_option("--replication", a.replication, "which independent repetition")
+    command
+        .add_option(
+            "--replication", a.replication,
+            "number of the independent repetition, from 0 (default: [scenario] replication)")
         .check(whole_number());
 }
 
 void add_json(Command command, bool& json) {
-    command.add_flag("--json", json, "print one JSON document");
+    command.add_flag("--json", json, "print the result as one JSON document");
 }
 
 void add_interval(Command command, std::optional<std::string>& interval) {
     command
         .add_option("--interval", interval,
-                    "of means: t, betting or star (default: star where a metric has two bounds, "
-                    "betting with a precision)")
+                    "method of the confidence intervals of means: t, betting or star (default: "
+                    "star for metrics with two bounds, or betting if the study has a precision; t "
+                    "for other metrics)")
         .one_of({"t", "betting", "star"});
 }
 

@@ -13,52 +13,59 @@ void add_models(Command app) {
 }
 
 void add_loss(Command app) {
-    const auto [loss, a] =
-        add_command(app, "loss", "Median path loss of a model over distance", cli::loss);
+    const auto [loss, a] = add_command(
+        app, "loss", "Print the median path loss of a model at given distances", cli::loss);
     loss.add_examples({"rovernet loss friis --distance 1,10,100",
                        "rovernet loss raytrace_2007 coefficient=20 --distance 20 --wall 0.5",
                        "rovernet loss two_ray form=exact --distance 36 --heights 1.5,1.5"});
-    loss.add_option("MODEL", a.model, "its name; see rovernet models").required();
-    loss.add_option("PARAMETERS", a.parameters, "param=value ...");
-    loss.add_option("--frequency", a.frequency, "such as \"2450 MHz\"").shows_default();
-    loss.add_option("--distance", a.distances, "such as 1,10,100 or \"1 km\"")
+    loss.add_option("MODEL", a.model, "name of a propagation model, see rovernet models")
+        .required();
+    loss.add_option("PARAMETERS", a.parameters, "parameters of the model, each KEY=VALUE");
+    loss.add_option("--frequency", a.frequency, "carrier frequency, such as \"2450 MHz\"")
+        .shows_default();
+    loss.add_option("--distance", a.distances,
+                    "distances between the antennas, such as 1,10,100 (in metres) or \"1 km\"")
         .delimiter(',')
         .required();
     loss.add_option("--heights", a.heights,
-                    "antennas above the ground, such as 1.5 or, unlike each other, 1.5,0.3; 1 m if "
-                    "not given")
+                    "heights of the antennas above the ground in metres: 1.5 for both, or 1.5,0.3 "
+                    "(default: 1 m)")
         .delimiter(',');
-    loss.add_option("--wall", a.wall, "length of wall on the way, such as 0.5");
+    loss.add_option("--wall", a.wall, "length of the path inside a wall, such as 0.5 (in metres)");
     add_json(loss, a.json);
 }
 
 void add_bench(Command app) {
-    Command bench = app.add_command("bench", "Measure the speed of this build here");
+    Command bench = app.add_command("bench", "Measure the speed of this build on this machine");
     bench.needs_command();
-    const auto [flood, a] =
-        add_command(bench, "flood", "CPU time of floods, per reception", cli::bench_flood);
+    const auto [flood, a] = add_command(
+        bench, "flood", "Measure the CPU time of floods, for each reception", cli::bench_flood);
     flood.add_examples({"rovernet bench flood --nodes 1000 --cpu 0.1"});
-    flood.add_option("--nodes", a.bench.nodes, "sizes of network, such as 1000,10000")
+    flood.add_option("--nodes", a.bench.nodes, "numbers of robots, such as 1000,10000")
         .delimiter(',')
         .range(2, 10'000'000)
         .shows_default();
-    flood.add_option("--reception", a.reception, "threshold, collision or sinr").shows_default();
-    flood.add_option("--access", a.access, "none, aloha or csma").shows_default();
-    flood.add_option("--mobility", a.mobility, "static or random_waypoint").shows_default();
+    flood.add_option("--reception", a.reception, "reception model: threshold, collision or sinr")
+        .shows_default();
+    flood.add_option("--access", a.access, "access model: none, aloha or csma").shows_default();
+    flood.add_option("--mobility", a.mobility, "movement of the robots: static or random_waypoint")
+        .shows_default();
     flood
         .add_option("--suppression", a.suppression,
-                    "none, or a scheme that holds robots back: counter, probability, distance, "
-                    "location or cluster")
+                    "rule by which robots do not forward a message: none, counter, probability, "
+                    "distance, location or cluster")
         .shows_default();
-    flood.add_option("--shadowing", a.bench.shadowing.value, "of each link, sigma in dB")
+    flood
+        .add_option("--shadowing", a.bench.shadowing.value,
+                    "standard deviation of the shadowing of each link, in dB")
         .check(not_negative())
         .shows_default();
     flood.add_flag("--recorded", a.bench.recorded,
-                   "keep metrics, fingerprint and timeline, as `rovernet run` does");
-    flood.add_option("--cpu", a.bench.cpu_s, "seconds of CPU for each size, at least")
+                   "also compute metrics, fingerprint and timeline, as rovernet run does");
+    flood.add_option("--cpu", a.bench.cpu_s, "least CPU time for each number of robots, in seconds")
         .check(above_zero())
         .shows_default();
-    flood.add_option("--seed", a.bench.seed, "of every random draw").shows_default();
+    flood.add_option("--seed", a.bench.seed, "seed of all random draws").shows_default();
     add_json(flood, a.json);
 }
 
@@ -69,10 +76,18 @@ void add_material(Command app) {
         {"rovernet material concrete --thickness 0.2",
          "rovernet material concrete --thickness 0.2 --frequency \"2.4 GHz\" --angle 30 --json",
          "rovernet material glass --thickness \"6 mm\" --frequency \"5.2 GHz\" --angle 30"});
-    material.add_option("MATERIAL", a.material, "concrete, brick, glass, metal, ...").required();
-    material.add_option("--thickness", a.thickness, "such as 0.2 or \"13 mm\"").required();
-    material.add_option("--frequency", a.frequency, "such as \"2450 MHz\"").shows_default();
-    material.add_option("--angle", a.angle, "of the wave's way to the normal [degrees]")
+    material
+        .add_option("MATERIAL", a.material, "building material: concrete, brick, glass, metal, ...")
+        .required();
+    material
+        .add_option("--thickness", a.thickness,
+                    "thickness of the slab, such as 0.2 (in metres) or \"13 mm\"")
+        .required();
+    material.add_option("--frequency", a.frequency, "carrier frequency, such as \"2450 MHz\"")
+        .shows_default();
+    material
+        .add_option("--angle", a.angle,
+                    "angle between the wave and the normal of the slab, in degrees")
         .check(below_90_degrees())
         .shows_default();
     add_json(material, a.json);
@@ -84,25 +99,29 @@ void add_validate(Command app) {
                     cli::validate);
     validate.add_examples({"rovernet validate --quick -o report",
                            "rovernet validate --field measurements -o report"});
-    validate.add_option("-o,--output", a.out, "folder for report.html, and for each chart's files")
+    validate
+        .add_option("-o,--output", a.out,
+                    "folder to write report.html and the files of each chart to")
         .required();
-    validate.add_option("--field", a.field,
-                        "folder of measured levels, with flat/ and lab/, to hold models against");
-    validate.add_flag("--quick", a.quick, "few samples: seconds instead of minutes");
+    validate.add_option(
+        "--field", a.field,
+        "folder of measured levels (with flat/ and lab/), with which models are compared");
+    validate.add_flag("--quick", a.quick, "use fewer samples: takes seconds instead of minutes");
 }
 
 void add_version(Command app) {
     const auto [version, a] =
-        add_command(app, "version", "Print the version and how it was built", cli::print_version);
+        add_command(app, "version", "Print the version and the build options of this program",
+                    cli::print_version);
     version.add_examples({"rovernet version --json"});
     add_json(version, a.json);
 }
 
 /// Scripts and pages that are made from the commands themselves.
 void add_completion(Command app) {
-    const auto [completion, a] =
-        add_command(app, "completion", "Print a shell's completion script", cli::print_completion);
-    completion.add_option("SHELL", a.shell, "bash, zsh or fish").required();
+    const auto [completion, a] = add_command(
+        app, "completion", "Print a completion script for a shell", cli::print_completion);
+    completion.add_option("SHELL", a.shell, "name of the shell: bash, zsh or fish").required();
     completion.add_examples(
         {"source <(rovernet completion bash)",
          "rovernet completion fish > ~/.config/fish/completions/rovernet.fish"});

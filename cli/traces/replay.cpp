@@ -345,7 +345,7 @@ void replay(const ReplayArguments& a) {
 
 void add_replay(Command app) {
     const auto [replay, a] = add_command(
-        app, "replay", "Play a trace again, as it was or under another radio", cli::replay);
+        app, "replay", "Play a trace again, as it was or with a different radio", cli::replay);
     replay.add_examples(
         {"rovernet run examples/patrol/patrol.toml --record",
          "rovernet replay runs/patrol-s3/trace.mcap --verify",
@@ -356,17 +356,17 @@ void add_replay(Command app) {
          "rovernet replay rescue/trace.tr --verify",
          "rovernet replay rescue/trace.tr --with \"radio.power=10 dBm\""});
     replay
-        .add_option(
-            "TRACE", a.file,
-            "recorded trace (.mcap), an ns-2 trace, or with --verify the folder of a live run")
+        .add_option("TRACE", a.file,
+                    "recorded trace (.mcap), ns-2 trace, or (with --verify) folder of a live run")
         .required();
-    const Option verify = replay.add_flag(
-        "--verify", a.verify, "run its scenario again and compare; exit 1 at the first difference");
+    const Option verify = replay.add_flag("--verify", a.verify,
+                                          "run the scenario of the trace again and compare the "
+                                          "records; exit code 1 at the first difference");
     const Option speed =
         replay
             .add_option(
                 "--speed", a.speed,
-                "print its events as they happened: 1 in real time, 2 (or x2) twice as fast")
+                "print the events at this speed: 1 is real time, 2 (or x2) is twice as fast")
             .transform([](const std::string& text) {
                 return text.starts_with('x') ? text.substr(1) : text;
             })
@@ -374,8 +374,8 @@ void add_replay(Command app) {
             .excludes(verify);
     replay
         .add_option("--with", a.with,
-                    "key=value of another radio, or several between \";\": the robots move and "
-                    "speak as they did")
+                    "KEY=VALUE of a different radio or model (several are separated by \";\"); "
+                    "robots move and send messages as in the trace")
         .one_word()
         .excludes(verify)
         .excludes(speed);
@@ -383,12 +383,14 @@ void add_replay(Command app) {
                                            const char* what) {
         return command.add_option(name, value, what).excludes(verify).excludes(speed);
     };
-    add("--map", a.map, "map (.yaml, .png) in place of the recorded one");
-    add("--as", a.as, "of an ns-2 trace: the radio that others are compared with, as --with");
-    add("--routing", a.routing, "of an ns-2 trace: way of its messages (default: flood)")
+    add("--map", a.map, "map (.yaml, .png) to use instead of the recorded map");
+    add("--as", a.as,
+        "for an ns-2 trace: radio with which the others are compared, given as for --with");
+    add("--routing", a.routing,
+        "for an ns-2 trace: routing of its messages, flood or direct (default: flood)")
         .one_of({"flood", "direct"});
-    add("--movements", a.movements, "of an ns-2 trace: the movement file that moved its robots");
-    add("--store", a.store, "keep the rows in this file, for results and plot");
+    add("--movements", a.movements, "for an ns-2 trace: movement file from which its robots moved");
+    add("--store", a.store, "also write the rows to this store, for rovernet results and plot");
     add_json(replay, a.json);
 }
 

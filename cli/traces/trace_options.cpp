@@ -6,10 +6,10 @@ namespace rovernet::cli {
 namespace {
 
 constexpr const char* any_trace =
-    "ns-2 trace (.tr), which may be packed by gzip or zstd, or recorded trace (.mcap)";
+    "ns-2 trace (.tr, also compressed by gzip or zstd) or recorded trace (.mcap)";
 
 void add_strict(Command command, bool& strict) {
-    command.add_flag("--strict", strict, "stop at the first line that is none of ns-2");
+    command.add_flag("--strict", strict, "stop at the first line that is not an ns-2 trace line");
 }
 
 void add_trace_stats(Command trace) {
@@ -18,54 +18,60 @@ void add_trace_stats(Command trace) {
     stats.add_examples({"rovernet trace stats runs/patrol-s3/trace.tr",
                         "rovernet trace stats runs/patrol-s3/trace.tr --by robot --csv"});
     stats.add_option("FILE", a.file, any_trace).required();
-    stats.add_option("--by", a.by, "also the counts of each robot, flow or second")
+    stats.add_option("--by", a.by, "also print the counts of each robot, flow or second")
         .one_of({"robot", "flow", "second"});
     add_strict(stats, a.strict);
-    stats.add_flag("--csv", a.csv, "print the rows of --by, or else the totals, as CSV");
+    stats.add_flag("--csv", a.csv, "print CSV: the rows of --by, or else the totals");
     add_json(stats, a.json);
 }
 
 void add_trace_convert(Command trace) {
     const auto [convert, a] =
-        add_command(trace, "convert", "Write a trace in another form", cli::trace_convert);
+        add_command(trace, "convert", "Convert a trace to another format", cli::trace_convert);
     convert.add_examples(
         {"rovernet trace convert runs/patrol-s3/trace.tr patrol.csv --to csv",
          "rovernet trace convert runs/rescue-s1/trace.mcap rescue.tr --to ns2-old --mac",
          "rovernet trace convert runs/rescue-s1/trace.mcap rescue.pcapng --to pcapng"});
     convert.add_option("IN", a.in, any_trace).required();
     convert.add_option("OUT", a.out, "file to write").required();
-    convert.add_option("--to", a.to, "csv, ns2-old, ns2-new, or of a recorded trace pcapng")
+    convert
+        .add_option(
+            "--to", a.to,
+            "format to write: csv, ns2-old, ns2-new, or pcapng (only from a recorded trace)")
         .one_of({"csv", "ns2-old", "ns2-new", "pcapng"})
         .required();
     convert.add_flag("--mac", a.mac,
-                     "of a recorded trace also the lines of the MAC, as with [trace] mac = true");
+                     "also write the lines of the MAC layer, as [trace] mac = true does (only from "
+                     "a recorded trace)");
     add_strict(convert, a.strict);
 }
 
 void add_trace_cut(Command trace) {
     const auto [cut, a] = add_command(
-        trace, "cut", "Write a piece of a trace as ns-2 text, line by line", cli::trace_cut);
+        trace, "cut", "Write selected lines of a trace, as an ns-2 trace", cli::trace_cut);
     cut.add_examples(
         {"rovernet trace cut runs/patrol-s3/trace.tr piece.tr --from \"10 s\" --to \"20 s\"",
          "rovernet trace cut runs/rescue-s1/trace.mcap piece.tr --message 3"});
     cut.add_option("IN", a.in, any_trace).required();
     cut.add_option("OUT", a.out, "file to write").required();
     cut.add_option("--from", a.from, "time of the first packet");
-    cut.add_option("--to", a.to, "time of the end, which is left out");
-    cut.add_option("--robot", a.robot, "number of a robot: its lines only");
-    cut.add_option("--message", a.message, "id of packets: theirs only");
+    cut.add_option("--to", a.to, "time at which the piece ends; events at this time are left out");
+    cut.add_option("--robot", a.robot, "number of a robot; write only its lines");
+    cut.add_option("--message", a.message, "id of a message; write only its packets");
     add_strict(cut, a.strict);
 }
 
 void add_trace_diff(Command trace) {
     const auto [diff, a] = add_command(
-        trace, "diff", "Show where two traces part; exit code 1 if they do", cli::trace_diff);
+        trace, "diff", "Show the first difference of two traces; exit code 1 if they differ",
+        cli::trace_diff);
     diff.add_examples({"rovernet trace diff runs/rescue-s1/trace.tr runs/rescue-s1/trace.mcap",
                        "rovernet trace diff runs/rescue-s1/trace.tr runs/rescue-s1/trace.mcap "
                        "--time-tolerance \"1 us\""});
     diff.add_option("A", a.a, any_trace).required();
     diff.add_option("B", a.b, any_trace).required();
-    diff.add_option("--time-tolerance", a.time_tolerance, "times differ if further apart")
+    diff.add_option("--time-tolerance", a.time_tolerance,
+                    "largest difference of two times that count as equal")
         .shows_default();
     add_strict(diff, a.strict);
 }
@@ -78,8 +84,8 @@ void add_trace_follow(Command trace) {
     follow.add_option("FILE", a.file, any_trace).required();
     follow.add_option("--message", a.message, "id of the message").required();
     follow.add_option("--robot", a.robot,
-                      "name or number of a robot: the way to it only; of a recorded trace also "
-                      "how each frame came there");
+                      "name or number of a robot: print only the message's path to this robot, and "
+                      "from a recorded trace also how each frame arrived there");
     add_strict(follow, a.strict);
     add_json(follow, a.json);
 }

@@ -258,28 +258,30 @@ void add_view(Command app) {
                        "rovernet view runs/patrol-s3 -o patrol.html --from \"10 s\" --to \"20 s\"",
                        "rovernet view runs/patrol-s3 --with propagation.model=friis -o both.html"});
     view.add_option("RUN", a.file,
-                    "folder of a run with --record, its trace.mcap, or a scenario, which is run")
+                    "folder of a run made with --record, its trace.mcap, or a scenario file, which "
+                    "is then run")
         .required();
     view.add_option("OTHER", a.other,
-                    "second run of the same robots, to be shown beside the first: A left, B right");
-    view.add_option("--with", a.with,
-                    "key=value of another radio, or several between \";\", for a second run: the "
-                    "robots move and speak as in the first")
+                    "second run with the same robots, shown on the right of the first run");
+    view.add_option(
+            "--with", a.with,
+            "KEY=VALUE of a different radio or model (several are separated by \";\"): show a "
+            "second run with it, in which robots move and send messages as in the first run")
         .one_word();
     view.add_option("-o,--output", a.out,
-                    "write the page as one file, which needs no network, "
-                    "instead of serving it");
-    view.add_option("--address", a.address, "address of this machine to serve at; port 0: any")
-        .shows_default();
+                    "write the page to this file, which needs no server, instead of serving it");
     view.add_option(
-        "--listen", a.listen,
-        "IP address of this machine by which others reach it, or 0.0.0.0: they need the "
-        "token in the address that is printed");
+            "--address", a.address,
+            "address of this machine at which to serve the page; port 0 selects a free port")
+        .shows_default();
+    view.add_option("--listen", a.listen,
+                    "serve the page to other machines, too, at this IP address of this machine "
+                    "(0.0.0.0: at all its addresses); they need the token in the printed address");
     view.add_option("--from", a.from, "time of the first frame");
     view.add_option("--to", a.to, "time of the last frame");
-    view.add_option("--limit", a.limit,
-                    "largest size of the page, such as \"5 MB\": later frames "
-                    "are left out");
+    view.add_option(
+        "--limit", a.limit,
+        "largest size of the page, such as \"5 MB\"; the last frames are left out if necessary");
     view.add_flag("--no-payloads", a.no_payloads, "leave out the contents of messages");
     view.add_flag("--no-map", a.no_map, "leave out walls, doors and stairs");
 }
