@@ -181,17 +181,16 @@ void MotionBuilder::check_way(Vec3 from, Vec3 to, const RobotTable& robot, const
     if (planners.has_way(from, to, robot.radius)) return;
     const bool fits_there = network_.scene().inside_map(to) && fits(to, robot.radius);
     if (fits_there && !planners.is_level(from, to)) {
-        throw InputError(where,
-                         fmt::format("move: no stairs from {} m to {} m for a robot of "
-                                     "radius {} m: the way from one storey to another is "
-                                     "straight, and a wall stands in it; expected a place "
-                                     "before it from which it is free",
-                                     coordinates(from), coordinates(to), robot.radius.value));
+        throw InputError(
+            where, fmt::format("move: no stairs from {} m to {} m for a robot of radius {} m: the "
+                               "path between two storeys is straight, and a wall is in the way; "
+                               "expected a place before it from which the path is free",
+                               coordinates(from), coordinates(to), robot.radius.value));
     }
-    throw InputError(where, fmt::format("move: no way from {} m to {} m for a robot of radius {} "
+    throw InputError(where, fmt::format("move: no path from {} m to {} m for a robot of radius {} "
                                         "m: {}; expected a place that can be reached",
                                         coordinates(from), coordinates(to), robot.radius.value,
-                                        fits_there ? "walls are all around"
+                                        fits_there ? "walls enclose it"
                                                    : "it is in a wall, too near to one, or off "
                                                      "the map"));
 }

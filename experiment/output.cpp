@@ -29,8 +29,9 @@ void make_folder(const std::string& path) {
     std::error_code error;
     std::filesystem::create_directories(path, error);
     if (!error && std::filesystem::is_directory(path, error)) return;
-    throw RunError(fmt::format("{}: no folder can be made there ({}); give another with --out",
-                               path, error ? error.message() : "a file is in the way"));
+    throw RunError(
+        fmt::format("{}: cannot create this folder ({}); give a different folder with --out", path,
+                    error ? error.message() : "a file is in the way"));
 }
 
 }  // namespace rovernet

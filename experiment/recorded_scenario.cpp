@@ -118,21 +118,22 @@ std::string ReplayedScenario::find_file(const RecordedRun& run, const std::strin
     const auto has_its_name = [&](const AttachedFile& file) { return file.name == name; };
     if (std::any_of(run.files.begin(), run.files.end(), has_its_name)) return name;
     if (std::find(run.broken.begin(), run.broken.end(), name) != run.broken.end()) {
-        throw InputError({.source = trace_}, fmt::format("the file {} inside is broken", name));
+        throw InputError({.source = trace_}, fmt::format("the attached file {} is damaged", name));
     }
     const fs::path beside = fs::absolute(trace_).parent_path() / name;
     std::error_code ignored;
     if (fs::exists(beside, ignored)) return beside.string();
-    throw InputError({.source = trace_},
-                     fmt::format("its scenario names the file {}, which is neither inside nor "
-                                 "beside it",
-                                 name));
+    throw InputError(
+        {.source = trace_},
+        fmt::format(
+            "its scenario needs the file {}, which is neither in the trace nor in its folder",
+            name));
 }
 
 ReplayedScenario::ReplayedScenario(const RecordedRun& run, const std::string& path) : trace_(path) {
     if (run.scenario.empty()) {
         throw InputError({.source = path},
-                         "there is no scenario in this trace: its network was made in code");
+                         "this trace has no scenario, because a C++ program built its network");
     }
     Value parsed = parse_toml(run.scenario, path);
     Table& document = *parsed.table();
@@ -142,7 +143,7 @@ ReplayedScenario::ReplayedScenario(const RecordedRun& run, const std::string& pa
             put_file(fs::path(folder_.path()) / file.name, file.content);
         } catch (const fs::filesystem_error&) {  // a file is inside where another has its folder
             throw InputError({.source = path},
-                             fmt::format("the file {} inside cannot be unpacked", file.name));
+                             fmt::format("the attached file {} cannot be decompressed", file.name));
         }
     }
     constexpr std::pair<const char*, const char*> keys[] = {
@@ -193,8 +194,8 @@ void check_robots(const RecordedRun& run, const Scenario& scenario, const std::s
         }
         if (names[robots] != name) {
             throw InputError({.source = path},
-                             fmt::format("robot {} is \"{}\" by the names of the trace, and "
-                                         "\"{}\" in the scenario inside",
+                             fmt::format("robot {} is named \"{}\" in the trace, but \"{}\" in the "
+                                         "scenario of the trace",
                                          robots, names[robots], name));
         }
         ++robots;

@@ -335,7 +335,7 @@ class PacedServer {
         if (options_.late_ends) {
             fault_ = text;
         } else if (!std::exchange(has_told_late_, true)) {
-            options_.say(text + ": programs take that for a delay of the radio");
+            options_.say(text + ": programs see this as an additional delay of the radio");
         }
     }
 

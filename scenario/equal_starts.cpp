@@ -84,10 +84,9 @@ void note_equal_starts(Scenario& out) {
                 continue;
             together.add([&] {
                 return fmt::format(
-                    "{}: \"{}\" and \"{}\" begin messages at the same instants, or within {:g} s: "
-                    "nothing parts their frames with access.model = \"{}\", and where both are "
-                    "heard "
-                    "both are lost; expected other starts{}",
+                    "{}: \"{}\" and \"{}\" start messages at the same times, or within {:g} s; "
+                    "access.model = \"{}\" does not separate their frames, so that robots in range "
+                    "of both lose both; expected different starts{}",
                     b.from_where.text(), a.from, b.from, seconds(apart), out.access.name(),
                     repeats ? ", or access.immediate_access = false, which draws a backoff" : "");
             });

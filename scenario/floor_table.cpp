@@ -70,8 +70,8 @@ std::vector<FloorTable> read_floors(const Value& value) {
     check_order(floors, *list);
     if (!floors.back().ceiling) return floors;
     throw InputError(list->back().table()->find("ceiling")->where,
-                     "ceiling: the highest storey has none, as there is no storey above it; "
-                     "expected it at a floor below");
+                     "ceiling: the highest storey has no ceiling, because there is no storey above "
+                     "it; expected this key at a lower floor");
 }
 
 Array floors_document(const std::vector<FloorTable>& floors) {

@@ -35,9 +35,11 @@ class Names {
     void add(const std::string& name, const RobotTable& robot) {
         const auto [first, added] = names_.emplace(name, &robot);
         if (added) return;
-        throw InputError(robot.where, fmt::format("two robots are named \"{}\"; the other is at "
-                                                  "{}; give each a name of its own",
-                                                  name, first->second->where.text()));
+        throw InputError(
+            robot.where,
+            fmt::format(
+                "two robots are named \"{}\"; the other is at {}; give each robot its own name",
+                name, first->second->where.text()));
     }
     std::string suggestion(const std::string& name) const {
         for (const RobotTable& robot : scenario_.robots) {
@@ -73,7 +75,7 @@ void check_address(Given& given, const std::optional<std::string>& address, std:
                                                other.where.text(), robot.name);
     const std::string message = fmt::format("{} the {} {}", both, what, *address);
     throw InputError(robot.radio_where,
-                     message + "; give each its own, or leave it out to have one made");
+                     message + "; give each robot its own, or leave it out to get a generated one");
 }
 
 }  // namespace

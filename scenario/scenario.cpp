@@ -41,9 +41,8 @@ void check_traffic(const Scenario& scenario) {
     for (const TrafficTable& traffic : scenario.traffic) {
         if (!traffic.saturate) continue;
         throw InputError(traffic.from_where,
-                         "saturate: without an access model this robot would send without end at "
-                         "once; expected [access] model = "
-                         "\"csma\" or \"aloha\"");
+                         "saturate: without an access model this robot would send infinitely many "
+                         "messages at once; expected [access] model = \"csma\" or \"aloha\"");
     }
 }
 
@@ -220,8 +219,7 @@ void note_decay(Scenario& out) {
         const double settled = low > 0 ? (high - low) / math::log(high / low) : 0;
         out.notices.push_back(fmt::format(
             "{}: robot \"{}\" starts its random_waypoint from \"{}\": its mean speed falls from "
-            "{:.3g} "
-            "to {:.3g} m/s; start = \"stationary\", without at or place, has no such phase",
+            "{:.3g} to {:.3g} m/s; start = \"stationary\" (without at and place) avoids this",
             robot.move.where.text(), robot.name, name_of(model->start), (low + high) / 2, settled));
     }
 }
@@ -232,8 +230,8 @@ void check_robots(TableReader& document, const Scenario& scenario) {
     if (!scenario.scene.world) document.missing("robot", "[[robot]] with a name and a place");
     throw InputError(
         scenario.scene.map_where.line > 0 ? scenario.scene.map_where : Location{scenario.file},
-        "no robot in this world; expected a position, or a scenario "
-        "with [[robot]] that names the world: [scene] world = \"...\"");
+        "found no robot in this world; expected a model of type position, or a scenario with "
+        "[[robot]] that names the world: [scene] world = \"...\"");
 }
 
 /// Whether the movement file, which names these robots, places the robot of that table.

@@ -67,9 +67,9 @@ void note_pixels(const MaterialTable& material, Pixels pixels, std::string_view 
     if (!material.has_walls()) return;  // it is for doors
     const bool has_grey = material.grey || material.greys;
     if (!has_grey) {
-        return notices.push_back(
-            fmt::format("{}: material \"{}\" has no grey, and a map has no colours: it is not used",
-                        material.where.text(), material.name));
+        return notices.push_back(fmt::format(
+            "{}: material \"{}\" is not used, because it has no grey, and a map has no colours",
+            material.where.text(), material.name));
     }
     if (pixels.all == 0) {
         return notices.push_back(
@@ -78,8 +78,8 @@ void note_pixels(const MaterialTable& material, Pixels pixels, std::string_view 
                         material.where.text(), material.name, map));
     }
     notices.push_back(fmt::format(
-        "{}: material \"{}\": {} of its {} pixels in {} are no walls, and let the radio pass; "
-        "their grey is too light: darken it, or lower the map's occupied_thresh",
+        "{}: material \"{}\": {} of its {} pixels in {} are not walls and do not attenuate radio, "
+        "because their grey is too light: darken it, or lower the map's occupied_thresh",
         material.where.text(), material.name, pixels.all - pixels.walls, pixels.all, map));
 }
 

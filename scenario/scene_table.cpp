@@ -130,8 +130,8 @@ SceneTable read_scene(const Value& value) {
 void refuse_doors(const SceneTable& scene, std::string_view who) {
     if (scene.doors.empty()) return;
     throw InputError(scene.doors.front().where,
-                     fmt::format("door: {} looks at links in one scene, and this one changes; "
-                                 "expected a scenario without [[scene.door]]",
+                     fmt::format("door: {} needs a scene that does not change; expected a scenario "
+                                 "without [[scene.door]]",
                                  who));
 }
 

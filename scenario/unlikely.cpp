@@ -42,7 +42,7 @@ void note_frequency(Scenario& out, const Radio& radio, const RadioPlaces& places
     const bool slip = f * 1000 >= 10 * lowest && f * 1000 <= highest;
     add_notice(
         out.notices,
-        fmt::format("{}: frequency: {} is no frequency of a robot's radio{}",
+        fmt::format("{}: frequency: {} is not a frequency of robots' radios{}",
                     places.frequency.text(), shown(radio.frequency),
                     slip ? fmt::format("; did you mean \"{}\"?", shown(Hertz{f * 1000})) : ""));
 }
@@ -125,7 +125,8 @@ void note_unicasts(Scenario& out) {
     for (const TrafficTable& traffic : out.traffic) {
         if (!traffic.to || traffic.hops || traffic.saturate) continue;
         note(traffic.to_where, *traffic.to,
-             "; hops = 1 asks for that, and [routing] protocol = \"aodv\" finds a way");
+             "; hops = 1 states this in the scenario, and [routing] protocol = \"aodv\" finds "
+             "routes");
     }
     for (const RobotTable& robot : out.robots) {
         for (const ReactionTable& reaction : robot.reactions) {
@@ -168,9 +169,10 @@ void for_each_used_model(const Scenario& scenario, Look look) {
 
 void refuse_disc(const Propagation& model, const Location& where, std::string_view who) {
     if (!model.as<Disc>()) return;
-    throw InputError(where, fmt::format("\"disc\" has no levels, which {} looks at; expected "
-                                        "another propagation model",
-                                        who));
+    throw InputError(
+        where,
+        fmt::format(
+            "\"disc\" has no levels, which {} needs; expected a different propagation model", who));
 }
 
 void add_notice(std::vector<std::string>& notices, std::string notice) {
@@ -215,8 +217,8 @@ void note_own_models(Scenario& scenario) {
     names.resize(names.size() - others);
     add_notice(
         scenario.notices,
-        fmt::format("these robots keep a propagation model of their own, whatever [propagation] "
-                    "says: {}{}",
+        fmt::format("these robots have their own propagation model, so that [propagation] does not "
+                    "affect them: {}{}",
                     fmt::join(names, ", "), others > 0 ? fmt::format(" and {} more", others) : ""));
 }
 
@@ -285,8 +287,9 @@ void note_walls_twice(Scenario& scenario, const Scene* scene) {
         if (!rays || rays->coefficient <= largest_without_walls) return;
         twice.add([&] {
             return fmt::format(
-                "{}: coefficient: N = {} of raytrace_2007 holds the walls of a usual building, "
-                "and the walls of the map are added; did you mean coefficient = 20?",
+                "{}: coefficient: N = {} of raytrace_2007 already includes the walls of an average "
+                "building, so that the walls of the map count twice; did you mean coefficient = "
+                "20?",
                 where.text(), rays->coefficient);
         });
     });
@@ -309,9 +312,9 @@ void note_coherent_slants(Scenario& scenario, const Scene* scene) {
         if (slanting == 0) return;
         off.add([&] {
             return fmt::format(
-                "{}: sum: {} faces of walls are not along the cells of the map, and so some "
-                "centimetres off: levels by sum = \"coherent\" are 3 to 5 dB off (rms), up to 30; "
-                "did you mean sum = \"power\"?",
+                "{}: sum: {} faces of walls are oblique to the cells of the map, and therefore "
+                "inaccurate by some centimetres: levels with sum = \"coherent\" have errors of 3 "
+                "to 5 dB (rms), and up to 30 dB; did you mean sum = \"power\"?",
                 where.text(), slanting);
         });
     });
@@ -348,10 +351,10 @@ void note_thick_walls(Scenario& scenario, const Scene* scene) {
     const Vec3 at = 0.5 * (first->from + first->to);
     add_notice(
         scenario.notices,
-        fmt::format("{}: what is drawn behind x = {:.2f} m, y = {:.2f} m is thicker than "
-                    "{} m, up to {:.2g} m in this scene, and rays take a wall whose material "
-                    "is not given as {} m thick at most; give furniture, pillars and shafts "
-                    "a colour and a material of their own in [scene.materials]",
+        fmt::format("{}: the wall drawn behind x = {:.2f} m, y = {:.2f} m is thicker than {} m "
+                    "(walls of this scene: up to {:.2g} m), but rays treats walls without a given "
+                    "material as at most {} m thick; give furniture, pillars and shafts a colour "
+                    "and a material of their own in [scene.materials]",
                     scenario.propagation_where.text(), at.x, at.y, limit, thickest, limit));
 }
 

@@ -73,8 +73,8 @@ auto told(const std::string& path, auto&& act) {
             case SQLITE_MISMATCH: throw damaged_store(path, error.what());
             case SQLITE_FULL:
                 throw RunError(path +
-                               ": the disk is full; what was finished is kept: make room "
-                               "and go on with the same command");
+                               ": the disk is full; finished runs are kept: free some space and "
+                               "run the same command again");
             case SQLITE_READONLY:
             case SQLITE_CANTOPEN:
             case SQLITE_PERM:
@@ -82,7 +82,7 @@ auto told(const std::string& path, auto&& act) {
                                ": cannot be written; check the permissions of the file and "
                                "of its folder, or give another with --store");
             default:
-                throw RunError(fmt::format("{}: {} (SQLite {}); what was finished is kept", path,
+                throw RunError(fmt::format("{}: {} (SQLite {}); finished runs are kept", path,
                                            error.what(), error.getExtendedErrorCode()));
         }
     }

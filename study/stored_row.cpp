@@ -16,7 +16,7 @@ namespace {
 /// Content of a column, for errors.
 std::string description(const SQLite::Column& column) {
     if (column.isNull()) return "nothing (NULL)";
-    if (column.isBlob()) return fmt::format("{} bytes that are no text", column.getBytes());
+    if (column.isBlob()) return fmt::format("{} bytes that are not text", column.getBytes());
     const bool is_text = column.isText();  // asked before SQLite turns a number into a text
     std::string value = column.getString();
     constexpr std::size_t longest = 40;
@@ -33,8 +33,8 @@ std::pair<std::string, std::string> table_and_column(const std::string& name) {
 }  // namespace
 
 InputError damaged_store(const std::string& path, const std::string& what) {
-    return InputError({path}, fmt::format("a damaged store: {}; go back to a copy of it, or sweep "
-                                          "again with --fresh, which throws its runs away",
+    return InputError({path}, fmt::format("a damaged store: {}; restore a copy of it, or sweep "
+                                          "again with --fresh, which deletes its runs",
                                           what));
 }
 

@@ -304,10 +304,10 @@ Store open_store(const std::string& path, Study& study) {
     Store store = Store::open_to_write(path);
     const std::string version = store.property("version");
     if (!version.empty() && version != code_version()) {
-        throw InputError({path}, fmt::format("its runs were made by version {}, and this is {}; "
-                                             "expected --fresh, which throws them away, or "
-                                             "another --store",
-                                             version, code_version()));
+        throw InputError({path},
+                         fmt::format("its runs were made by version {}, and this is {}; expected "
+                                     "--fresh, which deletes them, or a different --store",
+                                     version, code_version()));
     }
     const Table scenario = study.identity(study.base());
     const std::vector<StoredPoint> points = stored_points(study);
@@ -316,11 +316,10 @@ Store open_store(const std::string& path, Study& study) {
     for (const StoredPoint& point : store.points()) {
         if (ids.contains(point.id)) continue;
         throw InputError(
-            {path},
-            fmt::format("it has runs of the point {}, which this study does not have: {}; expected "
-                        "--fresh, which throws its runs away, or another --store",
-                        settings_text(point.settings),
-                        why_gone(point, study, store.document("scenario"), scenario)));
+            {path}, fmt::format("it has runs of the point {}, which this study does not have: {}; "
+                                "expected --fresh, which deletes its runs, or a different --store",
+                                settings_text(point.settings),
+                                why_gone(point, study, store.document("scenario"), scenario)));
     }
     store.set_points(points);
     store.set_property("version", code_version());

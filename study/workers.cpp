@@ -76,7 +76,7 @@ std::string how_it_ended(int status) {
     if (WIFEXITED(status)) return fmt::format("its process exited with {}", WEXITSTATUS(status));
     const int signal = WTERMSIG(status);
     return fmt::format("its process was ended by signal {} ({}){}", signal, strsignal(signal),
-                       signal == SIGKILL ? ": by hand, or for want of memory" : "");
+                       signal == SIGKILL ? ": by a user, or because memory was exhausted" : "");
 }
 
 void close_file(int& file) {

@@ -127,10 +127,9 @@ bool make_lock(const std::string& path) {
     if (file.number() >= 0 && write(file.number(), text.data(), text.size()) == size) return true;
     const int error = errno;
     if (file.number() >= 0) unlink(lock.c_str());
-    throw RunError(
-        fmt::format("{}: cannot be made ({}); check its folder, or give another store "
-                    "with --store",
-                    lock, std::strerror(error)));
+    throw RunError(fmt::format(
+        "{}: cannot be created ({}); check its folder, or give a different store with --store",
+        lock, std::strerror(error)));
 }
 
 /// Takes the lock on the whole file. False if the file system has no such locks.

@@ -117,8 +117,8 @@ void warn_of_few(const std::vector<Answer>& list) {
     });
     if (few == 0) return;
     notice(
-        fmt::format("warning: {} of {} values are of fewer than {} replications: their "
-                    "intervals say little",
+        fmt::format("warning: {} of {} values are computed from fewer than {} replications; their "
+                    "intervals are unreliable",
                     few, list.size(), few_replications));
 }
 
@@ -126,9 +126,9 @@ void warn_of_skewness(const std::vector<Answer>& list) {
     const auto skewed = std::ranges::count_if(list, &Answer::skewed);
     if (skewed == 0) return;
     notice(
-        fmt::format("warning: {} of {} intervals are by Student's t of values that are too "
-                    "skewed for it (n <= 25 times their squared skewness): they may cover "
-                    "the truth less often than they say",
+        fmt::format("warning: {} of {} intervals by Student's t are of values that are too skewed "
+                    "for this method (n <= 25 times the squared skewness); they may cover the true "
+                    "mean less often than stated",
                     skewed, list.size()));
 }
 

@@ -44,9 +44,10 @@ Address Reach::with_token(const std::string& text) const {
 Address Reach::without_token(const std::string& text) const {
     if (insecure) return with_token(text);
     if (listen) {
-        notice(fmt::format(
-            "{}: for this machine alone, as its clients need no token; --insecure lets others in",
-            text));
+        notice(
+            fmt::format("{}: serves only this machine, because its clients need no token; "
+                        "--insecure serves other machines, too",
+                        text));
     }
     return read_loopback(text);
 }

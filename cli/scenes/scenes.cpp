@@ -82,8 +82,8 @@ Table map_report(const SceneArguments& a) {
     table.map_where = Location{a.file};
     if (is_image_name(a.file) && !a.size) {
         throw InputError(Location{a.file},
-                         "a picture without a scale; expected also --size WIDTHxHEIGHT in metres, "
-                         "such as --size 16x16, or a map.yaml");
+                         "found a picture without a scale; expected also --size WIDTHxHEIGHT in "
+                         "metres, such as --size 16x16, or a map.yaml");
     }
     if (a.size) table.size = size_of(*a.size);
     std::vector<std::string> notices;  // of materials; a map alone has those beside it
@@ -205,7 +205,7 @@ std::optional<PictureOptions::Route> route_of(const DrawArguments& a) {
     if (a.route.size() == 2 && a.route[0] != a.route[1])
         return PictureOptions::Route{a.route[0], a.route[1]};
     throw InputError(Location{fmt::format("--routes {}", fmt::join(a.route, ",")), 0, 0, true},
-                     "expected two robots that differ, such as A,B");
+                     "expected two different robots, such as A,B");
 }
 
 std::unique_ptr<Network> played(const std::string& file, const Scenario& scenario, Time until) {
@@ -219,8 +219,9 @@ Time time_in(const Scenario& scenario, const std::string& text) {
     const Time at = start_of_run + option_time("--at", text);
     const Duration end = scenario.scenario.duration;
     if (at > start_of_run + end) {
-        notice(fmt::format("--at {}: the run ends at {:.9g} s; it is played on until then", text,
-                           seconds(end)));
+        notice(
+            fmt::format("--at {}: the run ends at {:.9g} s; it is continued until the given time",
+                        text, seconds(end)));
     }
     return at;
 }

@@ -95,7 +95,7 @@ bool make_block(const AdviseArguments& a, Study& study, Store& store, const Budg
         const StoredRun& run = *result.failure;
         throw CommandEnd(
             partly_failed,
-            fmt::format("a run failed, and without it there is no advice: {}\n  {}", run.error,
+            fmt::format("a run failed, so that no advice is possible: {}\n  {}", run.error,
                         run_command(store, store.points().at(run.point), run.replication)));
     }
     return result.progress.left == 0;
@@ -118,13 +118,14 @@ void tell_time(const AdviseArguments& a, const AdviceCandidates& candidates, std
     constexpr double long_time = 60;  // [s]
     const double all = run_s * static_cast<double>(most);
     if (all < long_time) return;
-    notice(fmt::format(
-        "a run with the reference, {}, takes about {:.2g} s of CPU; the {} to {} of them that "
-        "verdicts may need take {} to {} on one worker, and the candidates' come to that. "
-        "--budget {} ends it with the interim verdict; a cheaper --reference takes less",
-        candidates.path_losses[top].name, run_s, std::min(least, most), most,
-        duration_text(run_s * static_cast<double>(std::min(least, most))), duration_text(all),
-        a.budget));
+    notice(
+        fmt::format("a run with the reference, {}, takes about {:.2g} s of CPU time; verdicts may "
+                    "need {} to {} such runs, which take {} to {} on one worker, and also runs of "
+                    "the candidates. --budget {} ends the command with a preliminary verdict; a "
+                    "cheaper --reference takes less time",
+                    candidates.path_losses[top].name, run_s, std::min(least, most), most,
+                    duration_text(run_s * static_cast<double>(std::min(least, most))),
+                    duration_text(all), a.budget));
 }
 
 /// End of a fit by the budget or the user.
@@ -154,9 +155,10 @@ AdviceCandidates fitted_candidates(const AdviseArguments& a, const ScenarioOptio
 /// Ends the command if the user ended it: what was known by then has been printed.
 void check_not_stopped(const AdviseArguments& a) {
     if (stops_asked() == 0) return;
-    throw CommandEnd(interrupted,
-                     a.store ? "interrupted; what was finished is kept: go on with\n  " + a.command
-                             : "interrupted; --store FILE would have kept the runs");
+    throw CommandEnd(
+        interrupted,
+        a.store ? "interrupted; finished runs are kept; continue with\n  " + a.command
+                : "interrupted; the runs are lost, because they were not kept by --store FILE");
 }
 
 /// Prints an advice, and how it ended if that was too early.
@@ -164,7 +166,7 @@ void check_not_stopped(const AdviseArguments& a) {
 void tell_advice(const AdviseArguments& a, const Advice& advice) {
     print_advice(advice, a.json);
     if (advice.stopped && stops_asked() == 0) {
-        notice(fmt::format("the budget of {} is spent: this is the interim verdict", a.budget));
+        notice(fmt::format("the budget of {} is used up; this verdict is preliminary", a.budget));
     }
     check_not_stopped(a);
 }

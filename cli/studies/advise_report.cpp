@@ -111,7 +111,8 @@ void print_models(const Advice& advice) {
     for (const CandidateModel& model : advice.candidates.path_losses) {
         if (!model.fitted.empty()) fmt::print("{}: fitted {}\n", model.name, model.fitted);
         if (!model.note.empty()) {
-            fmt::print("{}: not fitted, taken as given: {}\n", model.name, model.note);
+            fmt::print("{}: not fitted, with the parameters of the file: {}\n", model.name,
+                       model.note);
         }
     }
     for (const std::string& text : advice.candidates.left_out) {

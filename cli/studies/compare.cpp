@@ -145,8 +145,8 @@ void take_part_of(const std::string& path, const Study& study, Store& store) {
     take_part(whole, study, store);
     if (const auto most = more_replications(whole, study)) {
         notice(
-            fmt::format("{} has up to {} replications; compared are the first {}, as asked for "
-                        "(--replications {} takes all)",
+            fmt::format("{} has up to {} replications; the first {} are compared, as requested "
+                        "(--replications {} compares all)",
                         path, *most, study.table().replications, *most));
     }
 }
@@ -174,9 +174,10 @@ void tell_other_methods(const Comparison& c, std::optional<IntervalMethod> wish)
 /// @throws CommandEnd if the user has ended it before it was done: a part of a comparison is none
 void check_interrupted(const CompareArguments& a, bool done) {
     if (stops_asked() == 0 || done) return;
-    throw CommandEnd(interrupted,
-                     a.store ? "interrupted; what was finished is kept: go on with\n  " + a.command
-                             : "interrupted; --store FILE would have kept the runs");
+    throw CommandEnd(
+        interrupted,
+        a.store ? "interrupted; finished runs are kept; continue with\n  " + a.command
+                : "interrupted; the runs are lost, because they were not kept by --store FILE");
 }
 
 /// @throws CommandEnd if runs failed

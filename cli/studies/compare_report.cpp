@@ -185,8 +185,8 @@ void print_coverage(const Comparison& c) {
         if (m.model == c.baseline) {
             fmt::print("{} lacks replications: {}\n", m.model, gaps);
         } else {
-            fmt::print("{} and {} lack pairs, as one of both lacks the replication: {}\n", m.model,
-                       c.baseline, gaps);
+            fmt::print("{} and {} lack pairs, because one of the two lacks the replication: {}\n",
+                       m.model, c.baseline, gaps);
         }
     }
 }

@@ -203,7 +203,7 @@ void print_gains(const Calibration& c) {
         }
         table.add(row);
     }
-    fmt::print("\ngains beyond their mean\n{}", table.text());
+    fmt::print("\ngains relative to their mean\n{}", table.text());
 }
 
 /// Name of the only robot whose antenna is above or below a place; empty if none or several are.
@@ -246,22 +246,23 @@ void print_known(const Fit& fit) {
                                    [](const KnownLink& link) { return link.unseen; });
     if (!known.measured && far > 0) {
         fmt::print(
-            "{} of them lose over {} dB more than their budget, and count as \"more than that\"\n",
+            "{} of them lose over {} dB more than their budget; of their loss only this lower "
+            "bound is used\n",
             far, beyond_radio.value);
     }
     if (fit.repeatability && fit.repeatability->levels > 0) {
         fmt::print(
-            "repeatability {:.2f} dB: {} levels were measured again, and differ by so much; a "
-            "model "
-            "that is right would be {:.2f} dB off\n",
+            "repeatability {:.2f} dB: root mean square difference of {} repeated levels; an exact "
+            "model would have an error of {:.2f} dB\n",
             fit.repeatability->rms, fit.repeatability->levels, fit.repeatability->one_level());
     }
     if (!std::isfinite(c.loss_error)) {
-        fmt::print("few links: log_distance does not know the loss at their budget\n");
+        fmt::print(
+            "too few links: they do not determine the loss of log_distance at the link budget\n");
     } else if (c.loss_error > Calibration::enough) {
         fmt::print(
-            "few links: log_distance knows the loss at their budget to {:.2g} dB only; "
-            "{} dB is the aim\n",
+            "too few links: they determine the loss of log_distance at the link budget only to "
+            "{:.2g} dB, not to {} dB\n",
             c.loss_error, Calibration::enough);
     }
 }
@@ -273,25 +274,25 @@ void print_fit(const Fit& fit, const Scenario& scenario) {
     print_calibrated(c);
     if (c.known.groups > 1) {
         fmt::print(
-            "\nerrors of each {} by the fit of the others; wrong links: called up (up) or "
-            "down (down), and are not;\nas given: rmse with the parameters of the file\n",
+            "\nerrors on each {}, by the fit to all others; wrong links: predicted up (up) or down "
+            "(down), but are not;\nas given: rmse with the parameters of the file\n",
             c.known.group_name);
     } else {
         fmt::print(
-            "\nin-sample: errors on the links that were fitted to, as there is one {} alone: on "
-            "other links they are larger\n",
+            "\nin-sample: errors on the fitted links, because there is only one {}; errors on "
+            "other links are larger\n",
             c.known.group_name);
     }
     print_gains(c);
     for (const CalibratedModel& m : c.models) {
         if (!m.refusal.empty()) {
-            fmt::print("\n{} is not for a scenario: {}\n", m.model, m.refusal);
+            fmt::print("\ndo not use the fit of {} in a scenario: {}\n", m.model, m.refusal);
         } else if (m.is_fitted()) {
             fmt::print("\n{}", to_toml(m.settings));
         }
         if (m.refusal.empty() && !m.gains.empty()) {
-            fmt::print("# a line for the [[robot]] of each place that sends, for {}:\n{}", m.model,
-                       gains_toml(m, scenario));
+            fmt::print("# a line for the [[robot]] at each transmitter position, for {}:\n{}",
+                       m.model, gains_toml(m, scenario));
         }
     }
 }

@@ -118,8 +118,8 @@ void print(const Located& located) {
             errors->rms, errors->bound, located.sigma.value);
     }
     if (located.too_few > 0) {
-        fmt::print("no fix {} times: fewer than {} anchors were heard\n", located.too_few,
-                   fewest_anchors);
+        fmt::print("{} positions were not estimated, because fewer than {} anchors were heard\n",
+                   located.too_few, fewest_anchors);
     }
 }
 

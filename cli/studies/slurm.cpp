@@ -27,21 +27,21 @@ namespace fs = std::filesystem;
 std::string submit(const std::vector<std::string>& command) {
     const std::string line = "exec " + shell_command(command);
     std::FILE* pipe = popen(line.c_str(), "r");
-    if (!pipe) throw RunError("sbatch cannot be run: no process can be made");
+    if (!pipe) throw RunError("cannot start sbatch: no process can be created");
     char text[200] = {};
     const std::size_t size = std::fread(text, 1, sizeof text - 1, pipe);
     const int status = pclose(pipe);
     const int exit = WIFEXITED(status) ? WEXITSTATUS(status) : 1;
     if (exit == 127) {  // as a shell says it
         throw RunError(
-            "the program sbatch is not there: --executor slurm is for a machine "
-            "from which jobs are submitted to Slurm; --dry-run shows what would be");
+            "the program sbatch was not found; use --executor slurm on a machine that submits jobs "
+            "to Slurm; --dry-run prints the jobs without submitting them");
     }
     const std::string job =
         std::string(text, size).substr(0, std::string_view(text).find_first_not_of("0123456789"));
     if (exit != 0 || job.empty()) {
         throw RunError(
-            fmt::format("sbatch took no job (exit {}): {}", exit, shell_command(command)));
+            fmt::format("sbatch refused the job (exit code {}): {}", exit, shell_command(command)));
     }
     return job;
 }
@@ -58,7 +58,7 @@ std::vector<std::string> task_options(const SweepArguments& a, const Study& stud
 SlurmSweep plan(const SweepArguments& a, Study& study, const std::string& store) {
     if (a.file == standard_input) {
         throw std::invalid_argument(
-            "sweep -: the tasks of a job array read the scenario anew; expected a file");
+            "sweep -: each task of a job array reads the scenario again; expected a file");
     }
     // Closed again before a task reads it.
     const std::vector<RunState> states = run_states(study, open_store(store, study));
@@ -113,8 +113,8 @@ void print_scripts(const SweepArguments& a, const SlurmSweep& slurm) {
         return;
     }
     fmt::print(
-        "# {}\n{}\n# {}\n{}\n# what submits them; JOB is the number that the first "
-        "prints\n{}\n{}\n",
+        "# {}\n{}\n# {}\n{}\n# commands that submit the jobs; JOB is the number that the first "
+        "command prints\n{}\n{}\n",
         slurm.job_file(), slurm.job_script(), slurm.merge_file(), slurm.merge_script(), job, merge);
 }
 
@@ -123,8 +123,8 @@ std::string submit_merge(const SlurmSweep& slurm, const std::string& job) {
         return submit(slurm.submit_merge(job));
     } catch (const RunError& error) {
         throw RunError(fmt::format(
-            "the tasks are job {}, but {}\nwhen it has ended, call\n  {}", job, error.what(),
-            shell_command(std::vector<std::string>{"bash", slurm.merge_file()})));
+            "the tasks are submitted as job {}, but {}\nwhen the job has ended, run\n  {}", job,
+            error.what(), shell_command(std::vector<std::string>{"bash", slurm.merge_file()})));
     }
 }
 
@@ -138,8 +138,8 @@ void print_jobs(const SweepArguments& a, const SlurmSweep& slurm, const std::str
         return;
     }
     fmt::print(
-        "job {}: {} tasks of up to {} runs; job {} then merges them into {}\n"
-        "their words are in {}/logs; once both have ended, what is missing is made by\n  {}\n",
+        "job {}: {} tasks of up to {} runs; job {} then merges them into {}\ntheir output is in "
+        "{}/logs; when both have ended, missing runs are made by\n  {}\n",
         job, slurm.chunks.size(), slurm.chunk, merge_job, slurm.store, slurm.folder(), a.command);
 }
 
@@ -181,7 +181,8 @@ void submit_sweep(const SweepArguments& a, Study& study, const std::string& stor
 void merge_shards(const SweepArguments& a, const Study& study, Store& store) {
     const HeldStop until_moved;
     for (const std::string& path : a.merge) {
-        if (stops_asked() > 0) throw CommandEnd(interrupted, "interrupted; call it again");
+        if (stops_asked() > 0)
+            throw CommandEnd(interrupted, "interrupted; run the same command to continue");
         try {
             merge_and_remove(store, path);
         } catch (const std::exception& error) {

@@ -85,7 +85,7 @@ SweepResult run_study(const StudyArguments& a, Study& study, Store& store, Sweep
     };
     const HeldStop until_kept;
     SweepResult result = rovernet::sweep(study, store, options);
-    detail(fmt::format("{} ways around walls searched for", result.progress.searches));
+    detail(fmt::format("{} searches for paths around walls", result.progress.searches));
     return result;
 }
 
@@ -93,15 +93,15 @@ void check_end(const StudyArguments& a, const Store& store, const SweepResult& r
     if (stops_asked() > 0 && result.progress.left > 0) {
         throw CommandEnd(
             interrupted,
-            fmt::format("interrupted; what was finished is kept: go on with\n  {}", a.command));
+            fmt::format("interrupted; finished runs are kept; continue with\n  {}", a.command));
     }
     if (result.progress.failed == 0) return;
     const StoredRun& run = *result.failure;
     const auto points = store.points();
     throw CommandEnd(
         partly_failed,
-        fmt::format("{} runs failed; the first: {}\n  {}\nall of them: rovernet results {} "
-                    "--failures; the same sweep tries them again",
+        fmt::format("{} runs failed; the first: {}\n  {}\nrovernet results {} --failures lists all "
+                    "of them; the same sweep command repeats them",
                     result.progress.failed, run.error,
                     run_command(store, points.at(run.point), run.replication), store.path()));
 }

@@ -52,7 +52,7 @@ void begin_afresh(const SweepArguments& a, const std::string& path) {
     const std::string runs = runs_in(path);
     if ((!runs.empty() || has_shards) && !a.yes) {
         const std::string question =
-            fmt::format("{}: throw away {}{}?", path, runs.empty() ? "its 0 runs" : runs,
+            fmt::format("{}: delete {}{}?", path, runs.empty() ? "its 0 runs" : runs,
                         has_shards ? " and its shards on Slurm" : "");
         if (isatty(STDIN_FILENO) == 0) {
             throw std::invalid_argument("--fresh: " + question + " Confirm it with --yes");
@@ -79,7 +79,7 @@ void print_plan(const SweepArguments& a, const Study& study) {
         }
         fmt::print("{} points x {} replications = {} runs{}\n", points.size(),
                    study.table().replications, runs,
-                   study.table().precision ? " at least: precision may ask for more" : "");
+                   study.table().precision ? " at least; precision may add more" : "");
         return;
     }
     Array list;
@@ -140,9 +140,8 @@ void sweep(const SweepArguments& a) {
     if (a.dry_run && !on_slurm) return print_plan(a, study);
     if ((a.shard || on_slurm || !a.merge.empty()) && study.table().precision) {
         throw std::invalid_argument(
-            "--shard, --merge, --executor slurm: the number of runs has to be known before, and "
-            "with "
-            "precision the sweep decides it as it goes; expected replications instead");
+            "--shard, --merge and --executor slurm need a number of runs that is fixed beforehand, "
+            "but with precision the sweep determines this number; expected replications instead");
     }
     const std::string path = store_path(a);
     if (a.fresh && !a.dry_run) begin_afresh(a, path);

@@ -10,7 +10,7 @@ namespace rovernet::cli {
 
 void TextTable::add(Line line) {
     if (line.size() != lines_.front().size()) {
-        throw std::invalid_argument("TextTable: a line of another number of cells");
+        throw std::invalid_argument("TextTable: a line has a different number of cells");
     }
     lines_.push_back(std::move(line));
 }

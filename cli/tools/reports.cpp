@@ -20,7 +20,7 @@ namespace {
 void print_paths(const Rays::Paths& paths) {
     fmt::print("  {} paths", paths.found);
     if (paths.left_out > 0) {
-        fmt::print("; max_paths leaves out the weakest {}: the loss is {:.3g} dB higher for it",
+        fmt::print("; max_paths leaves out the weakest {}, which makes the loss {:.3g} dB higher",
                    paths.left_out, paths.too_high.value);
     }
     fmt::print("\n\n");

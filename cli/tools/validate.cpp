@@ -50,7 +50,8 @@ void validate(const ValidateArguments& a) {
     write_report(a.out, validation);
     print_validation(validation);
     for (const std::string& text : validation.left_out) notice("left out: " + text);
-    if (!validation.kept()) throw CommandEnd(failed, "a promise is broken: see the table");
+    if (!validation.kept())
+        throw CommandEnd(failed, "an error exceeds its promised limit, see the table");
 }
 
 }  // namespace rovernet::cli

@@ -55,8 +55,8 @@ void print_verification(const ReplayArguments& a, const Verification& v) {
     if (v.is_identical()) {
         fmt::print("identical: {} {}\n", v.same, v.unit);
     } else if (!v.difference) {
-        fmt::print("not whole: {} {} are the same, and the others cannot be read\n", v.same,
-                   v.unit);
+        fmt::print("incomplete: {} {} are equal, and the rest of the trace cannot be read\n",
+                   v.same, v.unit);
     } else {
         fmt::print("different after {} {}\nrecorded  {}\nnow       {}\n", v.same, v.unit,
                    or_nothing(v.difference->recorded), or_nothing(v.difference->now));
@@ -81,7 +81,7 @@ void verify(const ReplayArguments& a) {
     if (v.difference) throw CommandEnd(failed, a.file + ": the run differs from its trace");
     if (!v.is_identical()) {
         throw CommandEnd(failed, a.file +
-                                     ": the trace is broken or has no end: it cannot be told "
+                                     ": the trace is damaged or incomplete, so that it is unknown "
                                      "whether the run is the same");
     }
 }
@@ -117,7 +117,7 @@ Radios radios_of(const ReplayArguments& a) {
         }
         throw CommandEnd(usage,
                          "replay: --as, --routing and --movements are for ns-2 traces; a recorded "
-                         "one has its radio, its protocol and its places inside");
+                         "trace contains its radio, protocol and positions");
     }
     const bool is_direct = a.routing == "direct";
     return {
@@ -269,7 +269,7 @@ void print_radios(const ReplayArguments& a, const Radios& radios, const std::vec
     if (!radios.plays_first) return;
     fmt::print(
         "{}: the protocol of the trace is not simulated. Differences are to the row \"{}\".\n",
-        a.routing == "direct" ? "Messages go straight to whom they are for" : "Messages flood",
+        a.routing == "direct" ? "Messages go directly to their destinations" : "Messages flood",
         radios.first);
 }
 

@@ -42,7 +42,8 @@ void tell_of_log(const InputReplay& replay) {
                                : "beside it is not as it was run"));
     }
     if (replay.torn) {
-        notice(fmt::format("{}:{}: the last line is torn, and left out", replay.log, *replay.torn));
+        notice(fmt::format("{}:{}: the last line is incomplete and is ignored", replay.log,
+                           *replay.torn));
     }
     if (replay.recorded.empty()) {
         notice(replay.log + ": its run did not end; it is replayed up to its last input");

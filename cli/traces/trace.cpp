@@ -33,7 +33,7 @@ void tell_refused(const std::string& file, const Ns2Counts& counts) {
     }
     if (counts.refused == 0) return;
     const bool is_one = counts.refused == 1;
-    notice(fmt::format("{}: {} of {} lines {} none of ns-2 and {} not counted{}", file,
+    notice(fmt::format("{}: {} of {} lines {} not in ns-2 format and {} not counted{}", file,
                        counts.refused, counts.lines, is_one ? "is" : "are", is_one ? "is" : "are",
                        counts.refused > counts.refused_lines.size()
                            ? fmt::format("; the first {}:", counts.refused_lines.size())

@@ -47,16 +47,15 @@ void print_kinds(const TraceDifference& d) {
 void convert_to_capture(const TraceConvertArguments& a) {
     if (!is_recorded_trace(a.in)) {
         throw InputError({.source = a.in},
-                         "pcapng is made of a recorded trace only (run --record): its levels "
-                         "follow from the scenario inside");
+                         "pcapng can be made only from a recorded trace (run --record), because "
+                         "levels are computed from the scenario in it");
     }
     const Capture made = capture_recorded(a.in, a.out);
     tell_damage(a.in, made.damage);
     if (made.left_out > 0) {
-        notice(
-            fmt::format("{}: {} frames sent or received are left out: what they belong to is "
-                        "in a broken part",
-                        a.in, made.left_out));
+        notice(fmt::format(
+            "{}: {} frames are left out, because their messages are in a damaged part of the trace",
+            a.in, made.left_out));
     }
 }
 

@@ -57,8 +57,8 @@ class TraceNames {
         const std::string hint = did_you_mean(name, names_);
         throw InputError({"--robot " + name, 0, 0, true},
                          names_.empty()
-                             ? "expected a robot's number, as no scenario.toml with names "
-                               "is beside the trace"
+                             ? "expected the number of a robot, because the folder of the trace "
+                               "has no scenario.toml with names"
                              : "no robot has this name" + (hint.empty() ? hint : "; " + hint));
     }
 

@@ -194,8 +194,9 @@ void write_page(const ViewArguments& a, const ViewedRun& run, const Beside& besi
                    run.messages, run.frames, size);
     }
     if (!a.limit || page.size() <= option_size(*a.limit)) return;
-    notice(fmt::format("--limit {}: the page, the robots and the messages take more than that",
-                       *a.limit));
+    notice(fmt::format(
+        "--limit {}: too small for the page, the robots and the messages; expected a larger size",
+        *a.limit));
 }
 
 /// Serves the page until Ctrl-C.

@@ -146,10 +146,9 @@ void check_places(const std::string& path, const Ns2DayOptions& options, const D
         throw InputError({*options.movements},
                          fmt::format("no position of {}, named in {}", names, path));
     }
-    throw InputError({path},
-                     fmt::format("no position of {}: the old format has none of a robot that never "
-                                 "moves; expected --movements FILE.tcl",
-                                 names));
+    throw InputError({path}, fmt::format("no position of {}: the old format has no position of a "
+                                         "robot that never moves; expected --movements FILE.tcl",
+                                         names));
 }
 
 /// Scenario with the radio that ns-2 has by default.
@@ -213,10 +212,9 @@ RecordedDay read_ns2_day(const std::string& path, const Ns2DayOptions& options) 
     log.heard = std::move(reader->heard);
     log.recorded = reader->recorded();
     if (counts.refused > 0)
-        log.notices.push_back(
-            fmt::format("{} of {} lines are none of ns-2, and left out; the first "
-                        "is line {}",
-                        counts.refused, counts.lines, counts.refused_lines.front().line));
+        log.notices.push_back(fmt::format(
+            "{} of {} lines are not in ns-2 format and are left out; the first is line {}",
+            counts.refused, counts.lines, counts.refused_lines.front().line));
     if (const std::string text = reader->left_out(); !text.empty()) log.notices.push_back(text);
     RecordedRun run;
     run.scenario = to_toml(ns2_scenario(log, reader->end(), options.routing));

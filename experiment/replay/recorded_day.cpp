@@ -159,9 +159,9 @@ std::string RecordedDay::starts_together(const std::vector<std::string>& set) co
     const auto met = static_cast<std::size_t>(std::count(together.begin(), together.end(), true));
     if (met == 0 || met * 10 < log_.said.size()) return "";
     return fmt::format(
-        "{} of {} messages begin at the same instant as one of another robot, or within a frame of "
-        "it, and nothing parts their frames under access.model={}: they collide. access.model=csma "
-        "with access.immediate_access=false draws a backoff first, as ns-2 does",
+        "{} of {} messages start at the same time as a message of a different robot, or within the "
+        "duration of a frame, and access.model={} does not separate their frames: they collide. "
+        "access.model=csma with access.immediate_access=false draws a backoff first, as ns-2 does",
         met, log_.said.size(), scenario.access.name());
 }
 

@@ -44,8 +44,9 @@ std::vector<LinkPair> link_pairs(const Network& network, Time at,
         wanted.push_back(node);
     }
     if (wanted.size() * robots > std::size_t{most_linked} * most_linked) {
-        throw RunError(fmt::format("links of {} robots make no picture; expected at most {}",
-                                   robots, most_linked));
+        throw RunError(
+            fmt::format("links of {} robots are too many for a picture; expected at most {} robots",
+                        robots, most_linked));
     }
     std::vector<LinkPair> pairs;
     for (const NodeId one : wanted) {

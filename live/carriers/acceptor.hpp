@@ -50,7 +50,7 @@ inline boost::asio::local::stream_protocol::acceptor listen_on_path(boost::asio:
         stream_protocol::socket probe(io);
         boost::system::error_code error;
         probe.connect(endpoint, error);
-        if (!S_ISSOCK(found.st_mode) || !error) throw RunError(path + ": is there already");
+        if (!S_ISSOCK(found.st_mode) || !error) throw RunError(path + ": already exists");
         unlink(path.c_str());
     }
     const mode_t mask = umask(0077);

@@ -127,12 +127,12 @@ void fail_unknown_key(const JsonPath& object, std::string_view key,
 
 void fail_missing_key(const JsonPath& object, std::string_view key, std::string_view example) {
     throw RequestError("missing_key", JsonPath{.above = &object, .key = key}.text(),
-                       fmt::format("\"{}\" is missing; expected such as {}", key, example));
+                       fmt::format("\"{}\" is missing; expected a value such as {}", key, example));
 }
 
 void fail_repeated_key(const JsonPath& object, std::string_view key) {
     throw RequestError("repeated_key", JsonPath{.above = &object, .key = key}.text(),
-                       fmt::format("\"{}\" stands there twice", key));
+                       fmt::format("\"{}\" is given twice", key));
 }
 
 }  // namespace rovernet

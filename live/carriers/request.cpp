@@ -128,7 +128,7 @@ HelloRequest read_hello(const JsonElement& line, const Robots& robots) {
     const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
     if (twice != sorted.end()) {
         list.fail("repeated_robot",
-                  fmt::format("robot {} stands there twice", robots.network.name(*twice)));
+                  fmt::format("robot {} is listed twice", robots.network.name(*twice)));
     }
     const JsonElement& length = needed(step, line, "step", "\"step\":\"100 ms\"");
     hello.step = from_seconds(length.seconds());
@@ -197,7 +197,7 @@ void read_do(const JsonElement& element, const Robots& robots, Commands& command
                            [](const auto& a, const auto& b) { return a.first == b.first; });
     if (twice != commands.end()) {
         element.fail("repeated_robot",
-                     fmt::format("robot {} stands there twice", robots.network.name(twice->first)));
+                     fmt::format("robot {} is listed twice", robots.network.name(twice->first)));
     }
 }
 

@@ -158,7 +158,7 @@ struct WebSockets::State {
         const bool is_upgrade = websocket::is_upgrade(request);
         if (!is_upgrade && client->gate.pages.empty()) {
             return refuse(client, http::status::upgrade_required,
-                          "this address is one for WebSockets");
+                          "this address accepts only WebSockets");
         }
         const std::string why = refusal(client->gate, request);
         if (!why.empty()) return refuse(client, http::status::forbidden, why);

@@ -95,7 +95,7 @@ class DeviceAddresses {
         const auto [first, added] = known.emplace(key, each);
         if (added) return;
         each.fail(place,
-                  fmt::format("found the {}, which robot {} has, too; expected one of its own",
+                  fmt::format("found the {}, which robot {} also has; expected a different one",
                               what, first->second.device.robot));
     }
 
@@ -147,7 +147,7 @@ void DeviceAddresses::check_host(const Addressed& each, Network4 network) {
                                          is_first ? "the address" : "the broadcast address",
                                          ip_text(network.first()), network.bits());
     const RadioPlaces& places = each.places();
-    const std::string mend = "expected that of a host in it, or a netmask of fewer ones";
+    const std::string mend = "expected the address of a host in it, or a netmask with fewer ones";
     if (!places.ip.source.empty()) each.fail(places.ip, what + "; " + mend);
     if (!places.netmask.source.empty()) each.fail(places.netmask, what + "; " + mend);
     if (has_told_made_) return;
@@ -175,8 +175,8 @@ void DeviceAddresses::tell_outsiders() {
         const std::size_t more = outside.size() - 1;
         const std::string before = place.source.empty() ? "" : place.text() + ": ";
         notices_.push_back(fmt::format(
-            "{}the network {}/{} of robot {} leaves out robot {}, {}{}: they reach one another by "
-            "routes of the programs only",
+            "{}the network {}/{} of robot {} does not contain robot {}, {}{}: these robots reach "
+            "each other only by routes of their programs",
             before, ip_text(from.network.first()), from.network.bits(), from.robot.device.robot,
             one.device.robot, one.device.ip, more == 0 ? "" : fmt::format(", and {} more", more)));
         return;

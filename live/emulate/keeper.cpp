@@ -42,7 +42,7 @@ void enter_user_namespace() {
     const uid_t user = geteuid();
     const gid_t group = getegid();
     if (unshare(CLONE_NEWUSER) != 0) {
-        fail("a user namespace is not allowed here, and without one there is --udp");
+        fail("this machine does not allow user namespaces; the option --udp does not need them");
     }
     write_file("/proc/self/setgroups", "deny");
     write_file("/proc/self/uid_map", fmt::format("0 {} 1", user));
@@ -143,7 +143,7 @@ class Keeper {
 
     static int take(int maker) {
         const auto message = receive_descriptor(maker);
-        if (!message) throw RunError("the maker of the namespaces has ended");
+        if (!message) throw RunError("the process that creates the network namespaces has ended");
         if (message->descriptor < 0) throw RunError(message->text);
         return message->descriptor;
     }
@@ -158,7 +158,7 @@ class Keeper {
         const bool may_enter = user && (*user == geteuid() || *user == 0);
         const DescriptorMessage answer =
             may_enter ? DescriptorMessage{.descriptor = namespaces_[listener - 1], .text = folder_}
-                      : DescriptorMessage{.text = "it is another user's"};
+                      : DescriptorMessage{.text = "it belongs to a different user"};
         if (send_descriptor(client, answer) && may_enter) {
             polled_.push_back({client, POLLIN, 0});
         } else {

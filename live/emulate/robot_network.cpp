@@ -157,8 +157,9 @@ std::string Search::other_users() const {
     const std::string words =
         fmt::format("; run {} of user {} has a robot {}", run, user_name(owner), robot_);
     if (geteuid() != 0) return words + ": only that user and root may enter it";
-    return fmt::format("{}: --user {} trusts that user with all that the program sends", words,
-                       owner);
+    return fmt::format(
+        "{}: with --user {}, that user can read and change all packets of the program", words,
+        owner);
 }
 
 void Search::fail_of_folder(const Known& all, const std::string& going_on) const {
@@ -175,7 +176,7 @@ void Search::fail_of_folder(const Known& all, const std::string& going_on) const
     const bool has_ended = fs::exists(fs::path(folder) / "summary.json", ignored);
     throw std::invalid_argument(fmt::format(
         "--run {}: {}{}", folder,
-        has_ended ? "this run has ended" : "no run of yours is going on there", going_on));
+        has_ended ? "this run has ended" : "you have no running emulation there", going_on));
 }
 
 void Search::fail(bool was_there) const {
@@ -194,8 +195,9 @@ void Search::fail(bool was_there) const {
     if (all.names.empty()) {
         const std::string which =
             wanted_.process
-                ? fmt::format("no run {} of yours is going on here", *wanted_.process)
-                : "no run of yours is going on here: start one by rovernet emulate FILE";
+                ? fmt::format("you have no running emulation {} on this machine", *wanted_.process)
+                : "you have no running emulation on this machine; start one with rovernet emulate "
+                  "FILE";
         throw std::invalid_argument(which + other_users());
     }
     throw std::invalid_argument(

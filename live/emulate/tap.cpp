@@ -80,8 +80,8 @@ int make_tap(const RobotDevice& robot) {
     ifreq device = named(tap_name);
     device.ifr_flags = IFF_TAP | IFF_NO_PI;
     if (descriptor < 0 || ioctl(descriptor, TUNSETIFF, &device) != 0) {
-        throw RunError(
-            fmt::format("{}: {}; without TAP devices there is --udp", tun, std::strerror(errno)));
+        throw RunError(fmt::format("{}: {}; the option --udp does not need TAP devices", tun,
+                                   std::strerror(errno)));
     }
     const Devices devices(robot.robot);
     devices.set_mac(device, robot.mac);

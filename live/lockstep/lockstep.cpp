@@ -83,7 +83,8 @@ bool Lockstep::come_back(Connection from, const HelloRequest& hello) {
     if (controller->hello.robots != hello.robots || controller->hello.step != hello.step) {
         throw RequestError(
             "taken", "name",
-            fmt::format("{} had other robots or another step when it was lost", hello.name));
+            fmt::format("{} had different robots or a different step before it disconnected",
+                        hello.name));
     }
     controller->connection = from;
     controller->hello = hello;
@@ -95,7 +96,7 @@ bool Lockstep::come_back(Connection from, const HelloRequest& hello) {
 void Lockstep::check_claims(const HelloRequest& hello) {
     if (controllers_.named(hello.name)) {
         throw RequestError("taken", "name",
-                           fmt::format("there is a controller {} already", hello.name));
+                           fmt::format("there already is a controller {}", hello.name));
     }
     for (std::size_t i = 0; i < hello.robots.size(); ++i) {
         if (!session_->driver(hello.robots[i])) continue;
@@ -120,7 +121,7 @@ void Lockstep::check_claims(const HelloRequest& hello) {
 
 void Lockstep::handle(Connection from, HelloRequest& hello) {
     if (controllers_.of(from)) {
-        throw RequestError("hello_again", "type", "you have said hello already");
+        throw RequestError("hello_again", "type", "you have already sent hello");
     }
     if (hello.name.empty()) hello.name = session_->network().name(hello.robots.front());
     if (come_back(from, hello)) return;
@@ -154,11 +155,11 @@ Controller& Lockstep::asking(Connection from) {
     if (!controller) throw RequestError("hello_first", "type", "expected a hello first");
     if (!has_started_) {
         throw RequestError("too_early", "",
-                           fmt::format("{} of {} controllers are there; wait for the welcome",
+                           fmt::format("{} of {} controllers are connected; wait for the welcome",
                                        controllers_.size(), settings_.wait_for));
     }
     if (controller->state != Controller::State::owes) {
-        throw RequestError("too_early", "", "the last question is not answered yet");
+        throw RequestError("too_early", "", "the last request is not answered yet");
     }
     return *controller;
 }
@@ -185,7 +186,8 @@ void Lockstep::handle(Connection from, ResetRequest& reset) {
     Controller& controller = asking(from);
     for (const Controller& each : controllers_) {
         if (each.state != Controller::State::wants_reset || each.reset_seed == reset.seed) continue;
-        throw RequestError("other_seed", "seed", "another controller asks for another seed");
+        throw RequestError("other_seed", "seed",
+                           "a different controller requests a different seed");
     }
     controller.state = Controller::State::wants_reset;
     controller.reset_seed = reset.seed;
@@ -236,7 +238,7 @@ void Lockstep::lose(Connection gone) {
     if (!is_expected && settings_.on_loss == OnLoss::stop && !controllers_.empty()) return;
     end_run(is_expected ? "done" : "lost",
             is_expected ? ""
-                        : fmt::format("controller {} has gone at {} s without a bye", name,
+                        : fmt::format("controller {} has disconnected at {} s without bye", name,
                                       seconds(session_->network().now())));
 }
 
@@ -289,13 +291,13 @@ void Lockstep::held(std::chrono::nanoseconds waited) {
     }
     if (!has_started_ && told_present_ != present) {
         told_present_ = present;
-        settings_.say(fmt::format("waiting for controllers: {} of {} {} there", present, wanted,
+        settings_.say(fmt::format("waiting for controllers: {} of {} {} connected", present, wanted,
                                   present == 1 ? "is" : "are"));
     }
     if (!has_started_ || !settings_.patience || waited < *settings_.patience) return;
     const std::chrono::duration<double> patience = *settings_.patience;
-    end_run("patience", fmt::format("no question within {:g} s from controller {}",
-                                    patience.count(), fmt::join(controllers_.owing(), ", ")));
+    end_run("patience", fmt::format("no request within {:g} s from controller {}", patience.count(),
+                                    fmt::join(controllers_.owing(), ", ")));
 }
 
 void Lockstep::end_run(std::string reason, std::string fault) {

@@ -60,11 +60,10 @@ PlayerConfig DriversReader::read(const WorldFile& file) {
         }
     }
     if (!others_.empty()) {
-        config_.notices.push_back(world_notice(
-            first_other_,
-            fmt::format("drivers that run beside Stage in a Player server do not run here, and "
-                        "their devices are missing: {}",
-                        fmt::join(others_, ", "))));
+        config_.notices.push_back(
+            world_notice(first_other_, fmt::format("these drivers of the Player server are not "
+                                                   "supported, and their devices are missing: {}",
+                                                   fmt::join(others_, ", "))));
     }
     for (ProvidedRobot& each : robots_) config_.robots.push_back(std::move(each.robot));
     return std::move(config_);
@@ -108,8 +107,8 @@ void DriversReader::join(const WorldEntity& driver, std::string_view name) {
     const auto opaque = std::find_if(provides.begin(), provides.end(),
                                      [](const auto& each) { return each.interface == "opaque"; });
     if (opaque == provides.end()) {
-        throw InputError(driver.where, fmt::format("{}: found no opaque that it provides; expected "
-                                                   "provides [ \"6665:opaque:1\" ]",
+        throw InputError(driver.where, fmt::format("{}: found no opaque device that it provides; "
+                                                   "expected provides [ \"6665:opaque:1\" ]",
                                                    name));
     }
     ProvidedRobot* robot = robot_of(configured_devices(driver, "requires"), opaque->port);

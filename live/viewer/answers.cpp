@@ -103,10 +103,9 @@ Table ViewerAnswers::why(const JsonElement& question) const {
     const std::uint64_t uid = member(question, "uid").whole_number(0, 1ULL << 53U);
     const NodeId node = robot(question, "robot");
     if (running_) {
-        throw RequestError(
-            "not_recorded", "op",
-            "the reason is found in the recorded trace: when a run with --record has "
-            "ended, `rovernet view` of its folder answers");
+        throw RequestError("not_recorded", "op",
+                           "the reason can be found only in a recorded trace: when a run with "
+                           "--record has ended, `rovernet view FOLDER` answers this question");
     }
     return document_of(message_at_robot(trace_, uid, node));
 }
@@ -152,7 +151,8 @@ Table ViewerAnswers::link_table(const JsonElement& question) {
 }
 
 Table ViewerAnswers::svg(const JsonElement& question) const {
-    if (running_) throw RequestError("not_recorded", "op", "a run is drawn as SVG when it is over");
+    if (running_)
+        throw RequestError("not_recorded", "op", "the SVG of a run can be made only after its end");
     const std::size_t storeys = 1000;
     PictureOptions options{
         .at = time(question),
@@ -170,7 +170,7 @@ std::optional<Propagation> ViewerAnswers::other_model(const JsonElement& questio
     if (!has_member(question, "with")) return {};
     if (running_) {
         throw RequestError("not_recorded", "with",
-                           "another model is shown for a recorded run, when this one is over");
+                           "a different model can be shown only for a recorded run, after its end");
     }
     const std::string with(member(question, "with").text());
     if (!with.starts_with("propagation."))

@@ -125,8 +125,8 @@ Table answer_links(const Network& network, std::optional<NodeId> of) {
     const auto pairs =
         link_pairs(network, network.now(), [&](NodeId node) { return !of || node == *of; });
     if (pairs.size() > most) {
-        throw RunError(
-            fmt::format("{} links make no picture; choose a robot to see its links", pairs.size()));
+        throw RunError(fmt::format(
+            "{} links are too many for a picture; choose a robot to see its links", pairs.size()));
     }
     Array from, to, two_way, level, margin, back_level, back_margin;
     const auto append = [](Array& levels, Array& margins, const std::optional<LinkStrength>& link) {

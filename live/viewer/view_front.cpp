@@ -173,7 +173,7 @@ void ViewFront::check_control(bool is_allowed, std::string_view what) const {
     if (!is_allowed) {
         throw RequestError(
             "not_allowed", "op",
-            fmt::format("pages may not {}; the option --view-control lets them", what));
+            fmt::format("the page may not {}; the option --view-control allows it", what));
     }
     if (is_over_) throw RequestError("over", "op", "the run has ended");
 }

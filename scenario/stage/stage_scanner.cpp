@@ -187,7 +187,8 @@ void ScannerReader::sensors(const WorldEntity& ranger,
     }
     if (several) {
         note(ranger.where,
-             "a ranger of several sensors has one beam for each, the middle one of its samples");
+             "a ranger with several sensors has one beam for each sensor, the middle one of its "
+             "samples");
     }
     table.set("range", std::move(range));
     end_ring(std::move(table), ranger);

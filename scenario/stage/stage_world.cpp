@@ -198,13 +198,13 @@ void Gatherer::summary(const Affected& affected, std::string_view text) {
 void Gatherer::summaries() {
     summary(nameless_, "robots without a name get one");
     summary(namesakes_, "robots of a name that another has get one of their own");
-    summary(modelless_, "a wifi without a model uses that of [propagation], friis by default");
+    summary(modelless_, "a wifi without a model uses the model in [propagation], by default friis");
     summary(flying_, "z is left out, as in the 2007 radio, for");
     summary(doubled_, "only the first wifi counts of");
     summary(plain_,
             "robots without a wifi have the radio of [radio] and the model of [propagation], friis "
             "by default");
-    summary(lone_, "a wifi outside a position is left out");
+    summary(lone_, "a wifi outside a position is ignored");
     std::vector<std::string> kinds;
     for (const auto& [type, number] : ignored_) {
         kinds.push_back(fmt::format("{} ({})", type, number));

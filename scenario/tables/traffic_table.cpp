@@ -61,9 +61,9 @@ TrafficTable read_traffic(const Value& value) {
     if (table.read("to", traffic.to)) traffic.to_where = table.take("to")->where;
     const bool to_one = traffic.kind == TrafficKind::unicast;
     if (!to_one && traffic.to) {
-        throw InputError(traffic.to_where,
-                         "to: a broadcast is for everybody; expected kind = "
-                         "\"unicast\", or no to");
+        throw InputError(
+            traffic.to_where,
+            "to: a broadcast has no destination; expected kind = \"unicast\", or no key \"to\"");
     }
     constexpr Range one{
         .low = 1, .high = 1, .text = "of 1: over one hop, without the routing protocol"};
@@ -84,7 +84,7 @@ TrafficTable read_traffic(const Value& value) {
     if (traffic.saturate && traffic.every) {
         throw InputError(
             table.take("every")->where,
-            "every: saturated traffic always has a message to send; expected no every");
+            "every: saturated traffic always has a message to send; expected no key \"every\"");
     }
     if (!traffic.every && (traffic.stop || traffic.count)) {
         table.missing("every", "every = \"3 s\": stop and count need it");

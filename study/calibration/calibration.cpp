@@ -244,9 +244,9 @@ void refuse_absurd(std::vector<CalibratedModel>& models, Dbm given_power) {
                 "constant",
                 error, friis);
         } else if (error > nothing_db) {
-            model.refusal =
-                fmt::format("its error of {} dB is more than {} dB: it describes nothing",
-                            told_apart(error, nothing_db, 1), nothing_db);
+            model.refusal = fmt::format(
+                "its error of {} dB is more than {} dB: the model does not describe the levels",
+                told_apart(error, nothing_db, 1), nothing_db);
         }
     }
 }
@@ -337,7 +337,8 @@ Calibration calibrate_to_levels(const Scenario& scenario, const std::string& pat
     out.known = read_levels(path, scenario, floor);
     const bool any_seen = std::any_of(out.known.links.begin(), out.known.links.end(),
                                       [](const KnownLink& link) { return !link.unseen; });
-    if (!any_seen) throw InputError({path, 0, 0}, "found no level above the floor, expected some");
+    if (!any_seen)
+        throw InputError({path, 0, 0}, "found no level above the floor; expected at least one");
     if (gains == Gains::by_transmitter) check_transmitters(out.known, path);
     out.loss_error = loss_error_at_budget(out.known, scenario);
     out.models = calibrate(out.known, scenario, "", Propagation::anything, gains);

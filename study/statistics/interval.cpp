@@ -104,8 +104,8 @@ std::string other_method_text(std::string_view metric, std::optional<IntervalMet
         std::ranges::find_if(used, [&](IntervalMethod method) { return wish && method != *wish; });
     if (other == used.end()) return "";
     return fmt::format(
-        "intervals of {} are {}, not {} as asked for: that needs a metric with two bounds, and "
-        "values within them",
+        "intervals of {} are {}, not {} as requested: that method needs a metric with two bounds, "
+        "and values within them",
         metric, words_of(*other), words_of(*wish));
 }
 

@@ -95,7 +95,7 @@ TEST_CASE("input: files of other kinds are called by their names, with what to d
     CHECK(contains(said("x.inc", ""), "the world that includes it"));
     CHECK(contains(said("summary.json", "{}"), "scenario.toml"));
     const std::string empty = said("e.world", "");
-    CHECK(contains(empty, "no robot in this world; expected a position"));
+    CHECK(contains(empty, "found no robot in this world; expected a model of type position"));
     CHECK(!contains(empty, "the key"));
 }
 
@@ -126,8 +126,9 @@ TEST_CASE("input: compare says which robots keep a model of their own") {
     const Ended ended = command(folder, {"compare", file, "--models", "friis,two_ray", "--workers",
                                          "1", "--replications", "2"});
     CHECK(ended.exit == 0);
-    CHECK(contains(ended.err,
-                   "keep a propagation model of their own, whatever [propagation] says: \"C\""));
+    CHECK(contains(
+        ended.err,
+        "have their own propagation model, so that [propagation] does not affect them: \"C\""));
 }
 
 }  // namespace input_test

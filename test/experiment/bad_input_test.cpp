@@ -401,7 +401,7 @@ const std::vector<Mistake> mistakes = {
      "at = [\"4.5 m\", \"2 m\"]",
      "6:6",
      {"\"A\"", "inside a wall"}},
-    {on_map + "move = { model = \"goal\", to = [\"6 m\", \"2 m\"] }", "7:8", {"no way from"}},
+    {on_map + "move = { model = \"goal\", to = [\"6 m\", \"2 m\"] }", "7:8", {"no path from"}},
     {on_map + "move = { model = \"goal\", to = [\"50 m\", \"2 m\"] }", "7:8", {"off the map"}},
     {on_map + "move = { model = \"goal\", to = [\"4.5 m\", \"2 m\"] }", "7:8", {"in a wall"}},
 };

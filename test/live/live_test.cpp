@@ -159,14 +159,15 @@ TEST_CASE("live: a lost controller, one without patience, and a program that fai
     }
     const Ended without = lost.wait();
     CHECK(without.exit == 1);
-    CHECK(without.err.find("controller A has gone at 0 s without a bye") != std::string::npos);
+    CHECK(without.err.find("controller A has disconnected at 0 s without bye") !=
+          std::string::npos);
     CHECK(lost.replay().exit == 0);
 
     const Live slow({"--listen-json", "127.0.0.1:0", "--patience", "50ms"});
     LineClient client(slow.port());
     client.ask(hello("\"A\""));
     CHECK(Json::parse(client.line()).at("reason") == "patience");
-    CHECK(slow.wait().err.find("no question within 0.05 s from controller A") != std::string::npos);
+    CHECK(slow.wait().err.find("no request within 0.05 s from controller A") != std::string::npos);
 
     const Live failing({"--controller", "exit 7"});
     const Ended failed = failing.wait();

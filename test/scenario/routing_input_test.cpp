@@ -109,7 +109,7 @@ TEST_CASE("routing input: a unicast under a flood is a notice that names what ro
         const std::string chosen = "[routing]\nprotocol = \"" + protocol + "\"\n";
         const std::string text = all_notices(unicast("size = \"9 B\"") + chosen);
         CHECK(has(text, "s.toml:10:6: to: the routing protocol does not route messages to one"));
-        CHECK(has(text, "[routing] protocol = \"aodv\" finds a way"));
+        CHECK(has(text, "[routing] protocol = \"aodv\" finds routes"));
     }
     for (const std::string protocol : {"aodv", "dsr"}) {
         CHECK(

@@ -72,7 +72,7 @@ TEST_CASE("unlikely: a usual scenario has no notice") {
 TEST_CASE("unlikely: a frequency whose unit slipped is a notice with what was meant") {
     check_notice("[radio]\nfrequency = \"2.4 MHz\"\n" + robot_a,
                  {"s.toml:2:13: frequency: ", "did you mean \"2400 MHz\"?"});
-    check_notice(robot_a + "radio = { frequency = \"1 Hz\" }\n", {":4:23: ", "no frequency of"});
+    check_notice(robot_a + "radio = { frequency = \"1 Hz\" }\n", {":4:23: ", "not a frequency of"});
 }
 
 TEST_CASE("unlikely: a rate that the standard does not have is a notice") {
@@ -137,9 +137,9 @@ TEST_CASE("unlikely: a robot that starts off the map is a notice, once for all o
 TEST_CASE("unlikely: a wall without a material that is a metre thick is a notice with rays") {
     const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n";
     const std::string rays = "[propagation]\nmodel = \"rays\"\n";
-    check_notice(
-        on_map + robot + rays,
-        {":7:1: what is drawn behind x = ", "thicker than 0.5 m, up to 1 m", "0.5 m thick"});
+    check_notice(on_map + robot + rays,
+                 {":7:1: the wall drawn behind x = ",
+                  "thicker than 0.5 m (walls of this scene: up to 1 m", "0.5 m thick"});
     CHECK(notices_of(on_map + robot).empty());
     CHECK(notices_of(robot + rays).empty());
     const std::string given =
@@ -151,8 +151,9 @@ TEST_CASE("unlikely: walls that are in the map and in N, too, are a notice") {
     const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n";
     const std::string own = "propagation = { model = \"raytrace_2007\" }\n";
     const std::string rays = "[propagation]\nmodel = \"raytrace_2007\"\n";
-    check_notice(on_map + robot + rays, {":7:1: coefficient: N = 30 of raytrace_2007 holds",
-                                         "did you mean coefficient = 20?"});
+    check_notice(on_map + robot + rays,
+                 {":7:1: coefficient: N = 30 of raytrace_2007 already includes",
+                  "did you mean coefficient = 20?"});
     check_notice(on_map + robot + rays + "coefficient = 22.5\n", {"N = 22.5"});
     check_notice(on_map + robot + own, {":7:15: coefficient: N = 30"});
     CHECK(notices_of(on_map + robot + rays + "coefficient = 22\n").empty());
@@ -162,11 +163,11 @@ TEST_CASE("unlikely: walls that are in the map and in N, too, are a notice") {
     CHECK(notices_of(on_map + robot + "propagation = { model = \"friis\" }\n" + rays).empty());
 }
 
-TEST_CASE("unlikely: pixels of a material that are no walls are a notice") {
+TEST_CASE("unlikely: pixels of a material that are not walls are a notice") {
     const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n";
     check_notice(
         on_map + robot + "[scene.materials]\npane = { grey = 140, per_crossing = \"3 dB\" }\n",
-        {":8:1: material \"pane\": 1 of its 1 pixels in m.png are no walls"});
+        {":8:1: material \"pane\": 1 of its 1 pixels in m.png are not walls"});
     check_notice(on_map + robot + "[scene.materials]\nx = { grey = 7, per_crossing = \"3 dB\" }\n",
                  {"material \"x\" fits no pixel of m.png"});
     check_notice(
@@ -190,7 +191,7 @@ TEST_CASE(
                               "brick = { greys = [0, 130], per_crossing = \"9 dB\" }\n"
                               "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n");
     REQUIRE(s.notices.size() == 1);
-    CHECK(s.notices[0].find("1 of its 2 pixels in m.yaml are no walls") != std::string::npos);
+    CHECK(s.notices[0].find("1 of its 2 pixels in m.yaml are not walls") != std::string::npos);
     CHECK(s.notices[0].find("occupied_thresh") != std::string::npos);
 }
 
@@ -345,7 +346,7 @@ TEST_CASE("traffic: robots that speak at the same instants are noticed where fra
         const Scenario scenario =
             loaded(folder, head + robots + flow + "\"A\"\n" + a + flow + "\"B\"\n" + b);
         return std::ranges::count_if(scenario.notices, [](const std::string& text) {
-            return text.find("begin messages at the same instants") != std::string::npos;
+            return text.find("start messages at the same times") != std::string::npos;
         });
     };
     const std::string csma = "[reception]\nmodel = \"collision\"\n[access]\nmodel = \"csma\"\n";

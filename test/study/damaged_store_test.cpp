@@ -204,7 +204,8 @@ TEST_CASE("damaged stores: the error names table, row and column, and both types
         "table run at key 3, column point: found nothing (NULL)");
     has(error("UPDATE run SET replication = 2000000 WHERE key = 3", 2),
         "column replication: found the number 2000000, expected a whole number from 0 to 999999");
-    has(error("UPDATE run SET started = x'ff' WHERE key = 3", 2), "found 1 bytes that are no text");
+    has(error("UPDATE run SET started = x'ff' WHERE key = 3", 2),
+        "found 1 bytes that are not text");
     has(error("UPDATE metric SET value = 'many' WHERE run = 2", 1),
         ", column value: found the text \"many\", expected a finite number");
     has(error("UPDATE metric SET value = 'many' WHERE run = 2", 1), "table metric at run 2, name ");

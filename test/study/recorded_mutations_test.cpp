@@ -247,13 +247,13 @@ TEST_CASE("names that are dropped, short, doubled or others than those of the sc
     CHECK(refusal(attachment("robots.txt", "A\nB\nC\n")) ==
           "its scenario has 2 robots; the trace names 3");
     CHECK(refusal(attachment("robots.txt", "B\nA\n")) ==
-          "robot 0 is \"B\" by the names of the trace, and \"A\" in the scenario inside");
+          "robot 0 is named \"B\" in the trace, but \"A\" in the scenario of the trace");
     CHECK(refusal(right + attachment("robots.txt", "A\nC\n")) ==
           "two files robots.txt are inside, which differ");
     CHECK(refusal(right + attachment("x/a", "1") + attachment("x/a", "2")) ==
           "two files x/a are inside, which differ");
     CHECK(refusal(right + attachment("x", "1") + attachment("x/a", "2")) ==
-          "the file x/a inside cannot be unpacked");
+          "the attached file x/a cannot be decompressed");
 }
 
 TEST_CASE("the control: mutants hold records of robots that have no name, which a reader meets") {

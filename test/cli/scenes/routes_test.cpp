@@ -157,7 +157,7 @@ TEST_CASE("draw --routes, --search: the picture, and what cannot be drawn") {
         CHECK(ended.exit == 2);
         return ended.err;
     };
-    CHECK(refusal({"5s", "--routes", "n0"}).find("--routes n0: expected two robots") !=
+    CHECK(refusal({"5s", "--routes", "n0"}).find("--routes n0: expected two different robots") !=
           std::string::npos);
     CHECK(refusal({"5s", "--routes", "n0,n0"}).find("that differ") != std::string::npos);
     CHECK(refusal({"5s", "--routes", "n0,n5"}).find("did you mean") != std::string::npos);

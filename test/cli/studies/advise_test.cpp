@@ -89,7 +89,7 @@ TEST_CASE("advise: interrupted and gone on with, it is the same as in one go") {
     first.interrupt();
     const Ended ended = first.wait();
     CHECK(ended.exit == 130);
-    CHECK(ended.err.find("go on with\n  rovernet advise ") != std::string::npos);
+    CHECK(ended.err.find("continue with\n  rovernet advise ") != std::string::npos);
     const std::size_t kept = runs_in(advised.store());
     CHECK(kept >= 30);
     const Json resumed = json_of(advised.folder, with_store);

@@ -81,11 +81,11 @@ TEST_CASE("fit: groups are named by the column that made them, and one alone is 
     };
     const std::string two = fitted({"monday", "tuesday"}), one = fitted({"monday"});
     CHECK(has(two, "in 2 groups (by group)"));
-    CHECK(has(two, "errors of each group by the fit of the others"));
+    CHECK(has(two, "errors on each group, by the fit to all others"));
     CHECK_FALSE(has(two, "in-sample"));
     CHECK(has(one, "in 1 group (by group)"));
     CHECK(has(one, "rmse in-sample"));
-    CHECK(has(one, "errors on the links that were fitted to"));
+    CHECK(has(one, "errors on the fitted links"));
 }
 
 TEST_CASE("fit: --gains prints the lines of a scenario file that hold them") {

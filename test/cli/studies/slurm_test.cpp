@@ -196,7 +196,7 @@ TEST_CASE("sweep on Slurm: a dry run throws nothing away, and --fresh is not to 
     CHECK(cluster.submit({"--dry-run", "--fresh", "--yes"}).exit == 0);
     CHECK(cluster.csv() == kept);
     const std::string fresh = cluster.submit({"--fresh", "--yes"}).out;
-    CHECK(has(fresh, "is made by\n  rovernet sweep"));
+    CHECK(has(fresh, "are made by\n  rovernet sweep"));
     CHECK_FALSE(has(fresh, "--fresh"));
 }
 
@@ -204,16 +204,16 @@ TEST_CASE("sweep on Slurm: an sbatch that is not there or takes no job is told")
     const Cluster cluster;
     const Ended none = cluster.sweep({"--executor", "slurm"}, "/nowhere");
     CHECK(none.exit == 1);
-    CHECK(has(none.err, "the program sbatch is not there"));
+    CHECK(has(none.err, "the program sbatch was not found"));
     cluster.folder.write("bin/refused", "--array");
     const Ended refused = cluster.submit();
     CHECK(refused.exit == 1);
     CHECK(has(refused.err, "sbatch: error: invalid partition\n"));
-    CHECK(has(refused.err, "sbatch took no job (exit 1)"));
+    CHECK(has(refused.err, "sbatch refused the job (exit code 1)"));
     cluster.folder.write("bin/refused", "--dependency");
     const Ended half = cluster.submit();
     CHECK(half.exit == 1);
-    CHECK(has(half.err, "the tasks are job 77, but "));
+    CHECK(has(half.err, "the tasks are submitted as job 77, but "));
     // What it says to call is right.
     const std::string call = half.err.substr(half.err.find("\n  bash ") + 1);
     CHECK(Process(cluster.folder, {"-c", call}, "/bin/bash").wait().exit == 0);

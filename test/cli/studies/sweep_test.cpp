@@ -187,7 +187,7 @@ TEST_CASE("sweep: Ctrl-C ends it with what is finished and with the command to g
     sweep.interrupt();
     const Ended ended = sweep.wait();
     CHECK(ended.exit == 130);
-    CHECK(ended.err.find("go on with\n  rovernet sweep " + place.file) != std::string::npos);
+    CHECK(ended.err.find("continue with\n  rovernet sweep " + place.file) != std::string::npos);
     const auto kept = finished(place.store());
     CHECK(kept.size() >= 3);
     CHECK(kept.size() < 200);
@@ -288,7 +288,7 @@ replications = 5
             command(folder, {"compare", file, "--models", "friis,log_distance,two_ray", "--workers",
                              workers, "--verbose"});
         REQUIRE(ended.exit == 0);
-        const auto end = ended.err.find(" ways around walls searched for");
+        const auto end = ended.err.find(" searches for paths around walls");
         REQUIRE(end != std::string::npos);
         const auto begin = ended.err.find_last_of("\n ", end - 1) + 1;
         const std::string searches = ended.err.substr(begin, end - begin);
@@ -316,7 +316,7 @@ TEST_CASE("sweep: a full disk ends it with what was finished, and room lets it g
         fmt::format("trap '' XFSZ; ulimit -f 200; exec {} sweep {}", ROVERNET_COMMAND, place.file);
     const Ended full = Process(place.folder, {"-c", limited}, "/bin/bash").wait();
     CHECK(full.exit == 1);
-    CHECK(full.err.find("what was finished is kept") != std::string::npos);
+    CHECK(full.err.find("finished runs are kept") != std::string::npos);
     const auto kept = finished(place.store());
     CHECK(kept.size() > 0);
     CHECK(kept.size() < 200);
@@ -500,10 +500,10 @@ TEST_CASE("compare: of a store with more replications it takes those that are as
     const Json four = json_of(place.folder, with({"--replications", "4"}));
     for (const Json& row : four["rows"]) CHECK(row["n"] == 4);
     CHECK(command(place.folder, with({"--replications", "4"}))
-              .err.find("has up to 6 replications; compared are the first 4, as asked for "
-                        "(--replications 6 takes all)") != std::string::npos);
+              .err.find("has up to 6 replications; the first 4 are compared, as requested "
+                        "(--replications 6 compares all)") != std::string::npos);
     const Ended all = command(place.folder, with({"--replications", "6"}));
-    CHECK(all.err.find("compared are the first") == std::string::npos);
+    CHECK(all.err.find("are compared, as requested") == std::string::npos);
     CHECK(finished(place.store()).size() == 30);
 }
 
@@ -519,7 +519,7 @@ TEST_CASE("compare: what it takes for granted is said, or can be asked for") {
     const auto notices = [&](const std::vector<std::string>& more) {
         return command(place.folder, with(ttl, more)).err;
     };
-    const char* other = "are by Student's t, not by STaR-Bets as asked for";
+    const char* other = "are by Student's t, not by STaR-Bets as requested";
     CHECK(notices({"--interval", "star", "--metric", "transmissions"}).find(other) !=
           std::string::npos);
     CHECK(notices({"--interval", "star"}).find(other) == std::string::npos);
@@ -562,7 +562,7 @@ TEST_CASE("compare: with failed runs it compares what is there, and ends with 4"
     CAPTURE(ended.out);
     CAPTURE(ended.err);
     CHECK(ended.exit == 4);
-    CHECK(ended.out.find("lack pairs, as one of both lacks the replication: 6 failed") !=
+    CHECK(ended.out.find("lack pairs, because one of the two lacks the replication: 6 failed") !=
           std::string::npos);
     CHECK(ended.err.find("compare.db") == std::string::npos);  // it is gone
 }

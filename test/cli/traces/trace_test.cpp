@@ -85,7 +85,7 @@ TEST_CASE("trace convert --to pcapng wants a recorded trace, and says why") {
     const std::string out = run.folder.path("x.pcapng");
     const Ended ended = command(run.folder, {"trace", "convert", run.text, out, "--to", "pcapng"});
     CHECK(ended.exit == 3);
-    CHECK(ended.err.find("pcapng is made of a recorded trace only") != std::string::npos);
+    CHECK(ended.err.find("pcapng can be made only from a recorded trace") != std::string::npos);
     CHECK(content(out).empty());
     CHECK(command(run.folder, {"trace", "convert", run.recorded, out, "--to", "pcapng"}).exit == 0);
     CHECK(content(out).size() > 100);

@@ -83,7 +83,7 @@ TEST_CASE("view: a wrong input or option has an error that says what to do") {
     has(error_of(folder, {rescue, "-o", page, "--from", "20 s", "--to", "10 s"}, 2),
         "after that of --from, 20 s");
     has(error_of(folder, {rescue, "-o", page, "--limit", "5"}, 2), "for example \"5 MB\"");
-    has(error_of(folder, {rescue, "-o", page, "--limit", "5 kB"}, 0), "take more than that");
+    has(error_of(folder, {rescue, "-o", page, "--limit", "5 kB"}, 0), "too small for the page");
     has(error_of(folder, {rescue, "-o", page, "--from", "80 s"}, 0), "51 of 51 frames");
     CHECK_FALSE(std::filesystem::exists(folder.path("no")));
     const std::string patrol = std::string(ROVERNET_EXAMPLES) + "/patrol/patrol.toml";

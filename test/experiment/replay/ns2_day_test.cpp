@@ -149,7 +149,7 @@ TEST_CASE("an ns-2 day: sources that speak together draw a backoff first, as in 
     for (const char* access :
          {"access.immediate_access=true", "access.model=aloha", "access.model=none"}) {
         CHECK(
-            together.starts_together({access}).starts_with("80 of 80 messages begin at the same"));
+            together.starts_together({access}).starts_with("80 of 80 messages start at the same"));
         CHECK(day_of(0.002).starts_together({access}).empty());
     }
     // Within a frame of 118 bytes and its preamble, 1.1 ms, where nobody listens.
@@ -166,7 +166,8 @@ TEST_CASE("an ns-2 day: lines that are none of ns-2 are told") {
                                                  "s 1.0 garbage\n" + said(1, 0, 0, "1")),
                      {});
     REQUIRE(day.notices().size() == 1);
-    CHECK(day.notices()[0] == "1 of 4 lines are none of ns-2, and left out; the first is line 3");
+    CHECK(day.notices()[0] ==
+          "1 of 4 lines are not in ns-2 format and are left out; the first is line 3");
 }
 
 TEST_CASE("an ns-2 day: receptions from beyond its radio's range are told, with a power for them") {
@@ -218,9 +219,9 @@ TEST_CASE("an ns-2 day: its radio reaches 250 m and no farther") {
 TEST_CASE("an ns-2 day: a robot whose place the trace does not tell is named") {
     const TemporaryFolder folder;
     const std::string trace = folder.write("lost.tr", move_line(0, 0) + said(1, 0, 0, "1"));
-    CHECK_THROWS_WITH_AS(read_ns2_day(trace, {}),
-                         doctest::Contains("no position of robot 1: the old format has none"),
-                         InputError);
+    CHECK_THROWS_WITH_AS(
+        read_ns2_day(trace, {}),
+        doctest::Contains("no position of robot 1: the old format has no position"), InputError);
     const std::string file =
         folder.write("way.tcl",
                      "$node_(0) set X_ 0\n$node_(0) set Y_ 0\n$node_(1) set X_ 100\n"

@@ -125,17 +125,19 @@ TEST_CASE("device addresses: robots outside of each other's network are told") {
     CHECK(notices(two("ip = \"192.168.1.1\"", "ip = \"192.168.1.2\"")).empty());
     const auto first = notices(two("ip = \"192.168.1.1\"", ""));
     REQUIRE(first.size() == 1);
-    CHECK(
-        first[0].ends_with("s.toml:8:16: the network 192.168.1.0/24 of robot A leaves out robot "
-                           "B, 10.0.0.2: they reach one another by routes of the programs only"));
+    CHECK(first[0].ends_with(
+        "s.toml:8:16: the network 192.168.1.0/24 of robot A does not contain robot B, 10.0.0.2: "
+        "these robots reach each other only by routes of their programs"));
     const auto second = notices(two("", "ip = \"10.0.1.2\""));
     REQUIRE(second.size() == 1);
-    CHECK(second[0].find("s.toml:12:16: the network 10.0.0.0/24 of robot A leaves out robot B") !=
+    CHECK(second[0].find(
+              "s.toml:12:16: the network 10.0.0.0/24 of robot A does not contain robot B") !=
           std::string::npos);
     // A's network has B in it, and B's has not A.
     const auto narrow = notices(two("", "netmask = \"255.255.255.255\""));
     REQUIRE(narrow.size() == 1);
-    CHECK(narrow[0].find("s.toml:12:21: the network 10.0.0.2/32 of robot B leaves out robot A") !=
+    CHECK(narrow[0].find(
+              "s.toml:12:21: the network 10.0.0.2/32 of robot B does not contain robot A") !=
           std::string::npos);
     CHECK(notices(two("netmask = \"255.0.0.0\"", "netmask = \"255.255.0.0\"")).empty());
 }
@@ -152,7 +154,7 @@ TEST_CASE("device addresses: more robots than the made addresses of one network 
     const auto told = robots(260, "");
     REQUIRE(told.size() == 2);
     CHECK(told[0].starts_with("robot X254: the ip 10.0.0.255 is the broadcast address of the "));
-    CHECK(told[1].starts_with("the network 10.0.0.0/24 of robot X0 leaves out robot X255, "));
+    CHECK(told[1].starts_with("the network 10.0.0.0/24 of robot X0 does not contain robot X255, "));
     CHECK(robots(260, "netmask = \"255.255.0.0\"").empty());
 }
 

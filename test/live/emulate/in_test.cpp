@@ -225,7 +225,7 @@ TEST_CASE("in: several runs are told apart by their folders") {
     }
     CHECK(networks.size() == 2);
     const std::string out = one->folder.path("out");
-    CHECK(try_in({"--run", one->folder.path("")}, "A").err.find("no run of yours is going on") !=
+    CHECK(try_in({"--run", one->folder.path("")}, "A").err.find("you have no running emulation") !=
           std::string::npos);
     one->stop();
     const Ended stale = try_in({"--run", out}, "A");

@@ -41,7 +41,7 @@ inline std::unique_ptr<Emulation> emulated_by_tap(const std::string& text = tap_
         text, std::vector<std::string>{"--late", "60 s", "--set", "scenario.seed=1"});
     if (emulation->listening(3).size() == 3) return emulation;
     MESSAGE("skipped: no TAP devices in namespaces here: " << emulation->said_to_person());
-    CHECK(emulation->said_to_person().find("there is --udp") != std::string::npos);
+    CHECK(emulation->said_to_person().find("the option --udp") != std::string::npos);
     return nullptr;
 }
 

@@ -187,9 +187,9 @@ TEST_CASE(
     CHECK(message(R"(,"do":{"A":{"v":1001}})") ==
           "found 1001; expected a number from -1000 to 1000 m/s");
     CHECK(message(R"(,"do":{"A":{"heading":1}})") ==
-          "\"place\" is missing; expected such as \"place\":[1,12]");
+          "\"place\" is missing; expected a value such as \"place\":[1,12]");
     CHECK(message(R"(,"send":[{"from":"A"}])") ==
-          "\"data\" is missing; expected such as \"data\":\"Rg==\"");
+          "\"data\" is missing; expected a value such as \"data\":\"Rg==\"");
     CHECK(message(R"(,"do":{"A":{"stop":false}})") == "expected \"stop\":true");
     CHECK(message(R"(,"send":[{"from":"A","data":"","size":65536}])") ==
           "found 65536; expected a whole number from 0 to 65507");
@@ -463,7 +463,7 @@ TEST_CASE("lockstep: loss of a controller ends the run, stops its robots, or is 
     Talk ends(three_in_a_row(), {.wait_for = 2});
     lose(ends);
     CHECK(ends.lockstep.is_done());
-    CHECK(ends.lockstep.fault() == "controller A has gone at 0.1 s without a bye");
+    CHECK(ends.lockstep.fault() == "controller A has disconnected at 0.1 s without bye");
 
     Talk stops(three_in_a_row(), {.wait_for = 2, .on_loss = OnLoss::stop});
     lose(stops);
@@ -558,7 +558,7 @@ TEST_CASE(
     CHECK_FALSE(talk.lockstep.is_done());
     talk.lockstep.held(50ms);
     CHECK(talk.lockstep.is_done());
-    CHECK(talk.lockstep.fault() == "no question within 0.05 s from controller A, B");
+    CHECK(talk.lockstep.fault() == "no request within 0.05 s from controller A, B");
 
     Talk gone(three_in_a_row(), {.programs = 1});
     gone.lockstep.held(0s);

@@ -100,10 +100,9 @@ driver ( name "comdriver" provides [ "6667:opaque:1" ] )
     CHECK(config.robots[2].comdriver->mapping[1].ip == "192.168.0.9");
     CHECK(config.robots[2].comdriver->mapping[1].port == 6666);
     REQUIRE(config.notices.size() == 1);
-    CHECK(
-        config.notices[0].ends_with("two.cfg:17: drivers that run beside Stage in a Player server "
-                                    "do not run here, and their devices are missing: amcl, vfh, "
-                                    "comdriver at port 6667, which has no robot"));
+    CHECK(config.notices[0].ends_with(
+        "two.cfg:17: these drivers of the Player server are not supported, and their devices are "
+        "missing: amcl, vfh, comdriver at port 6667, which has no robot"));
 
     const auto notices = mapping_notices(config, {"192.168.0.1", "192.168.0.2", "192.168.0.3"});
     REQUIRE(notices.size() == 2);
@@ -144,8 +143,8 @@ TEST_CASE("player configuration: mistakes are told with their place") {
         CHECK(fault(com + "mapping " + mapping + " )").find("mapping: expected pairs") !=
               std::string::npos);
     }
-    CHECK(fault(head + robots + "driver ( name \"relay\" )").find("no opaque that it provides") !=
-          std::string::npos);
+    CHECK(fault(head + robots + "driver ( name \"relay\" )")
+              .find("no opaque device that it provides") != std::string::npos);
     CHECK_THROWS_AS(read_player_config("/nowhere/two.cfg"), InputError);
 }
 

@@ -207,7 +207,8 @@ TEST_CASE("stage world: a wifi without a model follows [propagation], an unknown
     CHECK(value(none.propagation(1), "coefficient") == "22.0");
     REQUIRE(none.notices.size() == 1);
     CHECK(none.notices[0] ==
-          "a.world:1: a wifi without a model uses that of [propagation], friis by default: a, b");
+          "a.world:1: a wifi without a model uses the model in [propagation], by default friis: a, "
+          "b");
     CHECK(mistake(robot_with + "\nmodel \"ITU Indoor\" ) )\n") ==
           "2:1: model: found \"ITU Indoor\"; expected one of \"friis\", \"ITU indoor\", \"log "
           "distance\", \"raytrace\", \"simple\"; did you mean \"ITU indoor\"?");
@@ -338,9 +339,10 @@ TEST_CASE("stage world: a world without robots is a scene, and no scenario to ru
     const Scenario scene = load_scenario(world, {.needs_robots = false});
     CHECK(scene.robots.empty());
     CHECK(scene.walls);
-    CHECK_THROWS_WITH_AS(load_scenario(world, {}),
-                         doctest::Contains("no robot in this world; expected a position"),
-                         InputError);
+    CHECK_THROWS_WITH_AS(
+        load_scenario(world, {}),
+        doctest::Contains("found no robot in this world; expected a model of type position"),
+        InputError);
 }
 
 TEST_CASE("stage world: a robot whose macro is missing is a robot by its wifi") {
@@ -449,7 +451,7 @@ TEST_CASE("stage world: what is no robot and no wall is said in one line") {
     CHECK(world.notices[1] ==
           "a.world:4: robots without a wifi have the radio of [radio] and the model of "
           "[propagation], friis by default: b, robot2");
-    CHECK(world.notices[2] == "a.world:6: a wifi outside a position is left out: wifi");
+    CHECK(world.notices[2] == "a.world:6: a wifi outside a position is ignored: wifi");
     CHECK(world.notices[3] == "a.world: ignored: laser (1), window (1)");
 }
 

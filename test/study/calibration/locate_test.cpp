@@ -110,7 +110,7 @@ TEST_CASE("locate, fit, probe: disc has no levels, and is refused") {
         return std::string();
     };
     CHECK(fault([&] { refuse_disc(model, {}, "locate"); }) ==
-          "\"disc\" has no levels, which locate looks at; expected another propagation model");
+          "\"disc\" has no levels, which locate needs; expected a different propagation model");
     CHECK(fault([&] { refuse_disc(Friis{}, {}, "locate"); }).empty());
     const TemporaryFolder folder;
     const Scenario scenario =
