@@ -182,7 +182,7 @@ void probe(const ProbeArguments& a) {
     if (!a.no_messages) {
         fmt::print("; {} receptions of messages until {:.6g} s{}", found.deliveries,
                    seconds(found.until),
-                   found.whole_run ? "" : " (the run goes on; that was a million events)");
+                   found.whole_run ? "" : ", the time of the first million events");
     }
     fmt::print("\n\n");
     print_perturbations(found, !a.no_messages);

@@ -40,7 +40,7 @@ std::string runs_in(const std::string& path) {
         const std::size_t runs = store.runs().size();
         return runs == 0 ? "" : fmt::format("its {} runs", runs);
     } catch (const InputError&) {
-        return "its runs, damaged as it is";
+        return "its runs (the store is damaged)";
     }
 }
 

@@ -38,8 +38,9 @@ void tell_of_log(const InputReplay& replay) {
     if (replay.is_other_scenario) {
         notice(fmt::format("{}: scenario.toml {}", replay.log,
                            replay.has_own_scenario
-                               ? "beside it is not as it was run; the log's own text is"
-                               : "beside it is not as it was run"));
+                               ? "in its folder differs from the scenario that was run; the "
+                                 "scenario in the log is used"
+                               : "in its folder differs from the scenario that was run"));
     }
     if (replay.torn) {
         notice(fmt::format("{}:{}: the last line is incomplete and is ignored", replay.log,
@@ -49,7 +50,8 @@ void tell_of_log(const InputReplay& replay) {
         notice(replay.log + ": its run did not end; it is replayed up to its last input");
     }
     for (const std::string& other : replay.others) {
-        notice(other + ": another run that did not end; replay it by this name");
+        notice(other +
+               ": a different run in this folder, which did not end; this file name replays it");
     }
 }
 

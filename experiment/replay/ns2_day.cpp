@@ -50,7 +50,9 @@ class Ns2DayReader {
     /// Sentence about dropped messages; empty: none.
     std::string left_out() const {
         if (left_out_ == 0) return "";
-        return fmt::format("{} messages to no other robot of the trace are left out", left_out_);
+        return fmt::format(
+            "{} messages are left out, because no other robot of the trace is their destination",
+            left_out_);
     }
     std::vector<DayLog::Said> said;
     std::vector<DayLog::Heard> heard;

@@ -196,8 +196,8 @@ void Gatherer::summary(const Affected& affected, std::string_view text) {
 }
 
 void Gatherer::summaries() {
-    summary(nameless_, "robots without a name get one");
-    summary(namesakes_, "robots of a name that another has get one of their own");
+    summary(nameless_, "names are generated for robots without a name");
+    summary(namesakes_, "new names are generated for robots whose name is already in use");
     summary(modelless_, "a wifi without a model uses the model in [propagation], by default friis");
     summary(flying_, "z is left out, as in the 2007 radio, for");
     summary(doubled_, "only the first wifi counts of");

@@ -322,11 +322,9 @@ void check_transmitters(const KnownLinks& known, const std::string& path) {
     for (const KnownLink& link : known.links) places.emplace(link.from.x, link.from.y, link.from.z);
     if (places.size() >= fewest && places.size() <= most) return;
     throw InputError({path, 0, 0},
-                     fmt::format("found {} that send{}, expected {} to {}, whose gains differ{}",
-                                 places.size() == 1 ? std::string("one place")
-                                                    : fmt::format("{} places", places.size()),
-                                 places.size() == 1 ? "s" : "", fewest, most,
-                                 places.size() > most ? "; are from and to exchanged?" : ""));
+                     fmt::format("found {} transmitter position{}; expected {} to {} for gains that differ{}",
+                                 places.size(), places.size() == 1 ? "" : "s", fewest, most,
+                                 places.size() > most ? "; are from and to exchanged?" : "")));
 }
 
 }  // namespace

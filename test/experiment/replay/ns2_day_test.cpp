@@ -242,7 +242,8 @@ TEST_CASE("an ns-2 day: messages to no other robot are left out, and counted") {
                                    said(2, 1, 0, "4194305") + said(3, 2, 0, "1"));
     const RecordedDay day = read_ns2_day(trace, {});
     CHECK(day.notices() ==
-          std::vector<std::string>{"2 messages to no other robot of the trace are left out"});
+          std::vector<std::string>{
+              "2 messages are left out, because no other robot of the trace is their destination"});
     CHECK(day.play({}).metrics.messages == 1);
 }
 

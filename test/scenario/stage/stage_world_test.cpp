@@ -403,7 +403,7 @@ TEST_CASE("stage world: every value has its place in the world") {
     CHECK(world.radio(0).find("power")->where.column == 3);
 }
 
-TEST_CASE("stage world: robots without a name get one that nobody has") {
+TEST_CASE("stage world: names are generated for robots without a name that nobody has") {
     const Read world = read(
         "define bot position ( wifi ( model \"friis\" ) )\n"
         "bot ( )\nbot ( name \"robot2\" )\nbot ( )\nbot ( )\n");
@@ -412,7 +412,8 @@ TEST_CASE("stage world: robots without a name get one that nobody has") {
     CHECK(value(world.robot(2), "name") == "robot2_");
     CHECK(value(world.robot(3), "name") == "robot3");
     REQUIRE(world.notices.size() == 1);
-    CHECK(world.notices[0] == "a.world:2: robots without a name get one: robot0, robot2_, robot3");
+    CHECK(world.notices[0] ==
+          "a.world:2: names are generated for robots without a name: robot0, robot2_, robot3");
 }
 
 TEST_CASE("stage world: a second robot of a name gets one of its own, with a notice") {
@@ -426,7 +427,7 @@ TEST_CASE("stage world: a second robot of a name gets one of its own, with a not
     }
     CHECK(names == std::vector<std::string>{"a", "a_", "a__", "a___", "robot4"});
     CHECK(world.notices.back() ==
-          "a.world:5: robots of a name that another has get one of their own: a__, a___");
+          "a.world:5: new names are generated for robots whose name is already in use: a__, a___");
 }
 
 TEST_CASE("stage world: an address that two robots have is a notice that names both") {

@@ -384,7 +384,8 @@ TEST_CASE("calibration: each transmitter has a gain of its own, and models fit b
         }
     };
     const std::string head = "from_x_m,from_y_m,to_x_m,to_y_m,level_dbm\n";
-    CHECK(fault(head + "0,0,1,0,-50\n0,0,2,0,-55\n").starts_with("found one place that sends,"));
+    CHECK(fault(head + "0,0,1,0,-50\n0,0,2,0,-55\n")
+              .starts_with("found 1 transmitter position; expected"));
     std::string walk = head;
     for (int i = 0; i < 201; ++i) walk += fmt::format("{},0,500,1,-50\n", i);
     CHECK(fault(walk).ends_with("are from and to exchanged?"));
