@@ -55,8 +55,8 @@ void print_verification(const ReplayArguments& a, const Verification& v) {
     if (v.is_identical()) {
         fmt::print("identical: {} {}\n", v.same, v.unit);
     } else if (!v.difference) {
-        fmt::print("incomplete: {} {} are equal, and the rest of the trace cannot be read\n",
-                   v.same, v.unit);
+        fmt::print("not whole: {} {} are equal, and the rest of the trace cannot be read\n", v.same,
+                   v.unit);
     } else {
         fmt::print("different after {} {}\nrecorded  {}\nnow       {}\n", v.same, v.unit,
                    or_nothing(v.difference->recorded), or_nothing(v.difference->now));
