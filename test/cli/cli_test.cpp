@@ -83,7 +83,8 @@ TEST_CASE("run --json is one document with the results") {
     CHECK(run["drops"].is_object());
 }
 
-TEST_CASE("run: the folder has the summary, the scenario and the trace, and nothing half done") {
+TEST_CASE(
+    "run: the results folder has the summary, the scenario and the trace, and no unfinished file") {
     const TemporaryFolder folder;
     const std::string out = folder.path("out");
     const Json run = json_of(folder, {"run", folder.write("s.toml", relay), "--out", out});
@@ -98,7 +99,7 @@ TEST_CASE("run: the folder has the summary, the scenario and the trace, and noth
     CHECK(summary["scenario"]["radio"]["sensitivity"] == "-75 dBm");
 }
 
-TEST_CASE("run: a folder that is there keeps its other files, and ours are replaced") {
+TEST_CASE("run: files of the user in an existing results folder stay, and our files are replaced") {
     const TemporaryFolder folder;
     const std::string out = folder.path("out");
     fs::create_directory(out);
@@ -112,7 +113,7 @@ TEST_CASE("run: a folder that is there keeps its other files, and ours are repla
     CHECK(names_in(out).size() == 4);
 }
 
-TEST_CASE("run: with another --set the results go into a folder of their own, named by it") {
+TEST_CASE("run: a different --set gives a results folder with a name of its own") {
     const TemporaryFolder folder;
     folder.write("s.toml", relay);
     for (const std::string set : {"", "--set 'radio.power=20 dBm'", "--set routing.ttl=1"}) {
@@ -128,7 +129,7 @@ TEST_CASE("run: with another --set the results go into a folder of their own, na
     }
 }
 
-TEST_CASE("run: the printed scenario and the one in the folder run to the same fingerprint") {
+TEST_CASE("run: the printed scenario and scenario.toml in the folder give the same fingerprint") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", relay), out = folder.path("out");
     const auto fingerprint = [&](const std::string& scenario) {
@@ -293,7 +294,7 @@ TEST_CASE("link --json: the budget and its walls") {
     CHECK(json_of(folder, clear)["at_s"] == 6.0);
 }
 
-TEST_CASE("link says why it is down, and what each wall takes") {
+TEST_CASE("link prints why the link is down, and the loss of each wall") {
     const TemporaryFolder folder;
     const png_byte w = 255;
     folder.write(
@@ -359,7 +360,7 @@ TEST_CASE("version and --version print the version") {
     CHECK(command(folder, {"version"}).out.starts_with("rovernet " + version + "\n"));
 }
 
-TEST_CASE("run --speed gives the same fingerprint as a run as fast as can be") {
+TEST_CASE("run --speed gives the same fingerprint as an unpaced run") {
     const TemporaryFolder folder;
     std::vector<std::string> arguments = {"run",   folder.write("s.toml", relay),
                                           "--out", folder.path("out"),
@@ -369,7 +370,7 @@ TEST_CASE("run --speed gives the same fingerprint as a run as fast as can be") {
     CHECK(json_of(folder, arguments)["fingerprint"] == expected);
 }
 
-TEST_CASE("Ctrl-C ends a run with 130 and leaves no trace, whole or half") {
+TEST_CASE("Ctrl-C ends a run with exit code 130 and leaves no trace file, complete or partial") {
     using namespace std::chrono_literals;
     const TemporaryFolder folder;
     const std::string out = folder.path("out");
@@ -396,7 +397,7 @@ TEST_CASE("a run that needs more events than allowed exits with 1 and leaves no 
     CHECK(names_in(folder.path("out")).empty());
 }
 
-TEST_CASE("a message storm says what it is and what to do, and an earlier run's results stay") {
+TEST_CASE("a message storm ends with an error that explains it; results of an earlier run stay") {
     const TemporaryFolder folder;
     const std::string out = folder.path("out");
     const std::string calm = folder.write("s.toml", R"([scenario]
@@ -435,7 +436,7 @@ ns2 = "new"
     }
 }
 
-TEST_CASE("run: a range of zero reaches nobody, and one below it is refused where it stands") {
+TEST_CASE("run: with range 0 no message arrives; a negative range is an error with its position") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", relay), out = folder.path("out");
     const Json run = json_of(folder, {"run", file, "--out", out, "--set", "propagation.range=0 m"});
@@ -460,7 +461,7 @@ TEST_CASE("results that cannot be written end a run with 1, and the message name
     CHECK(ended.err.find(file + "/out") != std::string::npos);
 }
 
-TEST_CASE("trace: another form, a piece, a difference and a message's way, by their commands") {
+TEST_CASE("trace: the commands convert, cut, diff and follow work") {
     const TemporaryFolder folder;
     const std::string out = folder.path("out"), trace = out + "/trace.tr";
     json_of(folder, {"run", folder.write("s.toml", relay), "--out", out, "--set", "trace.ns2=old",
@@ -487,7 +488,7 @@ TEST_CASE("trace: another form, a piece, a difference and a message's way, by th
     CHECK(rows.out.starts_with("robot,messages,deliveries,"));
 }
 
-TEST_CASE("trace stats: a line that is none is counted and shown, and ends a strict reading") {
+TEST_CASE("trace stats: an invalid line is counted and shown, and is an error with --strict") {
     const TemporaryFolder folder;
     const std::string trace = folder.write(
         "x.tr", "s 1.0 _0_ AGT  --- 0 cbr 5 [0 0 0 0] ------- [0:0 1:0 32 0] \nhello\n");

@@ -66,7 +66,8 @@ const std::string loop = "a loop of symbolic links", device = "a device, not a r
 
 }  // namespace
 
-TEST_CASE("kinds of inputs: a loop of links or an endless device as scenario, trace or levels") {
+TEST_CASE(
+    "input kinds: a symlink loop or an endless device is refused as scenario, trace or levels") {
     const Inputs in;
     const std::string one_toml = in.path("one.toml");
     for (const Kind& kind : {Kind{"loop.tr", loop}, Kind{"/dev/zero", device}}) {
@@ -99,7 +100,7 @@ TEST_CASE("kinds of inputs: a loop of links or an endless device as scenario, tr
     }
 }
 
-TEST_CASE("kinds of inputs: files that a scenario names") {
+TEST_CASE("input kinds: wrong kinds of files named in a scenario are refused") {
     const Inputs in;
     for (const auto& each : std::vector<std::pair<std::string, std::string>>{
              {"[scene]\nmap = \"loop.png\"\n", loop},
@@ -116,7 +117,7 @@ TEST_CASE("kinds of inputs: files that a scenario names") {
     }
 }
 
-TEST_CASE("kinds of inputs: a FIFO without a writer ends, and a store is no FIFO") {
+TEST_CASE("input kinds: a FIFO without a writer ends with an error, and a FIFO is not a store") {
     const Inputs in;
     REQUIRE(mkfifo(in.path("fifo").c_str(), 0600) == 0);
     const std::string fifo = in.path("fifo"), one_toml = in.path("one.toml");
@@ -127,7 +128,7 @@ TEST_CASE("kinds of inputs: a FIFO without a writer ends, and a store is no FIFO
                "a movement file is read twice");
 }
 
-TEST_CASE("kinds of inputs: a pipe with levels is read like a file") {
+TEST_CASE("input kinds: levels are read from a pipe like from a file") {
     const Inputs in;
     const std::string levels =
         in.folder.write("l.csv",
@@ -141,7 +142,7 @@ TEST_CASE("kinds of inputs: a pipe with levels is read like a file") {
     CHECK(by_pipe.out == in.run({"fit", in.path("one.toml"), "--links", levels}).out);
 }
 
-TEST_CASE("kinds of inputs: movements that end after the longest run are told with their place") {
+TEST_CASE("input kinds: movements beyond the longest run are an error with its position") {
     const Inputs in;
     const std::string tcl = in.folder.write(
                           "late.tcl",
@@ -154,7 +155,8 @@ TEST_CASE("kinds of inputs: movements that end after the longest run are told wi
     CHECK(in.run({"where", part, "--at", "1s"}).exit == 0);  // a scenario has its own end
 }
 
-TEST_CASE("sweep --merge: what is no store is told before anything is done, and left as it is") {
+TEST_CASE(
+    "sweep --merge: a file that is not a store is refused before any change, and not changed") {
     const Inputs in;
     const std::string notes = in.path("notes.txt"), store = in.path("s.db");
     check_told(in.run({"sweep", in.path("one.toml"), "--store", store, "--merge", notes}),
@@ -163,7 +165,7 @@ TEST_CASE("sweep --merge: what is no store is told before anything is done, and 
     CHECK(content(notes) == "no store\n");
 }
 
-TEST_CASE("results --sql: one statement is answered; none and two are refused") {
+TEST_CASE("results --sql: one statement is executed; zero or two statements are refused") {
     const Inputs in;
     const std::string store = in.path("s.db");
     REQUIRE(in.run({"sweep", in.path("one.toml"), "--store", store, "--workers", "1"}).exit == 0);

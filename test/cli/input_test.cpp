@@ -35,7 +35,7 @@ bool contains(const std::string& text, const std::string& words) {
 
 }  // namespace
 
-TEST_CASE("input: - is a scenario from standard input, for every command that takes a file") {
+TEST_CASE("input: - reads the scenario from standard input, in every command with a FILE") {
     const TemporaryFolder folder;
     folder.write("s.toml", two);
     const Ended piped = with_input(folder, two, "run - --out out");
@@ -51,7 +51,7 @@ TEST_CASE("input: - is a scenario from standard input, for every command that ta
     }
 }
 
-TEST_CASE("input: of a scenario from standard input, files are relative to the current folder") {
+TEST_CASE("input: paths in a scenario from standard input are relative to the current folder") {
     const TemporaryFolder folder;
     folder.write("m.tcl", "$node_(0) set X_ 3.0\n");
     const Ended ended = with_input(folder, "[movement]\nfile = \"m.tcl\"\n", "where - --at 1s");
@@ -59,7 +59,7 @@ TEST_CASE("input: of a scenario from standard input, files are relative to the c
     CHECK(contains(ended.out, "n0"));
 }
 
-TEST_CASE("input: a mistake in standard input names its line, and a store needs a name") {
+TEST_CASE("input: an error in standard input has its line; a store needs a name") {
     const TemporaryFolder folder;
     const Ended wrong = with_input(folder, "[radio]\npower = 15\n", "run -");
     CHECK(wrong.exit == 3);
@@ -69,7 +69,7 @@ TEST_CASE("input: a mistake in standard input names its line, and a store needs 
     CHECK(contains(nameless.err, "--store"));
 }
 
-TEST_CASE("input: a file without end is refused, not read to its end") {
+TEST_CASE("input: an endless file is refused without reading all of it") {
     const TemporaryFolder folder;
     const Ended ended = command(folder, {"run", "/dev/zero"});
     CHECK(ended.exit == 3);
@@ -77,7 +77,7 @@ TEST_CASE("input: a file without end is refused, not read to its end") {
         contains(ended.err, "/dev/zero: cannot read the file: it is a device, not a regular file"));
 }
 
-TEST_CASE("input: files of other kinds are called by their names, with what to do") {
+TEST_CASE("input: a file of a wrong kind is named with its kind, and with the right command") {
     const TemporaryFolder folder;
     const auto said = [&](const std::string& name, const std::string& text) {
         const Ended ended = command(folder, {"run", folder.write(name, text)});
@@ -99,7 +99,7 @@ TEST_CASE("input: files of other kinds are called by their names, with what to d
     CHECK(!contains(empty, "the key"));
 }
 
-TEST_CASE("input: numbers of options that cannot be are told in plain words") {
+TEST_CASE("input: an impossible number in an option is an error in plain words") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", two);
     const auto said = [&](const std::string& option, const std::string& value) {
@@ -118,7 +118,7 @@ TEST_CASE("input: numbers of options that cannot be are told in plain words") {
     CHECK(memory.exit == 0);
 }
 
-TEST_CASE("input: compare says which robots keep a model of their own") {
+TEST_CASE("input: compare names the robots that have their own propagation model") {
     const TemporaryFolder folder;
     const std::string own =
         "[[robot]]\nname = \"C\"\nat = [\"5 m\", \"0 m\"]\npropagation = { model = \"two_ray\" }\n";

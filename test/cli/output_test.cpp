@@ -32,7 +32,7 @@ place = { area = [["0 m", "0 m"], ["1000 m", "1000 m"]] }
 
 }  // namespace
 
-TEST_CASE("output that cannot be written is said, and exits with 1") {
+TEST_CASE("output: a write error is reported, and the exit code is 1") {
     if (!std::filesystem::exists("/dev/full")) return;
     const TemporaryFolder folder;
     const std::string file = crowd(folder);
@@ -48,7 +48,7 @@ TEST_CASE("output that cannot be written is said, and exits with 1") {
     }
 }
 
-TEST_CASE("a reader that has read enough ends a command without a word") {
+TEST_CASE("output: a reader that closes the pipe early ends the command without an error message") {
     const TemporaryFolder folder;
     const std::string file = crowd(folder);
     for (const std::string& arguments : {"where --at 0 " + file, "where --json --at 0 " + file,
@@ -61,7 +61,7 @@ TEST_CASE("a reader that has read enough ends a command without a word") {
     }
 }
 
-TEST_CASE("messages that cannot be written fail nothing") {
+TEST_CASE("output: a closed standard error does not make a command fail") {
     if (!std::filesystem::exists("/dev/full")) return;
     const TemporaryFolder folder;
     const std::string file =

@@ -118,7 +118,7 @@ TEST_CASE("store: a sweep on any file system gives the same results, and leaves 
     }
 }
 
-TEST_CASE("store: on any file system one sweep writes, and others are told why they may not") {
+TEST_CASE("store: on any file system one sweep writes, and others get an error with the reason") {
     for (const Kind& kind : kinds) {
         CAPTURE(kind.lacks);
         const Place place;
@@ -141,7 +141,7 @@ TEST_CASE("store: on any file system one sweep writes, and others are told why t
     }
 }
 
-TEST_CASE("store: killed on any file system, a sweep loses nothing, and the same command goes on") {
+TEST_CASE("store: on any file system a killed sweep loses no run, and the same command continues") {
     const Place undisturbed;
     REQUIRE(Place::run(undisturbed.sweep("nothing", "20 s")).exit == 0);
     for (const Kind& kind : kinds) {
@@ -168,7 +168,7 @@ TEST_CASE("store: killed on any file system, a sweep loses nothing, and the same
     }
 }
 
-TEST_CASE("store: what a killed sweep left elsewhere is read and taken over on any file system") {
+TEST_CASE("store: files left by a killed sweep are read and taken over on any file system") {
     for (const Kind& kind : kinds) {
         CAPTURE(kind.lacks);
         const Place place;
@@ -195,7 +195,7 @@ TEST_CASE("store: what a killed sweep left elsewhere is read and taken over on a
     }
 }
 
-TEST_CASE("store: a lock of another machine is named, and is in the way until it is removed") {
+TEST_CASE("store: a lock of another machine blocks the store until it is removed, and is named") {
     const Place place;
     const std::string lock = place.folder.write("s.db.lock", "12 34 elsewhere\n");
     for (const char* lacks : {"nothing", "whole"}) {

@@ -432,7 +432,7 @@ Ended command(const TemporaryFolder& folder, const std::string& arguments) {
 
 }  // namespace
 
-TEST_CASE("bad input: every mistake has its line and column, and words that help") {
+TEST_CASE("bad input: every mistake is reported with line, column and a helpful message") {
     const TemporaryFolder folder;
     write_maps(folder);
     for (const auto& mistake : mistakes) {
@@ -455,7 +455,7 @@ TEST_CASE("bad input: every mistake has its line and column, and words that help
     }
 }
 
-TEST_CASE("bad input: the command says so on stderr only, exits with 3 and makes no folder") {
+TEST_CASE("bad input: messages are on stderr only, exit code 3, no folder is created") {
     const TemporaryFolder folder;
     write_maps(folder);
     for (const auto& mistake : mistakes) {
@@ -517,7 +517,7 @@ TEST_CASE("bad input: unknown commands and options exit with 2") {
     }
 }
 
-TEST_CASE("bad input: a slip on the command line is told with what was probably meant") {
+TEST_CASE("bad input: a typing error on the command line gets a suggestion") {
     const TemporaryFolder folder;
     for (const auto& [arguments, expected] :
          {std::pair{
@@ -539,7 +539,7 @@ TEST_CASE("bad input: a slip on the command line is told with what was probably 
     }
 }
 
-TEST_CASE("bad input: whatever a hand slips to, a scenario reads or says what is wrong") {
+TEST_CASE("bad input: a scenario with any typing error is read, or refused with a message") {
     const std::string valid =
         "[scenario]\nname = \"all\"\nduration = \"12 s\"\n[radio]\npower = \"21 dBm\"\n"
         "[propagation]\nmodel = \"itu_indoor\"\ncoefficient = 28.0\nsigma = \"6 dB\"\n" +

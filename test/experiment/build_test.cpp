@@ -34,7 +34,7 @@ const std::string three =
 
 }  // namespace
 
-TEST_CASE("build: a random waypoint that starts elsewhere than in its stationary state is noted") {
+TEST_CASE("build: a random waypoint that does not start in its steady state gives a notice") {
     const std::string model =
         "move = { model = \"random_waypoint\", min_speed = \"1 m/s\", max_speed "
         "= \"20 m/s\", area = [[\"0 m\", \"0 m\"], [\"9 m\", \"9 m\"]]";
@@ -45,7 +45,7 @@ TEST_CASE("build: a random waypoint that starts elsewhere than in its stationary
     CHECK(classic.scenario.notices[0].find("falls from 10.5 to 6.34 m/s") != std::string::npos);
 }
 
-TEST_CASE("build: count makes robots name0, name1, ... at places of their own in the area") {
+TEST_CASE("build: count makes robots name0, name1, ... at random positions in the area") {
     Built built(three);
     CHECK_FALSE(built.network.find("r"));
     CHECK_FALSE(built.network.find("r3"));
@@ -58,17 +58,17 @@ TEST_CASE("build: count makes robots name0, name1, ... at places of their own in
     CHECK(places.size() == 3);
 }
 
-TEST_CASE("build: a robot more leaves the drawn places of the others as they were") {
+TEST_CASE("build: an additional robot does not change the drawn positions of the others") {
     Built built(three), more("[[robot]]\nname = \"A\"\nat = [\"0 m\", \"0 m\"]\n" + three);
     for (const char* name : {"r0", "r1", "r2"}) CHECK(built.at(name) == more.at(name));
 }
 
-TEST_CASE("build: another replication draws other places") {
+TEST_CASE("build: a different replication draws different positions") {
     Built built(three), other("[scenario]\nreplication = 1\n" + three);
     CHECK(built.at("r0") != other.at("r0"));
 }
 
-TEST_CASE("build: a choice is one of its points") {
+TEST_CASE("build: a choice selects one of its points") {
     Built built(
         "[[robot]]\nname = \"A\"\nplace = { model = \"choice\", points = [[\"1 m\", "
         "\"2 m\"], [\"3 m\", \"4 m\"]] }\n");
@@ -102,7 +102,7 @@ struct Counting {
 
 }  // namespace
 
-TEST_CASE("build: a scenario under a protocol of a program, which routes what has no hops = 1") {
+TEST_CASE("build: with a protocol of the user's program, messages without hops = 1 are routed") {
     const std::string two =
         "[[robot]]\nname = \"A\"\nat = [\"0 m\", \"0 m\"]\n"
         "on_receive = { payload = \"ask\", send = \"answer\", to = \"sender\" }\n"

@@ -26,7 +26,7 @@ struct Three {
 
 }  // namespace
 
-TEST_CASE("client radios: who stays at a shared radio hears on, with last hop and level") {
+TEST_CASE("client radios: a client that stays at a shared radio still hears, with hop and level") {
     Three robots;
     ClientRadios radios(robots.net);
     radios.join(1, {robots.b, robots.c}, true);
@@ -45,7 +45,7 @@ TEST_CASE("client radios: who stays at a shared radio hears on, with last hop an
     CHECK_FALSE(heard[0].is_for_everyone);
 }
 
-TEST_CASE("client radios: what robots hear at one time is in their order, not in that of events") {
+TEST_CASE("client radios: simultaneous messages are in the order of robots, not of events") {
     Three robots;
     ClientRadios radios(robots.net);
     radios.join(1, {robots.b, robots.c}, true);
@@ -59,7 +59,7 @@ TEST_CASE("client radios: what robots hear at one time is in their order, not in
     CHECK(heard[1].at == robots.c);
 }
 
-TEST_CASE("client radios: a robot that is off sends nothing, which has no number and no port") {
+TEST_CASE("client radios: a message of a robot that is off gets no uid and leaves no port") {
     Three robots;
     ClientRadios radios(robots.net);
     radios.join(1, {robots.a, robots.b}, true);

@@ -62,7 +62,7 @@ const std::string disc = "model = \"disc\"\nrange = \"100 m\"\n";
 
 }  // namespace
 
-TEST_CASE("disc: a link is told by its distance and the range, the range itself included") {
+TEST_CASE("disc: link reports state distance and range; the range itself is inside") {
     const Scenario scenario = line(disc);
     const LinkReport far = report_link(scenario, "A", "B", start_of_run);
     CHECK_FALSE(far.up);
@@ -78,7 +78,7 @@ TEST_CASE("disc: a link is told by its distance and the range, the range itself 
     CHECK(shadowed.why_down == far.why_down);
 }
 
-TEST_CASE("disc: a robot's table of those that it hears has distances, and no levels") {
+TEST_CASE("disc: the link table of a robot has distances and no levels") {
     const auto network = network_at(line(disc), start_of_run);
     std::size_t rows = 0;
     for_each_link_table(*network, "A", [&](const LinkTable& table) {
@@ -98,7 +98,7 @@ TEST_CASE("disc: a robot's table of those that it hears has distances, and no le
     });
 }
 
-TEST_CASE("disc: why a robot has no message is said by distance; a capture has no levels") {
+TEST_CASE("disc: a missed message is explained by distance; a capture has no levels") {
     const TempFolder folder;
     run_scenario(line(disc), {.folder = folder / "run", .speed = {}});
     const std::string trace = folder / "run/trace.mcap";

@@ -172,7 +172,7 @@ constexpr std::uint32_t scenarios = 100;
 
 }  // namespace
 
-TEST_CASE("the order of robots and traffic in the file decides nothing") {
+TEST_CASE("the order of robots and traffic in the file does not change the results") {
     std::size_t events = 0;
     for (std::uint32_t seed = 1; seed <= scenarios; ++seed) {
         CAPTURE(seed);
@@ -191,7 +191,7 @@ TEST_CASE("the order of robots and traffic in the file decides nothing") {
     CHECK(events > 5000);
 }
 
-TEST_CASE("a scenario turned, mirrored or moved is the same scenario") {
+TEST_CASE("a rotated, mirrored or shifted scenario gives the same results") {
     for (std::uint32_t seed = 1; seed <= scenarios; seed += 2) {
         CAPTURE(seed);
         const Small small(seed);
@@ -203,7 +203,7 @@ TEST_CASE("a scenario turned, mirrored or moved is the same scenario") {
     }
 }
 
-TEST_CASE("robots that stand still say the same a second later") {
+TEST_CASE("robots at rest have the same links a second later") {
     int stood = 0;
     for (std::uint32_t seed = 1; seed <= scenarios; ++seed) {
         CAPTURE(seed);
@@ -223,7 +223,7 @@ TEST_CASE("robots that stand still say the same a second later") {
     CHECK(stood > 20);
 }
 
-TEST_CASE("a robot far away changes nothing") {
+TEST_CASE("a robot far away does not change the results") {
     for (std::uint32_t seed = 1; seed <= scenarios; seed += 2) {
         CAPTURE(seed);
         Small small(seed);

@@ -60,7 +60,7 @@ double number(const Table& table, const std::vector<std::string>& path) {
 
 }  // namespace
 
-TEST_CASE("flows: those without a name are named by their ends, and each is in the summary") {
+TEST_CASE("flows: a flow without a name is named by its ends, and is in the summary") {
     const Table table = summary(three + R"(
 [[traffic]]
 kind = "unicast"
@@ -90,7 +90,7 @@ payload = "H"
     CHECK_FALSE(table.find("topology"));
 }
 
-TEST_CASE("flows: two of one name are refused, and a name that no metric could end in") {
+TEST_CASE("flows: equal names, and names that cannot end a metric's name, are refused") {
     const TemporaryFolder folder;
     const std::string flow = "[[traffic]]\nfrom = \"a\"\npayload = \"F\"\nname = ";
     CHECK_THROWS_AS(loaded(folder, three + flow + "\"x\"\n" + flow + "\"x\"\n"), InputError);
@@ -98,7 +98,7 @@ TEST_CASE("flows: two of one name are refused, and a name that no metric could e
     CHECK_THROWS_AS(loaded(folder, three + flow + "\"x,y\"\n"), InputError);
 }
 
-TEST_CASE("random sources: all take turns, whatever the order of the file") {
+TEST_CASE("random sources: all sources are chosen equally, in any order of the file") {
     const std::string traffic =
         "[[traffic]]\nfrom = \"random\"\npayload = \"F\"\nevery = \"10 ms\"\ncount = 300\n"
         "[metrics]\nrobots = true\n[scenario]\nduration = \"4 s\"\n";
@@ -117,7 +117,7 @@ TEST_CASE("random sources: all take turns, whatever the order of the file") {
     }
 }
 
-TEST_CASE("topology: a robot that passes another one, measured by hand") {
+TEST_CASE("topology: metrics of a robot that passes another robot, compared with manual values") {
     // b passes a at 2 m/s, from 20 m before it to 20 m behind it: in range of 10 m from 5 s to 15
     // s.
     const Table table = summary(R"(

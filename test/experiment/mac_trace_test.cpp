@@ -126,7 +126,7 @@ const AccessModel accesses[] = {NoAccess{}, Aloha{}, asking};
 
 }  // namespace
 
-TEST_CASE("MAC trace: the same to the byte whether receptions are served together or one by one") {
+TEST_CASE("MAC trace: bytes do not depend on serving receptions together or one by one") {
     for (const ReceptionModel& reception : receptions) {
         for (const AccessModel& access : accesses) {
             for (const Db shadowing : {Db{0}, Db{4}}) {
@@ -144,8 +144,7 @@ TEST_CASE("MAC trace: the same to the byte whether receptions are served togethe
     }
 }
 
-TEST_CASE(
-    "MAC trace: its lines come on top of the others, and what arrived is read back the same") {
+TEST_CASE("MAC trace: it adds lines to the other lines, and reading back gives the same arrivals") {
     for (const Ns2Format format : {Ns2Format::old_format, Ns2Format::new_format}) {
         for (const AccessModel& access : accesses) {
             CAPTURE(access.name());
@@ -169,7 +168,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("MAC trace: every frame on air is one line, and so is every message that a MAC got") {
+TEST_CASE("MAC trace: every frame on air and every message at a MAC has one line") {
     const Traced run = traced({.reception = Collision{}, .access = asking});
     CHECK(count(run.text, "^s .* MAC .* message ") == run.metrics.transmissions);
     CHECK(count(run.text, "^r .* MAC .* message ") +
@@ -219,7 +218,7 @@ const Csma as_ns2{.rts_threshold = 0, .header = 34};
 
 }  // namespace
 
-TEST_CASE("MAC trace: sizes and durations of an exchange are those that ns-2.35 prints") {
+TEST_CASE("MAC trace: sizes and durations of an exchange equal the output of ns-2.35") {
     const auto unicast = [](Network& net) { net.send({1}, {2}, "", {.size = 500}); };
     CHECK(row(as_ns2, unicast) ==
           "s 1.000000000 _1_ AGT  --- 0 message 500 [0 0 0 0] ------- [1:0 2:0 1 0] \n"
@@ -244,7 +243,7 @@ TEST_CASE("MAC trace: sizes and durations of an exchange are those that ns-2.35 
           text.npos);
 }
 
-TEST_CASE("MAC trace: a broadcast has a line at its sender and one at each robot that decodes it") {
+TEST_CASE("MAC trace: a broadcast has a line at its sender and at each robot that decodes it") {
     const auto broadcast = [](Network& net) {
         net.send({1}, everyone, "", {.size = 64, .one_hop = true});
     };
@@ -267,7 +266,7 @@ TEST_CASE("MAC trace: without a header of the access model a frame is as large a
     }
 }
 
-TEST_CASE("MAC trace: a repetition of an unanswered frame is another line; one overheard is none") {
+TEST_CASE("MAC trace: a retransmission has a line; a retransmission overheard has none") {
     const auto to_nobody = [](Network& net) { net.send({1}, {3}, "", {.size = 64}); };
     const std::string text = row(as_ns2, to_nobody, 4);
     CHECK(count(text, "^s .*_1_ MAC  --- 0 RTS 44 \\[[0-9a-f]+ 3 1 0\\] $") == 7);
@@ -275,7 +274,7 @@ TEST_CASE("MAC trace: a repetition of an unanswered frame is another line; one o
     CHECK(count(text, "^D .*_1_ MAC  RET ") == 1);
 }
 
-TEST_CASE("MAC trace: a station that was switched off hears no more of an RTS") {
+TEST_CASE("MAC trace: a station that was switched off gets no lines about an RTS") {
     const auto fails = [](Network& net) {
         net.send({1}, {2}, "", {.size = 64});
         net.at(net.now() + 100us, [&net] { net.switch_off({2}); });
@@ -285,7 +284,7 @@ TEST_CASE("MAC trace: a station that was switched off hears no more of an RTS") 
     CHECK(count(text, "_2_ MAC ") == 0);
 }
 
-TEST_CASE("MAC trace: an RTS that meets another is dropped at the station that it is for") {
+TEST_CASE("MAC trace: an RTS that collides is dropped at its destination") {
     const auto hidden = [](Network& net) {
         net.send({0}, {1}, "", {.size = 64});
         net.send({2}, {1}, "", {.size = 64});
@@ -308,7 +307,7 @@ TEST_CASE("MAC trace: an RTS that meets another is dropped at the station that i
     }
 }
 
-TEST_CASE("MAC trace: a scenario has it if it asks for it") {
+TEST_CASE("MAC trace: is written if the scenario requests it") {
     const std::string text =
         "[scenario]\nduration = \"1 s\"\n"
         "[propagation]\nmodel = \"disc\"\nrange = \"9 m\"\n"

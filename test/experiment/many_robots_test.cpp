@@ -20,14 +20,15 @@ namespace many_robots_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 
-TEST_CASE("many robots: one that stands takes less than 164 bytes, flooded or not") {
+TEST_CASE("many robots: a robot at rest takes less than 164 bytes, with and without floods") {
     // Nearly a power of two: most lists grow to the next.
     const auto row = flood_bench({.cpu_s = 1e-9}, 32'000);
     CHECK(row.receptions > 32'000);
     CHECK(row.bytes_per_node < 164);
 }
 
-TEST_CASE("many robots: one on a random waypoint takes less than 350 bytes, flooded or not") {
+TEST_CASE(
+    "many robots: a robot on a random waypoint takes less than 350 bytes, with floods or not") {
     // The queue's buckets that are not full take 16 bytes a robot here; of a million robots one
     // takes 312 bytes in all.
     const auto row =
@@ -36,7 +37,7 @@ TEST_CASE("many robots: one on a random waypoint takes less than 350 bytes, floo
     CHECK(row.bytes_per_node < 350);
 }
 
-TEST_CASE("many robots: a reaction may add them, and its robot's other reactions still run") {
+TEST_CASE("many robots: a callback may add robots, and other callbacks of its robot still run") {
     Network net({.propagation = Disc{.range = {100}}});
     net.route(Flood{});
     net.add({.name = "base", .at = {}});
@@ -60,7 +61,7 @@ TEST_CASE("many robots: a reaction may add them, and its robot's other reactions
     CHECK(net.name(NodeId{2}) == "late0");
 }
 
-TEST_CASE("many robots: with room reserved or not, a run is the same") {
+TEST_CASE("many robots: reserving memory does not change the run") {
     std::vector<Vec3> places[2];
     for (const std::size_t reserved : {std::size_t{0}, std::size_t{100}}) {
         Network net;
@@ -76,7 +77,7 @@ TEST_CASE("many robots: with room reserved or not, a run is the same") {
     CHECK(places[0] == places[1]);
 }
 
-TEST_CASE("many robots: each has a body of its own, whatever the others' are like") {
+TEST_CASE("many robots: each robot keeps its own body") {
     Network net;
     for (int i = 0; i < 9; ++i) {
         net.add({.name = {},
@@ -90,7 +91,7 @@ TEST_CASE("many robots: each has a body of its own, whatever the others' are lik
     }
 }
 
-TEST_CASE("many robots: who is sent elsewhere forgets the leg that a turn or a switch held up") {
+TEST_CASE("many robots: a new movement discards the leg interrupted by a turn or a switch") {
     Network net;
     const RadiansPerSecond rate{0.5};
     const NodeId robot =
@@ -110,7 +111,7 @@ TEST_CASE("many robots: who is sent elsewhere forgets the leg that a turn or a s
     CHECK(net.position(robot) == Vec3{7, 7, 0});
 }
 
-TEST_CASE("many robots: what is asked of a robot that is not there is refused") {
+TEST_CASE("many robots: a request about a robot that does not exist is refused") {
     Network net;
     net.add({.name = "ada", .at = {}});
     CHECK_THROWS_AS(net.name({1}), std::out_of_range);
@@ -119,7 +120,7 @@ TEST_CASE("many robots: what is asked of a robot that is not there is refused") 
     CHECK_THROWS_AS(net.on_receive({1}, [](const Message&) {}), std::out_of_range);
 }
 
-TEST_CASE("a flood bench counts the same, recorded or not, also frames that are lost") {
+TEST_CASE("flood bench: counts are equal with and without recording, also of lost frames") {
     for (const std::size_t model :
          {ReceptionTable::place_of<Threshold>(), ReceptionTable::place_of<Collision>()}) {
         const ReceptionTable reception{.model = model};

@@ -70,15 +70,14 @@ TEST_CASE("gate: none on either side lets every radio in") {
     CHECK(links_between({.essid = "x"}, {.essid = "y", .channel = 3, .gate = Gate::none}) == 2);
 }
 
-TEST_CASE("success rate: the same frames get through at every reception model") {
+TEST_CASE("success rate: the same frames are received under every reception model") {
     const auto expected = through(0.5, true);
     CHECK(expected.second > 900);
     CHECK(through(0.5, true, Collision{}) == expected);
     CHECK(through(0.5, true, Sinr{}) == expected);
 }
 
-TEST_CASE(
-    "success rate: that share of the frames gets through, and the others are dropped as ERR") {
+TEST_CASE("success rate: this share of frames is received, and the others are dropped as ERR") {
     for (const double rate : {0.3, 0.9}) {
         const auto [delivered, errors] = through(rate, false);
         CHECK(delivered + errors == 2000);
@@ -89,11 +88,11 @@ TEST_CASE(
     CHECK(through(0, false).first == 0);
 }
 
-TEST_CASE("success rate: another robot changes no draw") {
+TEST_CASE("success rate: another robot does not change the draws") {
     CHECK(through(0.5, false) == through(0.5, true));
 }
 
-TEST_CASE("addresses: those that are made pass over those that were given") {
+TEST_CASE("addresses: generated addresses skip the addresses that are given") {
     Network net;
     net.add({.name = "a", .at = {}});
     net.add({.name = "b", .at = {}, .radio = {.labels = {.ip = "10.0.0.1"}}});

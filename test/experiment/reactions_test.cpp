@@ -60,7 +60,7 @@ using Words = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("reactions: to a message, by its beginning, its origin and its hops") {
+TEST_CASE("reactions: a message triggers a reaction by its beginning, its origin or its hops") {
     CHECK(said(line_of_three("on_receive = { payload = \"g\", send = \"yes\" }", a_says)) ==
           Words{"a: go", "b: yes"});
     CHECK(said(line_of_three("on_receive = { payload = \"x\", send = \"yes\" }", a_says)) ==
@@ -79,7 +79,7 @@ TEST_CASE("reactions: to a message, by its beginning, its origin and its hops") 
     }
 }
 
-TEST_CASE("reactions: at a time, and to the end of a movement") {
+TEST_CASE("reactions: a time, or the end of a movement, triggers a reaction") {
     CHECK(said(line_of_three("on_time = [{ time = \"3 s\", send = \"three\" }, "
                              "{ time = \"5 s\", send = \"five\" }]",
                              a_says)) == Words{"a: go", "b: three", "b: five"});
@@ -87,7 +87,7 @@ TEST_CASE("reactions: at a time, and to the end of a movement") {
                              "on_arrival = { send = \"there\" }")) == Words{"b: there"});
 }
 
-TEST_CASE("reactions: a robot that loses another's signal moves, says so or stops") {
+TEST_CASE("reactions: a robot that loses a signal moves, sends a message or stops") {
     const std::string leaving = "move = { model = \"goal\", to = [\"8 m\", \"60 m\"] }\n";
     // From (8, y) a robot at (0, 0) is heard up to y = 6.
     const std::string stops =
@@ -99,7 +99,7 @@ TEST_CASE("reactions: a robot that loses another's signal moves, says so or stop
     CHECK(place_of(home, "b", 30).y == 0);
 }
 
-TEST_CASE("movement file: makes the robots that it names, and moves those that are there") {
+TEST_CASE("movement file: creates the robots that it names, and moves existing robots") {
     const TemporaryFolder folder;
     folder.write("walk.tcl",
                  "$node_(0) set X_ 1\n$node_(0) set Y_ 0\n$node_(1) set X_ 5\n$node_(1) set Y_ 0\n"
@@ -142,7 +142,7 @@ TEST_CASE("movement file: a vehicle is silent before it appears and after it is 
     CHECK(std::abs(at(0.5)->heading(*at(0)->find("car")).value) < 1e-9);
 }
 
-TEST_CASE("reactions: an answer goes to who sent the message, or to a robot by name") {
+TEST_CASE("reactions: an answer goes to the sender of the message, or to a robot by name") {
     const auto deliveries = [](const std::string& reaction) {
         const TemporaryFolder folder;
         const Scenario s =
@@ -167,7 +167,7 @@ TEST_CASE("reactions: an answer goes to who sent the message, or to a robot by n
               .front() == "a: go");
 }
 
-TEST_CASE("reactions: requests and answers, one for each") {
+TEST_CASE("reactions: each request has one answer") {
     const TemporaryFolder folder;
     const std::string scenario = line_of_three(
         "on_receive = { send = \"yes\", to = \"sender\", once = false }",
@@ -179,7 +179,7 @@ TEST_CASE("reactions: requests and answers, one for each") {
     CHECK(result.metrics.deliveries == 10);
 }
 
-TEST_CASE("reactions: traffic that begins on arrival sends nothing once its stop has passed") {
+TEST_CASE("reactions: traffic started by an arrival sends nothing after its stop time") {
     const std::string moving = "move = { model = \"goal\", to = [\"8 m\", \"5 m\"] }\n";
     const std::string arrives =
         "[[traffic]]\nfrom = \"b\"\npayload = \"here\"\nstart = \"arrival\"\nevery = \"1 s\"\n";

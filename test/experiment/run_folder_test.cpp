@@ -21,7 +21,7 @@ std::string folder(const std::vector<std::string>& set) {
 
 }  // namespace
 
-TEST_CASE("run folder: it is named by the scenario, the seed and the replication") {
+TEST_CASE("run folder: has the name of the scenario, the seed and the replication") {
     Scenario scenario;
     scenario.scenario.name = "rescue";
     scenario.scenario.seed = 7;
@@ -31,7 +31,7 @@ TEST_CASE("run folder: it is named by the scenario, the seed and the replication
     CHECK(folder({"scenario.seed=7", "scenario.name=rescue"}) == "runs/rescue-s7");
 }
 
-TEST_CASE("run folder: it says which settings differ from the file's") {
+TEST_CASE("run folder: the name lists settings that differ from the file") {
     CHECK(folder({"radio.power=20 dBm"}) == "runs/rescue-s7-radio.power=20dBm");
     CHECK(folder({"routing.ttl=3", "radio.power=\"20 dBm\""}) ==
           "runs/rescue-s7-radio.power=20dBm-routing.ttl=3");
@@ -39,11 +39,11 @@ TEST_CASE("run folder: it says which settings differ from the file's") {
     CHECK(folder({"propagation.model=disc"}) == "runs/rescue-s7-propagation.model=disc");
 }
 
-TEST_CASE("run folder: the same settings in other words have the same folder") {
+TEST_CASE("run folder: equal settings in different notation give the same folder") {
     CHECK(folder({"a.b=1", "c.d=x"}) == folder({"c.d=\"x\"", "a.b=2", "a.b=1"}));
 }
 
-TEST_CASE("run folder: other settings have another folder, whatever they are") {
+TEST_CASE("run folder: different settings give different folders") {
     const std::vector<std::vector<std::string>> sets = {
         {},
         {"a.b=1"},

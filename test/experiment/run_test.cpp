@@ -57,7 +57,7 @@ std::string json_of(const MetricValues& metrics) {
 
 }  // namespace
 
-TEST_CASE("run: the metrics of the trace are those of the run to the last digit") {
+TEST_CASE("run: metrics of the trace equal those of the run to the last digit") {
     for (const char* format : {"old", "new"}) {
         const TemporaryFolder folder;
         const RunResult result =
@@ -69,7 +69,7 @@ TEST_CASE("run: the metrics of the trace are those of the run to the last digit"
     }
 }
 
-TEST_CASE("run: the same scenario has the same fingerprint, with and without a trace") {
+TEST_CASE("run: the fingerprint does not depend on writing a trace") {
     const TemporaryFolder folder;
     const RunOptions options{.folder = folder.path("out"), .speed = {}};
     const std::string once = run_scenario(three_robots("none"), options).fingerprint;
@@ -79,7 +79,7 @@ TEST_CASE("run: the same scenario has the same fingerprint, with and without a t
     CHECK(run_scenario(other, options).fingerprint != once);
 }
 
-TEST_CASE("run: one that is stopped leaves none of its files") {
+TEST_CASE("run: a stopped run leaves no files") {
     const TemporaryFolder folder;
     const RunOptions options{.folder = folder.path("out"),
                              .speed = {},
@@ -88,7 +88,7 @@ TEST_CASE("run: one that is stopped leaves none of its files") {
     CHECK(std::filesystem::is_empty(folder.path("out")));
 }
 
-TEST_CASE("run: parts of traces that a killed run left go with the next run, whatever it records") {
+TEST_CASE("run: the next run removes parts of traces that a killed run left") {
     for (const bool is_recorded : {false, true}) {
         CAPTURE(is_recorded);
         const TemporaryFolder folder;
@@ -109,7 +109,7 @@ TEST_CASE("run: parts of traces that a killed run left go with the next run, wha
     }
 }
 
-TEST_CASE("run: one that is stopped before its first event makes no folder") {
+TEST_CASE("run: a run stopped before its first event creates no folder") {
     const TemporaryFolder folder;
     const RunOptions options{
         .folder = folder.path("out"), .speed = {}, .progress = [](double) { return false; }};
@@ -117,7 +117,7 @@ TEST_CASE("run: one that is stopped before its first event makes no folder") {
     CHECK_FALSE(std::filesystem::exists(folder.path("out")));
 }
 
-TEST_CASE("run: one that needs more events than allowed fails and leaves none of its files") {
+TEST_CASE("run: a run beyond the event limit fails and leaves no files") {
     const TemporaryFolder folder;
     Scenario scenario = three_robots("new");
     scenario.scenario.event_limit = 5;

@@ -65,7 +65,7 @@ std::string fingerprint_of(Act act) {
 
 }  // namespace
 
-TEST_CASE("session: the same run in one piece, in steps and paced") {
+TEST_CASE("session: in one piece, in steps and paced, the run is the same") {
     const std::string whole = fingerprint_of([](Session&) {});
     CHECK(fingerprint_of([](Session& s) {
               for (Time t = start_of_run; t < s.end(); t += 170ms) s.step(t);
@@ -86,7 +86,7 @@ TEST_CASE("session: no step goes beyond the scenario's end") {
     CHECK(session.network().now() == session.end());
 }
 
-TEST_CASE("session: a client drives its robots, and hears what they hear") {
+TEST_CASE("session: a client drives its robots and receives the messages that they hear") {
     Session session{scenario()};
     Network& net = session.network();
     const NodeId a{0}, b{1}, c{2};
@@ -125,7 +125,7 @@ TEST_CASE("session: the same commands at the same times give the same records") 
     CHECK(fingerprint_of(driven) != fingerprint_of([](Session&) {}));
 }
 
-TEST_CASE("session: a robot has one driver; a client that leaves takes all that is its with it") {
+TEST_CASE("session: a robot has one driver; a client that leaves releases all its robots") {
     Session session{scenario()};
     Network& net = session.network();
     const ClientId first = session.attach({NodeId{1}});
@@ -144,7 +144,7 @@ TEST_CASE("session: a robot has one driver; a client that leaves takes all that 
     CHECK(session.heard(second).size() == 1);  // the tick at 3 s
 }
 
-TEST_CASE("session: a client of radios sends and hears beside the one who drives the robots") {
+TEST_CASE("session: a radio client sends and receives beside the client that drives the robots") {
     Session session{scenario()};
     Network& net = session.network();
     const NodeId a{0}, b{1}, c{2};
@@ -176,7 +176,7 @@ TEST_CASE("session: a client of radios sends and hears beside the one who drives
     session.attach({a, b, c});
 }
 
-TEST_CASE("session: a network that outlives its session goes on without its clients") {
+TEST_CASE("session: a network that outlives its session continues without clients") {
     std::shared_ptr<Network> network;
     {
         Session session{scenario()};
@@ -189,7 +189,7 @@ TEST_CASE("session: a network that outlives its session goes on without its clie
     CHECK(network->metrics().deliveries == 4);  // two ticks, heard by two
 }
 
-TEST_CASE("session: a robot that cannot go where it is driven is stalled") {
+TEST_CASE("session: a robot that cannot follow its command is stalled") {
     const TemporaryFolder folder;
     folder.write("m.pgm", "P2 4 1 255 255 255 255 0");
     Session session(load_scenario(folder.write("s.toml", R"([scenario]
@@ -217,7 +217,7 @@ radius = "0.2 m"
     CHECK_FALSE(session.is_stalled({0}));  // the command has ended
 }
 
-TEST_CASE("session: a message is heard with its last hop, the level of that frame, and its port") {
+TEST_CASE("session: a received message has last hop, level of the frame, and port") {
     const TemporaryFolder folder;
     const Scenario line = load_scenario(folder.write("s.toml", R"([scenario]
 duration = "20 s"
@@ -277,7 +277,7 @@ at = ["300 m", "0 m"]
     CHECK(last[0].payload == "heard again");
 }
 
-TEST_CASE("session: whoever asks is told of every command, the stop of a client that leaves too") {
+TEST_CASE("session: listeners get every command, also the stop of a client that leaves") {
     const auto driven = [](Session& s, std::vector<Input>& inputs) {
         s.on_input([&](const Input& input) { inputs.push_back(input); });
         const ClientId client = s.attach({NodeId{1}, NodeId{2}}, "pilot");
@@ -304,7 +304,8 @@ TEST_CASE("session: whoever asks is told of every command, the stop of a client 
           }) == first);
 }
 
-TEST_CASE("session: a robot's speed is what it is driven at, and that of its leg otherwise") {
+TEST_CASE(
+    "session: the speed of a driven robot is the commanded speed, otherwise that of its leg") {
     Session session{scenario()};
     const ClientId client = session.attach({NodeId{1}});
     CHECK(session.driver({1}) == client);
@@ -325,7 +326,7 @@ TEST_CASE("session: a robot's speed is what it is driven at, and that of its leg
     CHECK(session.twist({1}).turn_rate == 0);
 }
 
-TEST_CASE("session: a robot is put elsewhere, and commands of one time come one after the other") {
+TEST_CASE("session: a robot is placed elsewhere, and simultaneous commands run one after another") {
     Session session{scenario()};
     const ClientId client = session.attach({NodeId{1}});
     session.drive(client, {1}, {1}, {0});
@@ -337,7 +338,7 @@ TEST_CASE("session: a robot is put elsewhere, and commands of one time come one 
     CHECK(session.twist({1}).speed == 0);
 }
 
-TEST_CASE("session: what a command causes at its own time comes before the next command") {
+TEST_CASE("session: effects of a command at its own time precede the next command") {
     struct Order {
         std::string& text;
         KindMask kinds() const { return kind_of<Sent>() | kind_of<Transmitted>(); }
@@ -355,7 +356,7 @@ TEST_CASE("session: what a command causes at its own time comes before the next 
     CHECK(order == "stst");
 }
 
-TEST_CASE("session: a range finder sees walls and robots from where its robot is") {
+TEST_CASE("session: a range finder sees walls and robots from the position of its robot") {
     Session session{scenario(R"([[robot]]
 name = "d"
 count = 2
@@ -383,7 +384,7 @@ scan = { beams = 3, range = "20 m" }
     CHECK(session.scan(d)[2] == 20);
 }
 
-TEST_CASE("session: a robot has its range finders by number, each where it is on the robot") {
+TEST_CASE("session: range finders are numbered, each at its position on the robot") {
     Session session{scenario(R"([[robot]]
 name = "d"
 at = ["0 m", "3 m"]
@@ -411,7 +412,7 @@ places = [["0.1 m", "0 m"], ["0 m", "0 m"]]
     CHECK(ranges[1] == 8);
 }
 
-TEST_CASE("session: a range finder sees the robots of its own storey") {
+TEST_CASE("session: a range finder sees only robots of its own storey") {
     Scenario on_two = scenario(
         "[[robot]]\nname = \"d\"\nat = [\"1 m\", \"1 m\"]\n"
         "scan = { beams = 1, from = \"0 deg\", to = \"0 deg\" }\n");

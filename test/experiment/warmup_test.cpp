@@ -42,7 +42,7 @@ warmup = ")" + warmup + "\"\n";
 
 }  // namespace
 
-TEST_CASE("warm-up: messages sent before its end count nothing, with all that becomes of them") {
+TEST_CASE("warm-up: messages sent before its end do not count, nor do their copies") {
     Network net({.propagation = Disc{.range = Meters{10}}, .warmup = 2s});
     net.route(Flood{.ttl = 3});
     const NodeId a = net.add({.name = "a", .at = {}});
@@ -65,7 +65,7 @@ TEST_CASE("warm-up: messages sent before its end count nothing, with all that be
     CHECK(net.metrics().delivery_ratio == 1.0);
 }
 
-TEST_CASE("warm-up: the air is in use by the frames that begin after it") {
+TEST_CASE("warm-up: airtime counts frames that begin after its end") {
     Network net({.propagation = Disc{.range = Meters{10}}, .warmup = 2s});
     net.route(Flood{.ttl = 3});
     const NodeId a = net.add({.name = "a", .at = {}});
@@ -96,7 +96,7 @@ TEST_CASE("warm-up: a message sent at its end counts") {
     CHECK(net.metrics().messages == 1);
 }
 
-TEST_CASE("warm-up: it is what the study says, or what MSER-5 finds") {
+TEST_CASE("warm-up: its end is given by the study, or found by MSER-5") {
     const auto warmup = [](const Scenario& scenario) {
         return warmup_of(scenario, network_settings(scenario));
     };

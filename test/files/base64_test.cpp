@@ -9,7 +9,7 @@
 namespace base64_test {
 using namespace rovernet;
 
-TEST_CASE("base64: the vectors of RFC 4648, section 10, there and back") {
+TEST_CASE("base64: encodes and decodes the vectors of RFC 4648, section 10") {
     const std::pair<const char*, const char*> vectors[] = {{"", ""},
                                                            {"f", "Zg=="},
                                                            {"fo", "Zm8="},
@@ -26,7 +26,7 @@ TEST_CASE("base64: the vectors of RFC 4648, section 10, there and back") {
     CHECK(from_base64(base64(zeros)) == zeros);
 }
 
-TEST_CASE("base64: a text that no bytes make is none") {
+TEST_CASE("base64: a text that is not base64 is refused") {
     for (const char* text : {"Z", "Zg", "Zg=", "Zh==", "Zm9=", "====", "=", "Z===", "Zg==Zg==",
                              "Zm 9v", "Zm9v\n", "Zm9-", "Zm9_", "\xc3\xa4\xc3\xa4"}) {
         CAPTURE(text);

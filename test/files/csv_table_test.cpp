@@ -27,7 +27,7 @@ std::string error_of(const std::string& text, const char* column = "b") {
 
 }  // namespace
 
-TEST_CASE("csv table: fields by the names of their columns, with their places") {
+TEST_CASE("csv table: fields are found by column name, with their positions") {
     const test::TemporaryFolder folder;
     const CsvTable table(
         folder.write("t.csv", "# measured\n\na, b ,c\r\n1,,3\r\n\n# more\n  4 , 5,\n"));
@@ -43,7 +43,7 @@ TEST_CASE("csv table: fields by the names of their columns, with their places") 
     CHECK(table.where(1).line == 7);
 }
 
-TEST_CASE("csv table: errors have their place, and columns a suggestion") {
+TEST_CASE("csv table: errors have a position, and unknown columns a suggestion") {
     CHECK(error_of("a,b\n1,2\n") == "t.csv:2:3: b: found \"2\", expected another");
     CHECK(error_of("a,b\n1\n").find("t.csv:2") == 0);
     CHECK(error_of("a,b\n1\n").find("found 1 fields, expected 2") != std::string::npos);

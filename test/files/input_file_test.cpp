@@ -30,7 +30,7 @@ std::string said(const std::string& path) {
 
 }  // namespace
 
-TEST_CASE("input file: whatever a path leads to is read or told what it is") {
+TEST_CASE("input file: any kind of path is read, or refused with its kind") {
     const test::TemporaryFolder folder;
     std::filesystem::create_symlink("loop", folder.path("loop"));
     std::filesystem::create_symlink("b", folder.path("a"));
@@ -54,7 +54,8 @@ TEST_CASE("input file: whatever a path leads to is read or told what it is") {
     CHECK(said("") == begin + "no such file");
 }
 
-TEST_CASE("input file: a FIFO is read when somebody writes, also late, and told when nobody does") {
+TEST_CASE(
+    "input file: a FIFO is read when a writer comes, also late; without a writer it is refused") {
     const test::TemporaryFolder folder;
     const std::string path = folder.path("fifo");
     REQUIRE(mkfifo(path.c_str(), 0600) == 0);
@@ -64,7 +65,7 @@ TEST_CASE("input file: a FIFO is read when somebody writes, also late, and told 
     CHECK(said(path) == "cannot read the file: it is a FIFO into which nobody has written for 5 s");
 }
 
-TEST_CASE("input file: what has to be a regular file is no pipe") {
+TEST_CASE("input file: a pipe is refused where a regular file is needed") {
     const test::TemporaryFolder folder;
     const std::string path = folder.path("fifo");
     REQUIRE(mkfifo(path.c_str(), 0600) == 0);
@@ -75,7 +76,7 @@ TEST_CASE("input file: what has to be a regular file is no pipe") {
     need_file(folder.write("x.txt", ""));
 }
 
-TEST_CASE("input file: a name with folders of elsewhere is found beside, by its last part") {
+TEST_CASE("input file: a path of another machine is found beside the file, by its last part") {
     const test::TemporaryFolder folder;
     const std::string here = folder.path("");
     folder.write("room.pgm", "");

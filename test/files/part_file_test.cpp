@@ -50,7 +50,7 @@ void write_and_die(const std::string& path) {
 
 }  // namespace
 
-TEST_CASE("part file: it has its name only once it is whole") {
+TEST_CASE("part file: has its final name only when complete") {
     const TemporaryFolder folder;
     const std::string path = folder.write("f", "yesterday's");
     PartFile file(path);
@@ -64,7 +64,7 @@ TEST_CASE("part file: it has its name only once it is whole") {
     CHECK(names_in(folder) == std::vector<std::string>{"f"});
 }
 
-TEST_CASE("part file: what is not named leaves what was there before, and no half file") {
+TEST_CASE("part file: an unnamed file leaves the old file, and no partial file") {
     const TemporaryFolder folder;
     const std::string path = folder.write("f", "yesterday's");
     { PartFile(path).write("half"); }
@@ -72,7 +72,7 @@ TEST_CASE("part file: what is not named leaves what was there before, and no hal
     CHECK(names_in(folder) == std::vector<std::string>{"f"});
 }
 
-TEST_CASE("part file: of two at once the second to be named wins, whole") {
+TEST_CASE("part file: of two simultaneous files, the one named last remains, complete") {
     const TemporaryFolder folder;
     PartFile first(folder.path("f")), second(folder.path("f"));
     first.write("first");
@@ -85,7 +85,7 @@ TEST_CASE("part file: of two at once the second to be named wins, whole") {
     CHECK(names_in(folder) == std::vector<std::string>{"f"});
 }
 
-TEST_CASE("part file: the part of a process that was killed is removed by the next, others stay") {
+TEST_CASE("part file: the part of a killed process is removed by the next one; others stay") {
     const TemporaryFolder folder;
     write_and_die(folder.path("f"));
     REQUIRE(names_in(folder).size() == 1);
@@ -99,7 +99,7 @@ TEST_CASE("part file: the part of a process that was killed is removed by the ne
     CHECK(names_in(folder).size() == 5);
 }
 
-TEST_CASE("part file: a full disk is reported, not swallowed, and leaves nothing") {
+TEST_CASE("part file: a full disk is reported and leaves nothing") {
     const TemporaryFolder folder;
     const test::NoRoom none;
     PartFile file(folder.path("f"));
@@ -111,7 +111,7 @@ TEST_CASE("part file: a full disk is reported, not swallowed, and leaves nothing
     CHECK_THROWS_AS(file.give_name(), RunError);
 }
 
-TEST_CASE("part file: a place that cannot be written is reported at once") {
+TEST_CASE("part file: a path that cannot be written is reported at once") {
     const TemporaryFolder folder;
     CHECK_THROWS_WITH_AS(
         PartFile(folder.path("no/f")),

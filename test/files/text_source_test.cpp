@@ -45,7 +45,7 @@ std::string many_lines() {
 
 }  // namespace
 
-TEST_CASE("text source: a file packed by zstd is the same text, whatever its name, twice") {
+TEST_CASE("text source: a zstd file gives the same text under any name, twice") {
     const TempFolder folder;
     for (const std::string& text : {many_lines(), std::string("x"), std::string()}) {
         write_file(folder / "text", packed_by_zstd(text));
@@ -57,14 +57,14 @@ TEST_CASE("text source: a file packed by zstd is the same text, whatever its nam
     }
 }
 
-TEST_CASE("text source: frames of zstd one after the other are one text") {
+TEST_CASE("text source: consecutive zstd frames give one text") {
     const TempFolder folder;
     write_file(folder / "text", packed_by_zstd("one\n") + packed_by_zstd("two\n"));
     TextSource source(folder / "text", TextSource::Reads::once);
     CHECK(all_of(source) == "one\ntwo\n");
 }
 
-TEST_CASE("text source: a zstd file that is cut or damaged is an error, not a shorter text") {
+TEST_CASE("text source: a damaged or incomplete zstd file is an error, not a shorter text") {
     const TempFolder folder;
     const std::string bytes = packed_by_zstd(many_lines());
     const auto error_of = [&](const std::string& content) -> std::string {
@@ -86,7 +86,7 @@ TEST_CASE("text source: a zstd file that is cut or damaged is an error, not a sh
     CHECK(error_of(damaged).starts_with("cannot read the file: "));
 }
 
-TEST_CASE("text source: what other programs pack, and what is no text, is refused by its name") {
+TEST_CASE("text source: other packers, and files that are not text, are refused by kind") {
     const TempFolder folder;
     const std::string tar = std::string("a.tr") + std::string(253, '\0') + "ustar  ";
     const std::vector<std::pair<std::string, std::string>> files = {

@@ -142,16 +142,16 @@ void check_run(Duration duration, int of_each_kind) {
 
 }  // namespace
 
-TEST_CASE("all listeners: a run with four kinds of clients is made again from its log") {
+TEST_CASE("all listeners: a run with four kinds of clients is reproduced from its log") {
     check_run(3s, 1);
 }
 
-TEST_CASE("all listeners: a run of 60 s with four kinds of clients is made again from its log" *
+TEST_CASE("all listeners: a run of 60 s with four kinds of clients is reproduced from its log" *
           doctest::skip()) {
     check_run(60s, 1);
 }
 
-TEST_CASE("all listeners: a run with 52 clients of four kinds is made again from its log") {
+TEST_CASE("all listeners: a run with 52 clients of four kinds is reproduced from its log") {
     check_run(2s, 16);
 }
 

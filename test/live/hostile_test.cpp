@@ -96,8 +96,7 @@ std::string in_office() {
 
 }  // namespace
 
-TEST_CASE(
-    "hostile: a connection beyond the limit is closed, and a connection that ends makes room") {
+TEST_CASE("hostile: connections beyond the limit are closed until another connection ends") {
     const Served served;
     std::list<LineClient> players;
     std::list<WebClient> pages;
@@ -119,7 +118,7 @@ TEST_CASE(
     served.end();
 }
 
-TEST_CASE("hostile: silent connections make room for a client that sends, on each listener") {
+TEST_CASE("hostile: silent connections are replaced by clients that send, on each listener") {
     const Served served;
     const Live controlled({"--listen-json", "127.0.0.1:0", "--unix", "SOCKET"}, long_live_row());
     const int port = controlled.port();
@@ -153,7 +152,7 @@ TEST_CASE("hostile: silent connections make room for a client that sends, on eac
     CHECK(controlled.wait().exit == 0);
 }
 
-TEST_CASE("hostile: whatever a page sends in a request, on any listener, no robot is driven") {
+TEST_CASE("hostile: no request of a web page drives a robot, on any listener") {
     const Served served;
     const Live controlled(
         {"--listen-json", "127.0.0.1:0", "--unix", "SOCKET", "--listen-web", "127.0.0.1:0"},
@@ -191,7 +190,7 @@ TEST_CASE("hostile: whatever a page sends in a request, on any listener, no robo
     CHECK(controlled.replay().out.starts_with("identical: 0 inputs"));
 }
 
-TEST_CASE("hostile: a connection whose first line is no JSON object is told so and closed") {
+TEST_CASE("hostile: a first line that is not a JSON object is answered, and the client is closed") {
     const Live live({"--listen-json", "127.0.0.1:0"}, long_live_row());
     const int port = live.port();
     const std::string rest = hello("\"A\"") + "\n";
@@ -228,7 +227,7 @@ TEST_CASE("hostile: a connection whose first line is no JSON object is told so a
     CHECK(live.wait().exit == 0);
 }
 
-TEST_CASE("hostile: a Player client's sizes and counts are not believed") {
+TEST_CASE("hostile: wrong sizes and counts from a Player client do no harm") {
     const Served served;
     Good good(served);
     LineClient endless(served.player), liar(served.player);
@@ -249,7 +248,7 @@ TEST_CASE("hostile: a Player client's sizes and counts are not believed") {
     served.end();
 }
 
-TEST_CASE("hostile: ROS clients with messages that are too long, too deep, or no JSON") {
+TEST_CASE("hostile: ROS messages that are too long, too deep or not JSON are refused") {
     const Served served;
     Good good(served);
     WebClient endless(served.rosbridge), odd(served.rosbridge);
@@ -264,7 +263,7 @@ TEST_CASE("hostile: ROS clients with messages that are too long, too deep, or no
     served.end();
 }
 
-TEST_CASE("hostile: controllers with lines that are too deep or no text") {
+TEST_CASE("hostile: lines of controllers that are too deep or not text are refused") {
     const Live live({"--listen-json", "127.0.0.1:0"});
     LineClient odd(live.port());
     CHECK(Json::parse(odd.ask("{}")).at("code") == "missing_key");
@@ -276,7 +275,7 @@ TEST_CASE("hostile: controllers with lines that are too deep or no text") {
     CHECK(live.wait().exit == 0);
 }
 
-TEST_CASE("hostile: a request that comes byte by byte has to be whole in time") {
+TEST_CASE("hostile: a request sent byte by byte must be complete in time") {
     Listeners listeners;
     WebSockets web(listeners, {.request = 1s, .silence = 60s});
     const Address address = web.listen({"127.0.0.1", 0}, {});
@@ -296,7 +295,7 @@ TEST_CASE("hostile: a request that comes byte by byte has to be whole in time") 
     CHECK(sent < 1000);
 }
 
-TEST_CASE("hostile: whoever ends half a connection leaves, and its robot stops") {
+TEST_CASE("hostile: a client that closes half of its connection leaves, and its robot stops") {
     const Served served;
     LineClient half(served.player);
     open_position(half);
@@ -314,7 +313,7 @@ TEST_CASE("hostile: whoever ends half a connection leaves, and its robot stops")
     served.end();
 }
 
-TEST_CASE("hostile: clients that break off while they are sent much") {
+TEST_CASE("hostile: clients that disconnect while they receive much data do no harm") {
     const Served served(in_office());
     Good good(served);
     for (int i = 0; i < 20; ++i) {
@@ -357,7 +356,7 @@ constexpr int kills = 100;
 
 }  // namespace
 
-TEST_CASE("hostile: clients that are killed leave nothing, and their robots stop") {
+TEST_CASE("hostile: killed clients leave nothing behind, and their robots stop") {
     const Served served;
     WebClient page(served.rosbridge);
     page.ask(call_time);
@@ -388,7 +387,7 @@ TEST_CASE("hostile: clients that are killed leave nothing, and their robots stop
     served.end();
 }
 
-TEST_CASE("hostile: the robots of controllers that are killed stop, and others may take them") {
+TEST_CASE("hostile: robots of killed controllers stop and can be driven by others") {
     const Live live({"--listen-json", "127.0.0.1:0", "--on-loss", "stop", "--wait-for", "2"},
                     long_live_row());
     const int port = live.port();
@@ -420,7 +419,7 @@ TEST_CASE("hostile: the robots of controllers that are killed stop, and others m
     CHECK(live.replay().exit == 0);
 }
 
-TEST_CASE("hostile: Ctrl-C ends a run with many clients, of whom some never read") {
+TEST_CASE("hostile: Ctrl-C ends a run with many clients, some of which never read") {
     const Served served(in_office());
     std::list<LineClient> players;
     std::list<WebClient> pages;
@@ -440,7 +439,7 @@ TEST_CASE("hostile: Ctrl-C ends a run with many clients, of whom some never read
     }
 }
 
-TEST_CASE("hostile: of pages, those of other servers and of strange names stay outside") {
+TEST_CASE("hostile: web pages of other servers and host names are refused") {
     const Served served;
     const Live controlled({"--listen-web", "127.0.0.1:0"});
     const auto token_of = [](const Live& live) {
@@ -515,7 +514,7 @@ const std::set<std::string> loopback_only = {"0100007F"};  // 127.0.0.1
 
 }  // namespace
 
-TEST_CASE("hostile: nobody but this machine is listened to") {
+TEST_CASE("hostile: only this machine can connect") {
     const Served served;
     CHECK(open_addresses(served.process().pid()) == loopback_only);
     const Live controlled({"--listen-json", "localhost:0", "--listen-web", "127.0.0.1:0"});

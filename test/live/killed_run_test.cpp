@@ -63,7 +63,7 @@ std::string run_and_kill(const TemporaryFolder& words, const std::string& folder
 
 }  // namespace
 
-TEST_CASE("killed run: its folder and its part are replayed, by the scenario that it ran") {
+TEST_CASE("killed run: its folder and its log part are replayed, with the scenario that was run") {
     const TemporaryFolder folder;
     const std::string out = folder.path("out");
     const std::string part = run_and_kill(folder, out, "5", 9);
@@ -85,7 +85,7 @@ TEST_CASE("killed run: its folder and its part are replayed, by the scenario tha
     CHECK(command(folder, {"run", out + "/scenario.toml", "--print-scenario"}).exit == 0);
 }
 
-TEST_CASE("killed run: a last line that is torn anywhere is left out, with a notice") {
+TEST_CASE("killed run: an incomplete last line is ignored, with a notice") {
     const TemporaryFolder folder;
     const std::string part = run_and_kill(folder, folder.path("out"), "1", 3);
     const std::string text = content(part);
@@ -107,7 +107,7 @@ TEST_CASE("killed run: a last line that is torn anywhere is left out, with a not
     CHECK_THROWS_WITH_AS(replay_inputs(part, {}), doctest::Contains(".part:4"), InputError);
 }
 
-TEST_CASE("killed run: runs of every kind into its folder keep its part, which replays as before") {
+TEST_CASE("killed run: later runs into its folder keep its log part, which replays as before") {
     const TemporaryFolder folder, words;
     const std::string out = folder.path("out");
     const std::string first = run_and_kill(words, out, "1", 3);
@@ -141,7 +141,7 @@ TEST_CASE("killed run: runs of every kind into its folder keep its part, which r
     CHECK(command(words, {"replay", out, "--verify"}).err.find(first) != std::string::npos);
 }
 
-TEST_CASE("killed run: an emulation that is killed is replayed, too") {
+TEST_CASE("killed run: a killed emulation can be replayed, too") {
     const TemporaryFolder folder;
     const std::string out = folder.path("out");
     const std::string file = folder.write("s.toml", long_live_row());
@@ -160,7 +160,7 @@ TEST_CASE("killed run: an emulation that is killed is replayed, too") {
     CHECK(replay_inputs(out, {}).inputs == 1);
 }
 
-TEST_CASE("killed run: a run that fails keeps its inputs, and one that begins anew does not") {
+TEST_CASE("killed run: a failed run keeps its inputs, and a run that starts again does not") {
     const TemporaryFolder folder;
     const std::string out = folder.path("out");
     const std::string limited = [] {

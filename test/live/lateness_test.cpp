@@ -92,7 +92,7 @@ LiveResult run(const Given& given) {
 
 }  // namespace
 
-TEST_CASE("lateness: a process that was stopped while nothing was due was late by that time") {
+TEST_CASE("lateness: a process stopped while idle was late by that time") {
     for (const double speed : {1.0, 2.0, 0.5}) {
         CAPTURE(speed);
         const LiveResult result = run({.speed = speed});
@@ -103,37 +103,37 @@ TEST_CASE("lateness: a process that was stopped while nothing was due was late b
     }
 }
 
-TEST_CASE("lateness: a process that was not stopped was not") {
+TEST_CASE("lateness: a process that was not stopped was not late") {
     const LiveResult result = run({.away = 0s});
     CHECK(result.lateness->most < 1min);
     CHECK(result.fault.empty());
 }
 
-TEST_CASE("lateness: while a front holds time, nobody is late") {
+TEST_CASE("lateness: while a front pauses the time, the run is not late") {
     const LiveResult result = run({.limit = start_of_run});
     CHECK(result.lateness->most < 1min);
     CHECK(result.fault.empty());
 }
 
-TEST_CASE("lateness: a front that holds time later lets it be late until then") {
+TEST_CASE("lateness: a front that pauses later lets the run be late until then") {
     const LiveResult result = run({.limit = start_of_run + 10min});
     CHECK(result.lateness->most > 9min);
     CHECK(result.lateness->most < 11min);
 }
 
-TEST_CASE("lateness: a run without a speed has none") {
+TEST_CASE("lateness: a run without a speed is never late") {
     const LiveResult result = run({.speed = std::nullopt});
     CHECK_FALSE(result.lateness);
     CHECK(result.fault.empty());
 }
 
-TEST_CASE("lateness: a front that takes long to tell makes late what is said meanwhile") {
+TEST_CASE("lateness: a front that writes slowly delays messages that arrive meanwhile") {
     const LiveResult result = run({.away = 0s, .told = start_of_run + 1ms, .telling_takes = 30min});
     CHECK(result.lateness->most > 29min);
     CHECK_FALSE(result.fault.empty());
 }
 
-TEST_CASE("lateness: what comes in time is no time that was asked for") {
+TEST_CASE("lateness: input on time is not counted without a request") {
     Lateness lateness;
     lateness.add_look(999us);
     CHECK(lateness.most == 999us);
@@ -144,7 +144,7 @@ TEST_CASE("lateness: what comes in time is no time that was asked for") {
     CHECK(lateness.share() == 0.5);
 }
 
-TEST_CASE("live: a run by the clock that was stopped says how late it was") {
+TEST_CASE("live: a paced run that was stopped prints its lateness") {
     for (const std::string option : {"--player", "--rosbridge"}) {
         CAPTURE(option);
         const Live live({option, "127.0.0.1:0"}, long_live_row());

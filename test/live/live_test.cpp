@@ -62,7 +62,7 @@ void drive_slowly(LineClient& client, const std::string& robot, std::uint64_t se
 
 }  // namespace
 
-TEST_CASE("live: the same controller has the same run on every listener, and in its replay") {
+TEST_CASE("live: a controller gives the same run on every listener and in its replay") {
     const Live by_stdio({"--controller", "PROGRAM"}, live_row, python);
     CHECK(by_stdio.wait().exit == 0);
     const std::string fingerprint = by_stdio.fingerprint();
@@ -98,8 +98,7 @@ TEST_CASE("live: the same controller has the same run on every listener, and in 
     CHECK(again.out == "identical: 28 inputs, fingerprint " + fingerprint + "\n");
 }
 
-TEST_CASE(
-    "live: a log that was changed is no replay, and one that was cut goes as far as it goes") {
+TEST_CASE("live: a changed log is refused, and an incomplete log is replayed up to its end") {
     const Live live({"--controller", "PROGRAM"}, live_row, python);
     REQUIRE(live.wait().exit == 0);
     const std::string path = live.folder.path("out/inputs.jsonl"), log = content(path);
@@ -120,7 +119,7 @@ TEST_CASE(
     CHECK(broken.err.find("inputs.jsonl:") != std::string::npos);
 }
 
-TEST_CASE("live: the time that controllers take does not show in a result") {
+TEST_CASE("live: the real time of controllers does not affect results") {
     std::vector<std::string> fingerprints;
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
         const Live live({"--listen-json", "127.0.0.1:0", "--wait-for", "2"});
@@ -136,7 +135,7 @@ TEST_CASE("live: the time that controllers take does not show in a result") {
     CHECK(fingerprints[0] == fingerprints[2]);
 }
 
-TEST_CASE("live: Ctrl-C ends it within a second, with results and a goodbye") {
+TEST_CASE("live: Ctrl-C ends the run within a second, with results and end messages") {
     const Live live({"--listen-json", "127.0.0.1:0"});
     LineClient client(live.port());
     client.ask(hello("\"A\""));
@@ -150,7 +149,7 @@ TEST_CASE("live: Ctrl-C ends it within a second, with results and a goodbye") {
     CHECK(Json::parse(content(live.folder.path("out/summary.json"))).at("sim_s") == 0.1);
 }
 
-TEST_CASE("live: a lost controller, one without patience, and a program that fails end it with 1") {
+TEST_CASE("live: a lost controller, a slow one and a failed program end the run with code 1") {
     const Live lost({"--listen-json", "127.0.0.1:0"});
     {
         LineClient client(lost.port());
@@ -175,7 +174,7 @@ TEST_CASE("live: a lost controller, one without patience, and a program that fai
     CHECK(failed.err.find("exit 7 ended with 7") != std::string::npos);
 }
 
-TEST_CASE("live: lines may be sent ahead, and a sender that is done is told the rest") {
+TEST_CASE("live: lines may be sent in advance, and a client that stops sending gets all answers") {
     const Live live({"--listen-json", "127.0.0.1:0"});
     LineClient client(live.port());
     client.send_bytes(hello("\"A\"") + "\n" + R"({"type":"step","n":1})" + "\r\n" +
@@ -189,7 +188,7 @@ TEST_CASE("live: lines may be sent ahead, and a sender that is done is told the 
     CHECK(live.wait().exit == 0);
 }
 
-TEST_CASE("live: only this machine is listened to, and an address in use is told") {
+TEST_CASE("live: listens only to this machine, and reports an address in use") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", live_row);
     const auto refused = [&](const std::string& address) {
@@ -214,7 +213,7 @@ TEST_CASE("live: only this machine is listened to, and an address in use is told
     CHECK(live.wait().exit == 0);
 }
 
-TEST_CASE("live: hostile connections are closed, take little memory and hold nobody up") {
+TEST_CASE("live: hostile connections are closed, take little memory and delay nobody") {
     const Live live({"--listen-json", "127.0.0.1:0"});
     const int port = live.port();
     LineClient good(port);
@@ -278,7 +277,7 @@ double round(LineClient& client) {
 
 }  // namespace
 
-TEST_CASE("live: a Player client in lock-step, whose rounds wait for no acknowledgement") {
+TEST_CASE("live: a Player client in lock-step needs no acknowledgement for its rounds") {
     std::string fingerprints[2];
     for (std::string& fingerprint : fingerprints) {
         const Live live({"--player", "127.0.0.1:0", "--player-lockstep"}, long_live_row());
@@ -305,7 +304,7 @@ TEST_CASE("live: a Player client in lock-step, whose rounds wait for no acknowle
     CHECK(fingerprints[0] == fingerprints[1]);
 }
 
-TEST_CASE("live: Player clients by the clock, until Ctrl-C or the scenario's end") {
+TEST_CASE("live: paced Player clients are served until Ctrl-C or the end of the scenario") {
     const Live live({"--player", "127.0.0.1:0", "--speed", "5"}, long_live_row());
     CHECK(live.said("listening").ends_with("(Player, robot A)"));
     LineClient client(live.port());
@@ -329,7 +328,7 @@ TEST_CASE("live: Player clients by the clock, until Ctrl-C or the scenario's end
     CHECK(short_run.replay().exit == 0);
 }
 
-TEST_CASE("live: ROS clients beside those of Player, until Ctrl-C; a page needs the token") {
+TEST_CASE("live: ROS and Player clients are served together until Ctrl-C; a page needs the token") {
     const Live live({"--rosbridge", "127.0.0.1:0", "--player", "127.0.0.1:0"}, long_live_row());
     LineClient player(live.port());
     open_position(player);
@@ -370,8 +369,7 @@ TEST_CASE("live: ROS clients beside those of Player, until Ctrl-C; a page needs 
           std::string::npos);
 }
 
-TEST_CASE(
-    "live: a controller beside Player and ROS clients holds the time, its reset begins anew") {
+TEST_CASE("live: a controller beside Player and ROS clients controls time; its reset restarts") {
     const Live live({"--listen-json", "127.0.0.1:0", "--player", "127.0.0.1:0", "--rosbridge",
                      "127.0.0.1:0", "--speed", "10"},
                     long_live_row());
@@ -414,7 +412,7 @@ TEST_CASE(
     CHECK(live.replay().out.starts_with("identical: 3 inputs"));
 }
 
-TEST_CASE("live: a configuration of Player names world and ports") {
+TEST_CASE("live: a Player configuration names the world and the ports") {
     const TemporaryFolder folder;
     folder.write("two.world", R"(quit_time 1
 position ( name "r0" pose [0 0 0] wifi ( model "friis" ) )

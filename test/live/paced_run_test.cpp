@@ -125,7 +125,7 @@ void answer(LineClient& client, int steps) {
 
 }  // namespace
 
-TEST_CASE("paced run: clients come and go, are told at their times, and the scenario ends it") {
+TEST_CASE("paced run: clients connect and leave, get messages in time, and the scenario ends it") {
     Paced<Parrot> paced(2, three_in_a_row());
     CHECK(paced.said()[0].ends_with(" (one)"));
     {
@@ -151,7 +151,7 @@ TEST_CASE("paced run: clients come and go, are told at their times, and the scen
     CHECK(replay.recorded == replay.now);
 }
 
-TEST_CASE("paced run: commands of one time are replayed in their order, whatever they cause") {
+TEST_CASE("paced run: simultaneous commands are replayed in order, whatever they cause") {
     // An Aloha station sends at the time at which it is told to, by an event that comes after that.
     Paced<Parrot> paced(4, three_in_a_row("[access]\nmodel = \"aloha\"\n"));
     LineClient client(paced.port());
@@ -165,7 +165,7 @@ TEST_CASE("paced run: commands of one time are replayed in their order, whatever
     CHECK(paced.replay().now == result.run.fingerprint);
 }
 
-TEST_CASE("paced run: behind the clock, too, a client's words count from when they come in") {
+TEST_CASE("paced run: also if it is late, commands take effect at their arrival") {
     Scenario scenario = three_in_a_row();
     scenario.scenario.duration = 1h;
     constexpr int speed = 100;
@@ -180,7 +180,7 @@ TEST_CASE("paced run: behind the clock, too, a client's words count from when th
     CHECK(paced.end().lateness->most > 0s);
 }
 
-TEST_CASE("paced run: it ends when it is told to, with whole results") {
+TEST_CASE("paced run: a requested stop ends it with complete results") {
     Paced<Parrot> paced(1e-3, three_in_a_row());
     LineClient client(paced.port());
     client.line();
@@ -192,7 +192,7 @@ TEST_CASE("paced run: it ends when it is told to, with whole results") {
     CHECK(client.line().empty());
 }
 
-TEST_CASE("paced run: without a speed it goes as fast as its front lets it, the same every time") {
+TEST_CASE("paced run: without a speed it runs as fast as its front allows, always the same") {
     std::string fingerprints[2];
     for (std::string& each : fingerprints) {
         Paced<Patient> paced(std::nullopt, three_in_a_row());
@@ -207,7 +207,7 @@ TEST_CASE("paced run: without a speed it goes as fast as its front lets it, the 
     CHECK(fingerprints[0] == fingerprints[1]);
 }
 
-TEST_CASE("paced run: what a front holds is not made up for by the clock") {
+TEST_CASE("paced run: time paused by a front is not caught up") {
     Paced<Patient> paced(2, three_in_a_row());
     LineClient client(paced.port());
     client.line();                        // the port
@@ -234,7 +234,8 @@ TEST_CASE("paced run: a client that does not read is closed, and others are serv
     CHECK(lines < 15);
 }
 
-TEST_CASE("paced run: a client that reads too late is told how much is lost, then closed") {
+TEST_CASE(
+    "paced run: a client that reads too late gets the number of lost messages, then is closed") {
     Paced<Parrot> paced(1, three_in_a_row(), std::size_t{1} << 20U);
     LineClient late(paced.port()), reader(paced.port());
     while (!reader.line().starts_with("900.")) {  // by then more than is kept has been said
@@ -247,7 +248,7 @@ TEST_CASE("paced run: a client that reads too late is told how much is lost, the
     paced.end();
 }
 
-TEST_CASE("paced run: a client that says too much is read at the limit") {
+TEST_CASE("paced run: input of a client is read at a limited rate") {
     Scenario scenario = three_in_a_row();
     scenario.scenario.duration = 1h;
     Paced<Parrot> paced(1, scenario);
@@ -264,7 +265,7 @@ TEST_CASE("paced run: a client that says too much is read at the limit") {
     paced.end();
 }
 
-TEST_CASE("paced run: a front may end a connection, and bytes are no lines") {
+TEST_CASE("paced run: a front may close a connection, and may receive bytes instead of lines") {
     Paced<Parrot> paced(1, three_in_a_row());
     LineClient client(paced.port());
     client.line();
@@ -281,7 +282,7 @@ TEST_CASE("paced run: a front may end a connection, and bytes are no lines") {
     CHECK(paced.replay().inputs == 6);
 }
 
-TEST_CASE("input rate: a second's worth at once, then 5,000 messages and 16 MiB a second") {
+TEST_CASE("input rate: one second's input at once, then 5,000 messages and 16 MiB per second") {
     const InputRate::Clock::time_point start{1h};
     InputRate rate;
     rate.add(5'000, 0, start);
@@ -297,7 +298,7 @@ TEST_CASE("input rate: a second's worth at once, then 5,000 messages and 16 MiB 
     CHECK(bytes.read_again() < start + 1020ms);
 }
 
-TEST_CASE("loopback: addresses of this machine alone") {
+TEST_CASE("loopback: only addresses of this machine are accepted") {
     CHECK(read_loopback("127.0.0.1:7007").text() == "127.0.0.1:7007");
     CHECK(read_loopback("localhost:0").text() == "127.0.0.1:0");
     CHECK(read_loopback("[::1]:65535").text() == "[::1]:65535");

@@ -76,7 +76,7 @@ exit 0
 
 }  // namespace
 
-TEST_CASE("reach: beyond this machine clients need the token, and protocols without stay at home") {
+TEST_CASE("reach: other machines need the token, and protocols without a token stay local") {
     const TemporaryFolder folder;
     const std::string program = folder.write("attempts.py", attempts);
     const std::string row = folder.write("row.toml", long_live_row());

@@ -23,7 +23,7 @@ using namespace rovernet;
 using namespace rovernet::test;
 using namespace std::chrono_literals;
 
-TEST_CASE("replay: a run with clients of Player and of ROS") {
+TEST_CASE("replay: reproduces a run with Player and ROS clients") {
     const Address any{"127.0.0.1", 0};
     ServedRun run(three_in_a_row("[access]\nmodel = \"csma\"\n"),
                   {player_one_port(any, {"A"}, {}), rosbridge_listener(any)}, 2);
@@ -50,7 +50,7 @@ TEST_CASE("replay: a run with clients of Player and of ROS") {
     }
 }
 
-TEST_CASE("replay: a run with controllers by TCP and by WebSocket") {
+TEST_CASE("replay: reproduces a run with controllers by TCP and by WebSocket") {
     const Live live(
         {"--listen-json", "127.0.0.1:0", "--listen-web", "127.0.0.1:0", "--wait-for", "2"});
     LineClient a(live.port());
@@ -77,7 +77,7 @@ TEST_CASE("replay: a run with controllers by TCP and by WebSocket") {
     CHECK(live.replay().out == "identical: 122 inputs, fingerprint " + live.fingerprint() + "\n");
 }
 
-TEST_CASE("replay: numbers that no client could have said are refused, with their line") {
+TEST_CASE("replay: numbers that no client could send are refused, with their line") {
     const TemporaryFolder folder;
     folder.write("scenario.toml", live_row);
     const auto log = [&](const std::string& format, const std::string& what) {
@@ -111,7 +111,7 @@ TEST_CASE("replay: numbers that no client could have said are refused, with thei
                          doctest::Contains("inputs.jsonl:1"), InputError);
 }
 
-TEST_CASE("replay: a log of the first format, with every command, makes the same run as then") {
+TEST_CASE("replay: a log of the first format, with every command, still gives the same run") {
     const InputReplay replay =
         replay_inputs(ROVERNET_TEST_DATA "/../live/inputs/format_1.jsonl", {});
     CHECK(replay.recorded == "12a28150be87ad36");
@@ -119,7 +119,7 @@ TEST_CASE("replay: a log of the first format, with every command, makes the same
     CHECK(replay.inputs == 11);
 }
 
-TEST_CASE("replay: every command has the keys of the protocol in the log, and is made again") {
+TEST_CASE("replay: every command is logged with the keys of the protocol, and is reproduced") {
     const TemporaryFolder folder;
     SteppedRun run(three_in_a_row(), {.folder = folder.path("run")});
     const std::vector<std::pair<std::size_t, RobotCommand>> commands = {

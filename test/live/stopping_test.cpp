@@ -71,7 +71,7 @@ const int stop_signals[] = {SIGINT, SIGTERM, SIGHUP};
 
 }  // namespace
 
-TEST_CASE("stopping: while a network is set up each signal ends it at once, and nothing is left") {
+TEST_CASE("stopping: each signal ends the set-up of a network at once, and leaves nothing behind") {
     for (const int signal : stop_signals) {
         CAPTURE(signal);
         const Live live({"--unix", "SOCKET", "--controller", "PROGRAM PIDFILE"}, long_to_set_up,
@@ -86,7 +86,7 @@ TEST_CASE("stopping: while a network is set up each signal ends it at once, and 
     }
 }
 
-TEST_CASE("stopping: emulate and runs by the clock end at once while their network is set up") {
+TEST_CASE("stopping: a signal ends emulate and paced runs at once during their set-up") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", long_to_set_up);
     const std::vector<std::vector<std::string>> commands = {
@@ -107,7 +107,7 @@ TEST_CASE("stopping: emulate and runs by the clock end at once while their netwo
     }
 }
 
-TEST_CASE("stopping: a controller ends with all that it has started, whatever it ignores") {
+TEST_CASE("stopping: a controller is ended with all its children, whatever signals they ignore") {
     struct Row {
         const char* what;
         const char* command;
@@ -132,7 +132,7 @@ TEST_CASE("stopping: a controller ends with all that it has started, whatever it
     }
 }
 
-TEST_CASE("stopping: a run that ends by itself ends what its controllers have left running") {
+TEST_CASE("stopping: a run that ends also ends programs that its controllers have started") {
     // It speaks once the program ignores signals.
     const std::string talk =
         R"(while ! test -e PIDFILE; do sleep 0.01; done; )"
@@ -144,7 +144,7 @@ TEST_CASE("stopping: a run that ends by itself ends what its controllers have le
     CHECK(ends(program));
 }
 
-TEST_CASE("stopping: a hangup ends a run as SIGTERM does, unless it is ignored") {
+TEST_CASE("stopping: a hangup ends a run like SIGTERM, unless it is ignored") {
     for (const int signal : {SIGTERM, SIGHUP}) {
         CAPTURE(signal);
         const Live live({"--listen-json", "127.0.0.1:0"}, long_live_row());

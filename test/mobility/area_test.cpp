@@ -29,7 +29,7 @@ struct Hall {
 
 }  // namespace
 
-TEST_CASE("area: it is cut to the map, and must touch it") {
+TEST_CASE("area: is clipped to the map, and must overlap it") {
     const Scene map(test::drawn_map({"....", "...."}));
     CHECK(Area({{2, -5}, {50, 1}}, map, "x").lower == Vec3{2, 0});
     CHECK(Area({{2, -5}, {50, 1}}, map, "x").upper == Vec3{4, 1});
@@ -38,7 +38,7 @@ TEST_CASE("area: it is cut to the map, and must touch it") {
     CHECK_THROWS_AS(Area({{4, 0}, {6, 1}}, map, "x"), std::invalid_argument);
 }
 
-TEST_CASE("area: a ray leaves it exactly on the border") {
+TEST_CASE("area: a ray leaves the area exactly on its border") {
     const Area area({{-1, 0.1}, {0.3, 0.7}}, Scene{}, "x");
     test::Draw draw(1);
     for (int i = 0; i < 10'000; ++i) {
@@ -56,7 +56,8 @@ TEST_CASE("area: a ray leaves it exactly on the border") {
     CHECK(area.exit({0, 0.5}, {0, -1}) == Vec3{0, 0.1});
 }
 
-TEST_CASE("area: free places keep the radius from walls, lie on the map and are uniform") {
+TEST_CASE(
+    "area: random free positions keep the radius from walls, lie on the map and are uniform") {
     Hall hall;
     const Mover mover = hall.robot.mover(nobody);
     const Area area({}, hall.scene, "x");
@@ -77,7 +78,7 @@ TEST_CASE("area: free places keep the radius from walls, lie on the map and are 
     CHECK(std::abs(left / (places + 0.0) - share) < 4 * sigma);
 }
 
-TEST_CASE("area: without room there is no free place") {
+TEST_CASE("area: without room there is no free position") {
     const Scene walled(test::drawn_map({"###", "#.#", "###"}));
     Planners planners(walled);
     const LoneMover robot(planners, 0, {1.5, 1.5}, {0.6});
@@ -85,7 +86,7 @@ TEST_CASE("area: without room there is no free place") {
     CHECK_FALSE(Area({}, walled, "x").free_place(robot.mover(nobody), draws));
 }
 
-TEST_CASE("straight_stop: up to a micrometre before a wall, to the map's end, or nowhere") {
+TEST_CASE("straight_stop: stops a micrometre before a wall, at the map's border, or nowhere") {
     const Scene map(test::drawn_map({"....#", "....#"}));
     Planners planners(map);
     const LoneMover robot(planners, 0, {1, 1}, {0.5});

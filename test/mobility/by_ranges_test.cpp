@@ -64,7 +64,7 @@ double enclosed(const std::vector<Vec3>& places) {
 
 }  // namespace
 
-TEST_CASE("follow_wall: in a room its way is the rectangle half a metre inside of the walls") {
+TEST_CASE("follow_wall: in a room the path is the rectangle half a metre inside the walls") {
     const Scene scene = room();
     const double once_round = 2 * (9 + 5);
     for (const WallSide side : {WallSide::left, WallSide::right}) {
@@ -78,7 +78,7 @@ TEST_CASE("follow_wall: in a room its way is the rectangle half a metre inside o
     }
 }
 
-TEST_CASE("follow_wall: round a block its way is a rectangle with corners of a quarter circle") {
+TEST_CASE("follow_wall: around a block the path is a rectangle with rounded corners") {
     const Scene scene = block();
     const FollowWall model{.side = WallSide::right, .keep = Meters{0.8}, .stride = Meters{0.05}};
     const double once_round = 4 * 4 + 2 * std::numbers::pi;  // a metre from it
@@ -88,7 +88,7 @@ TEST_CASE("follow_wall: round a block its way is a rectangle with corners of a q
     CHECK(enclosed(places) == doctest::Approx(-(4 * 4 + 4 * 4 + std::numbers::pi)).epsilon(0.01));
 }
 
-TEST_CASE("wander: keeps the way ahead free, and comes everywhere") {
+TEST_CASE("wander: keeps its distance from obstacles and visits all places") {
     const Scene scene = room();
     Planners planners(scene);
     const Wander model{.keep = Meters{0.4}, .run = Meters{3}};
@@ -116,7 +116,7 @@ TEST_CASE("wander: keeps the way ahead free, and comes everywhere") {
     CHECK(std::all_of(quarters.begin(), quarters.end(), [](bool seen) { return seen; }));
 }
 
-TEST_CASE("follow_wall: in a way that is too narrow it goes in the middle, to the end and back") {
+TEST_CASE("follow_wall: in a narrow corridor it moves in the middle, to the end and back") {
     const Scene scene(test::drawn_map({"##############", "#............#", "##############"}, 0.8));
     const FollowWall model{.keep = Meters{0.5}, .stride = Meters{0.05}};
     const auto places = places_along(model, scene, {5, 1.2}, 12, 40);  // twice there and back
@@ -130,7 +130,8 @@ TEST_CASE("follow_wall: in a way that is too narrow it goes in the middle, to th
     CHECK(east > 9.9);
 }
 
-TEST_CASE("wander: in a closet it feels its way, and a robot that is stuck does not hang") {
+TEST_CASE(
+    "wander: a robot moves in a small room if it fits, and a stuck robot does not hang the run") {
     const Scene closet(test::drawn_map({"###", "#.#", "###"}, 1.2));
     Planners planners(closet);
     for (const double size : {0.2, 0.599, 0.7}) {
@@ -146,7 +147,7 @@ TEST_CASE("wander: in a closet it feels its way, and a robot that is stuck does 
     }
 }
 
-TEST_CASE("wander, follow_wall: without a map there is nothing to go by") {
+TEST_CASE("wander, follow_wall: refuse a scene without a map") {
     const Scene open_field;
     Planners planners(open_field);
     LoneMover robot(planners);

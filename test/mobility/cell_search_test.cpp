@@ -143,7 +143,7 @@ int compare_with_boost(double cell_width, double cell_height, std::uint32_t seed
 
 }  // namespace
 
-TEST_CASE("cell search: ways over random maps are as long as Boost's") {
+TEST_CASE("cell search: paths over random maps are as long as those of Boost") {
     CHECK(compare_with_boost(1, 1, 41) > 100);
     CHECK(compare_with_boost(0.05, 0.08, 42) > 100);
 }
@@ -153,7 +153,7 @@ TEST_CASE("cell search: a step may be longer than all buckets together") {
     CHECK(compare_with_boost(1, 0.01, 44) > 100);
 }
 
-TEST_CASE("cell search: round a wall the way goes up, across and down") {
+TEST_CASE("cell search: the path around a wall goes up, across and down") {
     Ground ground(drawn_map({".......", "...#...", "...#...", "...#..."}), 0_m);
     const PathEnd from = ground.end(1, 0), to = ground.end(5, 0);
     const auto way = ground.way(from, to);
@@ -162,7 +162,7 @@ TEST_CASE("cell search: round a wall the way goes up, across and down") {
     CHECK(std::abs(length_of(ground, from, to, way) - (6 + 2 * std::sqrt(2.0))) < rounding);
 }
 
-TEST_CASE("cell search: of equal ways it takes one along the straight line between the ends") {
+TEST_CASE("cell search: of equal paths it returns one along the straight line between the ends") {
     Ground ground(drawn_map(std::vector<std::string>(40, std::string(60, '.'))), 0_m);
     for (const auto& [column, row] : {std::pair{55, 20}, {20, 38}, {59, 1}, {30, 30}}) {
         for (const bool forth : {true, false}) {
@@ -179,7 +179,7 @@ TEST_CASE("cell search: of equal ways it takes one along the straight line betwe
     }
 }
 
-TEST_CASE("cell search: a way does not depend on what was asked before") {
+TEST_CASE("cell search: a path does not depend on earlier calls") {
     test::Draw draw(45);
     Ground ground(test::random_map(draw, 60, 60, 15), 0_m);
     for (int i = 0; i < 50; ++i) {
@@ -190,7 +190,7 @@ TEST_CASE("cell search: a way does not depend on what was asked before") {
     }
 }
 
-TEST_CASE("cell search: there is no way from nowhere, to nowhere or through a wall") {
+TEST_CASE("cell search: there is no path from or to outside the map, or through a wall") {
     Ground ground(drawn_map({"..#..", "..#.."}), 0_m);
     CHECK(ground.way(ground.end(0, 0), ground.end(4, 0)).empty());
     CHECK(ground.way(ground.end(0, 0), {{4, 1}, {}}).empty());

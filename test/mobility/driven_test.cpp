@@ -57,7 +57,7 @@ double turn_between(double a, double b) { return std::abs(std::remainder(a - b, 
 
 }  // namespace
 
-TEST_CASE("driven: never more than a millimetre off the arc, on it where chords end") {
+TEST_CASE("driven: deviates at most a millimetre from the arc, and not at the ends of chords") {
     for (const double v : {1.0, 0.3, -2.0}) {
         for (const double w : {1.0, -0.1, 3.0, 0.0}) {
             for (const bool turns_in_place : {false, true}) {
@@ -82,7 +82,7 @@ TEST_CASE("driven: never more than a millimetre off the arc, on it where chords 
     }
 }
 
-TEST_CASE("driven: at 1 m/s and 1 rad/s eleven legs a second") {
+TEST_CASE("driven: at 1 m/s and 1 rad/s makes eleven legs a second") {
     Drive drive;
     drive.net.move(drive.robot, Driven{.speed = {1}, .turn_rate = {1}});
     drive.net.run_for(10s);
@@ -91,7 +91,7 @@ TEST_CASE("driven: at 1 m/s and 1 rad/s eleven legs a second") {
     CHECK(distance(drive.net.position(drive.robot), on_arc({5, 7, 0}, 0, 1, 1, 10)) < 0.00101);
 }
 
-TEST_CASE("driven: turning in place, standing still, and a command that ends") {
+TEST_CASE("driven: turns in place, stands still, and ends a command") {
     Drive drive;
     drive.net.move(drive.robot, Driven{.turn_rate = {0.5}});
     drive.net.run_for(4s);
@@ -104,7 +104,7 @@ TEST_CASE("driven: turning in place, standing still, and a command that ends") {
     CHECK(distance(drive.net.position(drive.robot), stop) < 1e-9);
 }
 
-TEST_CASE("driven: no faster than its top speed") {
+TEST_CASE("driven: never exceeds the top speed") {
     Network net;
     const NodeId robot = net.add({.name = "r", .at = {}, .top_speed = {0.5}});
     net.move(robot, Driven{.speed = {3}});
@@ -112,7 +112,7 @@ TEST_CASE("driven: no faster than its top speed") {
     CHECK(distance(net.position(robot), {1, 0, 0}) < 1e-9);
 }
 
-TEST_CASE("driven: stops at a wall, turns there, and goes on when it may") {
+TEST_CASE("driven: stops at a wall, turns there, and continues when possible") {
     NetworkSettings settings;
     settings.scene =
         std::make_shared<const Scene>(test::drawn_map({"......#", "......#", "......#"}));
@@ -136,7 +136,7 @@ TEST_CASE("driven: stops at a wall, turns there, and goes on when it may") {
     CHECK(scene.clearance(drive.net.position(drive.robot)) >= 0.2 - 1e-9);
 }
 
-TEST_CASE("driven: a thousand commands in the midst of chords are as near to the arc as one") {
+TEST_CASE("driven: a thousand commands during chords deviate no more from the arc than one") {
     Drive drive;
     const auto arc = std::make_shared<DrivenArc>();
     double worst = 0;
@@ -159,7 +159,7 @@ TEST_CASE("driven: a thousand commands in the midst of chords are as near to the
     CHECK(distance(drive.net.position(drive.robot), on_arc({0, 0, 0}, a, 1, 0, 1)) < 1e-9);
 }
 
-TEST_CASE("driven: turn rates from nearly none on follow their circles") {
+TEST_CASE("driven: small and large turn rates follow their circles") {
     for (const double w : {1e-300, 1e-15, 1e-9, 1e-6, 1e-4}) {
         CAPTURE(w);
         Drive drive(0.3);

@@ -31,7 +31,7 @@ double gap(Network& net, Duration t) {
 
 }  // namespace
 
-TEST_CASE("follow: it comes to its distance from a leader that stands, and stays there") {
+TEST_CASE("follow: reaches its distance from a resting leader, and stays there") {
     Network net;
     net.add({.name = "A", .at = {100, 0}});
     net.add({.name = "B", .at = {0, 0}, .move = Follow{.distance = {3}, .speed = {2}}});
@@ -41,7 +41,9 @@ TEST_CASE("follow: it comes to its distance from a leader that stands, and stays
     CHECK(net.events() < 700);
 }
 
-TEST_CASE("follow: behind a steady leader it looks from its distance plus what the leader gains") {
+TEST_CASE(
+    "follow: the gap behind a steady leader is the distance plus the leader's way until the next "
+    "look") {
     Network net;
     net.add({.name = "A", .at = {10, 0}, .move = ToGoal{.to = {1e4, 0}, .speed = {1.5}}});
     net.add(
@@ -51,14 +53,14 @@ TEST_CASE("follow: behind a steady leader it looks from its distance plus what t
     CHECK(net.events() < 1000);
 }
 
-TEST_CASE("follow: behind a leader that is faster it falls back at the difference") {
+TEST_CASE("follow: behind a faster leader it falls back at the difference of speeds") {
     Network net;
     net.add({.name = "A", .at = {10, 0}, .move = ToGoal{.to = {1e4, 0}, .speed = {3}}});
     net.add({.name = "B", .at = {0, 0}, .move = Follow{.speed = {2}}});
     CHECK(std::abs(gap(net, 100s) - 110) < tolerance);
 }
 
-TEST_CASE("follow: while the leader is nearer it stands") {
+TEST_CASE("follow: stands while the leader is nearer than the distance") {
     Network net;
     net.add({.name = "A", .at = {1, 0}});
     net.add({.name = "B", .at = {0, 0}, .move = Follow{}});
@@ -66,7 +68,7 @@ TEST_CASE("follow: while the leader is nearer it stands") {
     CHECK(net.position({1}) == Vec3{0, 0});
 }
 
-TEST_CASE("follow: a leader that draws its first place is seen there from the start") {
+TEST_CASE("follow: a leader with a random start position is seen there from the start") {
     Network net;
     net.add({.name = "B", .at = {0, 0}, .move = Follow{.leader = {1}, .every = 1h}});
     const RandomDirection far_off{
@@ -76,7 +78,7 @@ TEST_CASE("follow: a leader that draws its first place is seen there from the st
     CHECK(std::abs(distance(net.position({0}), {0, 0}) - 100) < tolerance);
 }
 
-TEST_CASE("follow: its distance is along the way around the walls") {
+TEST_CASE("follow: the distance is measured along the path around the walls") {
     const auto map = std::make_shared<Scene>(drawn_map({
         ".......",
         "...#...",
@@ -96,7 +98,7 @@ TEST_CASE("follow: its distance is along the way around the walls") {
     CHECK(distance(net.position({1}), {0.5, 0.5}) > 2);
 }
 
-TEST_CASE("follow: while there is no way it stands and looks again") {
+TEST_CASE("follow: without a path it stands and tries again later") {
     const auto map =
         std::make_shared<Scene>(drawn_map({"...#....", "...#....", "...#....", "...#...."}));
     Network net({.scene = map});
@@ -110,7 +112,7 @@ TEST_CASE("follow: while there is no way it stands and looks again") {
     CHECK(net.events() < 100);
 }
 
-TEST_CASE("follow: its height stays, and itself it need not follow") {
+TEST_CASE("follow: keeps its height, and cannot follow itself") {
     Network net;
     net.add({.name = "A", .at = {10, 0, 7}});
     net.add({.name = "B", .at = {0, 0, 1}, .move = Follow{}});
@@ -120,7 +122,7 @@ TEST_CASE("follow: its height stays, and itself it need not follow") {
     CHECK(net.position({2}) == Vec3{3, 3});
 }
 
-TEST_CASE("follow: a leader that is not there, or a parameter out of range, is refused") {
+TEST_CASE("follow: an unknown leader, or a parameter out of range, is refused") {
     const auto refused = [](Follow model) {
         Network net;
         net.add({.name = "A", .at = {}, .move = model});

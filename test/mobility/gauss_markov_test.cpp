@@ -98,7 +98,7 @@ TEST_CASE("gauss_markov: with memory 1 neither speed nor direction ever changes"
     CHECK(sample(course.directions).deviation() < 1e-6);
 }
 
-TEST_CASE("gauss_markov: the first direction is any, unless it is given") {
+TEST_CASE("gauss_markov: the first direction is random, unless it is given") {
     const Scene field;
     Planners planners(field);
     Sample x, y;
@@ -113,7 +113,7 @@ TEST_CASE("gauss_markov: the first direction is any, unless it is given") {
     CHECK(y.errors_off(0, std::sqrt(0.5)) < most_errors);
 }
 
-TEST_CASE("gauss_markov: it never leaves its area, is everywhere in it and goes on for ever") {
+TEST_CASE("gauss_markov: never leaves its area, visits all of it and never ends") {
     const Scene field;
     Planners planners(field);
     for (const double mean : {0.0, 1.0, 50.0}) {
@@ -135,7 +135,7 @@ TEST_CASE("gauss_markov: it never leaves its area, is everywhere in it and goes 
     }
 }
 
-TEST_CASE("gauss_markov: backwards it turns at a border too, whatever its memory") {
+TEST_CASE("gauss_markov: with negative memory it also turns at a border") {
     const Scene field;
     Planners planners(field);
     int backwards = 0;
@@ -149,7 +149,7 @@ TEST_CASE("gauss_markov: backwards it turns at a border too, whatever its memory
     CHECK(backwards > 0);
 }
 
-TEST_CASE("gauss_markov: near a border it turns before it gets there") {
+TEST_CASE("gauss_markov: turns near a border before it reaches the border") {
     const Scene field;
     Planners planners(field);
     LoneMover robot(planners, 4);
@@ -163,7 +163,7 @@ TEST_CASE("gauss_markov: near a border it turns before it gets there") {
     CHECK(on_border == 0);
 }
 
-TEST_CASE("gauss_markov: no faster than the robot's top speed") {
+TEST_CASE("gauss_markov: never exceeds the robot's top speed") {
     const Scene field;
     Planners planners(field);
     LoneMover robot(planners, 4);
@@ -175,7 +175,7 @@ TEST_CASE("gauss_markov: no faster than the robot's top speed") {
     }
 }
 
-TEST_CASE("gauss_markov: at a wall it turns round") {
+TEST_CASE("gauss_markov: turns around at a wall") {
     const Scene map(test::drawn_map({"....#.....", "....#.....", "....#....."}));
     Planners planners(map);
     LoneMover robot(planners, 1, {1, 1.5}, 0.25_m);
@@ -191,7 +191,7 @@ TEST_CASE("gauss_markov: at a wall it turns round") {
     CHECK(std::abs(robot.leg.to.x - 2.75) < 2e-6);
 }
 
-TEST_CASE("gauss_markov: what makes no sense is refused, and without room it is blocked") {
+TEST_CASE("gauss_markov: invalid parameters are refused, and without room the robot is blocked") {
     const Scene field;
     Planners planners(field);
     const auto refused = [&](GaussMarkov model) {

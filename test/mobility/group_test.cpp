@@ -53,7 +53,7 @@ TEST_CASE("group: at the end of each interval the members are uniform in their d
     CHECK(net.events() < 2200);
 }
 
-TEST_CASE("group: the leader's leg is foreseen to its end, not beyond") {
+TEST_CASE("group: the leader's motion is predicted up to the end of its leg") {
     Network net;
     net.add({.name = "A", .at = {0, 0}, .move = ToGoal{.to = {7, 0}, .speed = {1}}});
     net.add({.name = "B", .at = {0, 0}, .move = Group{.radius = {0}, .every = 5s}});
@@ -65,7 +65,7 @@ TEST_CASE("group: the leader's leg is foreseen to its end, not beyond") {
     CHECK(distance(net.position({1}), {7, 0}) < tolerance);
 }
 
-TEST_CASE("group: a leader that draws its first place is met there") {
+TEST_CASE("group: a leader with a random start position is met there") {
     Network net;
     net.add({.name = "B", .at = {0, 0}, .move = Group{.leader = {1}, .radius = {1}}});
     const RandomDirection far_off{
@@ -75,7 +75,7 @@ TEST_CASE("group: a leader that draws its first place is met there") {
     CHECK(distance(net.position({0}), net.position({1})) < 1 + tolerance);
 }
 
-TEST_CASE("group: a member that cannot go fast enough comes later") {
+TEST_CASE("group: a member that is too slow arrives later") {
     Network net;
     net.add({.name = "A", .at = {60, 0}});
     net.add({.name = "B", .at = {0, 0}, .move = Group{.radius = {2}}, .top_speed = {1}});
@@ -85,7 +85,7 @@ TEST_CASE("group: a member that cannot go fast enough comes later") {
     CHECK(distance(net.position({1}), {60, 0}) < 2 + tolerance);
 }
 
-TEST_CASE("group: a member that joins late keeps to the intervals since the start") {
+TEST_CASE("group: a member that joins late keeps the intervals counted from the start") {
     Network net;
     net.add({.name = "A", .at = {60, 0}});
     const NodeId late = net.add({.name = "B", .at = {0, 0}});
@@ -95,7 +95,7 @@ TEST_CASE("group: a member that joins late keeps to the intervals since the star
     CHECK(distance(net.position(late), {60, 0}) < 2 + tolerance);
 }
 
-TEST_CASE("group: around the walls, and only to places that can be reached") {
+TEST_CASE("group: members go around walls, and only to reachable positions") {
     const auto map = std::make_shared<Scene>(test::drawn_map({
         ".........",
         "....#....",
@@ -116,7 +116,7 @@ TEST_CASE("group: around the walls, and only to places that can be reached") {
     }
 }
 
-TEST_CASE("group: where it cannot reach its leader it stands") {
+TEST_CASE("group: stands where it cannot reach its leader") {
     const auto map = std::make_shared<Scene>(test::drawn_map({"...#...", "...#..."}));
     Network net({.scene = map});
     net.add({.name = "A", .at = {1, 1}});
@@ -126,7 +126,7 @@ TEST_CASE("group: where it cannot reach its leader it stands") {
     CHECK(net.events() < 30);
 }
 
-TEST_CASE("group: a leader that is not there, or a parameter out of range, is refused") {
+TEST_CASE("group: an unknown leader, or a parameter out of range, is refused") {
     const auto refused = [](Group model) {
         Network net;
         net.add({.name = "A", .at = {}, .move = model});

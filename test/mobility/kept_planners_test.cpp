@@ -21,7 +21,7 @@ std::shared_ptr<const Scene> empty_map(std::size_t columns, std::size_t rows) {
 
 }  // namespace
 
-TEST_CASE("kept planners: a scene has its own, the same ones each time") {
+TEST_CASE("kept planners: each scene has its own planners, the same in each call") {
     KeptPlanners kept;
     const auto one = empty_map(3, 2), other = empty_map(3, 2);
     const auto planners = kept.of(one);
@@ -31,7 +31,7 @@ TEST_CASE("kept planners: a scene has its own, the same ones each time") {
     CHECK(kept.of(nullptr) == nullptr);  // an open field
 }
 
-TEST_CASE("kept planners: a scene that is given up by others is not taken for a later one") {
+TEST_CASE("kept planners: a freed scene is not confused with a later one") {
     KeptPlanners kept;
     for (std::size_t columns = 1; columns < 20; ++columns) {
         const auto scene = empty_map(columns, 1);
@@ -39,7 +39,7 @@ TEST_CASE("kept planners: a scene that is given up by others is not taken for a 
     }
 }
 
-TEST_CASE("kept planners: scenes not asked for lately are given up, that in use is not") {
+TEST_CASE("kept planners: scenes not used recently are removed, the one in use is kept") {
     KeptPlanners kept(35);  // three maps of 10 cells, not four
     std::vector<std::weak_ptr<const Scene>> seen;
     const auto in_use = empty_map(5, 2);

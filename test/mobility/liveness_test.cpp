@@ -119,7 +119,7 @@ int robots_with_too_many_legs(const Scene& scene, int robots, double* worst = nu
 
 }  // namespace
 
-TEST_CASE("liveness: arcs into walls make no more legs than chords and 4 for each contact") {
+TEST_CASE("liveness: arcs into walls make no more legs than chords, plus 4 for each contact") {
     for (const double yaw : {0.0, 0.4, std::numbers::pi}) {
         CAPTURE(yaw);
         const Scene scene(rooms(0.5, yaw));
@@ -128,7 +128,7 @@ TEST_CASE("liveness: arcs into walls make no more legs than chords and 4 for eac
     }
 }
 
-TEST_CASE("liveness: an arc meets a straight wall, waits until it heads along it, and leaves") {
+TEST_CASE("liveness: an arc stops at a straight wall, waits until it is parallel, and leaves") {
     const Scene scene(test::drawn_map({"..........", "..........", "..........", "##########"}));
     Planners planners(scene);
     // 0.5 m/s at -0.3 rad from a millimetre before contact, 1 rad/s to the left.
@@ -152,7 +152,7 @@ TEST_CASE("liveness: an arc meets a straight wall, waits until it heads along it
     CHECK(std::abs(robot.leg.to.y - (1.2 + 0.5 * (1 - std::cos(t)))) < 2e-6);
 }
 
-TEST_CASE("liveness: backwards and to the right, a corner and the border of the map hold as well") {
+TEST_CASE("liveness: backward and right arcs, corners and map borders also stop the robot") {
     const Scene scene(test::drawn_map({"........", "...##...", "...##...", "........"}));
     Planners planners(scene);
     const auto legs_at = [&](Vec3 at, double heading, double v, double w) {
@@ -180,7 +180,8 @@ TEST_CASE("liveness: backwards and to the right, a corner and the border of the 
     }
 }
 
-TEST_CASE("liveness: range finders that see less than they keep make no more legs than strides") {
+TEST_CASE(
+    "liveness: range finders shorter than the kept distance make at most one leg per stride") {
     const Scene scene(rooms(0.5, 0.0));
     Planners planners(scene);
     test::Draw draw(11);
@@ -203,7 +204,7 @@ TEST_CASE("liveness: range finders that see less than they keep make no more leg
     }
 }
 
-TEST_CASE("liveness: a way to a goal beside a wall has no more legs than cells, and it arrives") {
+TEST_CASE("liveness: a path beside a wall has no more legs than cells, and arrives") {
     const Scene scene(rooms(0.5, 0.4));
     Planners planners(scene);
     for (std::uint64_t i = 0; i < 100; ++i) {

@@ -37,7 +37,7 @@ bool stands(const Leg& leg) {
 
 }  // namespace
 
-TEST_CASE("movement: by default it is Fixed, and so are its copies") {
+TEST_CASE("movement: the default is Fixed, and so are its copies") {
     Movement none;
     Movement copy = none;
     Movement fixed = Fixed{};
@@ -47,7 +47,7 @@ TEST_CASE("movement: by default it is Fixed, and so are its copies") {
     CHECK(sizeof(Movement) == sizeof(void*));
 }
 
-TEST_CASE("movement: moved from, it is Fixed") {
+TEST_CASE("movement: a moved-from movement is Fixed") {
     Movement goal = ToGoal{.to = {9, 2, 0}};
     Movement taken = std::move(goal);
     CHECK(leg_of(taken).to == Vec3{9, 2, 0});
@@ -58,14 +58,14 @@ TEST_CASE("movement: moved from, it is Fixed") {
     CHECK(leg_of(taken).to == Vec3{5, 2, 0});
 }
 
-TEST_CASE("movement: a copy goes on by itself") {
+TEST_CASE("movement: a copy continues independently") {
     Movement goal = Waypoints{.path = {{9, 2, 0}, {9, 9, 0}}};
     Movement copy = goal;
     CHECK(leg_of(goal).to == Vec3{9, 2, 0});
     CHECK(leg_of(copy).to == Vec3{9, 2, 0});
 }
 
-TEST_CASE("movement: a leg that outlasts the clock keeps its speed") {
+TEST_CASE("movement: a leg beyond the largest time keeps its speed") {
     const MetersPerSecond slow{0.1};
     for (const double metres : {1e7, 1e9}) {  // 3 and 317 years
         CAPTURE(metres);

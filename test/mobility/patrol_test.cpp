@@ -15,7 +15,7 @@ namespace patrol_test {
 using namespace rovernet;
 using test::LoneMover;
 
-TEST_CASE("patrol: round and round through its places") {
+TEST_CASE("patrol: visits its places round and round") {
     const Scene field;
     Planners planners(field);
     LoneMover robot(planners, 0, {0, 0, 1});
@@ -29,7 +29,7 @@ TEST_CASE("patrol: round and round through its places") {
     }
 }
 
-TEST_CASE("patrol: around the walls") {
+TEST_CASE("patrol: goes around the walls") {
     const Scene map(test::drawn_map({".......", "...#...", "...#...", "...#..."}));
     Planners planners(map);
     LoneMover robot(planners, 0, {0.5, 0.5}, 0.3_m);
@@ -44,7 +44,7 @@ TEST_CASE("patrol: around the walls") {
     CHECK(arrivals < 50);
 }
 
-TEST_CASE("patrol: a place without a way to it ends it there") {
+TEST_CASE("patrol: a place without a path to it ends the patrol") {
     const Scene map(test::drawn_map({"...#...", "...#..."}));
     Planners planners(map);
     const Legs nobody;
@@ -57,7 +57,7 @@ TEST_CASE("patrol: a place without a way to it ends it there") {
     CHECK(std::get<Blocked>(step).goal == Vec3{6.5, 0.5});
 }
 
-TEST_CASE("patrol: where there is nothing to go it comes to rest") {
+TEST_CASE("patrol: rests if all its places are where it is") {
     const Scene field;
     Planners planners(field);
     const Legs nobody;
@@ -70,7 +70,7 @@ TEST_CASE("patrol: where there is nothing to go it comes to rest") {
     }
 }
 
-TEST_CASE("patrol: no places, or a speed that is not > 0, is refused") {
+TEST_CASE("patrol: an empty list of places, or a speed that is not > 0, is refused") {
     const Scene field;
     Planners planners(field);
     LoneMover robot(planners);

@@ -50,21 +50,21 @@ std::vector<bool> flooded(const OccupancyGrid& grid, int column, int row) {
 
 }  // namespace
 
-TEST_CASE("planner: on an open field the way is the straight line") {
+TEST_CASE("planner: on an open field the path is the straight line") {
     const Scene field;
     const auto path = Planner(field, 0.3_m).shortest_path({0, 0, 1}, {500, -20, 2});
     REQUIRE(path);
     CHECK(*path == Path{{0, 0, 1}, {500, -20, 2}});
 }
 
-TEST_CASE("planner: the straight line is taken where it is passable") {
+TEST_CASE("planner: the straight line is used where it is passable") {
     const Scene scene(drawn_map({".....", "..#..", "....."}));
     const auto path = shortest_path(scene, {0.5, 0.5}, {4.5, 0.5}, 0.4_m);
     REQUIRE(path);
     CHECK(*path == Path{{0.5, 0.5}, {4.5, 0.5}});
 }
 
-TEST_CASE("planner: a robot that does not fit through the door goes the long way or not at all") {
+TEST_CASE("planner: a robot that does not fit through the door takes a detour, or finds no path") {
     const auto map = drawn_map(
         {
             "............",
@@ -91,7 +91,7 @@ TEST_CASE("planner: a robot that does not fit through the door goes the long way
                               {2.25, 0.75}, 0.3_m));
 }
 
-TEST_CASE("planner: there is no way into a wall, off the map or into a closed room") {
+TEST_CASE("planner: there is no path into a wall, off the map or into a closed room") {
     const Scene scene(drawn_map({
         ".......",
         ".#####.",
@@ -113,12 +113,12 @@ TEST_CASE("planner: there is no way into a wall, off the map or into a closed ro
     CHECK(planner.shortest_path({2.5, 2.5}, {4.5, 4.5}));
 }
 
-TEST_CASE("planner: no corner is cut, not even by a point") {
+TEST_CASE("planner: no path cuts a corner, not even at a point") {
     const Scene scene(drawn_map({".#", "#."}));
     CHECK_FALSE(shortest_path(scene, {0.2, 1.7}, {1.6, 0.5}, 0_m));
 }
 
-TEST_CASE("planner: a way is found exactly where flooding finds one, and it is passable") {
+TEST_CASE("planner: finds a path exactly where a flood fill finds one, and it is passable") {
     test::Draw draw(31);
     for (int trial = 0; trial < 40; ++trial) {
         const OccupancyGrid grid = test::random_map(draw, 30, 20, 20 + draw.below(20));
@@ -140,7 +140,7 @@ TEST_CASE("planner: a way is found exactly where flooding finds one, and it is p
     }
 }
 
-TEST_CASE("planner: round the end of a wall the way is near the taut string") {
+TEST_CASE("planner: around the end of a wall the path is near the taut string") {
     // A wall from the lower edge to y = 6 m, from x = 9.6 m to 10.6 m. The string goes round its
     // upper corners at the distance of the radius: a straight part and an arc on either side.
     std::vector<std::string> rows(40, std::string(100, '.'));
@@ -167,7 +167,7 @@ TEST_CASE("planner: round the end of a wall the way is near the taut string") {
     CHECK(longest < 1.01);
 }
 
-TEST_CASE("planner: ends between the cells of a tight corridor are reached") {
+TEST_CASE("planner: ends between the cells of a narrow corridor are reached") {
     // The corridor is 2 m wide and its middle is a grid line: no cell centre in it is free.
     const Scene scene(drawn_map({
         "......",
@@ -183,7 +183,7 @@ TEST_CASE("planner: ends between the cells of a tight corridor are reached") {
     CHECK(passable(scene, *path, 0.8_m));
 }
 
-TEST_CASE("planner: the same question has the same answer to the last bit") {
+TEST_CASE("planner: equal requests give equal paths to the last bit") {
     test::Draw draw(33);
     OccupancyGrid grid = test::random_map(draw, 50, 50, 10);
     grid.yaw = 0.3;
@@ -204,14 +204,14 @@ TEST_CASE("planner: the same question has the same answer to the last bit") {
     CHECK(found > 10);
 }
 
-TEST_CASE("planner: a radius that is negative or no number is refused") {
+TEST_CASE("planner: a radius that is negative or not a number is refused") {
     const Scene field;
     CHECK_THROWS_AS(Planner(field, Meters{-0.1}), std::invalid_argument);
     CHECK_THROWS_AS(Planner(field, Meters{std::numeric_limits<double>::quiet_NaN()}),
                     std::invalid_argument);
 }
 
-TEST_CASE("planner: it says that there is a way exactly where it finds one") {
+TEST_CASE("planner: reports that there is a path exactly where it finds one") {
     test::Draw draw(32);
     for (const double radius : {0.0, 0.3, 0.7, 1.2}) {
         const Scene scene(test::random_map(draw, 30, 20, 12));
@@ -224,7 +224,7 @@ TEST_CASE("planner: it says that there is a way exactly where it finds one") {
     }
 }
 
-TEST_CASE("planner: an answer is the same when asked for again, and after many others") {
+TEST_CASE("planner: a path is the same when requested again, and after many others") {
     test::Draw draw(33);
     const Scene scene(test::random_map(draw, 40, 30, 9));
     Planner planner(scene, 0.3_m);

@@ -48,14 +48,14 @@ struct Crowd {
 
 }  // namespace
 
-TEST_CASE("random_direction: the density of places is uniform, at once and later") {
+TEST_CASE("random_direction: the density of positions is uniform, at the start and later") {
     const RandomDirection model{.area = hall, .min_speed = {0.5}, .max_speed = {5}};
     for (const Duration t : {0s, 15s, 60s, 300s}) {
         CHECK(std::abs(Crowd(model, t).places.uniform_chi_square_sigmas()) < most_chi_sigmas);
     }
 }
 
-TEST_CASE("random_direction: the mean speed is stationary") {
+TEST_CASE("random_direction: the mean speed does not change with time") {
     const double low = 0.5, high = 5, mean = (high - low) / std::log(high / low);
     const double square = (high * high - low * low) / (2 * std::log(high / low));
     const RandomDirection model{.area = hall, .min_speed = {low}, .max_speed = {high}};
@@ -65,13 +65,13 @@ TEST_CASE("random_direction: the mean speed is stationary") {
     }
 }
 
-TEST_CASE("random_direction: with all angles alike robots crowd along the borders") {
+TEST_CASE("random_direction: with uniform angles at a border robots gather along the borders") {
     const RandomDirection model{
         .area = hall, .min_speed = {0.5}, .max_speed = {5}, .border_turn = BorderTurn::uniform};
     CHECK(Crowd(model, 300s).places.uniform_chi_square_sigmas() > 20);
 }
 
-TEST_CASE("random_direction: the mean leg is pi times the area over its border: Cauchy's chord") {
+TEST_CASE("random_direction: the mean leg is pi times area over border length (Cauchy)") {
     const Scene field;
     Planners planners(field);
     LoneMover robot(planners);
@@ -85,7 +85,7 @@ TEST_CASE("random_direction: the mean leg is pi times the area over its border: 
     CHECK(lengths.errors_off(3.141592653589793 * 6000 / 320, lengths.deviation()) < most_errors);
 }
 
-TEST_CASE("random_direction: after each leg it rests") {
+TEST_CASE("random_direction: rests after each leg") {
     const Scene field;
     Planners planners(field);
     LoneMover robot(planners, 5, {20, 30});
@@ -104,7 +104,7 @@ TEST_CASE("random_direction: after each leg it rests") {
     }
 }
 
-TEST_CASE("random_direction: it stops before a wall") {
+TEST_CASE("random_direction: stops before a wall") {
     const Scene map(test::drawn_map({"..........", "..........", ".......#..", ".........."}));
     Planners planners(map);
     int at_wall = 0, clear = 0;
@@ -123,7 +123,7 @@ TEST_CASE("random_direction: it stops before a wall") {
     CHECK(clear > 0.9 * at_wall);
 }
 
-TEST_CASE("random_direction: outside its area, or without room, it cannot begin") {
+TEST_CASE("random_direction: cannot begin outside its area or without room") {
     const Scene field;
     Planners planners(field);
     LoneMover outside(planners, 0, {101, 30});

@@ -26,7 +26,7 @@ constexpr double most_chi_sigmas = 4.5;
 
 }  // namespace
 
-TEST_CASE("random_walk: density and speeds are uniform, at once and later") {
+TEST_CASE("random_walk: density and speeds are uniform, at the start and later") {
     const Scene field;
     Planners planners(field);
     const RandomWalk model{
@@ -46,7 +46,7 @@ TEST_CASE("random_walk: density and speeds are uniform, at once and later") {
     }
 }
 
-TEST_CASE("random_walk: it diffuses: the mean square distance is that of independent steps") {
+TEST_CASE("random_walk: the mean square distance is that of independent steps") {
     const Scene field;
     Planners planners(field);
     // E[d^2] = steps (v step)^2, and d^2 / E is nearly exponential: its deviation is its mean.
@@ -67,7 +67,7 @@ TEST_CASE("random_walk: it diffuses: the mean square distance is that of indepen
     CHECK(squares.errors_off(expected, expected) < most_errors);
 }
 
-TEST_CASE("random_walk: borders reflect as mirrors do, and cost no time") {
+TEST_CASE("random_walk: borders reflect like mirrors, without loss of time") {
     const Scene field;
     Planners planners(field);
     const double width = 3, height = 2;
@@ -94,7 +94,7 @@ TEST_CASE("random_walk: borders reflect as mirrors do, and cost no time") {
     CHECK(bounces > 500);
 }
 
-TEST_CASE("random_walk: legs join, stay in the area and on the map, and cross no wall") {
+TEST_CASE("random_walk: legs are continuous, stay in area and map, and cross no wall") {
     const Scene map(test::drawn_map({"......", "..##..", "......", "......"}));
     Planners planners(map);
     LoneMover robot(planners, 2, {}, 0.4_m);
@@ -111,7 +111,7 @@ TEST_CASE("random_walk: legs join, stay in the area and on the map, and cross no
     }
 }
 
-TEST_CASE("random_walk: what makes no sense is refused, and without room it is blocked") {
+TEST_CASE("random_walk: invalid parameters are refused, and without room the robot is blocked") {
     const Scene field;
     Planners planners(field);
     const auto refused = [&](RandomWalk model) {

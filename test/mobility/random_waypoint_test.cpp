@@ -100,7 +100,7 @@ TEST_CASE("random_waypoint: the mean leg in 1500 m x 300 m is 524.639 m") {
     CHECK(every_other_leg(1500, 300, 40'000).errors_off(524.639, deviation) < most_errors);
 }
 
-TEST_CASE("random_waypoint: legs join in place and time and keep to area and speeds") {
+TEST_CASE("random_waypoint: legs are continuous in place and time, within area and speeds") {
     const Scene field;
     Planners planners(field);
     LoneMover robot(planners);
@@ -130,7 +130,7 @@ TEST_CASE("random_waypoint: legs join in place and time and keep to area and spe
     CHECK(rests == 1000);
 }
 
-TEST_CASE("random_waypoint: the stationary mean speed is that of the table, at every time") {
+TEST_CASE("random_waypoint: the stationary mean speed equals the table at every time") {
     const test::Vectors vectors("rwp_speed_decay.csv");
     int checked = 0;
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -150,7 +150,7 @@ TEST_CASE("random_waypoint: the stationary mean speed is that of the table, at e
     CHECK(checked == 18);
 }
 
-TEST_CASE("random_waypoint: with speeds down to a micrometre a second the start is right too") {
+TEST_CASE("random_waypoint: the start is right also for speeds down to a micrometre a second") {
     const double low = 1e-6, high = 20, mean = 1.1896799778838094;  // rwp_speed_decay.csv
     const double square = (high * high - low * low) / (2 * std::log(high / low));
     const RandomWaypoint model{.area = box(50, 50), .min_speed = {low}, .max_speed = {high}};
@@ -173,7 +173,7 @@ TEST_CASE("random_waypoint: from the classic start the mean speed decays to the 
     }
 }
 
-TEST_CASE("random_waypoint: the density of places is the exact one, at once and later") {
+TEST_CASE("random_waypoint: the density of positions is the exact one, at the start and later") {
     // Half of the last digit of the published values, and the sum's own error.
     constexpr double printed = 1e-5;
     CHECK(std::abs(stationary_density(0.5, 0.5) - 2.20135) < printed);
@@ -199,7 +199,7 @@ TEST_CASE("random_waypoint: the density of places is the exact one, at once and 
     }
 }
 
-TEST_CASE("random_waypoint: a steady state as other simulators have it: 1000 m x 600 m") {
+TEST_CASE("random_waypoint: the steady state in 1000 m x 600 m agrees with other simulators") {
     // ns-3's test of its steady-state random waypoint model, with its tolerances.
     const RandomWaypoint model{.area = box(1000, 600), .min_speed = {0.01}, .max_speed = {20}};
     for (const Duration t : {Duration{1ms}, Duration{1000s}}) {
@@ -219,7 +219,7 @@ TEST_CASE("random_waypoint: a steady state as other simulators have it: 1000 m x
     }
 }
 
-TEST_CASE("random_waypoint: the share of robots at rest is E[P] / (E[P] + E[T]), at every time") {
+TEST_CASE("random_waypoint: the share of robots at rest is E[P] / (E[P] + E[T]) at every time") {
     const double pause = 30, low = 0.5, high = 5;
     const double trip = 100 * 0.5214054331647207 * std::log(high / low) / (high - low);
     const double share = pause / (pause + trip);
@@ -237,7 +237,7 @@ TEST_CASE("random_waypoint: the share of robots at rest is E[P] / (E[P] + E[T]),
     }
 }
 
-TEST_CASE("random_waypoint: it begins where its start says") {
+TEST_CASE("random_waypoint: begins at the place that `start` selects") {
     const Scene field;
     Planners planners(field);
     RandomWaypoint here{.area = box(10, 10), .start = StartState::here};
@@ -252,7 +252,7 @@ TEST_CASE("random_waypoint: it begins where its start says") {
     CHECK(x.errors_off(5, 10 / std::sqrt(12.0)) < most_errors);
 }
 
-TEST_CASE("random_waypoint: taken up during the run it goes on from where the robot is") {
+TEST_CASE("random_waypoint: a movement set during the run begins at the robot's position") {
     Network net;
     const NodeId robot = net.add({.name = "A", .at = {77, 88}});
     net.run_until(start_of_run + 5s);
@@ -264,7 +264,7 @@ TEST_CASE("random_waypoint: taken up during the run it goes on from where the ro
     CHECK(gone < 1.1);
 }
 
-TEST_CASE("random_waypoint: another robot leaves a robot's motion as it was") {
+TEST_CASE("random_waypoint: another robot does not change a robot's motion") {
     const auto places = [](bool more) {
         Network net({.seed = 9});
         if (more) net.add({.name = "B", .at = {}, .move = RandomWaypoint{.area = box(30, 30)}});
@@ -280,7 +280,7 @@ TEST_CASE("random_waypoint: another robot leaves a robot's motion as it was") {
     CHECK(places(false) == places(true));
 }
 
-TEST_CASE("random_waypoint: no trip is faster than the robot can go, and slow ones stay frequent") {
+TEST_CASE("random_waypoint: no trip exceeds the top speed, and slow trips remain frequent") {
     const Scene field;
     Planners planners(field);
     Sample v;
@@ -295,7 +295,7 @@ TEST_CASE("random_waypoint: no trip is faster than the robot can go, and slow on
     CHECK(v.errors_off(1.0820212806667227, 0.427) < most_errors);  // rwp_speed_decay.csv, [0.5, 2]
 }
 
-TEST_CASE("random_waypoint: on a map it starts and goes where its body has room") {
+TEST_CASE("random_waypoint: on a map it starts and goes only where its body fits") {
     const Scene office(test::drawn_map({
         "..........",
         ".####.###.",
@@ -318,7 +318,7 @@ TEST_CASE("random_waypoint: on a map it starts and goes where its body has room"
     }
 }
 
-TEST_CASE("random_waypoint: on a map the mean speed is stationary and so is the share at rest") {
+TEST_CASE("random_waypoint: on a map mean speed and share at rest do not change with time") {
     const Scene office(test::drawn_map({
         ".....#....",
         ".....#....",
@@ -346,7 +346,7 @@ TEST_CASE("random_waypoint: on a map the mean speed is stationary and so is the 
     }
 }
 
-TEST_CASE("random_waypoint: without room or a way it is blocked") {
+TEST_CASE("random_waypoint: without room or path it is blocked") {
     const Scene walled(test::drawn_map({"###", "#.#", "###"}));
     Planners planners(walled);
     for (const StartState start : {StartState::stationary, StartState::uniform, StartState::here}) {
@@ -356,7 +356,7 @@ TEST_CASE("random_waypoint: without room or a way it is blocked") {
     }
 }
 
-TEST_CASE("random_waypoint: what makes no sense is refused") {
+TEST_CASE("random_waypoint: invalid parameters are refused") {
     const Scene field;
     Planners planners(field);
     const auto refused = [&](RandomWaypoint model, const std::string& part) {

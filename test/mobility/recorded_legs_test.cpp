@@ -25,7 +25,7 @@ Leg leg(Duration start, Duration end, Vec3 from, Vec3 velocity) {
 
 }  // namespace
 
-TEST_CASE("recorded legs come one after the other, with rests between them, and then an end") {
+TEST_CASE("recorded legs: follow one another, with rests between them, and then end") {
     const Scene scene;
     Planners planners(scene);
     LoneMover robot(planners);
@@ -40,7 +40,7 @@ TEST_CASE("recorded legs come one after the other, with rests between them, and 
     CHECK_FALSE(robot.walk(model));
 }
 
-TEST_CASE("recorded legs: a leg ends where the robot turned to the next one") {
+TEST_CASE("recorded legs: a leg ends where the robot changed to the next one") {
     const Scene scene;
     Planners planners(scene);
     LoneMover robot(planners);

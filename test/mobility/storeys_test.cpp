@@ -71,7 +71,7 @@ std::vector<Vec3> corners(const std::vector<Vec3>& path, Vec3 at) {
 
 }  // namespace
 
-TEST_CASE("storeys: a robot climbs stairs as fast in space as it drives") {
+TEST_CASE("storeys: a robot climbs stairs at its speed in space") {
     const auto scene = building();
     Network net({.scene = scene});
     const NodeId robot = net.add({.name = "R",
@@ -89,7 +89,7 @@ TEST_CASE("storeys: a robot climbs stairs as fast in space as it drives") {
     CHECK(net.position(robot) == Vec3{7, 1, 3});
 }
 
-TEST_CASE("storeys: ways go around the walls of their storey, and stairs go straight") {
+TEST_CASE("storeys: paths go around the walls of their storey, and stairs are straight") {
     // Below the door is at the right, above at the left.
     const auto below = corners({{1, 4, 0}}, {1, 1, 0});
     REQUIRE(below.size() > 2);
@@ -107,7 +107,7 @@ TEST_CASE("storeys: ways go around the walls of their storey, and stairs go stra
     CHECK(all[2] == Vec3{5, 4, 3});
 }
 
-TEST_CASE("storeys: stairs into a wall or off the map are no way") {
+TEST_CASE("storeys: stairs into a wall or off the map are not a path") {
     CHECK(corners({{5, 4, 3}}, {5, 1, 0}).empty());        // the wall below stands in the way
     CHECK(corners({{5, 2.5, 3}}, {9, 2.5, 0}).empty());    // it would end in the wall above
     CHECK(corners({{-1, 1, 3}}, {1, 1, 0}).empty());       // beyond the map
@@ -130,7 +130,7 @@ TEST_CASE("storeys: a timetable counts the length of stairs in space") {
     CHECK(near(net.position(robot), {1 + 1.6, 1, 1.2}));
 }
 
-TEST_CASE("storeys: who looks around sees the walls of its storey") {
+TEST_CASE("storeys: range finders of movements see the walls of their storey") {
     const auto scene = building();
     Planners planners(*scene);
     const Legs none;
@@ -145,7 +145,7 @@ TEST_CASE("storeys: who looks around sees the walls of its storey") {
     CHECK(near(ahead({9, 1, 3}), 1));
 }
 
-TEST_CASE("storeys: random movements stay on their storey and off its walls") {
+TEST_CASE("storeys: random movements stay on their storey and outside walls") {
     const auto scene = building();
     Planners planners(*scene);
     Wander wander{};

@@ -80,7 +80,7 @@ TEST_CASE("waypoints: a path at a speed takes its length over the speed") {
     CHECK(walk.diary->arrivals.size() == 1);
 }
 
-TEST_CASE("waypoints: by timetable the robot is where it must be when it must") {
+TEST_CASE("waypoints: by timetable the robot is at each place at the given time") {
     const std::vector<TimedPoint> table{
         {3s, {7, 0, 0}}, {4s, {7, 1, 0}}, {7'777'777'777ns, {-3, 2, 1}}};
     Walk walk(Waypoints{.timed = table});
@@ -100,21 +100,21 @@ TEST_CASE("waypoints: the same place twice in the timetable is a rest") {
     CHECK(walk.at(6s) == Vec3{3, 0, 0});
 }
 
-TEST_CASE("waypoints: a timed place whose time has passed is left out") {
+TEST_CASE("waypoints: a timed place whose time has passed is skipped") {
     Walk walk(Waypoints{.timed = {{2s, {2, 0, 0}}, {1s, {50, 0, 0}}, {4s, {4, 0, 0}}}});
     CHECK(walk.at(2s) == Vec3{2, 0, 0});
     CHECK(near(walk.at(3s), {3, 0, 0}));
     CHECK(walk.at(4s) == Vec3{4, 0, 0});
 }
 
-TEST_CASE("waypoints: after the timetable the path follows at its speed") {
+TEST_CASE("waypoints: after the timetable the path continues at its speed") {
     Walk walk(Waypoints{.timed = {{2s, {1, 0, 0}}}, .path = {{1, 4, 0}}, .speed = {4}});
     CHECK(walk.at(2s) == Vec3{1, 0, 0});
     CHECK(near(walk.at(2500ms), {1, 2, 0}));
     CHECK(walk.at(3s) == Vec3{1, 4, 0});
 }
 
-TEST_CASE("waypoints: legs join in place and time, and each ends where its velocity leads") {
+TEST_CASE("waypoints: legs are continuous, and each ends where its velocity leads") {
     test::Draw draw(17);
     for (int run = 0; run < 30; ++run) {
         Waypoints way{.speed = {draw.uniform(0.1, 30)}};
@@ -146,7 +146,7 @@ TEST_CASE("waypoints: legs join in place and time, and each ends where its veloc
     }
 }
 
-TEST_CASE("waypoints: to a goal behind a wall the robot goes around it and through no wall") {
+TEST_CASE("waypoints: to a goal behind a wall the robot goes around the wall") {
     const auto scene = scene_of({
         "...........",
         ".....#.....",
@@ -171,7 +171,7 @@ TEST_CASE("waypoints: to a goal behind a wall the robot goes around it and throu
     CHECK(std::abs(seconds(walk.diary->arrivals[0].time) - length) <= slack);
 }
 
-TEST_CASE("waypoints: around a wall the timetable still holds, to the nanosecond") {
+TEST_CASE("waypoints: around a wall the timetable is exact to the nanosecond") {
     const auto scene = scene_of({"...........", ".....#.....", ".....#.....", ".....#....."});
     Walk walk(Waypoints{.timed = {{20s, {9.5, 0.5}}, {40s, {1.5, 0.5}}}}, {1.5, 0.5}, scene);
     CHECK(walk.at(20s) == Vec3{9.5, 0.5});
@@ -181,7 +181,7 @@ TEST_CASE("waypoints: around a wall the timetable still holds, to the nanosecond
     CHECK(walk.diary->arrivals[0].time == start_of_run + 40s);
 }
 
-TEST_CASE("waypoints: without a way to the goal the robot says so and stays") {
+TEST_CASE("waypoints: without a path to the goal the robot reports this and stays") {
     const auto scene = scene_of({".....#.....", ".....#.....", ".....#....."});
     Walk walk(ToGoal{.to = {9.5, 0.5, 0}}, {1.5, 0.5}, scene);
     CHECK(walk.at(1min) == Vec3{1.5, 0.5});
@@ -191,7 +191,7 @@ TEST_CASE("waypoints: without a way to the goal the robot says so and stays") {
     CHECK(walk.diary->arrivals.empty());
 }
 
-TEST_CASE("waypoints: a goal inside a wall or off the map is no goal") {
+TEST_CASE("waypoints: a goal inside a wall or off the map is refused") {
     for (const Vec3 goal : {Vec3{5.5, 0.5}, Vec3{50, 0.5}}) {
         Walk walk(ToGoal{.to = goal}, {1.5, 0.5}, scene_of({"...........", ".....#....."}));
         walk.at(1min);
@@ -199,7 +199,7 @@ TEST_CASE("waypoints: a goal inside a wall or off the map is no goal") {
     }
 }
 
-TEST_CASE("waypoints: a path that leads nowhere or to where the robot is rests at once") {
+TEST_CASE("waypoints: an empty path, or one to the robot's position, is a rest") {
     for (const auto& path : {std::vector<Vec3>{}, {{3, 4, 0}}, {{3, 4, 0}, {3, 4, 0}}}) {
         Walk walk(Waypoints{.path = path}, {3, 4, 0});
         CHECK(walk.at(1min) == Vec3{3, 4, 0});
@@ -224,7 +224,7 @@ TEST_CASE("waypoints: a speed that is not > 0 is refused") {
     }
 }
 
-TEST_CASE("waypoints: a leg lasts at least a nanosecond, however fast") {
+TEST_CASE("waypoints: a leg lasts at least a nanosecond at any speed") {
     Walk walk(Waypoints{.path = {{1e-6, 0, 0}, {2e-6, 0, 0}}, .speed = {1e9}});
     CHECK(walk.at(1s) == Vec3{2e-6, 0, 0});
     for (const auto& move : walk.diary->moves) CHECK(move.leg.end > move.leg.start);

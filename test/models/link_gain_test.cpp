@@ -23,36 +23,36 @@ constexpr double tolerance = 1e-12;  // [dB]
 
 }  // namespace
 
-TEST_CASE("link gain: two devices of 2007 bridge 45 mW over -75 dBm, 91.53 dB") {
+TEST_CASE("link gain: two devices of 2007 have a budget of 91.53 dB (45 mW, -75 dBm)") {
     constexpr double half_a_digit = 0.005;  // [dB]
     CHECK(near(link_budget(Radio{}, Radio{}).value, 91.53, half_a_digit));
 }
 
-TEST_CASE("link gain: the budget by hand: gains add, cables subtract, sensitivity is subtracted") {
+TEST_CASE("link gain: the budget adds gains, and subtracts cable losses and sensitivity") {
     const Radio base{.power = 20_dBm, .antenna_gain = 5_dB, .cable_loss = 2_dB};
     const Radio robot{.sensitivity = -90_dBm, .antenna_gain = 3_dB, .cable_loss = 0.5_dB};
     // 20 + 5 - 2 + 3 - 0.5 + 90
     CHECK(near(link_budget(base, robot).value, 115.5, tolerance));
 }
 
-TEST_CASE("link gain: a deafer receiver has a smaller budget") {
+TEST_CASE("link gain: a less sensitive receiver has a smaller budget") {
     const Radio deaf{.sensitivity = -70_dBm}, keen{.sensitivity = -80_dBm};
     CHECK(near((link_budget({}, keen) - link_budget({}, deaf)).value, 10, tolerance));
 }
 
-TEST_CASE("link gain: the two directions of a link differ by powers and sensitivities only") {
+TEST_CASE("link gain: the directions of a link differ only by powers and sensitivities") {
     const Radio loud{.power = 20_dBm, .antenna_gain = 5_dB, .cable_loss = 2_dB};
     const Radio quiet{.power = 10_dBm, .antenna_gain = 3_dB};
     CHECK(near((link_budget(loud, quiet) - link_budget(quiet, loud)).value, 10, tolerance));
 }
 
-TEST_CASE("link gain: a path that uses up the budget arrives at the sensitivity") {
+TEST_CASE("link gain: a path loss equal to the budget gives a level equal to the sensitivity") {
     const Radio from{.antenna_gain = 5_dB, .cable_loss = 2_dB};
     const Radio to{.sensitivity = -82_dBm, .antenna_gain = 1_dB, .cable_loss = 4_dB};
     CHECK(near(received_power(from, to, link_budget(from, to)).value, -82, tolerance));
 }
 
-TEST_CASE("link gain: the medium's level and margin are those of the path loss between two nodes") {
+TEST_CASE("link gain: level and margin of the medium follow from the path loss") {
     const Radio from{.power = 20_dBm, .antenna_gain = 5_dB, .cable_loss = 2_dB};
     const Radio to{.sensitivity = -90_dBm, .antenna_gain = 3_dB, .cable_loss = 0.5_dB};
     Legs legs;
@@ -71,7 +71,7 @@ TEST_CASE("link gain: the medium's level and margin are those of the path loss b
     CHECK(medium.stations().pose(b, start_of_run, legs).antenna == Vec3{30, 0, 1});
 }
 
-TEST_CASE("link gain: a loss of 10,000 dB leaves a level, not minus infinity (S10)") {
+TEST_CASE("link gain: a loss of 10,000 dB gives a finite level (S10)") {
     const Dbm level = received_power({.power = 40_dBm}, {}, 10000_dB);
     CHECK(near(level.value, 40 - 10000, tolerance));
     CHECK(near(received_power({.power = 40_dBm}, {}, 500_dB).value, -460, tolerance));
@@ -90,7 +90,7 @@ double gain_at(const Radio& radio, double angle, double heading = 0) {
 
 }  // namespace
 
-TEST_CASE("antennas: a table is linear in dB between its points, around the whole turn") {
+TEST_CASE("antennas: a table is interpolated linearly in dB, around the whole turn") {
     const Radio radio{.antenna = AntennaShape::table,
                       .antenna_direction = Radians{30 * degree},
                       .antenna_pattern = {{{0, 0}, {90, -9}, {180, -20}, {270, -4}}}};
@@ -107,7 +107,7 @@ TEST_CASE("antennas: a table is linear in dB between its points, around the whol
     CHECK(pattern_gain(radio, {}, {0, 0, 9}).value == 0);  // straight above
 }
 
-TEST_CASE("antennas: a sector loses 3 dB at half its beamwidth, and never more than behind") {
+TEST_CASE("antennas: a sector antenna loses 3 dB at half its beamwidth, and is limited behind") {
     for (const double width : {20.0, 60.0, 120.0, 300.0}) {
         const Radio radio{.antenna = AntennaShape::cosine,
                           .antenna_beamwidth = Radians{width * degree},
@@ -124,8 +124,7 @@ TEST_CASE("antennas: a sector loses 3 dB at half its beamwidth, and never more t
     }
 }
 
-TEST_CASE(
-    "antennas: gains are those of the poses where an antenna is directional, and only there") {
+TEST_CASE("antennas: gains depend on poses only if an antenna is directional") {
     const Radio plain{.antenna_gain = 2_dB, .cable_loss = 1_dB};
     Radio sector = plain;
     sector.antenna = AntennaShape::cosine;

@@ -78,14 +78,14 @@ struct Room {
 // most 0.9 % of it here; a longer run is held to 1 % by bench/agreement.
 constexpr double three_sigma = 0.025;
 
-TEST_CASE("aloha: pure, S = G exp(-2 G)") {
+TEST_CASE("aloha: the throughput of pure aloha is S = G exp(-2 G)") {
     for (const double load : {0.1, 0.5, 1.0}) {
         const double expected = load * std::exp(-2 * load);
         CHECK(std::abs(bench::aloha_throughput(load, 0us, 60000) / expected - 1) < three_sigma);
     }
 }
 
-TEST_CASE("aloha: slotted, S = G exp(-G)") {
+TEST_CASE("aloha: the throughput of slotted aloha is S = G exp(-G)") {
     for (const double load : {0.1, 1.0, 2.0}) {
         const double expected = load * std::exp(-load);
         CHECK(std::abs(bench::aloha_throughput(load, 1ms, 60000) / expected - 1) < three_sigma);
@@ -117,7 +117,7 @@ TEST_CASE("csma: stations that begin together collide, unless each draws a backo
               3 * std::sqrt(1.0 / (window + 1) / 400));
 }
 
-TEST_CASE("csma: an idle medium is waited for by a DIFS, and by the slots of a backoff") {
+TEST_CASE("csma: a station waits for a DIFS of idle medium, and for the slots of a backoff") {
     const WifiTiming timing = Csma{}.timing();
     for (const bool immediate : {true, false}) {
         const Csma own{.immediate_access = immediate};
@@ -150,7 +150,7 @@ TEST_CASE("csma: an idle medium is waited for by a DIFS, and by the slots of a b
     }
 }
 
-TEST_CASE("csma: saturated stations get what Bianchi's model says") {
+TEST_CASE("csma: saturated stations have the throughput of Bianchi's model") {
     const BianchiCell bianchi;
     for (const int n : {1, 5, 20}) {
         Room cell(std::max(n, 2), bianchi.csma(),
@@ -168,7 +168,7 @@ TEST_CASE("csma: saturated stations get what Bianchi's model says") {
     }
 }
 
-TEST_CASE("csma: an idle medium costs a DIFS, and the airtimes are those of the standard") {
+TEST_CASE("csma: access to an idle medium takes a DIFS, and airtimes equal the standard") {
     Room cell(2, Csma{}, {.rate = {11e6}});
     cell.net.at(start_of_run + 1ms,
                 [&] { cell.net.send(cell.nodes[0], cell.nodes[1], "", {.size = 995}); });
@@ -207,7 +207,7 @@ double microseconds_of_answer(double rate, std::vector<BitRate> basic_rates) {
 
 }  // namespace
 
-TEST_CASE("csma: an answer goes at the highest basic rate that is not above the frame's") {
+TEST_CASE("csma: a response uses the highest basic rate up to that of the frame") {
     const std::vector<BitRate> standard = mandatory_rates(WifiStandard::b);
     const auto ack_us = [](double rate) { return 192 + std::ceil(8 * 14 / rate * 1e6); };
     CHECK(microseconds_of_answer(11e6, standard) == doctest::Approx(ack_us(11e6)));
@@ -218,7 +218,7 @@ TEST_CASE("csma: an answer goes at the highest basic rate that is not above the 
     CHECK(microseconds_of_answer(1e6, {{2e6}, {11e6}}) == doctest::Approx(ack_us(2e6)));
 }
 
-TEST_CASE("csma: broadcasts and RTS go at the lowest basic rate") {
+TEST_CASE("csma: broadcasts and RTS use the lowest basic rate") {
     for (const double lowest : {1e6, 5.5e6}) {
         Room cell(2, Csma{.basic_rates = {{{11e6}, {lowest}}}}, {.rate = {11e6}});
         cell.net.at(start_of_run, [&] {
@@ -231,7 +231,7 @@ TEST_CASE("csma: broadcasts and RTS go at the lowest basic rate") {
     }
 }
 
-TEST_CASE("csma: a slot of no length, and no basic rate, are refused") {
+TEST_CASE("csma: a slot of length 0, and an empty list of basic rates, are refused") {
     Csma no_slot;
     no_slot.slot = Duration{0};
     CHECK_THROWS_WITH_AS(Network({.access = no_slot}), "csma: slot must be > 0, got 0",
@@ -241,7 +241,7 @@ TEST_CASE("csma: a slot of no length, and no basic rate, are refused") {
     CHECK_THROWS_AS(Network({.access = Csma{.basic_rates = {{{0}}}}}), std::invalid_argument);
 }
 
-TEST_CASE("csma: a unicast that nobody answers is sent seven times and given up") {
+TEST_CASE("csma: an unanswered unicast is sent seven times and then dropped") {
     Room cell(2, Csma{}, {}, 1000);
     cell.net.at(start_of_run, [&] { cell.net.send(cell.nodes[0], cell.nodes[1], "x"); });
     cell.net.run_for(1s);
@@ -249,7 +249,7 @@ TEST_CASE("csma: a unicast that nobody answers is sent seven times and given up"
     CHECK(cell.ledger->drops[DropReason::retries] == 1);
 }
 
-TEST_CASE("csma: behind an RTS that nobody answers no data goes out") {
+TEST_CASE("csma: after an unanswered RTS no data is sent") {
     Room cell(2, Csma{.rts_threshold = 0}, {}, 1000);
     cell.net.at(start_of_run, [&] { cell.net.send(cell.nodes[0], cell.nodes[1], "x"); });
     cell.net.run_for(1s);
@@ -257,7 +257,7 @@ TEST_CASE("csma: behind an RTS that nobody answers no data goes out") {
     CHECK(cell.ledger->drops[DropReason::retries] == 1);
 }
 
-TEST_CASE("csma: hidden senders ruin each other, and an RTS keeps them apart") {
+TEST_CASE("csma: hidden senders collide, and an RTS prevents this") {
     std::map<bool, std::uint64_t> delivered;
     for (const bool asks : {false, true}) {
         // A and C hear B, not each other.
@@ -273,7 +273,7 @@ TEST_CASE("csma: hidden senders ruin each other, and an RTS keeps them apart") {
     CHECK(delivered[true] > 2 * delivered[false]);
 }
 
-TEST_CASE("csma: a full queue drops, and switching off drops what waits") {
+TEST_CASE("csma: a full queue drops frames, and switching off drops waiting frames") {
     Room cell(2, Csma{.queue = 5});
     cell.net.at(start_of_run, [&] {
         for (int i = 0; i < 8; ++i)
@@ -285,7 +285,7 @@ TEST_CASE("csma: a full queue drops, and switching off drops what waits") {
     CHECK(cell.ledger->drops[DropReason::end] == 5);
 }
 
-TEST_CASE("csma: receivers that forward at once collide, as they ask at once; jitter parts them") {
+TEST_CASE("csma: receivers that forward at the same time collide; jitter prevents this") {
     std::map<bool, std::uint64_t> delivered;
     for (const bool parted : {false, true}) {
         Room room(6, Csma{}, {}, 10, 45);
@@ -299,7 +299,7 @@ TEST_CASE("csma: receivers that forward at once collide, as they ask at once; ji
     CHECK(delivered[true] == 5);
 }
 
-TEST_CASE("csma: saturated broadcasts go one hop, without a router, at the formula's rate") {
+TEST_CASE("csma: saturated broadcasts go one hop, without a router, at the theoretical rate") {
     const BroadcastCell cell;
     for (const int n : {2, 10}) {
         Room room(n, cell.csma(), {.rate = cell.rate});
@@ -353,7 +353,7 @@ std::string flooded(const ReceptionModel& reception, const AccessModel& access, 
 
 }  // namespace
 
-TEST_CASE("grid and one event per transmission give the records of all pairs and an event each") {
+TEST_CASE("grid and joint events give the same records as all pairs and single events") {
     for (const Db shadowing : {Db{0}, Db{4}}) {
         for (const ReceptionModel& model :
              {ReceptionModel{Threshold{}}, ReceptionModel{Collision{}}, ReceptionModel{Sinr{}}}) {

@@ -260,7 +260,7 @@ Propagation listed<Disc>() {
 
 }  // namespace
 
-TEST_CASE("air: frames meet as all pairs of them say, while robots run, jump, come and go") {
+TEST_CASE("air: frames interfere as in a check of all pairs, while robots move, jump and switch") {
     for (const Propagation& model :
          {Propagation{LogDistance{.exponent = 2, .sigma = Db{0}}},
           Propagation{LogDistance{.exponent = 2, .sigma = Db{4}}}, Propagation{Slope{}}}) {
@@ -271,7 +271,7 @@ TEST_CASE("air: frames meet as all pairs of them say, while robots run, jump, co
     }
 }
 
-TEST_CASE("air: so they do under every model") {
+TEST_CASE("air: frames interfere as in a check of all pairs, under every model") {
     for_each_model([]<class Model>() {
         auto fates = play(listed<Model>(), 6);
         CHECK(fates[Fate::waiting] > 20);
@@ -314,7 +314,7 @@ struct OpenField {
 
 }  // namespace
 
-TEST_CASE("air: a robot that jumps takes along what was on air where it was") {
+TEST_CASE("air: a robot that jumps keeps the frames on air at its old position") {
     for (const bool jumps : {false, true}) {
         OpenField space;
         const NodeId there = space.add(0), here = space.add(1e6), robot = space.add(1);
@@ -330,7 +330,7 @@ TEST_CASE("air: a robot that jumps takes along what was on air where it was") {
     }
 }
 
-TEST_CASE("air: a frame from afar that was over where it was sent meets one where it arrives") {
+TEST_CASE("air: a frame from far away that has ended at its sender interferes where it arrives") {
     for (const bool later : {false, true}) {
         OpenField space;
         const NodeId robot = space.add(0), near = space.add(30);
@@ -345,7 +345,7 @@ TEST_CASE("air: a frame from afar that was over where it was sent meets one wher
     }
 }
 
-TEST_CASE("air: at collision a frame that was let pass harms none that comes later, as in ns-2") {
+TEST_CASE("air: with collision, an ignored frame affects no later frame, as in ns-2") {
     // ns-2.35: a strong frame, a weak one under it that lasts longer, and one while that is on air.
     for (const bool strong : {true, false}) {
         Network net({.propagation = LogDistance{.exponent = 4, .sigma = Db{0}},
@@ -374,7 +374,7 @@ TEST_CASE("air: at collision a frame that was let pass harms none that comes lat
     }
 }
 
-TEST_CASE("air: frames of another network do not interfere, unless it is an open one") {
+TEST_CASE("air: frames of another network do not interfere, unless it is open") {
     for (const Gate gate : {Gate::network, Gate::none}) {
         OpenField space;
         const Radio ours{.power = {0}, .essid = "ours"};
@@ -389,7 +389,7 @@ TEST_CASE("air: frames of another network do not interfere, unless it is an open
     }
 }
 
-TEST_CASE("air: at sinr a receiver that locked on to a frame misses a stronger one") {
+TEST_CASE("air: with sinr, a receiver locked onto a frame misses a stronger one") {
     for (const bool decodable : {false, true}) {
         OpenField space{Sinr{}};
         const NodeId robot = space.add(0), strong = space.add(1);
@@ -403,7 +403,7 @@ TEST_CASE("air: at sinr a receiver that locked on to a frame misses a stronger o
     }
 }
 
-TEST_CASE("air: at sinr a frame that was missed for an earlier one does not hold its receiver") {
+TEST_CASE("air: with sinr, a frame missed for an earlier one does not lock its receiver") {
     OpenField space{Sinr{}};
     const NodeId robot = space.add(0), strong = space.add(1);
     const NodeId first = space.add(20), second = space.add(-40);
@@ -414,7 +414,7 @@ TEST_CASE("air: at sinr a frame that was missed for an earlier one does not hold
     CHECK(fates_at(*space.log, robot) == std::vector{Fate::waiting, Fate::waiting, Fate::collided});
 }
 
-TEST_CASE("air: at sinr bit errors are drawn anew for each frame of a sender") {
+TEST_CASE("air: with sinr, bit errors are drawn anew for each frame of a sender") {
     OpenField space{Sinr{}};
     const Radio radio{.power = {0}, .sensitivity = Dbm{-95}, .rate = BitRate{11e6}};
     const NodeId sender = space.net.add({.name = {}, .at = {0, 0}, .radio = radio});

@@ -125,8 +125,7 @@ void check_ends(const Run& run, int delivered, int lost) {
 
 }  // namespace
 
-TEST_CASE(
-    "aodv over radio: packets of the small graphs under an ideal MAC, before and after a break") {
+TEST_CASE("aodv over radio: packets equal the small graphs with an ideal MAC, also after a break") {
     struct Case {
         const char* name;
         const std::vector<Vec3>& places;
@@ -158,7 +157,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("aodv over radio: the same packets under 802.11 with RTS as ns-2.35 sends") {
+TEST_CASE("aodv over radio: packets equal ns-2.35 under 802.11 with RTS") {
     const Run run(line5, 4, 3, Csma{.rts_threshold = 0}, {.profile = AodvProfile::ns2});
     CHECK(of(run.before, aodv::request_kind) == 4);
     CHECK(of(run.before, aodv::reply_kind) == 4);

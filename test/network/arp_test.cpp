@@ -72,7 +72,7 @@ struct Row {
 
 }  // namespace
 
-TEST_CASE("arp: a robot asks once for the address of a neighbour, which then knows its own") {
+TEST_CASE("arp: a robot requests a neighbour's address once, and the neighbour learns its own") {
     Row row(3);
     row.say(1, 0);
     row.net.run_for(1s);
@@ -85,14 +85,14 @@ TEST_CASE("arp: a robot asks once for the address of a neighbour, which then kno
     CHECK(row.words->delivered == 4);
 }
 
-TEST_CASE("arp: without it no address is asked for") {
+TEST_CASE("arp: without ARP no address is requested") {
     Row row(2, {});
     row.say(0, 1);
     row.net.run_for(1s);
     CHECK(row.heard() == "data 0>1");
 }
 
-TEST_CASE("arp: one frame waits for an address, and a later one takes its place") {
+TEST_CASE("arp: one frame waits for an address, and a later one replaces it") {
     Row row(2);
     row.say(0, 1);
     row.say(0, 1);
@@ -138,7 +138,7 @@ TEST_CASE("arp: an address is forgotten after arp_timeout") {
     CHECK_THROWS_AS(Row(2, {.arp = true, .arp_timeout = Duration{0}}), std::invalid_argument);
 }
 
-TEST_CASE("arp: a robot that is switched off loses its addresses and the frame that waits") {
+TEST_CASE("arp: a robot that is switched off loses its addresses and the waiting frame") {
     Row row(2);
     row.net.switch_off({1});
     row.net.run_for(1ms);
@@ -150,7 +150,7 @@ TEST_CASE("arp: a robot that is switched off loses its addresses and the frame t
     CHECK(row.heard() == "REQUEST 0>1, drop END 0");
 }
 
-TEST_CASE("arp: a routing protocol hears of a neighbour that does not answer as of a broken link") {
+TEST_CASE("arp: a neighbour that does not answer is a broken link for the routing protocol") {
     Row row(3);
     row.net.route(Aodv{.profile = AodvProfile::ns2, .jitter = {}});
     row.net.send({0}, {2}, "", {.size = 64});
@@ -164,7 +164,7 @@ TEST_CASE("arp: a routing protocol hears of a neighbour that does not answer as 
     CHECK(row.heard().find("drop NRTE 1") != std::string::npos);
 }
 
-TEST_CASE("arp: ns-2 traces show its packets at the MAC alone, as ns-2 writes them") {
+TEST_CASE("arp: ns-2 traces have ARP packets only at the MAC, in the format of ns-2") {
     for (const bool is_old : {true, false}) {
         std::string lines;
         Row row(2);

@@ -13,7 +13,7 @@ namespace delivery_series_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 
-TEST_CASE("delivery series: each message's share of the others that got it, in order of sending") {
+TEST_CASE("delivery series: has each message's share of receivers, in the order of sending") {
     Network net({.propagation = Disc{.range = Meters{10}}});
     net.route(Flood{.ttl = 5});
     const auto series = std::make_shared<DeliverySeries>();
@@ -29,7 +29,7 @@ TEST_CASE("delivery series: each message's share of the others that got it, in o
     CHECK(series->delivered() == std::vector<double>{0.5, 0, 0.5});
 }
 
-TEST_CASE("delivery series: a lone robot's message reaches nobody") {
+TEST_CASE("delivery series: the message of a lone robot reaches nobody") {
     Network net;
     net.route(Flood{});
     const auto series = std::make_shared<DeliverySeries>();

@@ -177,7 +177,7 @@ int compare(const std::function<void(NetworkSettings&)>& choose) {
 
 }  // namespace
 
-TEST_CASE("a door closes and opens at its nanosecond: receptions and levels are those of a wall") {
+TEST_CASE("doors: a door closes and opens exact to the nanosecond, for receptions and levels") {
     const auto with = [](const Propagation& model) {
         return compare([&](NetworkSettings& settings) { settings.propagation = model; });
     };
@@ -188,7 +188,7 @@ TEST_CASE("a door closes and opens at its nanosecond: receptions and levels are 
     CHECK(with(ItuSiteGeneral{}) > 20);
 }
 
-TEST_CASE("a door is nothing to models that see no walls") {
+TEST_CASE("doors: have no effect on models that ignore walls") {
     const auto with = [](const Propagation& model) {
         return compare([&](NetworkSettings& settings) { settings.propagation = model; });
     };
@@ -197,7 +197,7 @@ TEST_CASE("a door is nothing to models that see no walls") {
     CHECK(with(Friis{}) == 0);
 }
 
-TEST_CASE("a door with shadowing, fading and the reference: as without a door or with a wall") {
+TEST_CASE("doors: with shadowing, fading and reference mode, equal no door or a wall") {
     CHECK(compare([](NetworkSettings& settings) {
               settings.propagation = MultiWall{};
               settings.shadowing = {.model = ShadowingModel::link};
@@ -212,7 +212,7 @@ TEST_CASE("a door with shadowing, fading and the reference: as without a door or
           }) > 20);
 }
 
-TEST_CASE("frames that interfere across a change: the fast way and the reference agree") {
+TEST_CASE("doors: the fast and the reference mode agree on frames across a change") {
     for (const ReceptionModel& reception : {ReceptionModel(Collision{.capture_ratio = 3_dB}),
                                             ReceptionModel(Sinr{.interference_cut = 20_dB})}) {
         const auto log_of = [&](bool reference) {
@@ -226,7 +226,7 @@ TEST_CASE("frames that interfere across a change: the fast way and the reference
     }
 }
 
-TEST_CASE("a frame that is on air as a door closes interferes as it was sent") {
+TEST_CASE("doors: a frame on air when a door closes interferes as it was sent") {
     // Robot 3 receives the first frame, through the open door; the second, of which only what the
     // closed door lets through arrives, begins 1 ns after the door closed.
     const auto fates = [](Kind kind, Duration first, Duration second) {
@@ -259,7 +259,7 @@ TEST_CASE("a frame that is on air as a door closes interferes as it was sent") {
     CHECK(fates(Kind::changes, closes - 1us, closes - 1ns) == Fate::collided);
 }
 
-TEST_CASE("a sender whose next frame goes through the closed door interferes by the one before") {
+TEST_CASE("doors: an earlier frame of a sender behind a closed door still interferes") {
     const auto fate_of = [](Kind kind, bool reference) {
         NetworkSettings of = settings(kind);
         of.propagation = MultiWall{};
@@ -288,7 +288,7 @@ TEST_CASE("a sender whose next frame goes through the closed door interferes by 
     CHECK(fate_of(Kind::changes, true) == fate_of(Kind::open, false));
 }
 
-TEST_CASE("links change at the nanosecond at which a door closes or opens, and only those") {
+TEST_CASE("doors: links change at the nanosecond at which a door closes or opens") {
     for (const Propagation& model : {Propagation(MultiWall{}), Propagation(Rays{})}) {
         NetworkSettings of = settings(Kind::changes);
         of.propagation = model;
@@ -315,7 +315,7 @@ TEST_CASE("links change at the nanosecond at which a door closes or opens, and o
     }
 }
 
-TEST_CASE("links of a robot that moves: every state is that of the scene at its time") {
+TEST_CASE("doors: links of a moving robot have the state of the scene at each time") {
     // The door fills the gap, or a part of it: then its ends are where links change.
     for (const auto& [bottom, top] : {std::pair{3.0, 5.0}, {3.0, 4.0}, {3.75, 3.9}}) {
         Door half = door();
@@ -346,7 +346,7 @@ TEST_CASE("links of a robot that moves: every state is that of the scene at its 
     }
 }
 
-TEST_CASE("doors that are closed at the begin, and the number of reachable robots") {
+TEST_CASE("doors: doors closed at the start, and the number of reachable robots, are right") {
     Door early = door();
     early.closes = {0s};
     early.opens = {1s};

@@ -96,7 +96,7 @@ void collide(Listener& l, std::uint32_t bytes) {
 
 }  // namespace
 
-TEST_CASE("eifs: a frame that was begun and lost costs an EIFS from its end on") {
+TEST_CASE("eifs: a frame that was begun and lost requires an EIFS from its end on") {
     for (const auto& [rule, expected] : {std::pair{EifsRule::standard, eifs},
                                          {EifsRule::ns2, eifs + difs},
                                          {EifsRule::none, difs}}) {
@@ -108,7 +108,7 @@ TEST_CASE("eifs: a frame that was begun and lost costs an EIFS from its end on")
     }
 }
 
-TEST_CASE("eifs: a frame that began while the receiver was at another one costs a DIFS") {
+TEST_CASE("eifs: a frame that began while the receiver was locked requires a DIFS") {
     for (const auto& [rule, expected] : {std::pair{EifsRule::standard, difs},
                                          {EifsRule::ns2, eifs + difs},
                                          {EifsRule::none, difs}}) {
@@ -118,7 +118,7 @@ TEST_CASE("eifs: a frame that began while the receiver was at another one costs 
     }
 }
 
-TEST_CASE("eifs: a preamble that was not found costs a DIFS") {
+TEST_CASE("eifs: an undetected preamble requires a DIFS") {
     for (const auto& [rule, expected] : {std::pair{EifsRule::standard, difs},
                                          {EifsRule::ns2, eifs + difs},
                                          {EifsRule::none, difs}}) {
@@ -131,7 +131,7 @@ TEST_CASE("eifs: a preamble that was not found costs a DIFS") {
     }
 }
 
-TEST_CASE("eifs: a frame that began while the station sent costs a DIFS") {
+TEST_CASE("eifs: a frame that began while the station sent requires a DIFS") {
     for (const auto& [rule, expected] : {std::pair{EifsRule::standard, difs},
                                          {EifsRule::ns2, eifs + difs},
                                          {EifsRule::none, difs}}) {
@@ -144,7 +144,7 @@ TEST_CASE("eifs: a frame that began while the station sent costs a DIFS") {
     }
 }
 
-TEST_CASE("eifs: a frame that was begun and given up for an acknowledgement costs a DIFS") {
+TEST_CASE("eifs: a frame abandoned for an acknowledgement requires a DIFS") {
     for (const auto& [rule, expected] : {std::pair{EifsRule::standard, difs},
                                          {EifsRule::ns2, eifs + difs},
                                          {EifsRule::none, difs}}) {
@@ -157,7 +157,7 @@ TEST_CASE("eifs: a frame that was begun and given up for an acknowledgement cost
     }
 }
 
-TEST_CASE("eifs: a frame that ends while the station sends costs nothing") {
+TEST_CASE("eifs: a frame that ends while the station sends requires nothing") {
     for (const double x : {-200.0, -400.0}) {  // decodable, and sensed only
         for (const EifsRule rule : {EifsRule::standard, EifsRule::ns2}) {
             Listener l(rule, Sinr{}, 550);
@@ -170,7 +170,7 @@ TEST_CASE("eifs: a frame that ends while the station sends costs nothing") {
     }
 }
 
-TEST_CASE("eifs: a frame that is sensed and too weak to be decoded costs one as in ns-2") {
+TEST_CASE("eifs: a frame that is sensed but too weak to decode requires one as in ns-2") {
     for (const auto& [rule, expected] : {std::pair{EifsRule::standard, difs},
                                          {EifsRule::ns2, eifs + difs},
                                          {EifsRule::none, difs}}) {
@@ -184,7 +184,7 @@ TEST_CASE("eifs: a frame that is sensed and too weak to be decoded costs one as 
     }
 }
 
-TEST_CASE("eifs: a frame without errors ends it; in ns-2 nothing does") {
+TEST_CASE("eifs: a frame without errors ends the EIFS; in ns-2 nothing does") {
     for (const auto& [rule, expected] :
          {std::pair{EifsRule::standard, 215us + difs}, {EifsRule::ns2, eifs + difs}}) {
         Listener l(rule);

@@ -89,7 +89,7 @@ constexpr double share = 0.03;
 
 }  // namespace
 
-TEST_CASE("flows: a near sender and a far one that is hidden get what ns-2 and ns-3 give them") {
+TEST_CASE("flows: a near sender and a far hidden sender get the throughput of ns-2 and ns-3") {
     const Csma as_ns2{.basic_rates = {{{1e6}}}, .header = 34};
     const double collision = near_and_far.frames_per_second(Collision{}, as_ns2);
     CHECK(collision == doctest::Approx(106.3).epsilon(share));  // ns-2
@@ -97,7 +97,7 @@ TEST_CASE("flows: a near sender and a far one that is hidden get what ns-2 and n
     CHECK(sinr == doctest::Approx(105.1).epsilon(share));  // ns-3
 }
 
-TEST_CASE("flows: a chain of five stations carries what ns-2 and ns-3 let it carry") {
+TEST_CASE("flows: a chain of five stations has the throughput of ns-2 and ns-3") {
     const Csma as_ns2{.basic_rates = {{{1e6}}}, .header = 34};
     CHECK(chain.frames_per_second(Collision{}, as_ns2) ==
           doctest::Approx(216.2).epsilon(share));  // ns-2
@@ -105,7 +105,7 @@ TEST_CASE("flows: a chain of five stations carries what ns-2 and ns-3 let it car
           doctest::Approx(207.6).epsilon(share));  // ns-3
 }
 
-TEST_CASE("flows: EIFS as in ns-2 gives each flow what ns-2 gives it") {
+TEST_CASE("flows: with EIFS as in ns-2 each flow has the throughput of ns-2") {
     const Csma as_ns2{.cca_time = 0us,
                       .turnaround = 0us,
                       .cw_min = 30,
@@ -123,7 +123,7 @@ TEST_CASE("flows: EIFS as in ns-2 gives each flow what ns-2 gives it") {
     CHECK(sensed.by_flow(Collision{}, standard, 60s)[0] > 45);
 }
 
-TEST_CASE("flows: a frame that the receiver never began costs no EIFS, as in ns-3") {
+TEST_CASE("flows: a frame that the receiver never began requires no EIFS, as in ns-3") {
     Csma as_ns3{.header = 36};
     as_ns3.cca_time = 4us;  // in which ns-3 finds a preamble
     as_ns3.turnaround = 0us;
@@ -131,7 +131,7 @@ TEST_CASE("flows: a frame that the receiver never began costs no EIFS, as in ns-
           doctest::Approx(162.6).epsilon(0.015));
 }
 
-TEST_CASE("flows: at 11 Mb/s answers at the basic rates of the standard give what ns-3 gives") {
+TEST_CASE("flows: at 11 Mb/s, responses at the basic rates give the throughput of ns-3") {
     const Csma standard{.header = 36};
     CHECK(exposed.frames_per_second(Sinr{}, standard) == doctest::Approx(753.7).epsilon(0.01));
     const Csma slow{.basic_rates = {{{1e6}}}, .header = 34};

@@ -84,7 +84,7 @@ constexpr Time begin = start_of_run;
 
 }  // namespace
 
-TEST_CASE("link watch: what is up at the start is told at the start, in the order of the robots") {
+TEST_CASE("link watch: links that are up at the start are reported then, in the order of robots") {
     const Scene field;
     Harness network{&field};
     for (const double x : {0.0, 8.0, 16.0}) network.add(Disc{.range = 10_m}, resting({x, 0, 0}));
@@ -98,7 +98,7 @@ TEST_CASE("link watch: what is up at the start is told at the start, in the orde
     CHECK_FALSE(network.watch.next());  // nobody moves
 }
 
-TEST_CASE("link watch: a passing robot comes and goes, by each sender's own model") {
+TEST_CASE("link watch: links of a passing robot go up and down, by each sender's model") {
     const Scene field;
     Harness network{&field};
     network.add(Disc{.range = 10_m}, resting({}));
@@ -112,7 +112,7 @@ TEST_CASE("link watch: a passing robot comes and goes, by each sender's own mode
     CHECK_FALSE(network.watch.next());
 }
 
-TEST_CASE("link watch: a new leg makes void what was expected of the old one") {
+TEST_CASE("link watch: a new leg cancels the changes predicted for the old one") {
     const Scene field;
     Harness network{&field};
     network.add(Disc{.range = 10_m}, resting({}));
@@ -136,7 +136,7 @@ TEST_CASE("link watch: a new leg makes void what was expected of the old one") {
     CHECK(network.take().empty());
 }
 
-TEST_CASE("link watch: one call tells all that is due, and nothing that became void") {
+TEST_CASE("link watch: one call reports all due changes, and no cancelled ones") {
     const Scene field;
     Harness network{&field};
     network.add(Disc{.range = 10_m}, resting({}));
@@ -150,7 +150,8 @@ TEST_CASE("link watch: one call tells all that is due, and nothing that became v
                                                     {begin + 30s, a, b, true}});
 }
 
-TEST_CASE("link watch: a change at the end of a leg is told once, before or after the new leg") {
+TEST_CASE(
+    "link watch: a change at the end of a leg is reported once, before or after the new leg") {
     const Scene field;
     for (const bool served_first : {false, true}) {
         Harness network{&field};
@@ -166,7 +167,7 @@ TEST_CASE("link watch: a change at the end of a leg is told once, before or afte
     }
 }
 
-TEST_CASE("link watch: a radio that is switched takes its links down and brings them up") {
+TEST_CASE("link watch: switching a radio takes its links down and up") {
     const Scene field;
     Harness network{&field};
     network.add(Disc{.range = 10_m}, resting({}));
@@ -190,7 +191,7 @@ TEST_CASE("link watch: a radio that is switched takes its links down and brings 
     CHECK(network.watch.next() == begin + 30s + 1ns);
 }
 
-TEST_CASE("link watch: a robot that joins later has its links from then on") {
+TEST_CASE("link watch: a robot that joins later has links from then on") {
     const Scene field;
     Harness network{&field};
     network.watch.start(begin);
@@ -248,7 +249,7 @@ auto key(const LinkChange& change) { return std::tie(change.time, change.from, c
 
 }  // namespace
 
-TEST_CASE("link watch: the changes do not depend on the order in which robots are added") {
+TEST_CASE("link watch: changes do not depend on the order in which robots are added") {
     test::Draw draw(3);
     const Scene scene(test::random_map(draw, 24, 24, 6));
     std::vector<std::uint32_t> order{0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
@@ -263,7 +264,7 @@ TEST_CASE("link watch: the changes do not depend on the order in which robots ar
     CHECK(found == expected);
 }
 
-TEST_CASE("link watch: a model of unknown shape is looked at for as long as its robots move") {
+TEST_CASE("link watch: a model of unknown shape is sampled as long as robots move") {
     const Scene field;
     Harness network{&field, {.tolerance = 1ns, .min_dwell = 10us}};
     network.add(Rings{}, resting({}));
@@ -279,8 +280,7 @@ TEST_CASE("link watch: a model of unknown shape is looked at for as long as its 
                                                     {begin + 20s, b, a, true}});
 }
 
-TEST_CASE(
-    "link watch: a model of unknown shape is looked at as far as the run goes, not the legs") {
+TEST_CASE("link watch: a model of unknown shape is sampled as far as the run lasts, not the legs") {
     const Scene field;
     Harness network{&field, {.tolerance = 1ms, .min_dwell = 100ms}};
     int looks = 0;
@@ -300,7 +300,7 @@ TEST_CASE(
     CHECK(network.take().size() == 2 * (1 + changes));
 }
 
-TEST_CASE("link watch: more robots than it can watch are refused") {
+TEST_CASE("link watch: too many robots are refused") {
     const Scene field;
     Harness network{&field};
     const Propagation disc = Disc{.range = 10_m};

@@ -36,8 +36,7 @@ std::string stall(Network& net, Duration span) {
 
 }  // namespace
 
-TEST_CASE(
-    "liveness: a robot that makes a leg each nanosecond ends the run with its name and place") {
+TEST_CASE("liveness: a robot with a leg each nanosecond ends the run with its name and position") {
     for (const Duration step : {0ns, 1ns, 9ns}) {
         CAPTURE(step.count());
         Network net;
@@ -50,13 +49,13 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("liveness: ten robots that hold time up together are found, too") {
+TEST_CASE("liveness: ten robots that stall the time together are found") {
     Network net;
     for (int i = 0; i < 10; ++i) net.add({.name = {}, .at = {}, .move = Creep{0ns}});
     CHECK(stall(net, 1s).starts_with("robot \"r"));
 }
 
-TEST_CASE("liveness: many events at once are none of a robot that holds time up") {
+TEST_CASE("liveness: many simultaneous events of different robots are no stall") {
     Network net;
     for (int i = 0; i < 500; ++i) net.add({.name = {}, .at = {}, .move = Creep{1us, 1}});
     CHECK(stall(net, 11ms).empty());

@@ -121,7 +121,7 @@ constexpr Duration airtime_64_bytes{238'545};  // at 11 Mb/s behind 192 us of pr
 
 }  // namespace
 
-TEST_CASE("load: 10,000 robots in one place cost a transmission one event, and hear it each") {
+TEST_CASE("load: a transmission to 10,000 robots in one place is one event, and all receive it") {
     constexpr int robots = 10'000, messages = 10;
     Watched crowd(disc(1));
     crowd.add_crowd(robots);
@@ -133,7 +133,7 @@ TEST_CASE("load: 10,000 robots in one place cost a transmission one event, and h
     CHECK(crowd.net.events() == 2 * messages);  // an action and a frame
 }
 
-TEST_CASE("load: of 1,000 robots in one place 30 send at once, and nobody gets anything") {
+TEST_CASE("load: of 1,000 robots in one place 30 send at once, and nobody receives anything") {
     constexpr int robots = 1000, senders = 30;
     for (const ReceptionModel& model : {ReceptionModel{Collision{}}, ReceptionModel{Sinr{}}}) {
         CAPTURE(model.name());
@@ -170,7 +170,7 @@ TEST_CASE("load: 300 robots in one place flood with sinr and csma, one frame eac
     CHECK(crowd.net.events() < static_cast<std::uint64_t>(robots * (robots - 1)));
 }
 
-TEST_CASE("load: a crowd that talks on takes no more memory") {
+TEST_CASE("load: a crowd that keeps sending takes no more memory") {
     for (const AccessModel& access : {AccessModel{NoAccess{}}, AccessModel{Csma{}}}) {
         for (const ReceptionModel& model :
              {ReceptionModel{Threshold{}}, ReceptionModel{Collision{}}}) {
@@ -218,7 +218,7 @@ TEST_CASE("load: a flood crosses 100,000 robots on a line, hop by hop") {
     }
 }
 
-TEST_CASE("load: robots at 1e9 and 1e12 m live as those at home do") {
+TEST_CASE("load: robots at 1e9 and 1e12 m behave like robots at the origin") {
     Watched world(disc(120));
     // Of the far ones, single precision puts those that are 100 m apart 128 and 65,536 m apart.
     for (const double home : {0.0, 1e9, -1'000'000'028'722.0}) {
@@ -258,7 +258,7 @@ TEST_CASE("load: robots at 1e9 and 1e12 m live as those at home do") {
     }
 }
 
-TEST_CASE("load: a robot comes home over 1e9 m, and its links are found on the way") {
+TEST_CASE("load: a robot returns over 1e9 m, and its links are found on the way") {
     Watched world(disc(1000));
     world.add({0, 500});
     const NodeId far = world.net.add(
@@ -270,7 +270,7 @@ TEST_CASE("load: a robot comes home over 1e9 m, and its links are found on the w
     CHECK(world.net.events() < 12);
 }
 
-TEST_CASE("load: at a range of zero only those in one place hear each other") {
+TEST_CASE("load: with range 0 only robots in one place hear each other") {
     for (const ReceptionModel& model : {ReceptionModel{Threshold{}}, ReceptionModel{Collision{}}}) {
         Watched world(disc(0, model));
         world.add({0, 0, 1e-9, 5, 1e9});
@@ -286,7 +286,7 @@ TEST_CASE("load: at a range of zero only those in one place hear each other") {
     }
 }
 
-TEST_CASE("load: at a range of zero robots that drive through each other end as they began") {
+TEST_CASE("load: with range 0 robots that pass through each other keep their links") {
     Network net(disc(0));
     const auto links = std::make_shared<Links>();
     net.add_sink(links);
@@ -298,7 +298,7 @@ TEST_CASE("load: at a range of zero robots that drive through each other end as 
     CHECK(net.events() < 20);
 }
 
-TEST_CASE("load: two frames of one nanosecond are both received at threshold, the first first") {
+TEST_CASE("load: of two frames at one nanosecond with threshold both are received, in order") {
     for (const std::uint32_t first : {0U, 1U}) {
         Watched world(disc(15));
         world.add({0, 20, 10, 10});
@@ -312,7 +312,7 @@ TEST_CASE("load: two frames of one nanosecond are both received at threshold, th
     }
 }
 
-TEST_CASE("load: two frames of one nanosecond and one level are both lost") {
+TEST_CASE("load: two frames at one nanosecond with one level are both lost") {
     for (const ReceptionModel& model : {ReceptionModel{Collision{}}, ReceptionModel{Sinr{}}}) {
         CAPTURE(model.name());
         Watched hidden(disc(15, model));
@@ -332,7 +332,7 @@ TEST_CASE("load: two frames of one nanosecond and one level are both lost") {
     }
 }
 
-TEST_CASE("load: of two frames of one nanosecond the one stronger by the capture ratio survives") {
+TEST_CASE("load: of two frames at one nanosecond the one stronger by the capture ratio survives") {
     for (const std::uint32_t stronger : {0U, 1U}) {
         NetworkSettings settings = disc(0, Collision{});
         settings.propagation = LogDistance{.exponent = 2, .sigma = Db{0}};
@@ -351,7 +351,7 @@ TEST_CASE("load: of two frames of one nanosecond the one stronger by the capture
     }
 }
 
-TEST_CASE("load: csma commits to a frame 18 us ahead, and not a nanosecond more") {
+TEST_CASE("load: csma decides on a frame exactly 18 us in advance") {
     // 802.11b decides a turnaround of 5 us before it sends, by what arrived 13 us before that.
     for (const Duration later : {Duration{0}, Duration{18us}, Duration{18'001}}) {
         CAPTURE(later.count());
@@ -401,7 +401,7 @@ struct Storm {
 
 }  // namespace
 
-TEST_CASE("load: a message storm ends at the event limit, and says what it is and what to do") {
+TEST_CASE("load: a message storm ends at the event limit, with an explanation and advice") {
     for (const AccessModel& access : {AccessModel{NoAccess{}}, AccessModel{Csma{}}}) {
         CAPTURE(access.name());
         Storm storm(10'000, access);
@@ -417,7 +417,7 @@ TEST_CASE("load: a message storm ends at the event limit, and says what it is an
     }
 }
 
-TEST_CASE("load: as many events are served as the limit allows, and no more") {
+TEST_CASE("load: exactly as many events are served as the limit allows") {
     Network net({.event_limit = 100});
     const std::function<void()> again = [&] { net.at(net.now() + 1s, again); };
     again();
@@ -425,7 +425,7 @@ TEST_CASE("load: as many events are served as the limit allows, and no more") {
     CHECK(net.events() == 100);
 }
 
-TEST_CASE("load: what happened before a storm reached the event limit is not lost") {
+TEST_CASE("load: events before a storm reached the limit are not lost") {
     Storm shorter(5'000), longer(10'000);
     shorter.run();
     longer.run();
@@ -440,7 +440,7 @@ TEST_CASE("load: what happened before a storm reached the event limit is not los
     CHECK(metrics.deliveries == 9);
 }
 
-TEST_CASE("load: robots that change all the time while nobody sends leave nothing behind") {
+TEST_CASE("load: robots that change all the time without traffic leave no data behind") {
     Watched watched(disc(10, Collision{}));
     watched.add({0, 1});
     watched.send(0, 1ms);

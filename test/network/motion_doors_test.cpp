@@ -97,7 +97,8 @@ struct House {
 
 }  // namespace
 
-TEST_CASE("a robot on its way stops before a door that has closed, and goes on when it opens") {
+TEST_CASE(
+    "doors: a moving robot stops before a door that has closed, and continues when it opens") {
     House house({door({1s}, {10s})});
     const NodeId a = house.add({2, 4, 0}, ToGoal{.to = {11, 4, 0}, .speed = {1}});
     // The door's side is at 6.4 m; the body has 0.3 m.
@@ -118,7 +119,7 @@ TEST_CASE("a robot on its way stops before a door that has closed, and goes on w
     CHECK(house.diary->moves[3].leg.velocity == house.diary->moves[0].leg.velocity);
 }
 
-TEST_CASE("a robot that comes to a closed door waits there: it plans as if the door were open") {
+TEST_CASE("doors: a robot waits at a closed door, because it plans with open doors") {
     House house({door({0s}, {20s})});
     const NodeId a = house.add({2, 1.5, 0}, Waypoints{.path = {{2, 4, 0}, {11, 4, 0}, {11, 2, 0}}});
     CHECK(near(house.at(15s, a), {6.1, 4, 0}));
@@ -126,7 +127,7 @@ TEST_CASE("a robot that comes to a closed door waits there: it plans as if the d
     CHECK(house.diary->arrivals.size() == 1);
 }
 
-TEST_CASE("a door that opens before the robot has come to it does not stop it") {
+TEST_CASE("doors: a door that opens before the robot arrives does not stop it") {
     House house({door({1s}, {3s})});
     const NodeId a = house.add({2, 4, 0}, ToGoal{.to = {11, 4, 0}, .speed = {1}});
     CHECK(near(house.at(5s, a), {7, 4, 0}));
@@ -134,7 +135,7 @@ TEST_CASE("a door that opens before the robot has come to it does not stop it") 
     CHECK(house.diary->arrivals.size() == 1);
 }
 
-TEST_CASE("two doors in a row: the robot waits at the first, then at the second") {
+TEST_CASE("doors: with two doors in a row the robot waits at the first, then at the second") {
     Door second = door({0s}, {12s});
     second.from.x = second.to.x = 9;
     second.from.y = 1;
@@ -148,7 +149,7 @@ TEST_CASE("two doors in a row: the robot waits at the first, then at the second"
     CHECK(near(house.at(20s, a), {11, 4, 0}, 0));
 }
 
-TEST_CASE("a change of another door leaves a robot that waits alone") {
+TEST_CASE("doors: a change of another door does not affect a waiting robot") {
     Door other = door({6s, 8s}, {7s, 9s});
     other.from = {9, 1, 0};
     other.to = {9, 2, 0};
@@ -159,7 +160,7 @@ TEST_CASE("a change of another door leaves a robot that waits alone") {
     CHECK(near(house.at(30s, a), {11, 4, 0}, 0));
 }
 
-TEST_CASE("a robot that the closing door touches is caught until it opens") {
+TEST_CASE("doors: a robot touched by a closing door is caught until the door opens") {
     House house({door({4s}, {10s})});
     const NodeId a = house.add({2, 4, 0}, ToGoal{.to = {11, 4, 0}, .speed = {1}});
     const NodeId b = house.add({6.5, 3.5, 0}, Fixed{});
@@ -178,7 +179,7 @@ TEST_CASE("a robot that the closing door touches is caught until it opens") {
     CHECK(near(moving.at(20s, c), {11, 4, 0}, 0));
 }
 
-TEST_CASE("a driven robot stops at a closed door, and its command goes on when the door opens") {
+TEST_CASE("doors: a driven robot stops at a closed door, and continues when the door opens") {
     House house({door({1s}, {10s})});
     const NodeId a = house.add({2, 4, 0}, Driven{.speed = {1}});
     CHECK(near(house.at(6s, a), {6.1, 4, 0}));
@@ -190,13 +191,13 @@ TEST_CASE("a driven robot stops at a closed door, and its command goes on when t
     CHECK(near(timed.at(30s, b), {6.1, 4, 0}));
 }
 
-TEST_CASE("recorded movement goes through closed doors as it goes through walls") {
+TEST_CASE("doors: recorded movement passes closed doors like walls") {
     House house({door({0s}, {})});
     const NodeId a = house.add({2, 4, 0}, Straight{.to = {11, 4, 0}, .speed = {1}});
     CHECK(near(house.at(9s, a), {11, 4, 0}, rounding));
 }
 
-TEST_CASE("a robot that waits at a door and is switched off goes on after both") {
+TEST_CASE("doors: a robot that waits and is switched off continues after both have ended") {
     House house({door({1s}, {10s})});
     const NodeId a = house.add({2, 4, 0}, ToGoal{.to = {11, 4, 0}, .speed = {1}});
     house.network.at(start_of_run + 6s, [&] { house.network.switch_off(a); });
@@ -214,7 +215,7 @@ TEST_CASE("a robot that waits at a door and is switched off goes on after both")
     CHECK(near(early.at(30s, b), {11, 4, 0}, 0));
 }
 
-TEST_CASE("a robot that turns in place, and one that is told to go elsewhere while it waits") {
+TEST_CASE("doors: a turning robot, and a waiting robot with a new movement, are handled") {
     House house({door({0s}, {10s})});
     const NodeId a = house.network.add({.name = "a",
                                         .at = {2, 4, 0},
@@ -231,7 +232,7 @@ TEST_CASE("a robot that turns in place, and one that is told to go elsewhere whi
     CHECK(near(house.at(20s, a), {11, 4, 0}, 0));
 }
 
-TEST_CASE("no robot of any model goes through a closed door, and none gets stuck for good") {
+TEST_CASE("doors: no robot of any model passes a closed door, or is stuck for ever") {
     const std::vector<Duration> closes{500ms, 4s, 9s, 16s}, opens{2s, 7s, 12s};
     Door half = door({1s, 6s, 11s}, {3s, 8s, 14s});
     half.from = {3, 1, 0};

@@ -47,7 +47,7 @@ Robot surveyor() {
 
 }  // namespace
 
-TEST_CASE("motion: turning in place takes the angle over the turn rate, and shows in the records") {
+TEST_CASE("motion: turning in place takes angle over turn rate, and is in the records") {
     Network net;
     const auto diary = std::make_shared<Diary>();
     net.add_sink(diary);
@@ -84,7 +84,7 @@ TEST_CASE("motion: a robot turns the shorter way round, also across the half tur
     CHECK(std::abs(distance(net.position(s), {}) - 1) < 1e-6);
 }
 
-TEST_CASE("motion: switched off while it turns, a robot goes on with its turn") {
+TEST_CASE("motion: a robot switched off while it turns continues the turn later") {
     Network net;
     const NodeId s = net.add(surveyor());
     net.run_until(start_of_run + 1s);
@@ -117,7 +117,7 @@ TEST_CASE("motion: no leg is faster than the robot's top speed") {
     CHECK(near(net.position(late), Vec3{10, 0, 0}));
 }
 
-TEST_CASE("motion: put elsewhere, a robot rests there; stopped, where it is") {
+TEST_CASE("motion: a robot placed elsewhere rests there; a stopped robot rests where it is") {
     Network net;
     const NodeId a = net.add({.name = "a", .at = {}, .move = ToGoal{.to = {100, 0, 0}}});
     net.run_until(start_of_run + 10s);
@@ -132,7 +132,7 @@ TEST_CASE("motion: put elsewhere, a robot rests there; stopped, where it is") {
     CHECK(near(net.position(a), Vec3{50, 50, 0}));
 }
 
-TEST_CASE("motion: bad parameters of a robot are refused") {
+TEST_CASE("motion: invalid parameters of a robot are refused") {
     Network net;
     CHECK_THROWS_AS(net.add({.name = "a", .at = {}, .top_speed = {0}}), std::invalid_argument);
     CHECK_THROWS_AS(net.add({.name = "b", .at = {}, .turn_rate = RadiansPerSecond{-1}}),
@@ -142,7 +142,7 @@ TEST_CASE("motion: bad parameters of a robot are refused") {
     CHECK(net.size() == 0);
 }
 
-TEST_CASE("links: a robot that loses another one's signal reacts 1 us later") {
+TEST_CASE("links: a robot that loses a signal reacts 1 us later") {
     Network net({.propagation = Disc{.range = Meters{50}}});
     const NodeId base = net.add({.name = "base", .at = {}});
     const NodeId rover =
@@ -161,7 +161,7 @@ TEST_CASE("links: a robot that loses another one's signal reacts 1 us later") {
     CHECK(net.links(rover, net.now())[0].node == base);
 }
 
-TEST_CASE("links: records tell every change once, in time, and end where the state is") {
+TEST_CASE("links: records have every change once, in order of time, and end in the right state") {
     struct Book {
         std::vector<std::pair<double, bool>> changes = {};
         KindMask kinds() const { return kind_links; }
@@ -195,7 +195,7 @@ TEST_CASE("links: records tell every change once, in time, and end where the sta
     }
 }
 
-TEST_CASE("links: plans that change leave no events behind") {
+TEST_CASE("links: changed movements leave no events behind") {
     struct Watcher {
         KindMask kinds() const { return kind_links; }
         void on(const Record&, const RecordContext&) {}
@@ -215,7 +215,7 @@ TEST_CASE("links: plans that change leave no events behind") {
     CHECK(net.events() < 4 * plans);  // an action each, a look each, and a few more
 }
 
-TEST_CASE("links: nobody asks, nobody searches: the events are the same with and without") {
+TEST_CASE("links: without a listener no links are searched, and events are the same") {
     struct Watcher {
         KindMask kinds() const { return kind_links; }
         void on(const Record&, const RecordContext&) {}

@@ -37,12 +37,12 @@ void check_many(NameTable& table, int count) {
 
 }  // namespace
 
-TEST_CASE("name table: names are numbered as they come, and found again") {
+TEST_CASE("name table: names are numbered in order of insertion, and found again") {
     NameTable table;
     check_many(table, 5000);
 }
 
-TEST_CASE("name table: at every size all names are found and no other is") {
+TEST_CASE("name table: at every size all names are found and no others") {
     NameTable table;
     for (int n = 0; n < 200; ++n) {
         for (int i = 0; i <= n; ++i) {
@@ -52,7 +52,7 @@ TEST_CASE("name table: at every size all names are found and no other is") {
     }
 }
 
-TEST_CASE("name table: with room reserved before or in between it is the same") {
+TEST_CASE("name table: reserving memory before or in between has no effect") {
     NameTable table;
     table.reserve(100);
     check_many(table, 300);
@@ -66,7 +66,7 @@ TEST_CASE("name table: with room reserved before or in between it is the same") 
     CHECK(other[0] == "ada");
 }
 
-TEST_CASE("name table: any bytes make a name, none too") {
+TEST_CASE("name table: any bytes are a name, also none") {
     const std::vector<std::string_view> names = {""sv,     "\0"sv, "\0\0"sv,
                                                  "a\0b"sv, "a"sv,  "\xff\xfe"sv};
     NameTable table;

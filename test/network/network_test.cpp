@@ -194,7 +194,7 @@ TEST_CASE("network: a robot that joins last and out of range changes no other ro
     CHECK(with_stranger.events > alone.events);
 }
 
-TEST_CASE("network: run in pieces of any size, it is the same run") {
+TEST_CASE("network: a run in pieces of any size is the same run") {
     const Run whole = Busy(5).run();
     SUBCASE("event by event") {
         Busy pieces(5);
@@ -212,7 +212,7 @@ TEST_CASE("network: run in pieces of any size, it is the same run") {
     }
 }
 
-TEST_CASE("network: advance serves no more events than it may and says whether it is done") {
+TEST_CASE("network: advance serves at most the given number of events and returns whether done") {
     Busy busy(5);
     CHECK_FALSE(busy.net.advance(Busy::end, 10));
     CHECK(busy.net.events() == 10);
@@ -226,7 +226,7 @@ TEST_CASE("network: records come in the order of their times") {
     CHECK(std::is_sorted(run.times.begin(), run.times.end()));
 }
 
-TEST_CASE("network: over kilometres, where frames overlap in the air, records stay in order") {
+TEST_CASE("network: over kilometres, with overlapping frames, records stay in order") {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         NetworkSettings settings = disc(1500);
         settings.seed = seed;
@@ -249,7 +249,7 @@ TEST_CASE("network: over kilometres, where frames overlap in the air, records st
     }
 }
 
-TEST_CASE("network: whoever is near answers before whoever is far has heard") {
+TEST_CASE("network: a near robot answers before a far robot has received") {
     Network net({.propagation = Disc{.range = 700_m}});
     for (const double x : {0.0, 1.0, 650.0}) net.add({.name = {}, .at = {x, 0}});
     net.route(Flood{.jitter = Duration{0}});
@@ -262,7 +262,7 @@ TEST_CASE("network: whoever is near answers before whoever is far has heard") {
     CHECK(net.metrics().transmissions == 3);
 }
 
-TEST_CASE("network: a frame arrives after its airtime and the way at the speed of light") {
+TEST_CASE("network: a frame arrives after its airtime and the delay at the speed of light") {
     Network net(disc(1e6));
     for (const double x : {0.0, 300.0, 30'000.0, 0.0}) net.add(robot_at(x));
     net.route(OneHop{});
@@ -280,7 +280,7 @@ TEST_CASE("network: a frame arrives after its airtime and the way at the speed o
     CHECK(heard->all[2].time == end + 100'069ns);  // 100,069.23 ns
 }
 
-TEST_CASE("network: a message is as long on air as its payload, unless a size is given") {
+TEST_CASE("network: a message's size on air is its payload, unless a size is given") {
     Network net(disc(10));
     for (int i = 0; i < 2; ++i) net.add(robot_at(0));
     net.route(OneHop{});
@@ -310,7 +310,7 @@ TEST_CASE("network: a user's router and sink are plain structs, held by value or
     CHECK(net.metrics().transmissions == 1);
 }
 
-TEST_CASE("network: a router that sends while it receives is told so") {
+TEST_CASE("network: a router that sends during reception gets an error") {
     struct Hasty : OneHop {
         void on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions) {
             link.send(frame, receptions.front().node, link.now());
@@ -323,7 +323,7 @@ TEST_CASE("network: a router that sends while it receives is told so") {
     CHECK_THROWS_AS(net.run_for(1s), std::invalid_argument);
 }
 
-TEST_CASE("network: a message is handed over once, 1 us after it was received") {
+TEST_CASE("network: a message is delivered to callbacks once, 1 us after its reception") {
     Network net(disc(1000));
     for (const double x : {0.0, 300.0, 300.0}) net.add(robot_at(x));
     net.route(Flood{});
@@ -341,7 +341,7 @@ TEST_CASE("network: a message is handed over once, 1 us after it was received") 
     CHECK(times[0] == start_of_run + airtime_64_bytes + 1001ns + 1us);
 }
 
-TEST_CASE("network: robots that answer each other do") {
+TEST_CASE("network: robots can answer each other") {
     Network net(disc(1000));
     for (int i = 0; i < 2; ++i) net.add(robot_at(0));
     net.route(Flood{.ttl = 1});
@@ -357,7 +357,7 @@ TEST_CASE("network: robots that answer each other do") {
     CHECK(net.metrics().messages == 10);
 }
 
-TEST_CASE("network: whoever is switched off in mid-flight does not get the frame") {
+TEST_CASE("network: a robot switched off during a frame does not receive it") {
     Network net(disc(1000));
     for (int i = 0; i < 3; ++i) net.add(robot_at(100.0 * i));
     net.route(OneHop{});
@@ -377,7 +377,7 @@ TEST_CASE("network: whoever is switched off in mid-flight does not get the frame
     CHECK(reactions == 0);
 }
 
-TEST_CASE("network: whoever is switched on in mid-flight has missed the frame") {
+TEST_CASE("network: a robot switched on during a frame has missed it") {
     Network net(disc(1000));
     for (int i = 0; i < 2; ++i) net.add(robot_at(0));
     net.route(OneHop{});
@@ -390,7 +390,7 @@ TEST_CASE("network: whoever is switched on in mid-flight has missed the frame") 
     CHECK(heard->all.empty());
 }
 
-TEST_CASE("network: a robot that is off stands still, and goes on when it is on again") {
+TEST_CASE("network: a robot that is off stands still, and continues when it is on again") {
     Network net;
     net.add({.name = {}, .at = {}, .move = ToGoal{.to = {10, 0, 0}, .speed = {1}}});
     constexpr double tolerance = 1e-9;  // [m], roundings
@@ -413,7 +413,7 @@ TEST_CASE("network: a robot that is off stands still, and goes on when it is on 
     CHECK(arrivals[0] <= start_of_run + 13s + 1us);
 }
 
-TEST_CASE("network: off from the start, a robot sets out when it is switched on") {
+TEST_CASE("network: a robot off from the start begins to move when it is switched on") {
     Network net;
     net.add({.name = {}, .at = {}, .move = ToGoal{.to = {10, 0, 0}, .speed = {1}}});
     net.switch_off({0});
@@ -424,7 +424,7 @@ TEST_CASE("network: off from the start, a robot sets out when it is switched on"
     CHECK(net.position({0}) == Vec3{10, 0, 0});
 }
 
-TEST_CASE("network: a robot that is off says nothing") {
+TEST_CASE("network: a robot that is off sends nothing") {
     Network net(disc(10));
     for (int i = 0; i < 2; ++i) net.add(robot_at(0));
     net.route(Flood{});
@@ -439,7 +439,7 @@ TEST_CASE("network: a robot that is off says nothing") {
     CHECK(net.metrics().deliveries == 1);
 }
 
-TEST_CASE("network: on arrival a robot may be sent on") {
+TEST_CASE("network: a callback on arrival can start the next movement") {
     Network net;
     net.add({.name = {}, .at = {}, .move = ToGoal{.to = {1, 0, 0}, .speed = {1}}});
     int arrivals = 0;
@@ -451,7 +451,7 @@ TEST_CASE("network: on arrival a robot may be sent on") {
     CHECK(net.position({0}) == Vec3{1, 2, 0});
 }
 
-TEST_CASE("network: a movement that is replaced does not come back") {
+TEST_CASE("network: a movement that was replaced does not return") {
     Network net;
     net.add({.name = {}, .at = {}, .move = ToGoal{.to = {10, 0, 0}, .speed = {1}}});
     int arrivals = 0;
@@ -463,7 +463,7 @@ TEST_CASE("network: a movement that is replaced does not come back") {
     CHECK(arrivals == 0);
 }
 
-TEST_CASE("network: actions come at their times, those of one time in the order given") {
+TEST_CASE("network: actions are called at their times, simultaneous ones in the given order") {
     Network net;
     std::string order;
     net.at(start_of_run + 2s, [&] { order += 'c'; });
@@ -477,7 +477,7 @@ TEST_CASE("network: actions come at their times, those of one time in the order 
     CHECK_THROWS_AS(net.at(start_of_run + 1s, [] {}), std::invalid_argument);
 }
 
-TEST_CASE("network: every period an action comes, the first after one period") {
+TEST_CASE("network: a periodic action is called every period, first after one period") {
     Network net;
     std::vector<std::int64_t> times;
     net.every(300ms, [&] { times.push_back(ns(net.now())); });
@@ -528,7 +528,7 @@ TEST_CASE("network: two networks in one process do not influence each other") {
     CHECK(b.result() == two);
 }
 
-TEST_CASE("network: robots are found by their names; the nameless are called r and a number") {
+TEST_CASE("network: robots are found by name; robots without a name are called r and a number") {
     Network net;
     net.add({.name = "ada", .at = {}});
     net.add(robot_at(1));
@@ -539,7 +539,7 @@ TEST_CASE("network: robots are found by their names; the nameless are called r a
     CHECK(net.size() == 2);
 }
 
-TEST_CASE("network: a name that is taken is refused, and the network is as it was") {
+TEST_CASE("network: a name in use is refused, and the network is unchanged") {
     Network net;
     net.add({.name = "ada", .at = {}});
     CHECK_THROWS_AS(net.add({.name = "ada", .at = {1, 0, 0}}), std::invalid_argument);
@@ -547,7 +547,7 @@ TEST_CASE("network: a name that is taken is refused, and the network is as it wa
     CHECK(net.add({.name = "bob", .at = {}}) == NodeId{1});
 }
 
-TEST_CASE("network: robots and settings that make no sense are refused") {
+TEST_CASE("network: invalid robots and settings are refused") {
     Network net;
     const double inf = std::numeric_limits<double>::infinity();
     CHECK_THROWS_AS(net.add(robot_at(no_number)), std::invalid_argument);
@@ -581,7 +581,7 @@ TEST_CASE("network: sending without a protocol and a second protocol are refused
     CHECK_THROWS_AS(net.route(Flood{}), std::invalid_argument);
 }
 
-TEST_CASE("network: a robot that joins during the run is one of them at once") {
+TEST_CASE("network: a robot that joins during the run takes part at once") {
     Network net(disc(10));
     net.add(robot_at(0));
     net.route(Flood{});
@@ -594,7 +594,7 @@ TEST_CASE("network: a robot that joins during the run is one of them at once") {
     CHECK(net.position({1}) == Vec3{5, 0, 0});
 }
 
-TEST_CASE("network: without metrics none are given") {
+TEST_CASE("network: without metrics, asking for them is an error") {
     Network net({.metrics = false});
     CHECK_THROWS_AS(net.metrics(), std::invalid_argument);
 }

@@ -93,7 +93,7 @@ std::shared_ptr<ReceptionLog> run(const Setting& setting, std::uint32_t seed) {
 
 }  // namespace
 
-TEST_CASE("order: the same happens as when each reception is an event") {
+TEST_CASE("order: records equal those with an event for each reception") {
     for (Setting setting : settings()) {
         for (std::uint32_t seed = 1; seed <= 4; ++seed) {
             CAPTURE(seed);
@@ -109,13 +109,13 @@ TEST_CASE("order: the same happens as when each reception is an event") {
     }
 }
 
-TEST_CASE("order: a router gets its receptions in order, when the last of them has come") {
+TEST_CASE("order: a router gets its receptions in order, at the time of the last one") {
     const auto always_in_order = std::make_shared<bool>(true);
     Playground({}, 1).run(WatchedFlood{.always_in_order = always_in_order});
     CHECK(*always_in_order);
 }
 
-TEST_CASE("order: a run that stops between receptions and goes on is the same run") {
+TEST_CASE("order: a run that pauses between receptions is the same run") {
     const auto whole = Playground({}, 1).run(Flood{.jitter = 100us});
     const auto in_steps = Playground({}, 1).run(Flood{.jitter = 100us}, 1'777ns);
     CHECK(in_steps->receptions == whole->receptions);
@@ -123,7 +123,7 @@ TEST_CASE("order: a run that stops between receptions and goes on is the same ru
     CHECK(in_steps->always_in_order);
 }
 
-TEST_CASE("order: in reference mode receptions at different times are events of their own") {
+TEST_CASE("order: in reference mode receptions at different times are separate events") {
     Network net({.propagation = Disc{.range = {150}}, .reference = true, .metrics = false});
     net.route(Flood{.ttl = 1});
     for (const double x : {0.0, 10.0, 10.0, 20.0}) net.add({.name = {}, .at = {x, 0, 0}});
@@ -132,7 +132,7 @@ TEST_CASE("order: in reference mode receptions at different times are events of 
     CHECK(net.events() == 2);  // those of one time are one: no order of numbers is among them
 }
 
-TEST_CASE("order: few and many receivers are in order, spread, in rings or all in one place") {
+TEST_CASE("order: few and many receivers are in order, spread, in rings or at one place") {
     test::Draw draw(17);
     for (const bool delayed : {true, false}) {
         for (const int count : {2, 13, 60, 64, 65, 66, 67, 130, 400}) {
@@ -170,7 +170,7 @@ TEST_CASE("order: receivers that are light seconds away are in order, too") {
     CHECK(order == std::vector{NodeId{4}, NodeId{2}, NodeId{3}, NodeId{1}});
 }
 
-TEST_CASE("order: a robot reacts at the time at which the frame ends at another one") {
+TEST_CASE("order: a robot reacts at the time at which the frame ends at another robot") {
     constexpr double microsecond = 299.792458;  // [m] at the speed of light
     Network net({.propagation = Disc{.range = Meters{1000}}});
     auto log = std::make_shared<ReceptionLog>();

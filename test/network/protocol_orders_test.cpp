@@ -85,7 +85,7 @@ bool falls(const Means& moving, const Means& standing, double factor) {
 
 }  // namespace
 
-TEST_CASE("orders: DSR delivers more than AODV, with less control traffic and fewer hops") {
+TEST_CASE("protocol comparison: DSR delivers more than AODV, with less control traffic and hops") {
     const Means aodv = means(Aodv{}, 0s), dsr = means(Dsr{}, 0s);
     INFO("aodv ", aodv.delivered, " ", aodv.load, " ", aodv.hops, " ", aodv.median_s);
     INFO("dsr ", dsr.delivered, " ", dsr.load, " ", dsr.hops, " ", dsr.median_s);
@@ -100,7 +100,7 @@ TEST_CASE("orders: DSR delivers more than AODV, with less control traffic and fe
     CHECK_FALSE(above(deaf, dsr));
 }
 
-TEST_CASE("orders: robots that stand cost a fraction of the control traffic") {
+TEST_CASE("protocol comparison: resting robots cause a fraction of the control traffic") {
     // On Broch's field the factor is 7 (AODV) and 8 (DSR) in ns-2.35. Here it is less: a run of
     // 45 s has as many first searches, which standing robots need, too, and fewer repairs.
     constexpr double factor = 2;

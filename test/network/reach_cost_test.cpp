@@ -37,13 +37,13 @@ MetricValues after_messages(int messages, std::optional<bool> reach) {
 
 }  // namespace
 
-TEST_CASE("reach: looked for while that is cheap") {
+TEST_CASE("reach: is measured while that is cheap") {
     const MetricValues values = after_messages(100, {});
     CHECK(values.reach_known);
     CHECK(values.reach == 1.0 / 19);
 }
 
-TEST_CASE("reach: given up where it would take most of the run, unless somebody asks for it") {
+TEST_CASE("reach: is not measured where it would take most of the run, unless requested") {
     const MetricValues cheap = after_messages(2'000, {});
     CHECK_FALSE(cheap.reach_known);
     CHECK_FALSE(cheap.reach);

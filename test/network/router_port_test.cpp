@@ -115,7 +115,7 @@ using Lines = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("router port: a unicast reaches the protocol at its next hop, and it alone") {
+TEST_CASE("router port: a unicast reaches the protocol only at its next hop") {
     Row row;
     row.net.route(Scripted{.diary = row.diary});
     row.net.send({1}, {2}, "hello");
@@ -126,7 +126,7 @@ TEST_CASE("router port: a unicast reaches the protocol at its next hop, and it a
     CHECK(metrics.delivery_ratio == 1.0);
 }
 
-TEST_CASE("router port: a unicast beside the protocol does not reach it") {
+TEST_CASE("router port: a unicast sent without the protocol does not reach it") {
     Row row;
     row.net.route(Scripted{.diary = row.diary});
     row.net.send({1}, {2}, "hello", {.one_hop = true});
@@ -134,7 +134,7 @@ TEST_CASE("router port: a unicast beside the protocol does not reach it") {
     CHECK(row.net.metrics().deliveries == 1);
 }
 
-TEST_CASE("router port: a protocol that overhears gets the unicasts for others, and levels") {
+TEST_CASE("router port: a protocol that overhears gets unicasts for others, with levels") {
     Network net({.propagation = Friis{}, .access = Csma{}});
     for (const double x : {0.0, 30.0, 70.0}) {
         net.add({.name = {}, .at = {x, 0, 0}, .radio = {.rate = {1e6}}});
@@ -158,7 +158,7 @@ TEST_CASE("router port: a protocol that overhears gets the unicasts for others, 
     }
 }
 
-TEST_CASE("router port: levels stay with their receptions where a robot goes off meanwhile") {
+TEST_CASE("router port: levels match their receptions if a robot is switched off meanwhile") {
     const auto levels_of = [](double off_at) {
         const auto diary = std::make_shared<Diary>(*Row().diary);
         Network net({.propagation = Friis{}});
@@ -178,7 +178,7 @@ TEST_CASE("router port: levels stay with their receptions where a robot goes off
     CHECK(both[0] > both[1]);
 }
 
-TEST_CASE("router port: results of csma: acknowledged, given up, no room, switched off") {
+TEST_CASE("router port: results of csma are acknowledged, given up, no room and switched off") {
     const Csma one_place{.queue = 1};
     SUBCASE("acknowledged") {
         Row row(Csma{});
@@ -215,8 +215,7 @@ TEST_CASE("router port: results of csma: acknowledged, given up, no room, switch
     }
 }
 
-TEST_CASE(
-    "router port: a result is never told inside a call to the link layer, and may send more") {
+TEST_CASE("router port: a result is never reported inside a call to the link layer, and may send") {
     Row row(Csma{.queue = 1});
     int more = 3;
     row.diary->send = [](LinkLayer& link, NodeId node, MessageId message) {
@@ -235,7 +234,7 @@ TEST_CASE(
     CHECK(row.run() == expected);
 }
 
-TEST_CASE("router port: packets of the protocol's own are no application's") {
+TEST_CASE("router port: control packets are not delivered to applications") {
     Row row;
     row.diary->send = [](LinkLayer& link, NodeId node, MessageId) {
         const MessageId packet = link.originate(node, everyone, "rreq", 24, "who is 7?");
@@ -255,7 +254,7 @@ TEST_CASE("router port: packets of the protocol's own are no application's") {
     CHECK(row.net.metrics().transmissions == 0);
 }
 
-TEST_CASE("router port: a frame that waits for its time may be changed or taken back") {
+TEST_CASE("router port: a frame that waits for its send time may be changed or cancelled") {
     Row row;
     std::vector<SendHandle> handles;
     row.diary->send = [&](LinkLayer& link, NodeId node, MessageId message) {
@@ -281,7 +280,7 @@ TEST_CASE("router port: a frame that waits for its time may be changed or taken 
                              "0 hears x", "2 hears x"});
 }
 
-TEST_CASE("router port: a sender that is off when its frame's time comes is told of") {
+TEST_CASE("router port: a sender that is off at the send time gets the result") {
     Row row;
     row.diary->send = [](LinkLayer& link, NodeId node, MessageId message) {
         link.send({.message = message, .sender = node, .ttl = 5, .hops = 1}, {}, link.now() + 2ms);
@@ -293,7 +292,7 @@ TEST_CASE("router port: a sender that is off when its frame's time comes is told
     CHECK(row.run() == Lines{"1 off", "off", "1 on"});
 }
 
-TEST_CASE("router port: the queue gives back frames for one next hop, but the one on its way") {
+TEST_CASE("router port: frames for one next hop are taken from the queue, except one on air") {
     for (const AccessModel& access : {AccessModel{Csma{}}, AccessModel{Aloha{}}}) {
         CAPTURE(access.name());
         Row row(access);
@@ -321,7 +320,7 @@ TEST_CASE("router port: the queue gives back frames for one next hop, but the on
     }
 }
 
-TEST_CASE("router port: nodes start with the run in the order of their keys, or when added") {
+TEST_CASE("router port: nodes start in the order of their keys at the start, or when added") {
     Row row(NoAccess{}, 5);
     row.net.route(Scripted{.diary = row.diary});
     CHECK(row.diary->lines.empty());
@@ -339,7 +338,7 @@ TEST_CASE("router port: nodes start with the run in the order of their keys, or 
     CHECK(row.diary->lines.size() == 6);
 }
 
-TEST_CASE("router port: a message for one robot goes over one hop past a protocol that floods") {
+TEST_CASE("router port: a message to one robot goes one hop if the protocol only floods") {
     struct Everyone {
         int* asked;
         Hops initial_ttl() const { return 1; }
@@ -359,7 +358,7 @@ TEST_CASE("router port: a message for one robot goes over one hop past a protoco
     CHECK_THROWS_AS(row.net.send({0}, {9}, "x"), std::invalid_argument);
 }
 
-TEST_CASE("send: returns the message's uid; a robot that is off sends none") {
+TEST_CASE("send: returns the message's uid; a robot that is off sends nothing") {
     Row row;
     const auto first = row.net.send({0}, {1}, "a"), second = row.net.send({1}, {2}, "b");
     REQUIRE((first && second));
@@ -374,7 +373,7 @@ TEST_CASE("send: returns the message's uid; a robot that is off sends none") {
     CHECK(heard == std::vector{*first, *second});
 }
 
-TEST_CASE("heard: a callback gets port, hops and last hop, and the level only if it asks for it") {
+TEST_CASE("received messages: a callback gets port, hops and last hop, and the level on request") {
     Network net({.propagation = Friis{}});
     for (const double x : {0.0, 30.0}) net.add({.name = {}, .at = {x, 0, 0}});
     std::vector<Heard> all;

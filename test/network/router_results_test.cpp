@@ -138,7 +138,8 @@ struct Row {
 
 }  // namespace
 
-TEST_CASE("results: none and aloha are an ideal MAC, which knows at the end of the frame") {
+TEST_CASE(
+    "results: access models none and aloha are an ideal MAC, with results at the frame's end") {
     for (const AccessModel& access : {AccessModel{NoAccess{}}, AccessModel{Aloha{}}}) {
         CAPTURE(access.name());
         Row row(access);
@@ -171,7 +172,7 @@ TEST_CASE("results: a frame that collides at its next hop ends with retries, wit
     CHECK(script->results == std::vector{SendResult::retries, SendResult::retries});
 }
 
-TEST_CASE("salvage: a packet that is sent again is counted nowhere as lost") {
+TEST_CASE("salvage: a packet that is sent again does not count as lost") {
     Row row(Csma{}, 4);
     row.net.switch_off({1});
     row.script->sent = [](LinkLayer& link, const QueuedFrame& f, SendResult result) {
@@ -193,7 +194,7 @@ TEST_CASE("salvage: a packet that is sent again is counted nowhere as lost") {
     CHECK(row.lines("sf") == Lines{"s0", "s0"});
 }
 
-TEST_CASE("take_queued: after retries it gives back all frames for the hop that is gone") {
+TEST_CASE("take_queued: after retries it returns all frames for the broken hop") {
     for (const std::uint32_t rts : {2347U, 0U}) {
         CAPTURE(rts);
         Row row(Csma{.rts_threshold = rts});
@@ -240,7 +241,7 @@ TEST_CASE("take_queued: a station whose queue was emptied sends the next frame")
     CHECK(row.script->results == std::vector{SendResult::retries, SendResult::acked});
 }
 
-TEST_CASE("drops: one inside on_receive follows the reception of its node, at its time") {
+TEST_CASE("drops: a drop inside on_receive follows the reception of its node, at its time") {
     Row row(NoAccess{}, 4);
     row.net.add({.name = {}, .at = {80, 20, 0}, .radio = {.rate = {1e6}}});
     row.script->send = [](LinkLayer& link, NodeId node, MessageId m) {
@@ -266,7 +267,7 @@ TEST_CASE("drops: one inside on_receive follows the reception of its node, at it
     CHECK(no_route == 2);
 }
 
-TEST_CASE("held: a message that the protocol still holds at the end was sent and not delivered") {
+TEST_CASE("held: a message that the protocol still holds at the end is sent and not delivered") {
     Row row;
     row.script->keeps = true;
     row.script->send = [](LinkLayer& link, NodeId, MessageId m) { link.hold(m); };
@@ -279,7 +280,7 @@ TEST_CASE("held: a message that the protocol still holds at the end was sent and
     CHECK(row.lines("D") == Lines{"D0 END"});
 }
 
-TEST_CASE("size: a frame may have another size at each hop") {
+TEST_CASE("size: a frame may have a different size at each hop") {
     Row row;
     row.script->send = [](LinkLayer& link, NodeId node, MessageId m) {
         link.send({.message = m,
@@ -304,7 +305,7 @@ TEST_CASE("size: a frame may have another size at each hop") {
     CHECK(row.net.metrics().deliveries == 1);
 }
 
-TEST_CASE("headers: the last frame that has one gives it back, and a packet allocates nothing") {
+TEST_CASE("headers: the last frame with a header releases it, and packets allocate nothing") {
     Row row;
     std::vector<std::uint32_t> forgotten;
     row.script->send = [](LinkLayer& link, NodeId node, MessageId m) {
@@ -352,7 +353,7 @@ TEST_CASE("headers: the last frame that has one gives it back, and a packet allo
     CHECK(test::allocations() == before);
 }
 
-TEST_CASE("priority: control packets are sent before messages, behind the frame in contention") {
+TEST_CASE("priority: control packets go before messages, after the frame in contention") {
     for (const bool priority : {false, true}) {
         CAPTURE(priority);
         Row row(Csma{.priority = priority});
@@ -393,7 +394,7 @@ TEST_CASE("priority: a control packet displaces the last message of a full queue
     CHECK(row.lines("D") == Lines{"D0 IFQ?", "D0 CBK"});
 }
 
-TEST_CASE("traces: a protocol describes its control packets, and no other packet") {
+TEST_CASE("traces: a protocol describes its control packets, and no other packets") {
     Row row;
     std::string lines;
     const auto trace = std::make_shared<Ns2Trace>([&](std::string_view text) { lines += text; });
@@ -420,7 +421,7 @@ TEST_CASE("traces: a protocol describes its control packets, and no other packet
     CHECK(packets == 4);    // s AGT, r RTR, s RTR, r AGT
 }
 
-TEST_CASE("snr: a reception's level over the noise floor of its receiver") {
+TEST_CASE("snr: is a reception's level over the noise floor of its receiver") {
     Network net({.propagation = Friis{}});
     for (const double x : {0.0, 30.0}) {
         net.add({.name = {}, .at = {x, 0, 0}, .radio = {.noise_figure = Db{9}}});
@@ -443,7 +444,7 @@ TEST_CASE("snr: a reception's level over the noise floor of its receiver") {
 }
 
 #ifndef NDEBUG
-TEST_CASE("references: a debug build names the message that was released or held too often") {
+TEST_CASE("references: a debug build names a message released or held too often") {
     SUBCASE("released") {
         Row row;
         row.script->send = [](LinkLayer& link, NodeId, MessageId m) { link.release(m); };

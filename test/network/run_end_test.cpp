@@ -37,7 +37,7 @@ constexpr NodeId a{0}, b{1}, c{2};
 
 }  // namespace
 
-TEST_CASE("end of the run: a message that it cut off is left out of delivery ratio and reach") {
+TEST_CASE("end of the run: a message cut off by it does not count in delivery ratio and reach") {
     Line net(2);
     net.send(a, everyone, "first");
     net.run_for(1s);
@@ -53,7 +53,7 @@ TEST_CASE("end of the run: a message that it cut off is left out of delivery rat
     CHECK(values.reach == 1.0);
 }
 
-TEST_CASE("end of the run: a message that somebody has is not cut off, nor one nobody could hear") {
+TEST_CASE("end of the run: a message that a robot has, or that none could hear, is not cut off") {
     Line net(3);
     net.run_for(1s);
     net.send(a, everyone, "on its way");
@@ -70,7 +70,7 @@ TEST_CASE("end of the run: a message that somebody has is not cut off, nor one n
     CHECK(alone.metrics().delivery_ratio == 0.0);
 }
 
-TEST_CASE("unicast: one that its destination cannot hear has a reason") {
+TEST_CASE("unicast: a unicast that its destination cannot hear is dropped with a reason") {
     Line net(3);
     net.send(a, c, "too far");
     net.run_for(1s);
@@ -81,7 +81,7 @@ TEST_CASE("unicast: one that its destination cannot hear has a reason") {
     CHECK(values.cut_off == 0);
 }
 
-TEST_CASE("unicast: reach is of its destination, if a chain of links leads there") {
+TEST_CASE("unicast: reach counts its destination, if a chain of links leads there") {
     Line net(4);
     net.send(a, b, "near");
     net.run_for(1s);
@@ -95,7 +95,7 @@ TEST_CASE("unicast: reach is of its destination, if a chain of links leads there
     CHECK(net.metrics().reach == 0.5);
 }
 
-TEST_CASE("flows: each is counted by itself, and what each robot gets") {
+TEST_CASE("flows: each flow is counted separately, and each robot's deliveries") {
     Line net(3, {.metric_parts = {.flows = true, .robots = true}});
     net.send(a, everyone, "one", {.size = 100, .flow = 1});
     net.run_for(1s);

@@ -46,7 +46,7 @@ using Lines = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("sinks: begin before the first record and finish behind the last") {
+TEST_CASE("sinks: begin before the first record and finish after the last") {
     Pair pair;
     const auto told = std::make_shared<Told>();
     pair.net.add_sink(told);
@@ -60,7 +60,7 @@ TEST_CASE("sinks: begin before the first record and finish behind the last") {
     CHECK(told->lines == Lines{"begin 7/3 a b text", "sent", "sent", "dropped", "finish"});
 }
 
-TEST_CASE("sinks: one that comes later begins then; one that is removed gets nothing more") {
+TEST_CASE("sinks: a sink added later begins then; a removed sink gets no more records") {
     Pair pair;
     pair.net.run_for(1s);
     const auto first = std::make_shared<Told>(), second = std::make_shared<Told>();
@@ -74,7 +74,7 @@ TEST_CASE("sinks: one that comes later begins then; one that is removed gets not
     CHECK(second->lines.size() == 6);  // two sent, two cut off
 }
 
-TEST_CASE("sinks: received powers come with the receptions only if they are asked for") {
+TEST_CASE("sinks: received powers are in receptions only on request") {
     struct Levels {
         KindMask more;
         std::vector<double> levels{};
@@ -107,7 +107,7 @@ TEST_CASE("sinks: received powers come with the receptions only if they are aske
     }
 }
 
-TEST_CASE("callbacks: one that is ended is called no more, not even if it is due") {
+TEST_CASE("callbacks: an ended callback is not called again, even if it is due") {
     Pair pair;
     Network& net = pair.net;
     int heard = 0, ticks = 0, later = 0, arrived = 0;

@@ -227,7 +227,7 @@ struct RandomNetwork {
 
 }  // namespace
 
-TEST_CASE("flood: forwarding every copy, each graph sends and hears as many as it has walks") {
+TEST_CASE("flood: with duplicates forwarded, counts equal the walks of the graph") {
     for (const auto& [graph, by_ttl, suppressed] : exact_counts()) {
         for (const auto& [ttl, exact] : by_ttl) {
             const std::string which = graph.name + ", ttl " + std::to_string(ttl);
@@ -239,7 +239,7 @@ TEST_CASE("flood: forwarding every copy, each graph sends and hears as many as i
     }
 }
 
-TEST_CASE("flood: suppressing duplicates, everyone sends once and hears each neighbour once") {
+TEST_CASE("flood: with duplicates suppressed, each node sends once and hears each neighbour once") {
     for (const auto& [graph, by_ttl, exact] : exact_counts()) {
         for (const bool upgrade : {false, true}) {
             const std::string which = graph.name;
@@ -252,7 +252,7 @@ TEST_CASE("flood: suppressing duplicates, everyone sends once and hears each nei
     }
 }
 
-TEST_CASE("flood: with TTL 1 the neighbours hear the source, and that is all") {
+TEST_CASE("flood: with TTL 1 only the neighbours hear the source") {
     for (const auto duplicates : {Duplicates::suppress, Duplicates::forward}) {
         const Ledger run = flooded(grid(5, 5, 12), {.ttl = 1, .duplicates = duplicates});
         CHECK(run.transmissions == 1);
@@ -269,8 +269,7 @@ TEST_CASE("flood: along a line a message goes exactly as far as its TTL") {
     }
 }
 
-TEST_CASE(
-    "flood: with the TTL in the payload its first byte counts, and each message has its own") {
+TEST_CASE("flood: with the TTL in the payload its first byte counts, separately for each message") {
     const auto run = [](const Graph& graph, const Flood& flood, const std::string& payload) {
         return flooded(graph, flood, 1, 1.1_m, payload);
     };
@@ -296,14 +295,15 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("flood: forwarding every copy, the source forwards echoes and is handed none") {
+TEST_CASE(
+    "flood: with duplicates forwarded, the source forwards echoes and does not deliver them") {
     const Ledger run = flooded(complete(2), {.ttl = 5, .duplicates = Duplicates::forward});
     CHECK(run.forwards_of.at({0}) == 2);
     CHECK(run.forwards_of.at({1}) == 2);
     CHECK(run.delivered == 1);
 }
 
-TEST_CASE("flood: suppressing duplicates, the source never forwards") {
+TEST_CASE("flood: with duplicates suppressed, the source never forwards") {
     CHECK(flooded(complete(5), {.ttl = 5}).forwards_of.count({0}) == 0);
 }
 
@@ -320,7 +320,7 @@ TEST_CASE("flood: TTL 260 crosses 260 hops") {
     CHECK(run.delivered == 260);
 }
 
-TEST_CASE("flood: upgrade reaches more robots than first copies only, both within the TTL") {
+TEST_CASE("flood: upgrade reaches more robots than first copies alone, both within the TTL") {
     std::uint64_t upgraded = 0, first_only = 0, possible = 0;
     for (std::uint32_t seed = 1; seed <= 40; ++seed) {
         const RandomNetwork random(seed);
@@ -341,7 +341,7 @@ TEST_CASE("flood: upgrade reaches more robots than first copies only, both withi
     CHECK(upgraded <= possible);
 }
 
-TEST_CASE("flood: forwarding every copy reaches all robots within the TTL") {
+TEST_CASE("flood: with duplicates forwarded, all robots within the TTL are reached") {
     for (std::uint32_t seed = 1; seed <= 5; ++seed) {
         const RandomNetwork random(seed);
         const Ledger run = flooded(random.graph, {.ttl = 3, .duplicates = Duplicates::forward},
@@ -350,7 +350,7 @@ TEST_CASE("flood: forwarding every copy reaches all robots within the TTL") {
     }
 }
 
-TEST_CASE("flood: without jitter copies are forwarded 1 us after they were received") {
+TEST_CASE("flood: without jitter copies are forwarded 1 us after their reception") {
     const Ledger run = flooded(grid(5, 5, 12), {.ttl = 25, .jitter = Duration{0}});
     CHECK(run.transmissions == 25);
     CHECK(run.heard == 80);
@@ -366,7 +366,7 @@ TEST_CASE("flood: without jitter copies are forwarded 1 us after they were recei
     CHECK(heard[0] == start_of_run + 2 * (238'545ns + 1us));
 }
 
-TEST_CASE("flood: under forward, copies of one message wait each for a time of its own") {
+TEST_CASE("flood: with duplicates forwarded, each copy of a message has its own delay") {
     // The source hears its message back from both neighbours, who send at different times; were
     // the delays equal, so would be the gaps.
     Network net({.propagation = Disc{.range = 1.1_m}, .propagation_delay = false});
@@ -394,7 +394,7 @@ TEST_CASE("flood: under forward, copies of one message wait each for a time of i
     CHECK(echoes->sent[1] - echoes->sent[0] != -gap_heard);
 }
 
-TEST_CASE("flood: many messages of many robots, each is handed to every other robot once") {
+TEST_CASE("flood: many messages of many robots are each delivered once to every other robot") {
     Network net({.propagation = Disc{.range = 1.1_m}});
     for (const Vec3 p : grid(4, 4, 0).at) net.add({.name = {}, .at = p});
     const Flood flood{.ttl = 20};
@@ -412,7 +412,7 @@ TEST_CASE("flood: many messages of many robots, each is handed to every other ro
     CHECK(ledger->transmissions == 16 * 3 * 16);
 }
 
-TEST_CASE("flood: robots that join while a message is under way hear it and forward it, too") {
+TEST_CASE("flood: robots that join during a flood hear and forward the message") {
     for (const int robots : {3, 63, 64, 65, 130}) {
         CAPTURE(robots);
         const auto delivered = [&](const Flood& flood) {
@@ -437,7 +437,7 @@ TEST_CASE("flood: robots that join while a message is under way hear it and forw
     }
 }
 
-TEST_CASE("flood: the books balance when robots go off and on in the middle of floods") {
+TEST_CASE("flood: counts balance when robots are switched off and on during floods") {
     for (const auto duplicates : {Duplicates::suppress, Duplicates::forward}) {
         const Flood flood{.ttl = 4, .duplicates = duplicates};
         Network net({.propagation = Disc{.range = 1.1_m}});

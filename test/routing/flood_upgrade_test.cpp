@@ -27,7 +27,7 @@ struct Hearer {
 
 }  // namespace
 
-TEST_CASE("flood: a copy that waits takes the highest TTL that the node hears, with upgrade only") {
+TEST_CASE("flood: with upgrade, a waiting copy takes the highest TTL that the node hears") {
     for (const bool upgrade : {true, false}) {
         Hearer node(upgrade);
         CHECK(node.hear(3) == Fate::waiting);
@@ -39,7 +39,7 @@ TEST_CASE("flood: a copy that waits takes the highest TTL that the node hears, w
     }
 }
 
-TEST_CASE("flood: of copies with the same TTL the first is passed on") {
+TEST_CASE("flood: of copies with the same TTL the first is forwarded") {
     Hearer node(true);
     node.hear(4);
     node.hear(4, NodeId{7});
@@ -49,7 +49,7 @@ TEST_CASE("flood: of copies with the same TTL the first is passed on") {
     CHECK(node.link.sent[0].queued.heard_from == NodeId{7});
 }
 
-TEST_CASE("flood: a message that ended at its TTL goes on with a higher one, with upgrade only") {
+TEST_CASE("flood: with upgrade, a message that ended at its TTL continues with a higher TTL") {
     for (const bool upgrade : {true, false}) {
         Hearer node(upgrade);
         CHECK(node.hear(1) == Fate::ttl);

@@ -78,7 +78,7 @@ TEST_CASE("graph: a flood reaches every node within its ttl, over the fewest hop
     }
 }
 
-TEST_CASE("graph: a unicast over an edge ends as acked, over none with retries") {
+TEST_CASE("graph: a unicast over an edge is acked, without an edge it ends with retries") {
     std::map<SendResult, int> results;
     Graph graph(3, {{0, 1}, {1, 2}}, Direct{&results});
     graph.send(0, 1, start_of_run);

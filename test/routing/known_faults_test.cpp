@@ -17,7 +17,9 @@ using test::DsrNode;
 using test::path;
 using test::request;
 
-TEST_CASE("ns-3: a request that comes from the next hop to its destination is passed on") {
+TEST_CASE(
+    "without the fault of ns-3: a request that comes from the next hop to its destination is "
+    "forwarded") {
     AodvNode n;
     n.learn(5, 2, 10, 3);
     aodv::Request asked = request(7, 5);
@@ -26,7 +28,9 @@ TEST_CASE("ns-3: a request that comes from the next hop to its destination is pa
     CHECK(n.sent<aodv::Request>().size() == 1);
 }
 
-TEST_CASE("ns-3: a request with an older number leaves the way back to its originator") {
+TEST_CASE(
+    "without the fault of ns-3: a request with an older number keeps the route back to its "
+    "originator") {
     AodvNode n;
     n.hear(1, request(7, 5, 1, 20), 2);
     n.hear(2, request(7, 5, 2, 19), 1);
@@ -36,7 +40,9 @@ TEST_CASE("ns-3: a request with an older number leaves the way back to its origi
     CHECK(n.route(7)->next_hop == NodeId{3});
 }
 
-TEST_CASE("ns-3: a request makes a broken way back to its originator valid again") {
+TEST_CASE(
+    "without the fault of ns-3: a request makes a broken route back to its originator valid "
+    "again") {
     AodvNode n;
     n.learn(7, 1, 20, 3);
     n.link.time += 4s;
@@ -45,14 +51,16 @@ TEST_CASE("ns-3: a request makes a broken way back to its originator valid again
     CHECK(n.route(7)->is_valid);
 }
 
-TEST_CASE("ns-3: a neighbour does not get the number of a request's originator") {
+TEST_CASE(
+    "without the fault of ns-3: a neighbour does not get the number of a request's originator") {
     AodvNode n;
     n.hear(2, request(7, 5, 1, 20), 3);
     REQUIRE(n.route(2));
     CHECK(n.route(2)->number != n.route(7)->number);
 }
 
-TEST_CASE("ns-3: the number of a lost destination rises before it is reported") {
+TEST_CASE(
+    "without the fault of ns-3: the number of a lost destination is incremented before the RERR") {
     AodvNode n;
     n.pass_reply(7, 2, 5, 1, 9);
     n.forward(7, 2, 5);
@@ -63,14 +71,16 @@ TEST_CASE("ns-3: the number of a lost destination rises before it is reported") 
     CHECK(errors[0].second.lost.back().number == 10);
 }
 
-TEST_CASE("INET: equal ids of two originators are two requests") {
+TEST_CASE("without the fault of INET: equal ids of two originators are two requests") {
     AodvNode n;
     CHECK(n.hear(2, request(7, 5, 1)) == Fate::waiting);
     CHECK(n.hear(2, request(8, 5, 1)) == Fate::waiting);
     CHECK(n.hear(2, request(7, 5, 1)) == Fate::duplicate);
 }
 
-TEST_CASE("ns-2: two neighbours that repair a route at once do not send messages to each other") {
+TEST_CASE(
+    "without the fault of ns-2: two neighbours that repair one route do not send messages to each "
+    "other") {
     // Node 0 loses its route to 5 and repairs it. The answer of a neighbour whose own route went
     // over node 0 has the number of the broken route, and is not accepted.
     AodvNode n({.local_repair = true});
@@ -88,7 +98,7 @@ TEST_CASE("ns-2: two neighbours that repair a route at once do not send messages
     CHECK_FALSE(n.route(5)->is_valid);
 }
 
-TEST_CASE("ns-2: a report ends no messages that wait for its sender on the way elsewhere") {
+TEST_CASE("without the fault of ns-2: a RERR does not drop messages for other destinations") {
     AodvNode n;
     n.learn(5, 2, 9);
     n.learn(6, 2, 9);
@@ -100,7 +110,7 @@ TEST_CASE("ns-2: a report ends no messages that wait for its sender on the way e
     CHECK(n.data().size() == 1);
 }
 
-TEST_CASE("ns-2: messages without a route are reported ten times a second at most") {
+TEST_CASE("without the fault of ns-2: messages without a route cause at most ten RERRs a second") {
     AodvNode n;
     for (int i = 0; i < 50; ++i) n.forward(7, 2, 5);
     CHECK(n.sent<aodv::Error>().size() <= 10);
@@ -108,7 +118,7 @@ TEST_CASE("ns-2: messages without a route are reported ten times a second at mos
     CHECK(n.link.drops.size() == 50);
 }
 
-TEST_CASE("ns-2: a search without an answer ends, and so do its packets") {
+TEST_CASE("without the fault of ns-2: a search without an answer ends, and so do its packets") {
     for (const bool as_ns2 : {false, true}) {
         AodvNode n({.profile = as_ns2 ? AodvProfile::ns2 : AodvProfile::rfc});
         for (int i = 0; i < 3; ++i) n.send(5);
@@ -119,7 +129,7 @@ TEST_CASE("ns-2: a search without an answer ends, and so do its packets") {
     }
 }
 
-TEST_CASE("ns-2: requests of DSR grow by the address of each node, and by no more") {
+TEST_CASE("without the fault of ns-2: requests of DSR grow only by the address of each node") {
     DsrNode n;
     n.request(path({7}), 5, 1);
     n.request(path({7, 1}), 5, 2);

@@ -68,7 +68,7 @@ struct Relay {
 
 }  // namespace
 
-TEST_CASE("managed, M1: the first copy with hops left is queued with one less") {
+TEST_CASE("managed, M1: the first copy with remaining hops is queued with one less") {
     for (const char* role : {"", "client", "router", "router_late"}) {
         Relay node(role);
         const Reception r = node.hear(3);
@@ -81,7 +81,7 @@ TEST_CASE("managed, M1: the first copy with hops left is queued with one less") 
     }
 }
 
-TEST_CASE("managed, M1: a copy with hop limit 0 arrives and ends; a mute node relays nothing") {
+TEST_CASE("managed, M1: a copy with hop limit 0 is delivered only; a mute node relays nothing") {
     Relay last;
     const Reception at_the_end = last.hear(0);
     CHECK(at_the_end.fate == Fate::ttl);
@@ -110,7 +110,7 @@ TEST_CASE("managed, M1: a message leaves its source at once with the hop limit, 
     CHECK(node.link.sent.size() == 1);
 }
 
-TEST_CASE("managed, M2: -20 to 10 dB are windows of 3 to 8 in whole numbers, clamped") {
+TEST_CASE("managed, M2: -20 to 10 dB map to windows of 3 to 8, clamped") {
     const std::vector<std::pair<double, int>> windows{
         {-40, 3},  {-20, 3}, {-15, 3},  {-14.5, 4},       {-14, 4}, {-8.1, 5},
         {-7.5, 5}, {-2, 6},  {-0.9, 6}, {0, 6},           {3.9, 6}, {4, 7},
@@ -156,7 +156,7 @@ TEST_CASE("managed, M4: a duplicate heard while queued cancels the relay of a cl
     }
 }
 
-TEST_CASE("managed, M4: a duplicate does not keep a router from relaying") {
+TEST_CASE("managed, M4: a duplicate does not stop a router from relaying") {
     Relay node("router");
     node.hear(3);
     const auto slots = node.slots();
@@ -190,7 +190,7 @@ TEST_CASE("managed, M4: copies after the send time cancel nothing") {
     }
 }
 
-TEST_CASE("managed, M4: a handle that the link layer uses again is not mistaken for the own copy") {
+TEST_CASE("managed, M4: a reused handle of the link layer is not confused with the own copy") {
     Relay node;
     node.hear(3);
     node.link.sent[0].queued.frame.sender = NodeId{3};
@@ -213,7 +213,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("managed, M5: the replacing copy has a draw of its own") {
+TEST_CASE("managed, M5: the replacing copy has its own draw") {
     Relay node;
     node.link.drawn_at = {{0, 0.25}, {1, 0.75}};
     node.hear(1);
@@ -222,7 +222,7 @@ TEST_CASE("managed, M5: the replacing copy has a draw of its own") {
     CHECK(node.slots() == 16 + 192);
 }
 
-TEST_CASE("managed, M5: with nothing queued a higher hop limit is an ordinary duplicate") {
+TEST_CASE("managed, M5: without a queued copy, a higher hop limit is an ordinary duplicate") {
     Relay ended;
     ended.hear(0);
     CHECK(ended.hear(1).fate == Fate::duplicate);
@@ -234,7 +234,7 @@ TEST_CASE("managed, M5: with nothing queued a higher hop limit is an ordinary du
     CHECK(cancelled.queued().empty());
 }
 
-TEST_CASE("managed, M6: a repetition of the source is relayed again if nothing is queued") {
+TEST_CASE("managed, M6: a repetition of the source is relayed again if no copy is queued") {
     Relay node;
     node.link.drawn_at = {{0, 0.25}, {1, 0.75}};
     CHECK(node.hear(5).delivered);
@@ -314,7 +314,7 @@ TEST_CASE("managed on graphs: along a line 3 relays carry hop limit 3 to the fou
     }
 }
 
-TEST_CASE("managed on graphs: in a clique of clients the first relay cancels the rest") {
+TEST_CASE("managed on graphs: in a clique of clients the first relay cancels the others") {
     // Relays of the same slot cannot cancel each other: n - 1 nodes in 256 slots, and the first
     // slot is shared by two of them with a probability below (n - 1) / 512.
     for (const std::uint32_t n : {3U, 5U, 10U}) {
@@ -330,7 +330,7 @@ TEST_CASE("managed on graphs: in a clique of clients the first relay cancels the
     }
 }
 
-TEST_CASE("managed on graphs: in a clique with r routers these relay, and no client does") {
+TEST_CASE("managed on graphs: in a clique with r routers only the routers relay") {
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         for (const int r : {1, 2, 4}) {
             std::vector<std::string_view> roles(8, "client");
@@ -340,7 +340,7 @@ TEST_CASE("managed on graphs: in a clique with r routers these relay, and no cli
     }
 }
 
-TEST_CASE("managed on graphs: a late router relays too, after a client that was first") {
+TEST_CASE("managed on graphs: a late router also relays after a client that was first") {
     int clients_first = 0;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         const Flooded run =
@@ -351,7 +351,7 @@ TEST_CASE("managed on graphs: a late router relays too, after a client that was 
     CHECK(std::abs(clients_first - seeds / 2) < 28);  // 4 sigma of 200 fair draws
 }
 
-TEST_CASE("managed on graphs: mutes do not relay, neither in a clique nor around a client") {
+TEST_CASE("managed on graphs: mute nodes never relay") {
     const std::vector<std::string_view> mutes{"", "mute", "mute", "mute", "mute"};
     CHECK(flooded(5, clique(5), {.roles = mutes}) == Flooded{1, {{1, 1}, {2, 1}, {3, 1}, {4, 1}}});
     const std::vector<Graph::Edge> star{{0, 1}, {1, 2}, {1, 3}, {1, 4}};
@@ -369,7 +369,7 @@ TEST_CASE("managed on graphs: over a diamond the second relay cancels the third,
     }
 }
 
-TEST_CASE("managed on graphs: the node that hears the source the weakest relays first") {
+TEST_CASE("managed on graphs: the node with the weakest signal of the source relays first") {
     // Node 2 is far: its 8 slots lie before most of the 256 of node 1, so it loses 4 / 256 at most.
     int far_first = 0;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
@@ -382,7 +382,7 @@ TEST_CASE("managed on graphs: the node that hears the source the weakest relays 
     CHECK(far_first >= seeds - 12);
 }
 
-TEST_CASE("managed on graphs: a long way that is faster ends the flood, or is replaced in time") {
+TEST_CASE("managed on graphs: a longer but faster path ends the flood, or is replaced in time") {
     // 0-1-2-3, and a long way 0-4-5-2 of routers, which relay before client 1.
     const std::vector<Graph::Edge> edges{{0, 1}, {1, 2}, {2, 3}, {0, 4}, {4, 5}, {5, 2}};
     Options options{.roles = {"", "", "", "", "router", "router"},

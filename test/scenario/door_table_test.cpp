@@ -58,8 +58,7 @@ at = ["8 m", "2.5 m"]
 
 }  // namespace
 
-TEST_CASE(
-    "a door takes what its material says while it is closed, and the model's loss by default") {
+TEST_CASE("door: a closed door has the loss of its material, by default the model's loss") {
     const House house;
     for (const bool named : {true, false}) {
         const Scenario s =
@@ -85,7 +84,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("a door's material is what the scenario says, whatever the walls' own is called") {
+TEST_CASE("door: its material is set by the scenario, whatever the walls' materials are called") {
     const House house;
     const Scenario s =
         house.scenario(map + "[scene.materials]\nwall = { per_crossing = \"9 dB\" }\n" + door +
@@ -100,7 +99,7 @@ TEST_CASE("a door's material is what the scenario says, whatever the walls' own 
     CHECK(std::abs((level(0s) - level(10s)).value - 9) < 1e-9);
 }
 
-TEST_CASE("a door is printed, and reads back as the same") {
+TEST_CASE("door: is printed and read back unchanged") {
     const House house;
     const std::string text = map + materials + door + times +
                              "material = \"wood\"\nthickness = \"8 cm\"\n" +
@@ -119,7 +118,7 @@ TEST_CASE("a door is printed, and reads back as the same") {
     CHECK(first.notices.empty());
 }
 
-TEST_CASE("mistakes in doors name their place, and what was expected") {
+TEST_CASE("door: errors have a position, and say what was expected") {
     const House house;
     struct Mistake {
         std::string text, where;
@@ -158,7 +157,7 @@ TEST_CASE("mistakes in doors name their place, and what was expected") {
     }
 }
 
-TEST_CASE("a robot in a door that is closed at the begin is told of as one in a wall") {
+TEST_CASE("door: a robot in a door that is closed at the start is reported like one in a wall") {
     const House house;
     const std::string text =
         map + door + "closes = [\"0 s\"]\n[[robot]]\nname = \"a\"\nat = [\"4.5 m\", \"2.5 m\"]\n";

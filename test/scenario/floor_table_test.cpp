@@ -79,7 +79,7 @@ struct Mistake {
 
 }  // namespace
 
-TEST_CASE("floors: the walls of each storey and the ceiling stand in the way of a link") {
+TEST_CASE("floors: walls of each storey and the ceiling attenuate a link") {
     const Building building;
     // From (0.5, 1) to (9.5, 4): it passes the ceiling at x = 6.5, after half of the upper wall,
     // which it only meets below. So the lower pillar counts, and the last half of the upper one.
@@ -104,7 +104,7 @@ TEST_CASE("floors: the walls of each storey and the ceiling stand in the way of 
     CHECK(report_link(friis, "a", "b", start_of_run).ceiling_loss.value == 0);
 }
 
-TEST_CASE("floors: a link says how many floors the model counts, and what they take") {
+TEST_CASE("floors: a link report counts the floors of the model, with their loss") {
     const Building building;
     const std::string high =
         "[[robot]]\nname = \"a\"\nat = [\"0 m\", \"0 m\"]\n"
@@ -142,7 +142,7 @@ TEST_CASE("floors: a link says how many floors the model counts, and what they t
     CHECK(near(by_model.ceiling_loss.value, 18.3));
 }
 
-TEST_CASE("floors: an antenna that its height alone puts on another storey is a notice") {
+TEST_CASE("floors: an antenna that only its height puts on another storey gives a notice") {
     const Building building;
     const auto notices = [&](const std::string& text) { return building.scenario(text).notices; };
     const auto robot = [](const char* z, const char* antenna) {
@@ -174,7 +174,7 @@ TEST_CASE("floors: a ceiling may be a slab of a material of ITU-R P.2040") {
                slab));
 }
 
-TEST_CASE("floors: materials of the scenario are those of all maps, those of a file of its map") {
+TEST_CASE("floors: materials of the scenario apply to all maps, those of a file to its map") {
     const Building building;
     const std::string model = "[propagation]\nmodel = \"multi_wall\"\n";
     const std::string shared =
@@ -206,7 +206,7 @@ TEST_CASE("floors: a map.yaml has its own size, and wall_height counts from each
     CHECK(low.walls->crossings({0, 0.5, 3.6}, {9, 0.5, 3.6}).empty());
 }
 
-TEST_CASE("floors: they are printed as they read, and --set changes one") {
+TEST_CASE("floors: are printed and read back unchanged, and --set changes one") {
     const Building building;
     const std::string text =
         ground("ceiling = { per_crossing = \"15 dB\" }\n") +
@@ -223,7 +223,7 @@ TEST_CASE("floors: they are printed as they read, and --set changes one") {
     CHECK(higher.walls->storeys().floor(2) == 7);
 }
 
-TEST_CASE("floors: a mistake is told with its place and what was expected") {
+TEST_CASE("floors: errors have a position and say what was expected") {
     const Building building;
     const std::string map_and = "[scene]\nmap = \"ground.png\"\nsize = [\"10 m\", \"1 m\"]\n";
     const std::vector<Mistake> mistakes{
@@ -274,7 +274,7 @@ TEST_CASE("floors: a mistake is told with its place and what was expected") {
     }
 }
 
-TEST_CASE("floors: a robot in a wall of its storey, off its map or without stairs is told of") {
+TEST_CASE("floors: a robot in a wall of its storey, off its map or without stairs is reported") {
     const Building building;
     const std::string scene = ground() + upper();
     const auto error_of = [&](const std::string& robot) -> std::string {

@@ -73,7 +73,7 @@ TEST_CASE("routing input: an unknown key is an error, and keys of other protocol
     CHECK(has(error_of(chosen + "hop_limit = 8\n"), "s.toml:9:13: hop_limit: found the number 8"));
 }
 
-TEST_CASE("routing input: a role that no protocol has is an error at the robot") {
+TEST_CASE("routing input: a role that the protocol does not have is an error at the robot") {
     const std::string robots = two_robots + "role = \"ruoter\"\n";
     const std::string error = error_of("[routing]\nprotocol = \"managed\"\n", robots);
     CHECK(has(error,
@@ -82,7 +82,7 @@ TEST_CASE("routing input: a role that no protocol has is an error at the robot")
     CHECK(error_of("", two_robots + "role = \"mute\"\n").empty());  // beside another protocol
 }
 
-TEST_CASE("routing input: sizes and payloads that fit into no UDP packet are errors") {
+TEST_CASE("routing input: sizes and payloads too large for a UDP packet are errors") {
     CHECK(error_of(unicast("size = \"65507 B\"")).empty());
     CHECK(has(error_of(unicast("size = \"65508 B\"")),
               "s.toml:11:8: size: found \"65508 B\"; expected a value from 0 to 65507 bytes, which "
@@ -94,7 +94,7 @@ TEST_CASE("routing input: sizes and payloads that fit into no UDP packet are err
               "s.toml:7:35: size: found \"1 MB\"; expected a value from 0 to 65507 bytes"));
 }
 
-TEST_CASE("routing input: a broadcast over one hop is a notice") {
+TEST_CASE("routing input: a broadcast over one hop gives a notice") {
     const std::string text = all_notices("[[traffic]]\nfrom = \"A\"\nsize = \"9 B\"\nhops = 1\n");
     CHECK(text ==
           "s.toml:10:8: hops: with hops = 1 the routing protocol does not forward these "
@@ -104,7 +104,7 @@ TEST_CASE("routing input: a broadcast over one hop is a notice") {
               "s.toml:10:8: hops: found the number 2; expected a value of 1"));
 }
 
-TEST_CASE("routing input: a unicast under a flood is a notice that names what routes it") {
+TEST_CASE("routing input: a unicast under a flood gives a notice that names a routing protocol") {
     for (const std::string protocol : {"flood", "suppression", "managed"}) {
         const std::string chosen = "[routing]\nprotocol = \"" + protocol + "\"\n";
         const std::string text = all_notices(unicast("size = \"9 B\"") + chosen);
@@ -118,7 +118,7 @@ TEST_CASE("routing input: a unicast under a flood is a notice that names what ro
     }
 }
 
-TEST_CASE("routing input: a route of more than sixteen robots is a notice at the end of the run") {
+TEST_CASE("routing input: a route of more than sixteen robots gives a notice at the end") {
     const auto notice_with = [](int robots) {
         std::string text =
             "[scenario]\nduration = \"60 s\"\n[propagation]\nmodel = \"disc\"\nrange = \"9 m\"\n"

@@ -231,7 +231,7 @@ void list_keys(const Value& value, const std::string& path, std::vector<std::str
 
 }  // namespace
 
-TEST_CASE("scenario: one robot is enough, and everything else has the documented default") {
+TEST_CASE("scenario: one robot is enough, and all else has the documented default") {
     const Scenario s = read(robot_a);
     CHECK(s.scenario.name == "run");
     CHECK(s.scenario.duration == 60s);
@@ -273,7 +273,7 @@ TEST_CASE("scenario: keys of protocols that are not chosen are checked and kept"
                       doctest::Contains("did you mean \"hello\"?"));
 }
 
-TEST_CASE("scenario: every key of the file arrives in its field") {
+TEST_CASE("scenario: every key of the file is read into its field") {
     const Scenario s = read(every_key);
     CHECK(s.scenario.duration == 12345678us);
     CHECK(s.scenario.event_limit == 5000);
@@ -349,7 +349,7 @@ TEST_CASE("scenario: printed with every default, it reads back as the same scena
     }
 }
 
-TEST_CASE("scenario: every key that is printed was given in the scenario of every key") {
+TEST_CASE("scenario: every printed key was given in the scenario of every key") {
     std::vector<std::string> given, shown;
     list_keys(parse_toml(every_key, ""), "", given);
     list_keys(Value(to_document(read(every_key))), "", shown);
@@ -364,7 +364,7 @@ TEST_CASE("scenario: every key that is printed was given in the scenario of ever
     }
 }
 
-TEST_CASE("scenario: no key of the scenario of every key is at its default") {
+TEST_CASE("scenario: no key in the scenario of every key has its default") {
     const Table all = to_document(read(every_key));
     const Table usual = to_document(read(robot_a));
     for (const char* name : {"scenario", "scene", "radio", "medium", "routing", "trace", "study"}) {
@@ -386,13 +386,13 @@ TEST_CASE("scenario: the keys of a model that is not chosen are kept, for a swee
     CHECK(std::get<Disc>(swapped.propagation.parameters).range == Meters{50});
 }
 
-TEST_CASE("scenario: a coefficient given once is that of both models that have one") {
+TEST_CASE("scenario: a coefficient given once applies to both models that have one") {
     const Scenario s = read("[propagation]\ncoefficient = 22\n" + robot_a);
     CHECK(std::get<ItuIndoor>(s.propagation.parameters).coefficient == 22);
     CHECK(std::get<Raytrace2007>(s.propagation.parameters).coefficient == 22);
 }
 
-TEST_CASE("scenario: a robot's own keys lie over those of [radio] and [propagation]") {
+TEST_CASE("scenario: a robot's own keys override [radio] and [propagation]") {
     const Scenario s = read(
         "[radio]\npower = \"10 dBm\"\nrate = \"1 Mb/s\"\n[propagation]\nmodel = \"log_distance\"\n"
         "exponent = 4\n" +
@@ -407,7 +407,7 @@ TEST_CASE("scenario: a robot's own keys lie over those of [radio] and [propagati
     CHECK(std::get<LogDistance>(s.propagation.parameters).sigma == Db{5});
 }
 
-TEST_CASE("scenario: radios of an OFDM standard have its preamble and rate unless they say so") {
+TEST_CASE("scenario: radios of an OFDM standard have its preamble and rate, unless given") {
     const std::string ofdm = robot_a + "[access]\nmodel = \"csma\"\nstandard = \"802.11a\"\n";
     CHECK(read(ofdm).robots[0].radio.preamble == 20us);
     CHECK(read(ofdm).robots[0].radio.rate == BitRate{54e6});
@@ -417,7 +417,7 @@ TEST_CASE("scenario: radios of an OFDM standard have its preamble and rate unles
     CHECK(read(robot_a + "[access]\nmodel = \"csma\"").robots[0].radio.preamble == 192us);
 }
 
-TEST_CASE("scenario: robots of a count can be named by traffic") {
+TEST_CASE("scenario: traffic can name robots of a count") {
     const std::string robots = "[[robot]]\nname = \"r\"\ncount = 3\nat = [\"0 m\", \"0 m\"]\n";
     CHECK_NOTHROW(read(robots + "[[traffic]]\nfrom = \"r2\"\npayload = \"x\"\n"));
     CHECK_THROWS_AS(read(robots + "[[traffic]]\nfrom = \"r3\"\npayload = \"x\"\n"), InputError);

@@ -64,7 +64,7 @@ std::pair<double, double> wall_db(const std::string& file, const ScenarioOptions
 
 }  // namespace
 
-TEST_CASE("scene: a bare picture's walls follow the wall factor, light greys are no walls") {
+TEST_CASE("scene: walls of an image follow the wall factor, light greys are not walls") {
     const TemporaryFolder folder;
     folder.write("m.png", picture());
     const auto [there, back] = wall_db(folder.write("s.toml", pair));
@@ -72,7 +72,7 @@ TEST_CASE("scene: a bare picture's walls follow the wall factor, light greys are
     CHECK(there == back);
 }
 
-TEST_CASE("scene: a map with folders of another machine is said to lie beside the scenario") {
+TEST_CASE("scene: for a map path of another machine, the map beside the scenario is suggested") {
     const TemporaryFolder folder;
     folder.write("m.png", picture());
     std::string elsewhere = pair;
@@ -89,7 +89,7 @@ TEST_CASE("scene: a map with folders of another machine is said to lie beside th
     }
 }
 
-TEST_CASE("scene: a ROS map's keys of other programs are notices of the scenario, each once") {
+TEST_CASE("scene: keys of other programs in a ROS map give one notice each") {
     const TemporaryFolder folder;
     folder.write("m.png", picture());
     folder.write("m.yaml", "image: m.png\nresolution: 1\norigin: [0, 0, 0]\nmap_type: occupancy\n");
@@ -103,7 +103,7 @@ TEST_CASE("scene: a ROS map's keys of other programs are notices of the scenario
     CHECK(std::count_if(scenario.notices.begin(), scenario.notices.end(), of_map) == 1);
 }
 
-TEST_CASE("scene: a material is told by its grey level, and has a loss of its own") {
+TEST_CASE("scene: a material is selected by its grey level, and has its own loss") {
     const TemporaryFolder folder;
     folder.write("m.png", picture());
     const std::string file = folder.write(
@@ -118,7 +118,7 @@ TEST_CASE("scene: a material is told by its grey level, and has a loss of its ow
     CHECK(report.materials == std::vector<std::string>{"wall", "partition"});
 }
 
-TEST_CASE("scene: a slab of P.2040 costs the same however thick it is drawn") {
+TEST_CASE("scene: a slab of P.2040 has the same loss for any drawn thickness") {
     const TemporaryFolder folder;
     folder.write("m.png", picture());
     const std::string file = folder.write(
@@ -129,7 +129,7 @@ TEST_CASE("scene: a slab of P.2040 costs the same however thick it is drawn") {
     CHECK(near(wall_db(file).first, 2 * brick));
 }
 
-TEST_CASE("scene: a sidecar beside the map names materials, the scenario's come first") {
+TEST_CASE("scene: a file beside the map names materials; those of the scenario take precedence") {
     const TemporaryFolder folder;
     folder.write("m.png", picture());
     folder.write("m.materials.toml",
@@ -158,7 +158,7 @@ TEST_CASE("scene: a link between antennas above the walls is clear") {
     CHECK(near(wall_db(file, slanted).first, 20 * stretched));
 }
 
-TEST_CASE("scene: a box of half a metre at wall factor 1 costs 50 dB both ways") {
+TEST_CASE("scene: a box of half a metre at wall factor 1 costs 50 dB in both directions") {
     const TemporaryFolder folder;
     const std::string robot = "position ( name \"%\" pose [@ 0 0] wifi ( model \"raytrace\" ) )\n";
     std::string world = "model ( size [0.5 4] pose [2.5 0 0] color \"brown\" )\n";

@@ -68,7 +68,7 @@ TEST_CASE("traffic file: flows of cbrgen are unicasts with their size, interval,
     CHECK(file.notices[0].find("random_ of 2 flows is left out") != std::string::npos);
 }
 
-TEST_CASE("traffic file: a rate stands for an interval, and defaults are those of ns-2") {
+TEST_CASE("traffic file: a rate gives the interval, and defaults are those of ns-2") {
     const TemporaryFolder folder;
     const auto every = [&](const std::string& key) {
         const std::string text = with(flow(0, 1, 2, "1.0"), "$cbr_(0) set interval_ 0.25\n", key);
@@ -79,7 +79,7 @@ TEST_CASE("traffic file: a rate stands for an interval, and defaults are those o
     CHECK(every("") == from_seconds(512 * 8 / 448e3));
 }
 
-TEST_CASE("traffic file: what it does not say of CBR over UDP is an error with its place") {
+TEST_CASE("traffic file: content other than CBR over UDP is an error with its position") {
     const std::string good = flow(0, 1, 2, "1.0");
     CHECK(error_of(good) == "");
     CHECK(
@@ -99,7 +99,7 @@ TEST_CASE("traffic file: what it does not say of CBR over UDP is an error with i
           std::string::npos);
 }
 
-TEST_CASE("traffic file: [traffic] plays it beside a movement file, [[traffic]] beside others") {
+TEST_CASE("traffic file: [traffic] plays it with a movement file, or with [[traffic]]") {
     const TemporaryFolder folder;
     folder.write("cbr.tcl", flow(0, 1, 2, "1.0"));
     folder.write("scen.tcl", "$node_(1) set X_ 1.0\n$node_(2) set X_ 9.0\n");

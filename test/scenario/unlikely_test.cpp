@@ -62,20 +62,20 @@ std::string error_of(auto&& make) {
 
 }  // namespace
 
-TEST_CASE("unlikely: a usual scenario has no notice") {
+TEST_CASE("unlikely: a usual scenario gives no notice") {
     CHECK(notices_of(robot_a) == std::vector<std::string>{});
     CHECK(notices_of(robot_a + "off = [\"1 s\", \"5 s\"]\non = [\"2 s\"]\n").empty());
     CHECK(notices_of("[access]\nmodel = \"csma\"\nstandard = \"802.11g\"\n" + robot_a).empty());
     CHECK(notices_of("[radio]\nfrequency = \"868 MHz\"\n" + robot_a).empty());
 }
 
-TEST_CASE("unlikely: a frequency whose unit slipped is a notice with what was meant") {
+TEST_CASE("unlikely: a frequency with a wrong unit gives a notice with a suggestion") {
     check_notice("[radio]\nfrequency = \"2.4 MHz\"\n" + robot_a,
                  {"s.toml:2:13: frequency: ", "did you mean \"2400 MHz\"?"});
     check_notice(robot_a + "radio = { frequency = \"1 Hz\" }\n", {":4:23: ", "not a frequency of"});
 }
 
-TEST_CASE("unlikely: a rate that the standard does not have is a notice") {
+TEST_CASE("unlikely: a rate that the standard does not have gives a notice") {
     check_notice("[radio]\nrate = \"54 Mb/s\"\n[access]\nmodel = \"csma\"\n" + robot_a,
                  {":2:8: rate: 802.11b has no rate of 54 Mb/s", "1, 2, 5.5, 11"});
     check_notice(
@@ -85,7 +85,7 @@ TEST_CASE("unlikely: a rate that the standard does not have is a notice") {
     CHECK(notices_of("[radio]\nrate = \"54 Mb/s\"\n" + robot_a).empty());  // nobody's standard
 }
 
-TEST_CASE("unlikely: a payload that reads as a size is a notice, once for all of them") {
+TEST_CASE("unlikely: a payload that reads like a size gives one notice for all") {
     const auto traffic = [](const std::string& lines) {
         return "[[traffic]]\nfrom = \"A\"\n" + lines + "\n";
     };
@@ -101,7 +101,7 @@ TEST_CASE("unlikely: a payload that reads as a size is a notice, once for all of
     CHECK(notices_of(robot_a + traffic("payload = \"64 B\"\nsize = \"64 B\"")).empty());
 }
 
-TEST_CASE("unlikely: a unicast goes one hop under a flood, with a notice unless it says so") {
+TEST_CASE("unlikely: a unicast under a flood goes one hop, with a notice unless hops = 1") {
     const std::string two = robot_a + "[[robot]]\nname = \"B\"\nat = [\"4 m\", \"2 m\"]\n";
     const std::string unicast =
         "[[traffic]]\nkind = \"unicast\"\nfrom = \"A\"\nto = \"B\"\npayload = \"x\"\n";
@@ -119,13 +119,13 @@ TEST_CASE("unlikely: a unicast goes one hop under a flood, with a notice unless 
     CHECK(to_toml(to_document(scenario)).find("hops = 1\n") != std::string::npos);
 }
 
-TEST_CASE("unlikely: switching on a robot that is on is a notice, and off likewise") {
+TEST_CASE("unlikely: switching on a robot that is on gives a notice, and off likewise") {
     check_notice(robot_a + "on = [\"1 s\"]\noff = [\"5 s\"]\n",
                  {":4:6: on: ", "on already at 1 s"});
     check_notice(robot_a + "off = [\"1 s\", \"2 s\"]\n", {":4:7: off: ", "off already at 2 s"});
 }
 
-TEST_CASE("unlikely: a robot that starts off the map is a notice, once for all of them") {
+TEST_CASE("unlikely: robots that start off the map give one notice") {
     check_notice(on_map + "[[robot]]\nname = \"A\"\nat = [\"448 m\", \"0.5 m\"]\n",
                  {":6:6: robot \"A\" starts at (448, 0.5) m, 440 m off the map", "(8, 1) m"});
     const std::string two =
@@ -134,7 +134,7 @@ TEST_CASE("unlikely: a robot that starts off the map is a notice, once for all o
     check_notice(on_map + two, {"robot \"B\"", "1 m off the map", "and 1 more"});
 }
 
-TEST_CASE("unlikely: a wall without a material that is a metre thick is a notice with rays") {
+TEST_CASE("unlikely: a metre-thick wall without a material gives a notice with rays") {
     const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n";
     const std::string rays = "[propagation]\nmodel = \"rays\"\n";
     check_notice(on_map + robot + rays,
@@ -147,7 +147,7 @@ TEST_CASE("unlikely: a wall without a material that is a metre thick is a notice
     CHECK(notices_of(on_map + given + robot + rays).empty());
 }
 
-TEST_CASE("unlikely: walls that are in the map and in N, too, are a notice") {
+TEST_CASE("unlikely: walls both in the map and in N give a notice") {
     const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n";
     const std::string own = "propagation = { model = \"raytrace_2007\" }\n";
     const std::string rays = "[propagation]\nmodel = \"raytrace_2007\"\n";
@@ -163,7 +163,7 @@ TEST_CASE("unlikely: walls that are in the map and in N, too, are a notice") {
     CHECK(notices_of(on_map + robot + "propagation = { model = \"friis\" }\n" + rays).empty());
 }
 
-TEST_CASE("unlikely: pixels of a material that are not walls are a notice") {
+TEST_CASE("unlikely: pixels of a material that are not walls give a notice") {
     const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n";
     check_notice(
         on_map + robot + "[scene.materials]\npane = { grey = 140, per_crossing = \"3 dB\" }\n",
@@ -178,8 +178,7 @@ TEST_CASE("unlikely: pixels of a material that are not walls are a notice") {
               .empty());
 }
 
-TEST_CASE(
-    "unlikely: greys between a ROS map's thresholds let the radio pass, and a notice says so") {
+TEST_CASE("unlikely: greys between a ROS map's thresholds are not walls, and give a notice") {
     const TemporaryFolder folder;
     const test::PngPicture picture{.width = 4, .height = 1, .rows = {{255, 0, 120, 255}}};
     folder.write("m.png", test::png_bytes(picture));
@@ -195,7 +194,7 @@ TEST_CASE(
     CHECK(s.notices[0].find("occupied_thresh") != std::string::npos);
 }
 
-TEST_CASE("unlikely: a robot in a wall of a world is a notice, as Stage lets it stand there") {
+TEST_CASE("unlikely: a robot in a wall of a Stage world gives a notice, because Stage allows it") {
     const TemporaryFolder folder;
     const std::string world =
         folder.write("w.world",
@@ -214,7 +213,7 @@ TEST_CASE("unlikely: a robot in a wall of a world is a notice, as Stage lets it 
     }
 }
 
-TEST_CASE("unlikely: the clearance that is too small is told with the digits that show it") {
+TEST_CASE("unlikely: a clearance slightly too small is printed with enough digits") {
     const TemporaryFolder folder;
     folder.write("wall.png",
                  test::png_bytes({.width = 4, .height = 1, .rows = {{0, 255, 255, 255}}}));
@@ -235,7 +234,7 @@ radius = "0.01 m"
     CHECK(refused.find("its radius of 0.01 m (clearance 0.00996 m)") != std::string::npos);
 }
 
-TEST_CASE("unlikely: a robot that chooses a model has that model's parameters, and no others'") {
+TEST_CASE("unlikely: a robot that chooses a model has only that model's parameters") {
     const TemporaryFolder folder;
     const auto loss = [&](const std::string& own) {
         const Scenario s = loaded(folder,
@@ -253,7 +252,7 @@ TEST_CASE("unlikely: a robot that chooses a model has that model's parameters, a
     CHECK(loss("propagation = { coefficient = 30 }\n") == office);
 }
 
-TEST_CASE("memory: more robots than the machine can hold are refused before any is made") {
+TEST_CASE("memory: more robots than the memory can hold are refused before any is created") {
     Scenario s;
     s.robots.resize(1);
     s.robots[0].name = "r";
@@ -272,7 +271,7 @@ TEST_CASE("memory: more robots than the machine can hold are refused before any 
     CHECK(available_memory() > 100'000'000);
 }
 
-TEST_CASE("unlikely: fields are added where walls are not along the cells") {
+TEST_CASE("unlikely: coherent sums with walls oblique to the cells give a notice") {
     // A wall of 30 cm through the middle of a room of 6 m, in cells of 5 cm.
     const auto room = [](double slope) {
         std::vector<std::string> rows(80, std::string(120, '.'));
@@ -336,7 +335,7 @@ TEST_CASE("unlikely: [access] eifs is a word; true and false of earlier files me
           std::string::npos);
 }
 
-TEST_CASE("traffic: robots that speak at the same instants are noticed where frames collide") {
+TEST_CASE("traffic: robots that send simultaneously give a notice if their frames collide") {
     const TemporaryFolder folder;
     const auto noted = [&](const std::string& head, const std::string& a, const std::string& b) {
         const std::string robots =
@@ -388,7 +387,7 @@ TEST_CASE("traffic: robots that speak at the same instants are noticed where fra
     CHECK(noted(csma, each_second + "count = 5\n", "start = \"5 s\"\n") == 1);
 }
 
-TEST_CASE("words: a suggestion is a word of the same number, and off stands for none") {
+TEST_CASE("words: a suggestion has the same type, and no word is suggested for off") {
     const TemporaryFolder folder;
     const auto error = [&](const std::string& text) {
         return error_of([&] { loaded(folder, text + robot_a); });

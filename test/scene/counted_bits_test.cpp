@@ -13,7 +13,7 @@
 namespace counted_bits_test {
 using namespace rovernet;
 
-TEST_CASE("counted bits: as many members are below a number as a set has there") {
+TEST_CASE("counted bits: the count of members below a number equals that of a set") {
     test::Draw draw(41);
     for (const int end : {0, 1, 63, 64, 65, 1000}) {
         std::set<std::size_t> members;

@@ -28,7 +28,7 @@ std::shared_ptr<const Scene> room() {
 
 }  // namespace
 
-TEST_CASE("a door is closed from the nanosecond at which it closes to the one before it opens") {
+TEST_CASE("door: is closed from its closing nanosecond to the one before it opens") {
     const Door door{.from = {}, .to = {1, 0, 0}, .closes = {2s, 6s}, .opens = {4s}};
     CHECK_FALSE(door.is_closed(begin));
     CHECK_FALSE(door.is_closed(begin + 2s - 1ns));
@@ -39,7 +39,7 @@ TEST_CASE("a door is closed from the nanosecond at which it closes to the one be
     CHECK(door.is_closed(begin + 6000s));
 }
 
-TEST_CASE("a closed door is a wall of its length and thickness, in any direction") {
+TEST_CASE("door: a closed door is a wall of its length and thickness, in any direction") {
     const Scene open(test::drawn_map(std::vector<std::string>(40, std::string(40, ' '))));
     for (const double degrees : {0.0, 30.0, 90.0, 135.0, 180.0, 210.0, 270.0, 300.0}) {
         const double turn = degrees * std::numbers::pi / 180;
@@ -68,7 +68,7 @@ TEST_CASE("a closed door is a wall of its length and thickness, in any direction
     }
 }
 
-TEST_CASE("changes of a scene: one for each time at which another set of doors is closed") {
+TEST_CASE("scene changes: there is one for each time at which another set of doors is closed") {
     const auto open = room();
     const Door a{.from = {1, 2, 0}, .to = {2, 2, 0}, .closes = {1s, 5s}, .opens = {3s, 6s}};
     const Door b{.from = {2, 1, 0}, .to = {2, 2, 0}, .closes = {3s}, .opens = {5s}};
@@ -89,7 +89,7 @@ TEST_CASE("changes of a scene: one for each time at which another set of doors i
     CHECK(scene_changes(open, {}).empty());
 }
 
-TEST_CASE("a door of a building stands on its storey alone") {
+TEST_CASE("door: of a building exists only on its storey") {
     auto ground = test::drawn_map({"####", "#  #", "#  #", "####"});
     auto upper = ground;
     upper.origin.z = 3;
@@ -107,7 +107,7 @@ TEST_CASE("a door of a building stands on its storey alone") {
     CHECK(doors.passable({2, 1.5, 0}, {2, 2.5, 0}, 0_m));
 }
 
-TEST_CASE("walls beside a door are what they were") {
+TEST_CASE("door: walls beside a door do not change") {
     test::Draw draw(7);
     const Scene open(test::random_map(draw, 30, 30, 12));
     const Door door{.from = {14, 3, 0}, .to = {16, 5, 0}, .closes = {0s}};

@@ -51,7 +51,7 @@ Vec3 direction(const Face& f) { return {-f.normal.y, f.normal.x, 0}; }
 
 }  // namespace
 
-TEST_CASE("faces: a rectangle has its four edges, exactly, one cell thick too") {
+TEST_CASE("faces: a rectangle has its four edges exactly, also one cell thick") {
     for (const int thick : {1, 2, 7}) {
         OccupancyGrid grid;
         grid.columns = 120, grid.rows = 20;
@@ -77,7 +77,7 @@ TEST_CASE("faces: a rectangle has its four edges, exactly, one cell thick too") 
     }
 }
 
-TEST_CASE("faces: a wall drawn at any angle has two long faces at that angle, where it was drawn") {
+TEST_CASE("faces: a wall drawn at any angle has two long faces at that angle and place") {
     constexpr double cell = 0.05, length = 6;
     for (const double thick : {0.15, 0.3}) {
         for (int degrees = 1; degrees < 90; degrees += 2) {
@@ -114,7 +114,7 @@ TEST_CASE("faces: a thin line whose cells touch at corners has two faces") {
         CHECK(between(direction(f), {1 / std::sqrt(1.16), 0.4 / std::sqrt(1.16)}) < 0.2 * degree);
 }
 
-TEST_CASE("faces: corners of rooms and doors stay where they are, bumps of a cell part no wall") {
+TEST_CASE("faces: corners of rooms and doors stay in place, bumps of a cell do not split a wall") {
     const Scene room(test::drawn_map({"############",  //
                                       "#..........#",  //
                                       "#..........#",  //
@@ -138,8 +138,7 @@ TEST_CASE("faces: corners of rooms and doors stay where they are, bumps of a cel
     CHECK(long_faces(scene, 0.5).size() == 2);
 }
 
-TEST_CASE(
-    "faces: they close around each wall, whatever its form, and its cells are on their left") {
+TEST_CASE("faces: close around each wall of any shape, with its cells on their left") {
     test::Draw draw(3);
     for (int trial = 0; trial < 20; ++trial) {
         const Scene scene(test::random_map(draw, 40, 30, 10 + trial));
@@ -155,7 +154,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("faces: a point of a drawn edge has the face that stands for the edge") {
+TEST_CASE("faces: a point of a drawn edge belongs to the face of this edge") {
     const Scene scene(slanting_wall(6, 0.3, 30 * degree));
     const auto faces = scene.faces()->all();
     int found = 0;
@@ -176,7 +175,7 @@ TEST_CASE("faces: a point of a drawn edge has the face that stands for the edge"
     CHECK_FALSE(scene.faces()->at({3.5, 3.5}, 0));
 }
 
-TEST_CASE("faces: a face ends where the material changes, and no face is between two materials") {
+TEST_CASE("faces: a face ends where the material changes, and none is between two materials") {
     OccupancyGrid grid = test::drawn_map({"......", ".####.", "......"});
     grid.cell_materials.assign(grid.cells.size(), 0);
     grid.cell_materials[9] = grid.cell_materials[10] = 1;
@@ -192,7 +191,7 @@ TEST_CASE("faces: a face ends where the material changes, and no face is between
     CHECK_FALSE(scene.faces()->at({2.5, 1}, 1));
 }
 
-TEST_CASE("faces: a turned map has turned faces; an open field has none; threads get the same") {
+TEST_CASE("faces: a rotated map has rotated faces; an open field none; threads get the same") {
     OccupancyGrid grid = test::drawn_map({"......", ".####.", "......"}, 0.5);
     grid.yaw = 25 * degree;
     grid.origin = {3, -4};
@@ -209,7 +208,7 @@ TEST_CASE("faces: a turned map has turned faces; an open field has none; threads
     CHECK(Scene{}.faces() == nullptr);
 }
 
-TEST_CASE("faces: they know how thick their wall is, at any angle and beside a junction") {
+TEST_CASE("faces: have the thickness of their wall, at any angle and beside a junction") {
     for (int degrees = 0; degrees < 90; degrees += 5) {
         CAPTURE(degrees);
         const Scene scene(slanting_wall(6, 0.3, degrees * degree));

@@ -60,7 +60,7 @@ TEST_CASE("free space: a step is allowed exactly if it is passable and cuts no c
     }
 }
 
-TEST_CASE("free space: a corridor as wide as the robot is wide enough in any decimals") {
+TEST_CASE("free space: a corridor as wide as the robot is wide enough, at any decimals") {
     for (const int centimetres : {3, 5, 10, 15, 30})
         for (std::size_t width = 1; width <= 21; width += 2) {
             std::vector<std::string> rows(width + 2, ".....");
@@ -73,7 +73,7 @@ TEST_CASE("free space: a corridor as wide as the robot is wide enough in any dec
         }
 }
 
-TEST_CASE("free space: parts are what steps join, numbered by their first cells") {
+TEST_CASE("free space: parts are connected by steps, and numbered by their first cells") {
     test::Draw draw(23);
     for (int trial = 0; trial < 30; ++trial) {
         const int columns = 1 + draw.below(40), rows = 1 + draw.below(30);
@@ -101,7 +101,7 @@ TEST_CASE("free space: parts are what steps join, numbered by their first cells"
     }
 }
 
-TEST_CASE("free space: a robot larger than the map, or than any map, fits nowhere beside a wall") {
+TEST_CASE("free space: a robot larger than the map fits nowhere near a wall") {
     const Scene scene(test::drawn_map({"....", ".#..", "...."}, 0.5));
     for (const double radius : {10.0, 1e9, 1e300}) {
         const FreeSpace space(scene, Meters{radius});

@@ -45,7 +45,7 @@ const Material wood{.name = "wood", .per_metre = DbPerMeter{10}};
 
 }  // namespace
 
-TEST_CASE("layers: walls of two materials side by side are two crossings, of one material one") {
+TEST_CASE("layers: adjacent walls of two materials are two crossings, of one material one") {
     OccupancyGrid grid = drawn_map({".####."});
     grid.cell_materials = {0, 1, 1, 2, 2, 0};
     const Scene scene(grid, {Material{}, brick, wood});
@@ -62,7 +62,7 @@ TEST_CASE("layers: walls of two materials side by side are two crossings, of one
     CHECK(Scene(grid, {Material{}, brick}).crossings({0.5, 0.5}, {5.5, 0.5}).size() == 1);
 }
 
-TEST_CASE("layers: the loss is the same both ways, to the last bit") {
+TEST_CASE("layers: the loss is equal in both directions, to the last bit") {
     OccupancyGrid grid = drawn_map({"##.#", ".#.#", "####"}, 0.37);
     grid.cell_materials = {0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2};
     OccupancyGrid turned = box(0.4, -0.2, 0.3, 0.7, 0.5);
@@ -93,7 +93,7 @@ TEST_CASE("layers: a box turned by 45 degrees is crossed along its diagonal") {
     CHECK(near(scene.wall_length({0, std::sqrt(2)}, {10, std::sqrt(2)}), 2 * std::sqrt(2)));
 }
 
-TEST_CASE("layers: a link above the walls is clear, one through their top is partly inside") {
+TEST_CASE("layers: a link above the walls is clear, a link through their top is partly inside") {
     const Scene scene(box(4, 0, 2, 1), {Material{.height = Meters{2}}});
     CHECK(near(scene.wall_length({0, 0.5, 1}, {10, 0.5, 1}), 2));
     CHECK(scene.wall_length({0, 0.5, 2}, {10, 0.5, 2}) == 0);
@@ -107,7 +107,7 @@ TEST_CASE("layers: a link above the walls is clear, one through their top is par
     CHECK_FALSE(scene.plain_walls());
 }
 
-TEST_CASE("layers: robots are kept off the obstacles of every map") {
+TEST_CASE("layers: robots avoid the obstacles of every map") {
     const Scene scene({drawn_map({"....", "...#"}), box(0.2, 0.2, 0.5, 0.1)}, {Material{}});
     CHECK(near(scene.clearance({0.45, 0.7, 0}), 0.4));
     CHECK(near(scene.clearance({2.5, 0.5, 0}), 0.5));
@@ -139,7 +139,7 @@ TEST_CASE("layers: a cell of the planning grid is free only if no obstacle enter
     CHECK(in_doubt == 0);
 }
 
-TEST_CASE("layers: a planning grid of too many cells takes larger ones, as few as it must") {
+TEST_CASE("layers: a planning grid with too many cells uses larger cells, as few as necessary") {
     const std::vector<OccupancyGrid> maps{drawn_map({"#..", "..."}, 0.01), box(60, 30, 1, 1)};
     const OccupancyGrid grid = planning_grid(maps);
     const double cells = 1.0 * grid.columns * grid.rows;
@@ -148,7 +148,7 @@ TEST_CASE("layers: a planning grid of too many cells takes larger ones, as few a
     CHECK(grid.columns * grid.cell_width >= 61);
 }
 
-TEST_CASE("layers: a material that is not there is refused") {
+TEST_CASE("layers: an unknown material is refused") {
     OccupancyGrid grid = box(0, 0, 1, 1);
     grid.material = 1;
     CHECK_THROWS_AS(Scene{grid}, std::invalid_argument);

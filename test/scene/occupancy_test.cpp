@@ -107,8 +107,7 @@ TEST_CASE("ROS map: sizes, origin and yaw are taken over; the first image row is
     CHECK(grid.at(1, 1) == free_cell);
 }
 
-TEST_CASE(
-    "ROS map: the picture is looked for beside the YAML file, or where an absolute path says") {
+TEST_CASE("ROS map: the image is searched beside the YAML file, or at an absolute path") {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder.path("maps"));
     folder.write("maps/a.pgm", "P2 1 1 255 0");
@@ -131,7 +130,7 @@ TEST_CASE("ROS map: both thresholds are strict; the defaults are 0.65 and 0.25")
           Cells{free_cell, occupied});
 }
 
-TEST_CASE("ROS map: negate turns black and white round") {
+TEST_CASE("ROS map: negate exchanges black and white") {
     CHECK(cells_of({0, 255}) == Cells{occupied, free_cell});
     for (const char* yes : {"1", "true", "True", "yes", "2"})
         CHECK(cells_of({0, 255}, std::string("negate: ") + yes + "\n") ==
@@ -170,7 +169,7 @@ TEST_CASE("ROS map: in raw mode a sample is a percentage of occupancy, above 100
     CHECK(cells_of({0, 255}, "mode: trinary") == Cells{occupied, free_cell});
 }
 
-TEST_CASE("ROS map: errors name the line, the column and what to do") {
+TEST_CASE("ROS map: errors name line and column, and say what to do") {
     CHECK(error_of(good) == "");
     CHECK(contains(error_of("resolution: 0.05\norigin: [0, 0, 0]"), "no key \"image\""));
     CHECK(contains(error_of("image: map.pgm\norigin: [0, 0, 0]"), "no key \"resolution\""));
@@ -190,7 +189,7 @@ TEST_CASE("ROS map: errors name the line, the column and what to do") {
     CHECK(contains(error_of(good + "free_thresh: 0.5\noccupied_thresh: 0.5\n"), "5:18 occupied"));
 }
 
-TEST_CASE("ROS map: a key of another program is a notice, a misspelt one an error") {
+TEST_CASE("ROS map: a key of another program gives a notice, a misspelt key is an error") {
     using Notices = std::vector<std::string>;
     CHECK(notices_of("") == Notices{});
     CHECK(notices_of("map_type: occupancy\n") ==
@@ -204,7 +203,7 @@ TEST_CASE("ROS map: a key of another program is a notice, a misspelt one an erro
                    "2:1 unknown key \"resolutoin\""));
 }
 
-TEST_CASE("ROS map: a threshold that the file does not have gives way, with a notice") {
+TEST_CASE("ROS map: a threshold that is not given adapts to the given one, with a notice") {
     CHECK(notices_of("occupied_thresh: 0.05\n") ==
           std::vector<std::string>{
               "map.yaml:4:18: no key free_thresh, whose default 0.25 does not go with "
@@ -217,7 +216,7 @@ TEST_CASE("ROS map: a threshold that the file does not have gives way, with a no
     CHECK(cells_of({77, 76, 255}, "free_thresh: 0.7") == Cells{free_cell, occupied, free_cell});
 }
 
-TEST_CASE("ROS map: a picture with a path of another machine is said to lie beside the file") {
+TEST_CASE("ROS map: for an image path of another machine, the image beside the file is suggested") {
     const std::string rest = "\nresolution: 1\norigin: [0, 0, 0]\n";
     for (const char* path : {"/home/someone/maps/map.pgm", "~/maps/map.pgm", "maps/map.pgm",
                              "'C:\\maps\\map.pgm'", "../map.pgm"}) {
@@ -249,7 +248,7 @@ TEST_CASE("ROS map: resolution and origin are checked") {
     CHECK(contains(origin("{x: 0}"), "origin is a map"));
 }
 
-TEST_CASE("ROS map: what is no YAML, or no file, is said with its place") {
+TEST_CASE("ROS map: a file that is not YAML, or no file, is an error with its position") {
     CHECK(contains(error_of("image: [map.pgm\nresolution: 1\n"), "not valid YAML"));
     CHECK_FALSE(error_of("image: [map.pgm\nresolution: 1\n").starts_with("0:0"));
     CHECK(contains(error_of(""), "no \"key: value\" lines"));
@@ -267,7 +266,7 @@ TEST_CASE("ROS map: what is no YAML, or no file, is said with its place") {
     CHECK_THROWS_AS(read_ros_map(folder.path(".")), InputError);
 }
 
-TEST_CASE("image map: a bare picture is stretched to its size, dark is wall") {
+TEST_CASE("image map: an image is scaled to its size, and dark pixels are walls") {
     const TemporaryFolder folder;
     // mean below 127.5 of 255 is wall: 127 is, 128 is not
     const std::string path = folder.write("map.pgm", "P2 4 2 255  0 127 128 255  0 255 255 255");
@@ -279,7 +278,7 @@ TEST_CASE("image map: a bare picture is stretched to its size, dark is wall") {
                               free_cell, free_cell});
 }
 
-TEST_CASE("image map: a fully transparent pixel is free, a half transparent one is its colour") {
+TEST_CASE("image map: a fully transparent pixel is free, a half transparent one has its colour") {
     const TemporaryFolder folder;
     const std::string path =
         folder.write("map.png", png_bytes({.width = 3,
@@ -288,7 +287,7 @@ TEST_CASE("image map: a fully transparent pixel is free, a half transparent one 
     CHECK(image_map(path, 3_m, 1_m).cells == Cells{free_cell, occupied, occupied});
 }
 
-TEST_CASE("image map: a size that is not positive and finite is the caller's error") {
+TEST_CASE("image map: a size that is not positive and finite is an error of the caller") {
     const TemporaryFolder folder;
     const std::string path = folder.write("map.pgm", "P2 1 1 255 0");
     CHECK_THROWS_AS(image_map(path, 0_m, 1_m), std::invalid_argument);

@@ -50,7 +50,7 @@ TEST_CASE("range finder: the walls of a square room are at 4 m / max(|cos|, |sin
     }
 }
 
-TEST_CASE("range finder: its beams turn with the robot, and with the map") {
+TEST_CASE("range finder: beams rotate with the robot and with the map") {
     const RangeFinder three{.beams = 3, .from = Radians{-pi / 2}, .to = Radians{pi / 2}};
     const Scene scene(room());
     const auto ahead = measured(three, scene, {3, 6});
@@ -70,7 +70,7 @@ TEST_CASE("range finder: its beams turn with the robot, and with the map") {
     for (std::size_t i = 0; i < 3; ++i) CHECK(near(on_turned_map[i], ahead[i]));
 }
 
-TEST_CASE("range finder: a robot is a disc, D cos a - sqrt(r^2 - D^2 sin^2 a) away") {
+TEST_CASE("range finder: a robot is a disc at distance D cos a - sqrt(r^2 - D^2 sin^2 a)") {
     const RangeFinder fan{.beams = 101, .from = Radians{-0.5}, .to = Radians{0.5}};
     const double distance = 3, radius = 0.4;
     const auto ways = measured(
@@ -87,7 +87,7 @@ TEST_CASE("range finder: a robot is a disc, D cos a - sqrt(r^2 - D^2 sin^2 a) aw
     }
 }
 
-TEST_CASE("range finder: the nearest counts, whether wall or robot") {
+TEST_CASE("range finder: measures the nearest object, wall or robot") {
     const RangeFinder one{.beams = 1, .from = Radians{0}, .to = Radians{0}};
     const Scene scene(room());
     CHECK(near(measured(one, scene, {5, 5}, 0, {{{8, 5}, Meters{1}}})[0], 2));
@@ -95,7 +95,7 @@ TEST_CASE("range finder: the nearest counts, whether wall or robot") {
     CHECK(near(measured(one, scene, {5, 5}, 0, {{{8, 5}, Meters{1}}, {{7, 5}, Meters{1}}})[0], 1));
 }
 
-TEST_CASE("range finder: nothing near is its range, and inside of something it is 0") {
+TEST_CASE("range finder: without an object it measures its range, inside an object 0") {
     CHECK(measured({}, {}, {0, 0}) == std::vector<double>(181, 8));
     const Scene scene(room());
     CHECK(measured(all_around, scene, {0.5, 0.5}) == std::vector<double>(361, 0));
@@ -104,14 +104,14 @@ TEST_CASE("range finder: nothing near is its range, and inside of something it i
     CHECK(measured(short_sighted, scene, {5, 5}) == std::vector<double>(3, 0.5));
 }
 
-TEST_CASE("range finder: it looks over walls that are lower than it stands") {
+TEST_CASE("range finder: sees over walls that are lower than itself") {
     const Scene scene({room()}, {Material{.height = Meters{1}}});
     const RangeFinder one{.beams = 1, .from = Radians{0}, .to = Radians{0}};
     CHECK(near(measured(one, scene, {5, 5, 0.5})[0], 4));
     CHECK(measured(one, scene, {5, 5, 1.5})[0] == 8);
 }
 
-TEST_CASE("range finder: a walk of a centimetre a step meets walls and robots where it says") {
+TEST_CASE("range finder: a walk along the beam in steps of a centimetre gives the same distance") {
     Draw draw(7);
     const Scene scene(random_map(draw, 60, 40, 5));
     for (int n = 0; n < 10; ++n) {
@@ -133,7 +133,7 @@ TEST_CASE("range finder: a walk of a centimetre a step meets walls and robots wh
     }
 }
 
-TEST_CASE("range finder: a place for each beam is needed") {
+TEST_CASE("range finder: an output of a wrong size is refused") {
     std::vector<double> out(180);
     CHECK_THROWS_AS(RangeFinder{}.measure({}, {}, Radians{0}, {}, out), std::invalid_argument);
 }

@@ -26,7 +26,7 @@ std::vector<int> cover_count(const OccupancyGrid& grid,
 
 }  // namespace
 
-TEST_CASE("rectangles: they cover exactly the occupied cells and never overlap") {
+TEST_CASE("rectangles: cover exactly the occupied cells and never overlap") {
     test::Draw draw(1);
     for (int trial = 0; trial < 60; ++trial) {
         const OccupancyGrid grid =
@@ -44,7 +44,7 @@ TEST_CASE("rectangles: a full map is one rectangle, an empty map none") {
     CHECK(solid_rectangles(OccupancyGrid{}, Solid::walls).empty());
 }
 
-TEST_CASE("rectangles: the larger of wide first and tall first is taken") {
+TEST_CASE("rectangles: the larger of wide first and tall first is used") {
     CHECK(solid_rectangles(drawn_map({"#..", "#..", "#..", "##."}), Solid::walls) ==
           std::vector<CellRectangle>{{0, 0, 1, 4}, {1, 0, 2, 1}});
     CHECK(solid_rectangles(drawn_map({"#..", "###"}), Solid::walls) ==

@@ -68,8 +68,7 @@ TEST_CASE("redrawing: split cells have the same walls, to the last bit") {
     }
 }
 
-TEST_CASE(
-    "redrawing: four joined cells are a wall if one of them is, of the first one's material") {
+TEST_CASE("redrawing: a joined cell is a wall if any of the four is, of the first one's material") {
     const OccupancyGrid joined = join_cells(two_materials({"....?",  //
                                                            ".....",  //
                                                            "..#..",  //
@@ -80,18 +79,18 @@ TEST_CASE(
     CHECK(joined.cell_materials[1] == 2);
 }
 
-TEST_CASE("redrawing: a lone wall of one cell is not joined with what lies beside it") {
+TEST_CASE("redrawing: a lone wall of one cell is not joined with its neighbours") {
     CHECK(drawing(join_cells(drawn_map({"#"}))) == std::vector<std::string>{"#"});
     CHECK(join_cells(drawn_map({"#"})).cell_width == 1);
 }
 
-TEST_CASE("redrawing: joining what was split gives the map again") {
+TEST_CASE("redrawing: joining split cells gives the original map") {
     Draw draw(3);
     const OccupancyGrid map = test::random_map(draw, 20, 13, 40);
     CHECK(drawing(join_cells(split_cells(map))) == drawing(map));
 }
 
-TEST_CASE("redrawing: the outline of a wall leaves no hole, and thin walls stay") {
+TEST_CASE("redrawing: an outlined wall has no hole, and thin walls stay") {
     const OccupancyGrid outlined = outline_walls(drawn_map({"########.#",  //
                                                             "########.#",  //
                                                             "########.#",  //
@@ -114,7 +113,7 @@ TEST_CASE("redrawing: a hollow wall is filled up to its width, by the nearest wa
     CHECK(drawing(fill_walls(map, Meters{0.5})) == drawing(map));
 }
 
-TEST_CASE("redrawing: what is open to one side, or wider than a wall, is not filled") {
+TEST_CASE("redrawing: an area that is open, or wider than a wall, is not filled") {
     const OccupancyGrid open = drawn_map({"####", "#...", "####"});
     CHECK(drawing(fill_walls(open, Meters{5})) == drawing(open));
     const OccupancyGrid room = drawn_map({"#####", "#...#", "#...#", "#...#", "#####"});
@@ -128,7 +127,7 @@ TEST_CASE("redrawing: an outline that is filled again is the wall") {
     CHECK(drawing(fill_walls(outline_walls(wall), Meters{1})) == drawing(wall));
 }
 
-TEST_CASE("scene: its maps make the same walls again, of one map or of several") {
+TEST_CASE("scene: its maps give the same walls again, of one map or several") {
     OccupancyGrid turned = drawn_map({"#.#", ".##"}, 0.5);
     turned.yaw = 0.3;
     turned.origin = {4, 1};
@@ -146,7 +145,7 @@ TEST_CASE("scene: its maps make the same walls again, of one map or of several")
     }
 }
 
-TEST_CASE("scene: with the walls of another, radio sees these and robots keep to their own") {
+TEST_CASE("scene: with the walls of another, radio uses these and robots their own obstacles") {
     const Scene own(drawn_map({"...", ".#.", "..."}));
     const Scene other = with_metal(drawn_map({"#..", "#..", "#.."}));
     const Scene both = own.with_walls_of(other);

@@ -50,7 +50,7 @@ double walked_distance(Vec3 a, Vec3 b, double x0, double y0, double x1, double y
 
 }  // namespace
 
-TEST_CASE("scene: an open field has no walls, no obstacles and no end") {
+TEST_CASE("scene: an open field has no walls, no obstacles and no borders") {
     const Scene field;
     CHECK(field.open_field());
     CHECK(field.crossings({0, 0}, {1000, 1000}).empty());
@@ -65,7 +65,7 @@ TEST_CASE("scene: an open field has no walls, no obstacles and no end") {
     CHECK(field.upper_right() == Vec3{0, 0, 0});
 }
 
-TEST_CASE("scene: a grid that makes no sense is refused") {
+TEST_CASE("scene: an invalid grid is refused") {
     OccupancyGrid grid = drawn_map({"#."});
     CHECK_NOTHROW(Scene{grid});
     grid.cells.pop_back();
@@ -81,7 +81,7 @@ TEST_CASE("scene: a grid that makes no sense is refused") {
     CHECK_THROWS_AS(Scene{grid}, std::invalid_argument);
 }
 
-TEST_CASE("crossings: a wall is entered and left where it stands") {
+TEST_CASE("crossings: entry and exit of a wall are at its position") {
     const Scene scene(drawn_map({"..#...##.."}, 0.5));
     const auto found = scene.crossings({0, 0.25}, {5, 0.25});
     REQUIRE(found.size() == 2);
@@ -107,7 +107,7 @@ TEST_CASE("crossings: distances are along the 3-D segment") {
     CHECK(near(found[0].length, 1.25));
 }
 
-TEST_CASE("crossings: a segment straight up counts inside a wall only") {
+TEST_CASE("crossings: a vertical segment counts only inside a wall") {
     const Scene scene(drawn_map({".##."}));
     CHECK(scene.wall_length({1.5, 0.5, 0}, {1.5, 0.5, 3}) == 3);
     CHECK(scene.wall_length({2, 0.5, 0}, {2, 0.5, 3}) == 3);  // on the edge of two wall cells
@@ -146,7 +146,7 @@ TEST_CASE("crossings: the edge of the map is an outer edge") {
     CHECK(near(scene.wall_length({-1, 1}, {3, 1}), 2));
 }
 
-TEST_CASE("crossings: touching a corner counts nothing") {
+TEST_CASE("crossings: touching a corner does not count") {
     const Scene scene(drawn_map({"...", ".#.", "..."}));
     CHECK(scene.crossings({0, 1}, {2, 3}).empty());
     CHECK(scene.crossings({0, 2}, {2, 0}).empty());
@@ -154,7 +154,7 @@ TEST_CASE("crossings: touching a corner counts nothing") {
     CHECK(scene.crossings({1, 1.5}, {0, 1.5}).empty());  // starts on the face, going out
 }
 
-TEST_CASE("crossings: through the corner where two cells meet, the ray does not leave the wall") {
+TEST_CASE("crossings: a ray through the corner between two cells stays inside the wall") {
     const Scene scene(drawn_map({"....", "..#.", ".#..", "...."}));
     const double diagonal = std::sqrt(2.0);
     REQUIRE(scene.crossings({0, 0}, {4, 4}).size() == 1);
@@ -168,14 +168,14 @@ TEST_CASE("crossings: through the corner where two cells meet, the ray does not 
     }
 }
 
-TEST_CASE("crossings: wall against wall is one crossing") {
+TEST_CASE("crossings: adjacent walls are one crossing") {
     const Scene scene(drawn_map({"#.##", "####", "..#."}));
     const auto found = scene.crossings({-1, 1.2}, {5, 1.7});
     REQUIRE(found.size() == 1);
     CHECK(near(found[0].length, 4 * std::sqrt(1 + 1.0 / 144)));
 }
 
-TEST_CASE("crossings: a face that decimals cannot hold exactly is still a face") {
+TEST_CASE("crossings: a face at a coordinate that is not exactly representable is still a face") {
     // 0.15 / 0.05 is just below 3, so a point at 0.15 m would lie in the wall of the first map.
     const Scene before(drawn_map({"..#....", "..#...."}, 0.05));
     const Scene behind(drawn_map({"...#...", "...#..."}, 0.05));
@@ -186,7 +186,7 @@ TEST_CASE("crossings: a face that decimals cannot hold exactly is still a face")
     CHECK(near(behind.wall_length({0.175, 0}, {0.175, 0.1}), 0.1));
 }
 
-TEST_CASE("crossings: lengths are the same bits in both directions on a turned map") {
+TEST_CASE("crossings: lengths have the same bits in both directions on a rotated map") {
     OccupancyGrid grid = rooms();
     grid.origin = {-3.3, 7.1, 0};
     grid.yaw = 0.7;
@@ -204,7 +204,7 @@ TEST_CASE("crossings: lengths are the same bits in both directions on a turned m
     }
 }
 
-TEST_CASE("crossings: a turned and moved map gives what the plain map gives") {
+TEST_CASE("crossings: a rotated and shifted map gives the results of the plain map") {
     OccupancyGrid grid = rooms();
     const Scene plain(grid);
     grid.origin = {2, -1, 0};
@@ -224,7 +224,7 @@ TEST_CASE("crossings: a turned and moved map gives what the plain map gives") {
     }
 }
 
-TEST_CASE("crossings: from a thousand kilometres away they are still finite and in order") {
+TEST_CASE("crossings: from a thousand kilometres away they are finite and in order") {
     const Scene scene(rooms());
     for (const double far : {1e6, 1e9}) {
         const auto found = scene.crossings({-far, 2.5}, {far, 2.5});
@@ -239,7 +239,7 @@ TEST_CASE("crossings: from a thousand kilometres away they are still finite and 
     CHECK(scene.crossings({0.5, 0.5}, {0.5, 0.5}).empty());
 }
 
-TEST_CASE("wall length: giving up early says only that it is more than enough") {
+TEST_CASE("wall length: with a limit, a result above the limit is only a lower bound") {
     const Scene scene(drawn_map({".#.#.#.#"}));
     CHECK(near(scene.wall_length({0, 0.5}, {8, 0.5}), 4));
     CHECK(scene.wall_length({0, 0.5}, {8, 0.5}, 4.5) == scene.wall_length({0, 0.5}, {8, 0.5}));
@@ -247,7 +247,7 @@ TEST_CASE("wall length: giving up early says only that it is more than enough") 
     CHECK(scene.wall_length({0, 0.5}, {8, 0.5}, 0) > 0);
 }
 
-TEST_CASE("unknown cells: no wall for radio, an obstacle for robots") {
+TEST_CASE("unknown cells: are not walls for radio, but obstacles for robots") {
     const Scene scene(drawn_map({".....", "..?..", "....."}));
     CHECK(scene.wall_length({0, 1.5}, {5, 1.5}) == 0);
     CHECK_FALSE(scene.occupied({2.5, 1.5}));
@@ -275,7 +275,7 @@ TEST_CASE("inside map: edges belong to the map") {
     CHECK_FALSE(scene.inside_map({3, -0.001}));
 }
 
-TEST_CASE("clearance: the distance to the nearest of all rectangles") {
+TEST_CASE("clearance: is the distance to the nearest of all rectangles") {
     test::Draw draw(7);
     for (int trial = 0; trial < 30; ++trial) {
         OccupancyGrid grid =
@@ -296,7 +296,7 @@ TEST_CASE("clearance: the distance to the nearest of all rectangles") {
     }
 }
 
-TEST_CASE("passable: exactly as wide as the robot is wide enough") {
+TEST_CASE("passable: a gap exactly as wide as the robot is wide enough") {
     const Scene scene(drawn_map({"#####", ".....", ".....", "#####"}));
     CHECK(scene.passable({0, 2}, {5, 2}, 1_m));
     CHECK_FALSE(scene.passable({0, 2}, {5, 2}, 1.000001_m));
@@ -306,7 +306,7 @@ TEST_CASE("passable: exactly as wide as the robot is wide enough") {
     CHECK_FALSE(scene.passable({2, -1}, {2, 9}, 0_m));  // straight through, ends far away
 }
 
-TEST_CASE("passable: a corridor as wide as the robot is wide enough in any decimals") {
+TEST_CASE("passable: a corridor as wide as the robot is wide enough, at any decimals") {
     for (const double cell : {0.03, 0.05, 0.1, 0.15, 0.3})
         for (std::size_t width = 1; width <= 20; ++width) {
             std::vector<std::string> rows(width + 2, ".....");
@@ -319,7 +319,7 @@ TEST_CASE("passable: a corridor as wide as the robot is wide enough in any decim
         }
 }
 
-TEST_CASE("passable: agrees with the distance walked along the segment") {
+TEST_CASE("passable: agrees with the distance sampled along the segment") {
     const Scene scene(drawn_map({".......", "..##...", "..##...", "......."}));
     test::Draw draw(8);
     constexpr double walked_error = 3e-3;  // spacing of the walk over half a metre of distance
@@ -334,7 +334,7 @@ TEST_CASE("passable: agrees with the distance walked along the segment") {
     }
 }
 
-TEST_CASE("passable: on a large map nothing near the way is overlooked") {
+TEST_CASE("passable: on a large map no obstacle near the path is missed") {
     test::Draw draw(9);
     for (int trial = 0; trial < 20; ++trial) {
         const Scene scene(test::random_map(draw, 130, 100, 0));

@@ -48,7 +48,7 @@ bool in_wall(const std::vector<OccupancyGrid>& maps, Vec3 p) {
 
 }  // namespace
 
-TEST_CASE("storeys: a level link crosses the walls of its own storey") {
+TEST_CASE("storeys: a horizontal link crosses the walls of its own storey") {
     const Scene scene = two_storeys();
     for (const double z : {-1.0, 0.0, 1.0, 2.999}) {
         const auto below = scene.crossings({0, 1.5, z}, {6, 1.5, z});
@@ -62,7 +62,7 @@ TEST_CASE("storeys: a level link crosses the walls of its own storey") {
     }
 }
 
-TEST_CASE("storeys: a link from one storey to the other crosses the walls of each on its part") {
+TEST_CASE("storeys: a link between storeys crosses the walls of each on its part") {
     const Scene scene = two_storeys();
     // It rises 1 m per metre and passes the ceiling at x = 3: both pillars stand in its way.
     const double slope = std::sqrt(2.0);
@@ -76,7 +76,7 @@ TEST_CASE("storeys: a link from one storey to the other crosses the walls of eac
     CHECK(near(scene.wall_length({0, 1.5, -0.25}, {6, 1.5, 5.75}), slope * 1.75));
 }
 
-TEST_CASE("storeys: the length inside walls is what points along the link find in the maps") {
+TEST_CASE("storeys: the length inside walls equals the count of sampled points in the maps") {
     test::Draw draw(24);
     constexpr int points = 20'000;
     for (int trial = 0; trial < 30; ++trial) {
@@ -110,7 +110,7 @@ TEST_CASE("storeys: the length inside walls is what points along the link find i
     }
 }
 
-TEST_CASE("storeys: lengths and losses are the same bits both ways") {
+TEST_CASE("storeys: lengths and losses have equal bits in both directions") {
     test::Draw draw(25);
     const Scene scene({on_floor(test::random_map(draw, 9, 9, 15), 0),
                        on_floor(test::random_map(draw, 9, 9, 15), 2.7)},
@@ -139,7 +139,7 @@ TEST_CASE("storeys: the height of a wall counts from its floor, and ends at the 
     CHECK(high.crossings({0, 1.5, 3.5}, {6, 1.5, 3.5}).size() == 1);
 }
 
-TEST_CASE("storeys: ceilings between two heights, from below") {
+TEST_CASE("storeys: ceilings between two heights are listed from below") {
     const std::vector<OccupancyGrid> maps{on_floor(drawn_map(ground), 0),
                                           on_floor(drawn_map(ground), 3),
                                           on_floor(drawn_map(ground), 6)};
@@ -158,7 +158,7 @@ TEST_CASE("storeys: ceilings between two heights, from below") {
     CHECK(Scene().storeys().ceilings_between(0, 100).empty());
 }
 
-TEST_CASE("storeys: a robot is kept off the obstacles of its own storey") {
+TEST_CASE("storeys: a robot avoids the obstacles of its own storey") {
     const Scene scene = two_storeys();
     CHECK(near(scene.clearance({1, 1.5, 1}), 1));
     CHECK(near(scene.clearance({1, 1.5, 3}), 2));
@@ -171,7 +171,7 @@ TEST_CASE("storeys: a robot is kept off the obstacles of its own storey") {
     CHECK(scene.passable({0.5, 1.5, 3}, {2.7, 1.5, 3}, body));
 }
 
-TEST_CASE("storeys: on the stairs each part of the way keeps off the walls of its storey") {
+TEST_CASE("storeys: on the stairs each part of the path avoids the walls of its storey") {
     const Scene scene = two_storeys();
     const Meters body{0.2};
     // Up over the lower pillar, which ends at the ceiling: blocked below, and free if the ceiling
@@ -197,7 +197,7 @@ TEST_CASE("storeys: a range finder sees the walls of its storey") {
     CHECK(near(way[0], 2.5));
 }
 
-TEST_CASE("storeys: a storey is a scene of its map, and all maps together make the scene again") {
+TEST_CASE("storeys: a storey is a scene of its map, and all maps together give the scene again") {
     const Scene scene = two_storeys();
     CHECK(scene.storey_at(3).crossings({0, 1.5, 4}, {6, 1.5, 4})[0].entry == doctest::Approx(3));
     CHECK(scene.storey(0).storeys().size() == 1);
@@ -232,8 +232,7 @@ TEST_CASE("storeys: several maps on one floor are one storey") {
     CHECK_FALSE(scene.inside_map({11, 1, 0}));
 }
 
-TEST_CASE(
-    "storeys: ceilings without storeys, too few of them, and floors at no height are refused") {
+TEST_CASE("storeys: ceilings without storeys, too few ceilings, and infinite floors are refused") {
     CHECK_THROWS_AS(two_storeys({Material{}}, {{}, {}}), std::invalid_argument);
     CHECK_THROWS_AS(Scene({drawn_map(ground)}, {Material{}}, {Material{}}), std::invalid_argument);
     CHECK_THROWS_AS(Scene(std::vector<OccupancyGrid>{}, {Material{}}, {Material{}}),

@@ -157,7 +157,7 @@ double length_of(const Ray& r) { return std::hypot(r.b.u - r.a.u, r.b.v - r.a.v)
 
 }  // namespace
 
-TEST_CASE("wall index: crossings are those of the occupied cells taken one by one") {
+TEST_CASE("wall index: crossings equal those of the occupied cells one by one") {
     for_random_rays(11, [](const World& world, const Ray& ray, test::Draw&) {
         const double length = length_of(ray);
         if (length < 1e-6) return;
@@ -172,7 +172,7 @@ TEST_CASE("wall index: crossings are those of the occupied cells taken one by on
     });
 }
 
-TEST_CASE("wall index: tiles give the same bits as every rectangle tried in turn") {
+TEST_CASE("wall index: tiles give the same bits as testing every rectangle") {
     for_random_rays(12, [](const World& world, Ray ray, test::Draw&) {
         if (std::pair(ray.b.u, ray.b.v) < std::pair(ray.a.u, ray.a.v)) std::swap(ray.a, ray.b);
         if (ray.a.u == ray.b.u || ray.a.v == ray.b.v) return;  // on grid lines: see the cells test
@@ -182,7 +182,7 @@ TEST_CASE("wall index: tiles give the same bits as every rectangle tried in turn
     });
 }
 
-TEST_CASE("wall index: from far away, past the corners of tiles, no tile is left out") {
+TEST_CASE("wall index: from far away, past the corners of tiles, no tile is missed") {
     test::Draw draw(17);
     const OccupancyGrid grid = test::random_map(draw, 200, 200, 50);
     const WallIndex index = index_of(grid);
@@ -202,7 +202,7 @@ TEST_CASE("wall index: from far away, past the corners of tiles, no tile is left
     }
 }
 
-TEST_CASE("wall index: the answer does not depend on how the walls were cut into rectangles") {
+TEST_CASE("wall index: the result does not depend on the division into rectangles") {
     for_random_rays(13, [](const World& world, const Ray& ray, test::Draw&) {
         std::vector<Crossing> whole, cut;
         world.index.crossings(ray.a, ray.b, length_of(ray), whole);
@@ -211,7 +211,7 @@ TEST_CASE("wall index: the answer does not depend on how the walls were cut into
     });
 }
 
-TEST_CASE("wall index: forth and back give the same lengths to the last bit, mirrored") {
+TEST_CASE("wall index: both directions give the same lengths to the last bit, mirrored") {
     for_random_rays(14, [](const World& world, const Ray& ray, test::Draw&) {
         const double length = length_of(ray);
         std::vector<Crossing> forth, back;
@@ -230,7 +230,7 @@ TEST_CASE("wall index: forth and back give the same lengths to the last bit, mir
     });
 }
 
-TEST_CASE("wall index: giving up early is exact up to the limit and above it beyond") {
+TEST_CASE("wall index: with a limit, results are exact up to the limit and above it beyond") {
     for_random_rays(15, [](const World& world, const Ray& ray, test::Draw& draw) {
         const double all = std::numeric_limits<double>::infinity();
         const double exact = world.index.solid_length(ray.a, ray.b, length_of(ray), all);
@@ -261,7 +261,7 @@ TEST_CASE("wall index: solid length is the sum of the crossings") {
     });
 }
 
-TEST_CASE("wall index: an outer row of free cells changes nothing but the coordinates") {
+TEST_CASE("wall index: an outer row of free cells changes only the coordinates") {
     const OccupancyGrid tight = test::drawn_map({"##", "##"});
     const OccupancyGrid wide = test::drawn_map({"....", ".##.", ".##.", "...."});
     std::vector<Crossing> inner, outer;

@@ -38,7 +38,7 @@ constexpr Vec3 middle{side * cell_side / 2 + 1e-4, side* cell_side / 2 + 1e-4, 0
 
 }  // namespace
 
-TEST_CASE("wall thickness: that of a straight wall at any angle, within a cell") {
+TEST_CASE("wall thickness: of a straight wall is right at any angle, within a cell") {
     for (const double thickness : {0.1, 0.3, 0.6}) {
         for (int degrees = 0; degrees < 180; degrees += 5) {
             CAPTURE(thickness);
@@ -49,7 +49,7 @@ TEST_CASE("wall thickness: that of a straight wall at any angle, within a cell")
     }
 }
 
-TEST_CASE("wall thickness: 12 cm in cells of 5 cm are more than 10 cm, however the wall slants") {
+TEST_CASE("wall thickness: 12 cm in cells of 5 cm is more than 10 cm, at any angle") {
     for (int degrees = 0; degrees < 180; ++degrees) {
         CAPTURE(degrees);
         const double angle = degrees * std::numbers::pi / 180;
@@ -66,7 +66,7 @@ TEST_CASE("wall thickness: 12 cm in cells of 5 cm are more than 10 cm, however t
     }
 }
 
-TEST_CASE("wall thickness: where a thin wall goes on as a thick one, each has its own") {
+TEST_CASE("wall thickness: where a thin wall continues as a thick one, each has its own") {
     OccupancyGrid grid = with_wall(0, 0);
     const auto draw = [&](int from, int to, int cells) {
         for (int column = from; column < to; ++column)
@@ -84,7 +84,7 @@ TEST_CASE("wall thickness: where a thin wall goes on as a thick one, each has it
     }
 }
 
-TEST_CASE("wall thickness: none outside of walls; at a crossing of walls that of the thinner") {
+TEST_CASE("wall thickness: is 0 outside walls; at a crossing of walls that of the thinner") {
     OccupancyGrid grid = with_wall(0.1, 0);
     for (std::size_t i = 0; i < grid.cells.size(); ++i) {
         if (i % side >= 90 && i % side < 110) grid.cells[i] = Cell::occupied;  // 40 cm, upright
@@ -97,7 +97,7 @@ TEST_CASE("wall thickness: none outside of walls; at a crossing of walls that of
     CHECK(Scene{}.wall_thickness({0, 0}).value == 0);
 }
 
-TEST_CASE("wall thickness: threads that ask for the first time together get the same") {
+TEST_CASE("wall thickness: simultaneous threads get the same first result") {
     const Scene scene(with_wall(0.3, 0.5));
     std::vector<double> found(4);
     std::vector<std::thread> threads;

@@ -76,7 +76,7 @@ const std::vector<double> angles{0, 1, 3, 7, 12, 20, 26.565, 33, 40, 45, 52, 61,
 
 }  // namespace
 
-TEST_CASE("walls: a straight wall is one wall, at any angle and however a ray grazes it") {
+TEST_CASE("walls: a straight wall is one wall, at any angle, also for grazing rays") {
     const double thick = 0.15;  // [m]
     int in_parts = 0;
     for (const double angle : angles)
@@ -98,7 +98,7 @@ TEST_CASE("walls: a straight wall is one wall, at any angle and however a ray gr
     CHECK(in_parts > 100);  // the cells alone would tell otherwise
 }
 
-TEST_CASE("walls: a ray that runs along a wall and touches its steps passes none") {
+TEST_CASE("walls: a ray along a wall that touches its steps passes no wall") {
     int touching = 0;
     for (const double angle : {7.0, 20.0, 33.0, 52.0}) {
         const double cell = 0.05, thick = 0.15;
@@ -116,7 +116,7 @@ TEST_CASE("walls: a ray that runs along a wall and touches its steps passes none
     CHECK(touching > 10);
 }
 
-TEST_CASE("walls: two walls are two, however near, across the cells and along them") {
+TEST_CASE("walls: two walls are two, at any distance, across the cells and along them") {
     for (const double angle : angles)
         for (const double cell : {0.02, 0.05}) {
             const double apart = 0.12, thick = 0.15;  // [m]
@@ -134,7 +134,7 @@ TEST_CASE("walls: two walls are two, however near, across the cells and along th
         }
 }
 
-TEST_CASE("walls: along the cells each crossing is a wall, whatever is between") {
+TEST_CASE("walls: along the cells each crossing is a separate wall") {
     // Rooms of 2 m with doors and corners, and two walls a cell apart, in cells of 10 cm.
     Drawing office{0, {}};
     for (const double at : {-6.0, -4.0, -2.0, 0.0, 2.0, 4.0, 6.0}) {
@@ -159,7 +159,7 @@ TEST_CASE("walls: along the cells each crossing is a wall, whatever is between")
     CHECK(near > 100);
 }
 
-TEST_CASE("walls: one that is drawn as an outline is one wall, as thick as it is drawn") {
+TEST_CASE("walls: a wall drawn as an outline is one wall, with its drawn thickness") {
     int hollow = 0;
     for (const double thick : {0.15, 0.3})
         for (const double angle : angles)
@@ -181,7 +181,7 @@ TEST_CASE("walls: one that is drawn as an outline is one wall, as thick as it is
     CHECK(hollow > 45);  // of 60; others are too thin
 }
 
-TEST_CASE("walls: the rings of a room without doors are one wall, with open ends they are two") {
+TEST_CASE("walls: the rings of a room without doors are one wall, with open ends two") {
     for (const double angle : {0.0, 20.0}) {
         Drawing room{angle * degree,
                      {{-4, -3, 4, -2.8}, {-4, 2.8, 4, 3}, {-4, -3, -3.8, 3}, {3.8, -3, 4, 3}}};
@@ -204,7 +204,7 @@ TEST_CASE("walls: the rings of a room without doors are one wall, with open ends
     }
 }
 
-TEST_CASE("walls: a gap that ends at the border of the map is no inside of a wall") {
+TEST_CASE("walls: a gap that ends at the border of the map is not the inside of a wall") {
     const std::vector<std::string> across(6, "...#..#...");
     CHECK(Scene(test::drawn_map(across, 0.1)).walls({0.05, 0.3}, {0.95, 0.35}).size() == 2);
     std::vector<std::string> closed = across;
@@ -212,7 +212,7 @@ TEST_CASE("walls: a gap that ends at the border of the map is no inside of a wal
     CHECK(Scene(test::drawn_map(closed, 0.1)).walls({0.05, 0.3}, {0.95, 0.35}).size() == 1);
 }
 
-TEST_CASE("walls: a closed door is a wall of its own, and the wall around it stays one") {
+TEST_CASE("walls: a closed door is a separate wall, and the wall around it stays one") {
     const double thick = 0.15;
     const Drawing drawing{20 * degree,
                           {{-5.5, -thick / 2, -0.5, thick / 2}, {0.5, -thick / 2, 5.5, thick / 2}}};
@@ -233,7 +233,7 @@ TEST_CASE("walls: a closed door is a wall of its own, and the wall around it sta
         }
 }
 
-TEST_CASE("walls: a loss per crossing is taken once by a wall that is left at its steps") {
+TEST_CASE("walls: a wall left at its steps takes a loss per crossing once") {
     const double thick = 0.15;
     const Drawing drawing{20 * degree, {{-5.5, -thick / 2, 5.5, thick / 2}}};
     const Scene scene(drawing.map(0.05));

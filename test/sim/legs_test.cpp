@@ -63,7 +63,7 @@ std::vector<Leg> kinds_of_legs() {
 
 }  // namespace
 
-TEST_CASE("legs: a leg comes back bit for bit, as the first or after any other") {
+TEST_CASE("legs: a leg is returned bit for bit, as the first or after any other") {
     const auto kinds = kinds_of_legs();
     for (const Leg& first : kinds) {
         for (const Leg& second : kinds) {
@@ -76,7 +76,7 @@ TEST_CASE("legs: a leg comes back bit for bit, as the first or after any other")
     }
 }
 
-TEST_CASE("legs: a node is where its leg says, to the last bit, also after the leg's end") {
+TEST_CASE("legs: a node's position follows from its leg, to the last bit, also after its end") {
     Legs legs;
     for (const Leg& leg : kinds_of_legs()) {
         const NodeId node = legs.add(leg);
@@ -86,7 +86,7 @@ TEST_CASE("legs: a node is where its leg says, to the last bit, also after the l
     }
 }
 
-TEST_CASE("legs: among many that change, everyone has the leg that was given last") {
+TEST_CASE("legs: among many changes every node has its last leg") {
     constexpr std::uint32_t nodes = 50;
     const auto kinds = kinds_of_legs();
     Legs legs;
@@ -111,7 +111,7 @@ TEST_CASE("legs: among many that change, everyone has the leg that was given las
     CHECK(legs.size() == nodes);
 }
 
-TEST_CASE("legs: who sets out and rests again and again takes no more memory") {
+TEST_CASE("legs: a node that starts and rests again and again takes no more memory") {
     const Leg moving{.start = begin, .end = begin + 1s, .velocity = {1, 0, 0}, .to = {1, 0, 0}};
     Legs legs;
     const NodeId node = legs.add(standing);
@@ -128,8 +128,7 @@ TEST_CASE("legs: who sets out and rests again and again takes no more memory") {
     CHECK(mallinfo2().uordblks == before);
 }
 
-TEST_CASE(
-    "legs: looking a million times does not move a robot from where one look finds it (S30)") {
+TEST_CASE("legs: a million calls do not change a robot's position (S30)") {
     Legs legs;
     legs.add({.start = start_of_run,
               .end = start_of_run + 200'000s,

@@ -21,7 +21,7 @@ double worst_erfc_ulp(double from, double to) {
 
 }  // namespace
 
-TEST_CASE("erfc: below the stated ulps, in the middle and far in the tail") {
+TEST_CASE("erfc: errors are below the stated ulps, in the middle and far in the tail") {
     CHECK(worst_erfc_ulp(-0.5, 0.5) < bound_ulp);
     CHECK(worst_erfc_ulp(0.49, 0.51) < bound_ulp);  // where the ways part
     CHECK(worst_erfc_ulp(0.5, 4) < bound_ulp);
@@ -30,7 +30,7 @@ TEST_CASE("erfc: below the stated ulps, in the middle and far in the tail") {
     CHECK(worst_erfc_ulp(26.5, 27.3) < bound_ulp);
 }
 
-TEST_CASE("erfc: published values") {
+TEST_CASE("erfc: values equal the published ones") {
     // M. Abramowitz and I. Stegun, Handbook of Mathematical Functions, table 7.1: erf x to 10
     // digits.
     constexpr double half_a_digit = 0.5e-10;
@@ -39,7 +39,7 @@ TEST_CASE("erfc: published values") {
     CHECK(std::abs(1 - math::erfc(2) - 0.9953222650) < half_a_digit);
 }
 
-TEST_CASE("erfc: both sides of 0 add up to 2, and it never rises") {
+TEST_CASE("erfc: both sides of 0 add up to 2, and it never increases") {
     double before = 2;
     for (double x = -6.5; x < 28; x += 1e-3) {
         const double here = math::erfc(x);
@@ -49,7 +49,7 @@ TEST_CASE("erfc: both sides of 0 add up to 2, and it never rises") {
     }
 }
 
-TEST_CASE("erfc: zero, infinity, underflow, NaN") {
+TEST_CASE("erfc: zero, infinity, underflow and NaN are handled") {
     CHECK(math::erfc(0.0) == 1);
     CHECK(math::erfc(-0.0) == 1);
     CHECK(same_bits(math::erfc(Limits::infinity()), 0.0));
@@ -60,7 +60,7 @@ TEST_CASE("erfc: zero, infinity, underflow, NaN") {
     CHECK(std::isnan(math::erfc(Limits::quiet_NaN())));
 }
 
-TEST_CASE("erfc: the same bits from every compiler") {
+TEST_CASE("erfc: all compilers give the same bits") {
     CHECK(fingerprint(math::erfc, -1, 1) == 0x6437ae6e5157df31);
     CHECK(fingerprint(math::erfc, 1, 28) == 0x54f0693c35006250);
 }

@@ -68,7 +68,7 @@ double worst_atan2_ulp(int spread) {
 
 }  // namespace
 
-TEST_CASE("logarithms: below one ulp, near 1 and far from it") {
+TEST_CASE("logarithms: errors are below one ulp, near 1 and far from it") {
     CHECK(worst_log_ulp(0.5, 2) < log_bound_ulp);
     CHECK(worst_log_ulp(0.999, 1.001) < log_bound_ulp);
     CHECK(worst_log_ulp(1.39, 1.43) < log_bound_ulp);  // where the range reduction jumps
@@ -78,7 +78,7 @@ TEST_CASE("logarithms: below one ulp, near 1 and far from it") {
     CHECK(worst_log_ulp(0, Limits::min()) < log_bound_ulp);  // subnormal
 }
 
-TEST_CASE("powers: below the stated ulps, in and out of the normal range") {
+TEST_CASE("powers: errors are below the stated ulps, inside and outside the normal range") {
     CHECK(worst_ulp(math::exp2, long_exp2, -1, 1) < exp2_bound_ulp);
     CHECK(worst_ulp(math::exp2, long_exp2, -1022, 1024) < exp2_bound_ulp);
     CHECK(worst_ulp(math::exp2, long_exp2, -1075, -1022) < exp2_bound_ulp);
@@ -91,7 +91,7 @@ TEST_CASE("powers: below the stated ulps, in and out of the normal range") {
     CHECK(worst_ulp(math::exp10, long_exp10, -323, -307) < exp10_bound_ulp);
 }
 
-TEST_CASE("log(1 + x), e^x - 1: below the stated ulps, near 0 and far from it") {
+TEST_CASE("log(1 + x), e^x - 1: errors are below the stated ulps, near 0 and far from it") {
     const auto exact_log = [](long double x) { return std::log1p(x); };
     const auto log_ulp = [&](double a, double b) {
         return worst_ulp(math::log1p, exact_log, a, b);
@@ -113,7 +113,7 @@ TEST_CASE("log(1 + x), e^x - 1: below the stated ulps, near 0 and far from it") 
     CHECK(exp_ulp(45, 709.7) < expm1_bound_ulp);
 }
 
-TEST_CASE("log(1 + x), e^x - 1: their edges, and the sign of zero") {
+TEST_CASE("log(1 + x), e^x - 1: limits and the sign of zero are right") {
     CHECK(math::log1p(-1) == -Limits::infinity());
     CHECK(math::log1p(Limits::infinity()) == Limits::infinity());
     CHECK(math::expm1(-Limits::infinity()) == -1);
@@ -125,7 +125,7 @@ TEST_CASE("log(1 + x), e^x - 1: their edges, and the sign of zero") {
     }
 }
 
-TEST_CASE("logarithms: exact wherever the result is an integer") {
+TEST_CASE("logarithms: are exact wherever the result is an integer") {
     for (int n = -1074; n <= 1023; ++n) CHECK(math::log2(std::ldexp(1.0, n)) == n);
     for (int n = 0; n <= 22; ++n) CHECK(math::log10(std::stod("1e" + std::to_string(n))) == n);
     CHECK(same_bits(math::log(1), 0.0));
@@ -133,12 +133,12 @@ TEST_CASE("logarithms: exact wherever the result is an integer") {
     CHECK(same_bits(math::log10(1), 0.0));
 }
 
-TEST_CASE("powers: exact wherever a double can be") {
+TEST_CASE("powers: are exact wherever a double can be") {
     for (int n = -1074; n <= 1023; ++n) CHECK(math::exp2(n) == std::ldexp(1.0, n));
     for (int n = 0; n <= 22; ++n) CHECK(math::exp10(n) == std::stod("1e" + std::to_string(n)));
 }
 
-TEST_CASE("logarithms: zero, infinity, negative arguments, NaN") {
+TEST_CASE("logarithms: zero, infinity, negative arguments and NaN are handled") {
     for (const auto f : {math::log, math::log2, math::log10}) {
         CHECK(f(0.0) == -Limits::infinity());
         CHECK(f(-0.0) == -Limits::infinity());
@@ -150,7 +150,7 @@ TEST_CASE("logarithms: zero, infinity, negative arguments, NaN") {
     }
 }
 
-TEST_CASE("powers: overflow, underflow, infinity, NaN") {
+TEST_CASE("powers: overflow, underflow, infinity and NaN are handled") {
     for (const auto f : {math::exp, math::exp2, math::exp10}) {
         CHECK(f(0.0) == 1);
         CHECK(f(-0.0) == 1);
@@ -174,7 +174,7 @@ TEST_CASE("powers: overflow, underflow, infinity, NaN") {
     CHECK(math::exp10(-323.5) == Limits::denorm_min());
 }
 
-TEST_CASE("logarithms: the same bits from every compiler") {
+TEST_CASE("logarithms: all compilers give the same bits") {
     struct Known {
         double x, log, log2, log10;
     };
@@ -205,7 +205,7 @@ TEST_CASE("logarithms: the same bits from every compiler") {
     CHECK(fingerprint(math::log10, 0, 4) == 0x761265c39d001837);
 }
 
-TEST_CASE("powers: the same bits from every compiler") {
+TEST_CASE("powers: all compilers give the same bits") {
     struct Known {
         double x, exp2, exp10;
     };
@@ -234,7 +234,7 @@ TEST_CASE("powers: the same bits from every compiler") {
     CHECK(fingerprint(math::exp10, -10, 10) == 0x0a24e2851806d537);
 }
 
-TEST_CASE("sine and cosine: below one ulp, in the first octant and after many turns") {
+TEST_CASE("sine and cosine: errors are below one ulp, in the first octant and after many turns") {
     CHECK(worst_sincos_ulp(-0.8, 0.8) < sincos_bound_ulp);
     CHECK(worst_sincos_ulp(-1e-5, 1e-5) < sincos_bound_ulp);
     CHECK(worst_sincos_ulp(0.785, 0.786) < sincos_bound_ulp);  // where the range reduction jumps
@@ -243,7 +243,7 @@ TEST_CASE("sine and cosine: below one ulp, in the first octant and after many tu
     CHECK(worst_sincos_ulp(-1e9, 1e9) < sincos_bound_ulp);
 }
 
-TEST_CASE("sine and cosine: next to their zeros every digit counts") {
+TEST_CASE("sine and cosine: every digit is right next to their zeros") {
     // The doubles nearest to multiples of pi / 2; computed to 400 bits, then rounded.
     struct Known {
         double x, sin, cos;
@@ -265,7 +265,7 @@ TEST_CASE("sine and cosine: next to their zeros every digit counts") {
     }
 }
 
-TEST_CASE("sine and cosine: odd and even to the last bit, exact at 0") {
+TEST_CASE("sine and cosine: are odd and even to the last bit, and exact at 0") {
     CHECK(same_bits(sine(0.0), 0.0));
     CHECK(same_bits(sine(-0.0), -0.0));
     CHECK(same_bits(cosine(0.0), 1.0));
@@ -277,7 +277,7 @@ TEST_CASE("sine and cosine: odd and even to the last bit, exact at 0") {
     }
 }
 
-TEST_CASE("sine and cosine: NaN beyond a thousand million radians, for infinity and for NaN") {
+TEST_CASE("sine and cosine: are NaN beyond a thousand million radians, for infinity and for NaN") {
     CHECK(std::isfinite(sine(1e9)));
     for (const double x : {std::nextafter(1e9, 2e9), -2e9, Limits::max(), Limits::infinity(),
                            -Limits::infinity(), Limits::quiet_NaN()}) {
@@ -286,7 +286,7 @@ TEST_CASE("sine and cosine: NaN beyond a thousand million radians, for infinity 
     }
 }
 
-TEST_CASE("angles: below two ulps in every direction") {
+TEST_CASE("angles: errors are below two ulps in every direction") {
     CHECK(worst_atan2_ulp(0) < atan2_bound_ulp);
     CHECK(worst_atan2_ulp(6) < atan2_bound_ulp);
     CHECK(worst_atan2_ulp(1000) < atan2_bound_ulp);
@@ -309,7 +309,7 @@ TEST_CASE("angles: multiples of an eighth of a turn are exact") {
     for (const double zero : {0.0, -0.0}) CHECK(same_bits(math::atan2(zero, -zero), 0.0));
 }
 
-TEST_CASE("angles: nothing overflows or underflows on the way") {
+TEST_CASE("angles: no intermediate value overflows or underflows") {
     const double steepest = math::atan2(Limits::max(), Limits::denorm_min());
     CHECK(same_bits(steepest, math::atan2(1, 0)));
     CHECK(same_bits(math::atan2(Limits::denorm_min(), Limits::max()), 0.0));
@@ -321,7 +321,7 @@ TEST_CASE("angles: nothing overflows or underflows on the way") {
     CHECK(std::isnan(math::atan2(1, Limits::quiet_NaN())));
 }
 
-TEST_CASE("sine, cosine, angles, e^x, e^x - 1, log(1 + x): the same bits from every compiler") {
+TEST_CASE("sine, cosine, angles, e^x, e^x - 1, log(1 + x): all compilers give the same bits") {
     struct Turn {
         double x, sin, cos;
     };

@@ -133,7 +133,7 @@ double exact_quantile(double p) {
 
 }  // namespace
 
-TEST_CASE("philox: the published known answers of Random123") {
+TEST_CASE("philox: outputs equal the published known answers of Random123") {
     using Counter = std::array<std::uint32_t, 4>;
     CHECK(philox4x32_10({0, 0, 0, 0}, {0, 0}) ==
           Counter{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8});
@@ -145,7 +145,7 @@ TEST_CASE("philox: the published known answers of Random123") {
         Counter{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1});
 }
 
-TEST_CASE("combine: the published first outputs of splitmix64, and the order matters") {
+TEST_CASE("combine: outputs equal the published splitmix64, and the order matters") {
     constexpr std::uint64_t golden = 0x9e3779b97f4a7c15;
     constexpr std::uint64_t first_of_seed_0 = 0xe220a8397b1dcdaf;
     CHECK(combine(0, golden + 1234567 - first_of_seed_0) == 6457827717110365317);
@@ -153,13 +153,13 @@ TEST_CASE("combine: the published first outputs of splitmix64, and the order mat
     CHECK(combine(combine(1, 2), 3) != combine(1, combine(2, 3)));
 }
 
-TEST_CASE("name key: the published values of XXH64") {
+TEST_CASE("name key: equals the published values of XXH64") {
     CHECK(name_key("") == 0xef46db3751d8e999);
     CHECK(name_key("a") == 0xd24ec4f1a98c6e5b);
     CHECK(name_key("abc") == 0x44bc2cf5ad770999);
 }
 
-TEST_CASE("random: the same key, the same bits, whatever the compiler") {
+TEST_CASE("random: equal keys give equal bits with every compiler") {
     const Key key{.seed = 7,
                   .replication = 3,
                   .purpose = Purpose::flood_jitter,
@@ -187,7 +187,7 @@ TEST_CASE("random: purposes keep their numbers") {
     CHECK(static_cast<int>(Purpose::order) == 4);
 }
 
-TEST_CASE("uniform: moments and distribution") {
+TEST_CASE("uniform: moments and distribution are right") {
     const auto u = draws(uniform);
     CHECK(mean_is(moment(u, 0, 1), 0.5, std::sqrt(1 / 12.0)));
     CHECK(mean_is(moment(u, 0.5, 2), 1 / 12.0, std::sqrt(1 / 180.0)));
@@ -196,7 +196,7 @@ TEST_CASE("uniform: moments and distribution") {
     CHECK(kolmogorov_smirnov(u, [](double x) { return x; }) < ks_bound);
 }
 
-TEST_CASE("uniform: a midpoint of the grid, so never 0 or 1") {
+TEST_CASE("uniform: draws are midpoints of a grid, so never 0 or 1") {
     for (std::size_t i = 0; i < samples; ++i) {
         const double cell = std::ldexp(uniform(nth_key(i)), 52);
         REQUIRE(cell - std::floor(cell) == 0.5);
@@ -204,7 +204,7 @@ TEST_CASE("uniform: a midpoint of the grid, so never 0 or 1") {
     }
 }
 
-TEST_CASE("normal: moments and distribution") {
+TEST_CASE("normal: moments and distribution are right") {
     const auto x = draws(normal);
     CHECK(mean_is(moment(x, 0, 1), 0, 1));
     CHECK(mean_is(moment(x, 0, 2), 1, std::sqrt(2.0)));
@@ -214,7 +214,7 @@ TEST_CASE("normal: moments and distribution") {
     CHECK(kolmogorov_smirnov(x, [&](double v) { return cdf(standard, v); }) < ks_bound);
 }
 
-TEST_CASE("exponential: moments and distribution") {
+TEST_CASE("exponential: moments and distribution are right") {
     const auto x = draws(exponential);
     CHECK(mean_is(moment(x, 0, 1), 1, 1));
     CHECK(mean_is(moment(x, 0, 2), 2, std::sqrt(20.0)));
@@ -237,7 +237,7 @@ TEST_CASE("normal quantile: agrees with Boost.Math from tail to tail") {
     CHECK(normal_quantile(0x1p-53) > -8.21);
 }
 
-TEST_CASE("below: every value equally often, and never n") {
+TEST_CASE("below: gives every value equally often, and never n") {
     std::array<double, 10> count{};
     for (std::size_t i = 0; i < samples; ++i) ++count.at(below(nth_key(i), count.size()));
     const double expected = static_cast<double>(samples) / 10;
@@ -251,7 +251,7 @@ TEST_CASE("below: every value equally often, and never n") {
     }
 }
 
-TEST_CASE("random: a key's neighbour in any field draws independently") {
+TEST_CASE("random: neighbouring keys in any field are independent") {
     std::array<double, 6> product{};
     for (std::size_t i = 0; i < samples; ++i) {
         const Key key = small_key(i);
@@ -264,7 +264,7 @@ TEST_CASE("random: a key's neighbour in any field draws independently") {
     for (const double p : product) CHECK(mean_is(p / static_cast<double>(samples), 0, 1));
 }
 
-TEST_CASE("random: one more in any field flips every bit half of the time") {
+TEST_CASE("random: incrementing any field flips every bit half of the time") {
     std::array<std::array<int, 64>, 6> flips{};
     for (std::size_t i = 0; i < samples / 4; ++i) {
         const auto near = neighbours(small_key(i));
@@ -280,7 +280,7 @@ TEST_CASE("random: one more in any field flips every bit half of the time") {
     }
 }
 
-TEST_CASE("random: small keys never meet") {
+TEST_CASE("random: small keys never collide") {
     std::vector<std::uint64_t> all;
     for (std::size_t i = 0; i < samples; ++i) {
         all.push_back(bits(small_key(i)));
@@ -295,7 +295,7 @@ TEST_CASE("random: small keys never meet") {
     CHECK(std::adjacent_find(all.begin(), all.end()) == all.end());
 }
 
-TEST_CASE("pair draws: the same bits in both directions, whatever the compiler") {
+TEST_CASE("pair draws: have the same bits in both directions, with every compiler") {
     const PairDraws draws(7, 3, Purpose::link_shadowing);
     const std::uint64_t a = name_key("r0"), b = name_key("base");
     const std::uint64_t stream = combine(7, 3 << 16 | 2);
@@ -306,7 +306,7 @@ TEST_CASE("pair draws: the same bits in both directions, whatever the compiler")
     CHECK(draws.normal(a, b) == normal_quantile(draws.uniform(a, b)));
 }
 
-TEST_CASE("pair draws: moments and distribution over all pairs of some robots") {
+TEST_CASE("pair draws: moments and distribution over all pairs of some robots are right") {
     constexpr std::size_t robots = 633;  // 200,028 pairs
     const PairDraws draws(1, 0, Purpose::link_shadowing);
     for (const bool named : {false, true}) {
@@ -322,7 +322,7 @@ TEST_CASE("pair draws: moments and distribution over all pairs of some robots") 
     }
 }
 
-TEST_CASE("pair draws: pairs that share robots are independent, also around a ring of them") {
+TEST_CASE("pair draws: pairs that share robots are independent, also around a ring") {
     const PairDraws draws(1, 0, Purpose::link_shadowing);
     const auto x = [&](std::uint64_t a, std::uint64_t b) {
         return std::sqrt(12.0) * (draws.uniform(a, b) - 0.5);  // mean 0, standard deviation 1

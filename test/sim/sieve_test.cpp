@@ -11,7 +11,7 @@
 namespace sieve_test {
 using namespace rovernet;
 
-TEST_CASE("sieve: what is to be kept is, in order, however much there is and however often") {
+TEST_CASE("sieve: keeps the selected values in order, for any number of values and calls") {
     test::Draw draw(3);
     Sieve<int> sieve;
     CHECK(sieve.kept().empty());
@@ -29,7 +29,7 @@ TEST_CASE("sieve: what is to be kept is, in order, however much there is and how
     }
 }
 
-TEST_CASE("sieve: what is written into its room stays up to where it is told to") {
+TEST_CASE("sieve: values written into its room remain up to the given end") {
     Sieve<int> sieve;
     for (const std::size_t room : {0UL, 1UL, 5UL, 100UL, 3UL, 1000UL}) {
         sieve.put(-1, true);

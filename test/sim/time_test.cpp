@@ -23,7 +23,7 @@ TEST_CASE("time: seconds become the nearest nanosecond") {
     CHECK(from_seconds(std::numeric_limits<double>::denorm_min()) == 0ns);
 }
 
-TEST_CASE("time: half a nanosecond is rounded away from zero, and just less to zero") {
+TEST_CASE("time: half a nanosecond is rounded away from zero, and slightly less to zero") {
     constexpr double step = 0x1p-10;  // [s] 976,562.5 ns
     for (int n = -9; n <= 9; n += 2) {
         CHECK(from_seconds(n * step).count() == std::llround(n * 976'562.5));
@@ -31,7 +31,7 @@ TEST_CASE("time: half a nanosecond is rounded away from zero, and just less to z
     }
 }
 
-TEST_CASE("time: nanoseconds survive the way to seconds and back, for 13 days") {
+TEST_CASE("time: nanoseconds survive conversion to seconds and back, for 13 days") {
     constexpr std::int64_t thirteen_days = std::int64_t{1} << 50;
     for (std::int64_t n = 1; n < thirteen_days; n = n * 3 / 2 + 1) {
         CHECK(from_seconds(seconds(Duration{n})) == Duration{n});
@@ -41,7 +41,7 @@ TEST_CASE("time: nanoseconds survive the way to seconds and back, for 13 days") 
     CHECK(seconds(start_of_run) == 0);
 }
 
-TEST_CASE("time: 292 years are the limit, either way") {
+TEST_CASE("time: the limit is 292 years in both directions") {
     CHECK(from_seconds(9.2e9).count() == 9200000000000000000);
     CHECK(from_seconds(-9.2e9).count() == -9200000000000000000);
     CHECK(start_of_run + from_seconds(9.2e9) < never);
@@ -53,14 +53,13 @@ TEST_CASE("time: 292 years are the limit, either way") {
                       "a time must be within +-9.2e9 s (292 years), got 10000000000.000000 s");
 }
 
-TEST_CASE("time: after 30 years a nanosecond is a nanosecond, which a double has lost (S33)") {
+TEST_CASE("time: after 30 years a nanosecond still counts, which a double would lose (S33)") {
     const Time late = start_of_run + 1'000'000'000s;
     CHECK((late + 10us) - late == 10us);
     CHECK((late + 1ns) - late == 1ns);
 }
 
-TEST_CASE(
-    "time: a tenth and two tenths of a second are three tenths, so that ties are ties (S34)") {
+TEST_CASE("time: 0.1 s plus 0.2 s equals 0.3 s, so that ties are ties (S34)") {
     CHECK(start_of_run + from_seconds(0.1) + from_seconds(0.2) == start_of_run + from_seconds(0.3));
 }
 

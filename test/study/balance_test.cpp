@@ -84,7 +84,8 @@ constexpr double rounding = 1e-12;  // of a mean of a few numbers below 1
 
 }  // namespace
 
-TEST_CASE("balance: rows of different cells are no averages, and the error says what they lack") {
+TEST_CASE(
+    "balance: rows with different cells are not averaged, and the error lists missing cells") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), biased);
     const std::string text = refusal(store, {.group_by = by_ttl});
@@ -97,7 +98,7 @@ TEST_CASE("balance: rows of different cells are no averages, and the error says 
     CHECK(has(text, "--common for the mean over the 4 of 8 cells"));
 }
 
-TEST_CASE("balance: means over the cells that every row has keep the order that failures reverse") {
+TEST_CASE("balance: means over common cells keep the order that failures would reverse") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), biased);
     const Answers all = answers(store, {.group_by = by_ttl, .common = true});
@@ -123,7 +124,7 @@ TEST_CASE("balance: means over the cells that every row has keep the order that 
     CHECK(coverage_text(held) == "7 runs failed");
 }
 
-TEST_CASE("balance: a run without a value and one that nobody made are missing cells, too") {
+TEST_CASE("balance: a run without a value, and a run not made, are missing cells") {
     const TemporaryFolder folder;
     for (const Ending fate : {Ending::undefined, Ending::missing}) {
         const std::string name = fate == Ending::undefined ? "undefined" : "missing";
@@ -137,14 +138,14 @@ TEST_CASE("balance: a run without a value and one that nobody made are missing c
     }
 }
 
-TEST_CASE("balance: a single row joins whole replications only") {
+TEST_CASE("balance: a single row averages only complete replications") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), biased);
     CHECK(has(refusal(store, {.group_by = by_ttl, .where = {{"routing.ttl", "8"}}}),
               "lacks 4 of 8 cells"));
 }
 
-TEST_CASE("balance: replications that are missing everywhere leave rows alike, and are told") {
+TEST_CASE("balance: replications missing in all rows keep rows comparable, and are reported") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), [](int, int, int r) {
         return r == 3 ? Ending::missing : Ending::finished;
@@ -157,7 +158,7 @@ TEST_CASE("balance: replications that are missing everywhere leave rows alike, a
     CHECK(coverage_text(all) == "averaged over traffic.0.every; unfinished: 6 runs are missing");
 }
 
-TEST_CASE("balance: keys that go together are no averages") {
+TEST_CASE("balance: keys that vary together are not averaged") {
     const TemporaryFolder folder;
     Store store = Store::open_to_write(folder.path("s.db"));
     std::vector<StoredPoint> points;
@@ -174,7 +175,7 @@ TEST_CASE("balance: keys that go together are no averages") {
     CHECK(has(coverage_text(all), "radio.power goes with each row"));
 }
 
-TEST_CASE("balance: a combination that the study excludes from one row is a missing cell") {
+TEST_CASE("balance: a combination excluded from one row is a missing cell") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), [](int, int, int) { return Ending::finished; });
     std::vector<StoredPoint> points = store.points();

@@ -8,7 +8,7 @@ namespace command_words_test {
 using namespace rovernet;
 using namespace rovernet::test;
 
-TEST_CASE("command words: a shell reads back every word") {
+TEST_CASE("command words: a shell reads every word back") {
     const std::vector<std::string> words{"plain-1.0/a_b=c:d,+", "",    "two words", "it's", "''",
                                          "\"$HOME\" `id` \\",   "*?[", "~",         "#x",   "a\nb",
                                          "\xc3\xa4;|&<>(){}!%"};
@@ -22,7 +22,7 @@ TEST_CASE("command words: a shell reads back every word") {
     CHECK(shell_word(words[0]) == words[0]);
 }
 
-TEST_CASE("command words: the options of a scenario in the order of their kinds") {
+TEST_CASE("command words: options of a scenario are in the order of their kinds") {
     const ScenarioOptions options{
         .set = {"a=1", "b=2"}, .world_path = {"w"}, .bitmaps = {"x=y"}, .lenient = true};
     CHECK(shell_command(option_words(options)) ==

@@ -113,7 +113,7 @@ double coverage(const Distribution& all, std::size_t n, int studies, IntervalMet
 
 }  // namespace
 
-TEST_CASE("coverage: intervals by bets cover the truth in 95 % of studies, whatever its shape") {
+TEST_CASE("coverage: betting intervals cover the truth in 95 % of studies, for any distribution") {
     constexpr int studies = 200;
     for (const IntervalMethod method : {IntervalMethod::betting, IntervalMethod::star}) {
         for (const Distribution& all : distributions()) {
@@ -127,7 +127,7 @@ TEST_CASE("coverage: intervals by bets cover the truth in 95 % of studies, whate
     }
 }
 
-TEST_CASE("coverage: STaR-Bets refute the true mean in at most 5 % of studies of that n") {
+TEST_CASE("coverage: STaR-Bets reject the true mean in at most 5 % of studies of that n") {
     constexpr int studies = 600;
     constexpr double level = 0.05;
     const double most = level + 3 * std::sqrt(level * (1 - level) / studies);
@@ -150,7 +150,7 @@ TEST_CASE("coverage: STaR-Bets refute the true mean in at most 5 % of studies of
     }
 }
 
-TEST_CASE("coverage: who looks again and again needs betting, and STaR-Bets mislead him") {
+TEST_CASE("coverage: repeated looks need betting, and STaR-Bets then fail") {
     constexpr int studies = 400;
     constexpr double level = 0.05;
     const Distribution all = distributions().back();
@@ -169,7 +169,7 @@ TEST_CASE("coverage: who looks again and again needs betting, and STaR-Bets misl
     CHECK(betting <= most * studies);
 }
 
-TEST_CASE("coverage: Student's t does not, so this test can tell") {
+TEST_CASE("coverage: Student's t fails, so that this test can detect failures") {
     CHECK(coverage(density(250), 30, 200, IntervalMethod::t) < 0.6);
     CHECK(coverage(density(300), 100, 200, IntervalMethod::t) < 0.5);
 }
@@ -196,7 +196,7 @@ TEST_CASE("coverage: where a precision of 0.1 stops, the interval still covers t
     }
 }
 
-TEST_CASE("coverage: the price of it, as widths beside Student's where that is right") {
+TEST_CASE("coverage: widths are compared with Student's, where that is valid") {
     constexpr int studies = 50;
     constexpr double last_digit = 0.05;
     const auto bounded = [](std::span<const double> values, IntervalMethod method) {

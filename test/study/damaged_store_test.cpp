@@ -154,7 +154,7 @@ std::string joined(const std::vector<std::string>& texts) {
 
 }  // namespace
 
-TEST_CASE("damaged stores: one that is whole, its columns untyped, is read without an error") {
+TEST_CASE("damaged stores: an intact store with untyped columns is read without an error") {
     const Workshop workshop;
     std::vector<std::string> errors = workshop.errors(workshop.whole());
     CHECK(joined(errors) == std::string(errors.size(), '\n'));
@@ -163,7 +163,7 @@ TEST_CASE("damaged stores: one that is whole, its columns untyped, is read witho
     CHECK(joined(errors) == std::string(errors.size(), '\n'));
 }
 
-TEST_CASE("damaged stores: any value in any column of any table is an error or does no harm") {
+TEST_CASE("damaged stores: any value in any column is an error or does no harm") {
     const Workshop workshop;
     const std::vector<std::string> values = {
         "NULL", "5", "-1", "9e999", "x'00ff41'", "'x'", "'[1,[2,{\"a\":null}]]'", "'{\"a\":5}'"};
@@ -227,7 +227,7 @@ TEST_CASE("damaged stores: the error names table, row and column, and both types
     }
 }
 
-TEST_CASE("damaged stores: a file that ends early, or with other bytes in it, is an error") {
+TEST_CASE("damaged stores: a file that ends early, or has changed bytes, is an error") {
     const Workshop workshop;
     std::ifstream file(workshop.whole(), std::ios::binary);
     const std::string bytes((std::istreambuf_iterator<char>(file)), {});

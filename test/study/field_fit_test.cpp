@@ -117,7 +117,7 @@ void compare(const Model& model, const std::vector<Place>& first, const std::vec
 
 }  // namespace
 
-TEST_CASE("field: what nine models say of a flat, fitted on one drive and checked on another") {
+TEST_CASE("field: nine models are fitted on one drive through a flat and checked on another") {
     const auto cells = measured("flat/cells.csv");
     if (!cells) return;
     std::vector<Place> first, second;
@@ -142,7 +142,7 @@ TEST_CASE("field: what nine models say of a flat, fitted on one drive and checke
     }
 }
 
-TEST_CASE("field: what five models say of a laboratory, fitted on one day and checked on another") {
+TEST_CASE("field: five models are fitted on one day in a laboratory and checked on another") {
     const auto links = measured("lab/links.csv"), sensors = measured("lab/sensors.csv");
     if (!links || !sensors) return;
     std::map<std::string, std::pair<std::uint32_t, Vec3>> receivers;

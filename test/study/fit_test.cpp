@@ -93,7 +93,7 @@ std::vector<Case> cases() {
 
 }  // namespace
 
-TEST_CASE("least squares: coefficients and their errors are those of numpy") {
+TEST_CASE("least squares: coefficients and their errors equal numpy") {
     const Vectors expected("fit_least_squares.csv");
     int compared = 0;
     for (const Case& each : cases()) {
@@ -118,7 +118,7 @@ TEST_CASE("least squares: coefficients and their errors are those of numpy") {
     CHECK(compared == 10);
 }
 
-TEST_CASE("least squares: a wall that would gain is held at 0, and the rest is fitted again") {
+TEST_CASE("least squares: a negative wall loss is fixed at 0, and the rest is fitted again") {
     const Vectors expected("fit_nonnegative.csv");
     const Observations data = observations(
         [](const Link& l) {
@@ -137,7 +137,7 @@ TEST_CASE("least squares: a wall that would gain is held at 0, and the rest is f
     CHECK(held.at_bound == std::vector<bool>{false, false, true, false});
 }
 
-TEST_CASE("least squares: a column that nothing determines is left out and said so") {
+TEST_CASE("least squares: a column that no row determines is omitted and marked") {
     Observations data{.columns = 3};
     for (int i = 0; i < 20; ++i) {
         const double x = i;
@@ -153,7 +153,7 @@ TEST_CASE("least squares: a column that nothing determines is left out and said 
     CHECK(twin.coefficients[1].has_value() != twin.coefficients[2].has_value());
 }
 
-TEST_CASE("least squares: what cannot be fitted is refused") {
+TEST_CASE("least squares: invalid input is refused") {
     CHECK_THROWS_AS(least_squares({.columns = 1}), std::invalid_argument);
     Observations data{.columns = 1};
     data.add(std::vector{1.0}, std::numeric_limits<double>::infinity());
@@ -162,7 +162,7 @@ TEST_CASE("least squares: what cannot be fitted is refused") {
     CHECK_THROWS_AS(least_squares(data, {true, false}), std::invalid_argument);
 }
 
-TEST_CASE("tobit: the unseen far links count; the plain fit is the peer's, too") {
+TEST_CASE("tobit: unseen far links count; the plain fit equals another program's, too") {
     const Vectors links("fit_censored_links.csv"), expected("fit_censored.csv");
     constexpr double floor = -88;  // [dBm]
     Observations data{.columns = 2}, seen{.columns = 2};
@@ -182,7 +182,7 @@ TEST_CASE("tobit: the unseen far links count; the plain fit is the peer's, too")
     CHECK(near(plain.coefficients[1]->value, expected.number(1, "exponent"), 1e-6));
 }
 
-TEST_CASE("tobit: with everything seen it is least squares") {
+TEST_CASE("tobit: without unseen rows it equals least squares") {
     Observations data{.columns = 2};
     std::vector<bool> unseen;
     for (int i = 0; i < 30; ++i) {
@@ -198,7 +198,7 @@ TEST_CASE("tobit: with everything seen it is least squares") {
     CHECK_THROWS_AS(tobit(data, {}), std::invalid_argument);
 }
 
-TEST_CASE("disc fit: the range with the fewest wrong decisions is that of the vectors") {
+TEST_CASE("disc fit: the range with the fewest wrong decisions equals the vectors") {
     const Vectors links("fit_links.csv"), expected("fit_disc.csv");
     std::vector<DiscLink> all;
     for (std::size_t i = 0; i < links.size(); ++i) {
@@ -210,7 +210,7 @@ TEST_CASE("disc fit: the range with the fewest wrong decisions is that of the ve
     CHECK(near(fit.range.value, expected.number(0, "range_m"), 1e-9));
 }
 
-TEST_CASE("disc fit: all links up, or none") {
+TEST_CASE("disc fit: works with all links up, or none") {
     CHECK(fit_disc({{2, true}, {8, true}}).range.value == 8);
     CHECK(fit_disc({{2, false}, {8, false}}).range.value == 1);
     CHECK(fit_disc({{2, true}, {8, false}}).range.value == 4);

@@ -45,7 +45,7 @@ std::string said(std::size_t column, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("levels: a number out of its range is told, with line, column and range") {
+TEST_CASE("levels: a number out of range is an error with line, column and range") {
     for (std::size_t column = 0; column < columns.size(); ++column) {
         CAPTURE(columns[column]);
         const bool is_level = column + 1 == columns.size();
@@ -66,7 +66,7 @@ TEST_CASE("levels: a number out of its range is told, with line, column and rang
     }
 }
 
-TEST_CASE("levels: a level that no radio sends or receives is told") {
+TEST_CASE("levels: a level that no radio sends or receives is an error") {
     for (const char* bad : {"-300.1", "100.1", "-999", "1000"}) {
         CHECK(said(6, bad) ==
               fmt::format("found \"{}\", expected a level from -300 to 100 [dBm]", bad));

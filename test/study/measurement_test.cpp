@@ -59,7 +59,7 @@ vary.robot.A.radius = ["0.3 m", "0.4 m"]
 
 }  // namespace
 
-TEST_CASE("measurement: runs of several scenes in turn are as each by itself") {
+TEST_CASE("measurement: runs of alternating scenes equal separate runs") {
     test::TemporaryFolder folder;
     folder.write("one.pgm", map_with_door(1));
     folder.write("two.pgm", map_with_door(6));
@@ -81,7 +81,7 @@ TEST_CASE("measurement: runs of several scenes in turn are as each by itself") {
     CHECK(fingerprints[0] != fingerprints[2]);  // the doors lie elsewhere
 }
 
-TEST_CASE("measurement: a map that has changed is read again") {
+TEST_CASE("measurement: a changed map is read again") {
     test::TemporaryFolder folder;
     folder.write("one.pgm", map_with_door(1));
     folder.write("s.toml", std::string(walkers).substr(0, std::string(walkers).find("[study]")));
@@ -100,7 +100,7 @@ TEST_CASE("measurement: a map that has changed is read again") {
     CHECK(fingerprint() == before);
 }
 
-TEST_CASE("measurement: the metrics of a run are named before it is made, and without its map") {
+TEST_CASE("measurement: metrics of a run are named before the run, without its map") {
     test::TemporaryFolder folder;
     folder.write("one.pgm", map_with_door(1));
     const std::string text = std::string(walkers).substr(0, std::string(walkers).find("[study]")) +
@@ -120,7 +120,7 @@ TEST_CASE("measurement: the metrics of a run are named before it is made, and wi
         CHECK(std::find(measured.begin(), measured.end(), name) != measured.end());
 }
 
-TEST_CASE("measurement: a pipe carries it whole") {
+TEST_CASE("measurement: is passed through a pipe unchanged") {
     const Measurement sent{.metrics = {{"a name.with blanks", 0.1 + 0.2}, {"none", {}}},
                            .fingerprint = "0123-4567",
                            .cpu_s = 1.25,

@@ -43,7 +43,7 @@ bool throws_input_error(Store& store, const std::string& shard) {
 
 }  // namespace
 
-TEST_CASE("merge: a shard's runs come over with their values, and the shard goes") {
+TEST_CASE("merge: a shard's runs are copied with their values, and the shard is removed") {
     const TemporaryFolder folder;
     Store store = store_with(folder.path("s.db"), 0);
     store_with(folder.path("1.db"), 1);
@@ -56,7 +56,7 @@ TEST_CASE("merge: a shard's runs come over with their values, and the shard goes
     CHECK_FALSE(fs::exists(folder.path("1.db")));
 }
 
-TEST_CASE("merge: what a killed process left in its journal is merged") {
+TEST_CASE("merge: runs in the journal of a killed process are merged") {
     const TemporaryFolder folder;
     Store store = store_with(folder.path("s.db"), 0);
     {
@@ -73,7 +73,7 @@ TEST_CASE("merge: what a killed process left in its journal is merged") {
     }
 }
 
-TEST_CASE("merge: a shard that somebody writes to stays as it is") {
+TEST_CASE("merge: a shard that is being written stays unchanged") {
     const TemporaryFolder folder;
     Store store = store_with(folder.path("s.db"), 0);
     const Store shard = store_with(folder.path("1.db"), 1);
@@ -85,7 +85,7 @@ TEST_CASE("merge: a shard that somebody writes to stays as it is") {
     CHECK(fs::exists(store.path()));
 }
 
-TEST_CASE("merge: a shard whose process ended before its first run goes without a word") {
+TEST_CASE("merge: a shard without runs is removed silently") {
     const TemporaryFolder folder;
     Store store = store_with(folder.path("s.db"), 0);
     merge_and_remove(store, folder.write("1.db", ""));
@@ -93,7 +93,7 @@ TEST_CASE("merge: a shard whose process ended before its first run goes without 
     CHECK(store.runs().size() == 2);
 }
 
-TEST_CASE("merge: what is no shard of this study is refused, and stays") {
+TEST_CASE("merge: a file that is not a shard of this study is refused, and stays") {
     const TemporaryFolder folder;
     Store store = store_with(folder.path("s.db"), 0);
     CHECK(throws_input_error(store, folder.path("none.db")));

@@ -195,14 +195,14 @@ std::string said(const std::vector<std::string>& faults) {
 
 }  // namespace
 
-TEST_CASE("a flipped bit in the names of a recorded trace is told, whoever reads it") {
+TEST_CASE("a flipped bit in the names of a recorded trace is reported by every reader") {
     const Sample s;
     const Tally tally = flip(s, s.head + s.metadata, s.names, s.chunk, places_in(s.names));
     CHECK(said(tally.faults) == "");
     CHECK(tally.refused + 2 >= static_cast<int>(s.names.size()));
 }
 
-TEST_CASE("a flipped bit in the scenario of a recorded trace changes it or is told") {
+TEST_CASE("a flipped bit in the scenario of a recorded trace changes it or is reported") {
     const Sample s;
     const Tally tally = flip(s, s.head, s.metadata, s.names + s.chunk, places_in(s.metadata, 6));
     CHECK(said(tally.faults) == "");
@@ -210,7 +210,7 @@ TEST_CASE("a flipped bit in the scenario of a recorded trace changes it or is to
     CHECK(tally.taken > 20);
 }
 
-TEST_CASE("a flipped bit in records without a checksum reaches beyond no array") {
+TEST_CASE("a flipped bit in records without a checksum causes no access outside an array") {
     const Sample s;
     std::vector<std::size_t> places = record_places(s.records);
     for (std::size_t& each : places) each += s.records_at;
@@ -220,7 +220,7 @@ TEST_CASE("a flipped bit in records without a checksum reaches beyond no array")
     CHECK(tally.taken > 100);
 }
 
-TEST_CASE("names that are dropped, short, doubled or others than those of the scenario are told") {
+TEST_CASE("missing, short, doubled or wrong names in a recorded trace are reported") {
     const Sample s;
     const auto refusal = [&](const std::string& names) -> std::string {
         Tally tally;
@@ -256,7 +256,7 @@ TEST_CASE("names that are dropped, short, doubled or others than those of the sc
           "the attached file x/a cannot be decompressed");
 }
 
-TEST_CASE("the control: mutants hold records of robots that have no name, which a reader meets") {
+TEST_CASE("control: mutants contain records of robots without a name") {
     const Sample s;
     int beyond = 0;
     for (std::size_t i = 0; i < s.records.size(); ++i) {

@@ -45,7 +45,7 @@ constexpr double rounding = 1e-9;  // of sums of a few numbers below 1e3
 
 }  // namespace
 
-TEST_CASE("results: a group is of one point if nothing else is asked, with mean and interval") {
+TEST_CASE("results: by default a row is one point, with mean and interval") {
     const TemporaryFolder folder;
     const auto list = answers(made(folder.path("s.db")), {}).list;
     REQUIRE(list.size() == 4);
@@ -58,8 +58,7 @@ TEST_CASE("results: a group is of one point if nothing else is asked, with mean 
     CHECK(std::abs(*list[2].low - (101 - half)) < rounding);
 }
 
-TEST_CASE(
-    "results: a ratio within its bounds has an interval by STaR-Bets, in them, or t on request") {
+TEST_CASE("results: a ratio has an interval by STaR-Bets within its bounds, or t on request") {
     const TemporaryFolder folder;
     Store store = Store::open_to_write(folder.path("s.db"));
     store.set_points({{0, "p", {}}});
@@ -82,7 +81,7 @@ TEST_CASE(
     CHECK_FALSE(answers(store, {.metrics = metrics}).list[0].low);
 }
 
-TEST_CASE("results: points that a group joins are averaged in each replication first") {
+TEST_CASE("results: points of a row are averaged in each replication first") {
     const TemporaryFolder folder;
     const auto list = answers(made(folder.path("s.db")),
                               {.group_by = std::vector<std::string>{"propagation.model"}})
@@ -94,7 +93,7 @@ TEST_CASE("results: points that a group joins are averaged in each replication f
     CHECK(list[1].values.at(2) == 107);
 }
 
-TEST_CASE("results: conditions choose points, and one that no point meets is an error") {
+TEST_CASE("results: conditions select points, and a condition without a point is an error") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"));
     const auto list =
@@ -106,7 +105,7 @@ TEST_CASE("results: conditions choose points, and one that no point meets is an 
     CHECK_THROWS_AS(answers(store, {.where = {{"radio.pwr", "1"}}}), std::invalid_argument);
 }
 
-TEST_CASE("results: a metric without a value is counted, and is nothing") {
+TEST_CASE("results: a metric without a value is counted, and has no mean") {
     const TemporaryFolder folder;
     const auto list = answers(made(folder.path("s.db")), {.metrics = {"hops_mean"}}).list;
     CHECK(list[0].gaps.undefined == 3);
@@ -114,14 +113,14 @@ TEST_CASE("results: a metric without a value is counted, and is nothing") {
     CHECK_FALSE(list[0].summary);
 }
 
-TEST_CASE("results: a quantile stands in place of the mean, if it is asked for") {
+TEST_CASE("results: a quantile replaces the mean on request") {
     const TemporaryFolder folder;
     const auto list = answers(made(folder.path("s.db")), {.quantile = 0.5}).list;
     CHECK(*list[0].value == 1);
     CHECK_FALSE(list[0].low);  // three values are too few for an interval
 }
 
-TEST_CASE("results: what a study does not have is an error with what is near") {
+TEST_CASE("results: an unknown name is an error with a suggestion") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"));
     CHECK_THROWS_WITH_AS(answers(store, {.metrics = {"reech"}}),
@@ -130,7 +129,7 @@ TEST_CASE("results: what a study does not have is an error with what is near") {
                          doctest::Contains("did you mean \"radio.power\"?"), std::invalid_argument);
 }
 
-TEST_CASE("results: CSV has a row per run and metric, quotes what needs it, and a head") {
+TEST_CASE("results: CSV has a header, a row per run and metric, and quotes where needed") {
     const TemporaryFolder folder;
     std::string text;
     write_csv(made(folder.path("s.db")), {}, [&](std::string_view piece) { text += piece; });
@@ -141,7 +140,7 @@ TEST_CASE("results: CSV has a row per run and metric, quotes what needs it, and 
     CHECK(std::count(text.begin(), text.end(), '\n') == 25);
 }
 
-TEST_CASE("results: CSV obeys conditions, metrics and groups") {
+TEST_CASE("results: CSV follows conditions, metrics and groups") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"));
     const auto csv = [&](const Question& question) {

@@ -41,7 +41,7 @@ std::vector<std::string> words_given(const TemporaryFolder& folder, const std::s
 
 }  // namespace
 
-TEST_CASE("slurm: a chunk is as small as wanted, or as an array of 1000 tasks allows") {
+TEST_CASE("slurm: a chunk has the requested size, or larger to fit an array of 1000 tasks") {
     const auto tasks = [](std::uint64_t runs, std::uint64_t chunk) {
         return runs / chunk + (runs % chunk > 0 ? 1 : 0);
     };
@@ -56,7 +56,7 @@ TEST_CASE("slurm: a chunk is as small as wanted, or as an array of 1000 tasks al
     CHECK(chunk_for_array(50'001, 50) == 51);
 }
 
-TEST_CASE("slurm: the open chunks are those with a run that is not finished") {
+TEST_CASE("slurm: the open chunks are those with unfinished runs") {
     for (unsigned open = 0; open < 1U << 10; ++open) {
         std::vector<RunState> runs;
         for (unsigned i = 0; i < 10; ++i) {
@@ -111,7 +111,7 @@ TEST_CASE("slurm: the scripts of a plain sweep can be read") {
           "--store /home/me/s.db --merge \"${shards[@]}\"\n");
 }
 
-TEST_CASE("slurm: the merge goes behind the tasks, and a person's options behind ours") {
+TEST_CASE("slurm: the merge runs after the tasks, and the user's options follow ours") {
     SlurmSweep sweep = plain_sweep();
     using Words = std::vector<std::string>;
     CHECK(sweep.submit_job() == Words{"sbatch", "--parsable", "--job-name=s", "--array=0-2,5",
@@ -129,7 +129,7 @@ TEST_CASE("slurm: the merge goes behind the tasks, and a person's options behind
                 "/100%a/s.db.slurm/merge.sh"});
 }
 
-TEST_CASE("slurm: the scripts give their command the words that are meant, whatever is in them") {
+TEST_CASE("slurm: the scripts pass all words unchanged, whatever they contain") {
     for (const std::string name : {"plain", "two words", "it's", "\"a\" $HOME `id`", "\\ %a;#&*"}) {
         CAPTURE(name);
         const TemporaryFolder folder;
@@ -156,7 +156,7 @@ TEST_CASE("slurm: the scripts give their command the words that are meant, whate
     }
 }
 
-TEST_CASE("slurm: a script whose folder is gone runs nothing") {
+TEST_CASE("slurm: a script whose folder is missing runs nothing") {
     SlurmSweep sweep = plain_sweep();
     sweep.directory = "/nowhere/at all";
     sweep.command = "/bin/echo";

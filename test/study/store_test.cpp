@@ -79,7 +79,7 @@ void exec(const std::string& path, const char* sql) {
 
 }  // namespace
 
-TEST_CASE("store: what was recorded is read back, to the last digit and in order") {
+TEST_CASE("store: recorded runs are read back, to the last digit and in order") {
     const TemporaryFolder folder;
     const std::string path = folder.path("s.db");
     {
@@ -132,7 +132,7 @@ TEST_CASE("store: a run that failed may be replaced, one that finished may not")
     CHECK(store.values("reach")[0].value == 0.5);
 }
 
-TEST_CASE("store: points keep their runs when the study gets more, and find their new place") {
+TEST_CASE("store: points keep their runs and get new numbers when the study grows") {
     const TemporaryFolder folder;
     Store store = two_points(folder.path("s.db"));
     store.record(run("r0", 0, 0, 0.5));
@@ -146,7 +146,7 @@ TEST_CASE("store: points keep their runs when the study gets more, and find thei
     CHECK(store.values("reach", 2).size() == 2);
 }
 
-TEST_CASE("store: others may read while one writes, and only one writes") {
+TEST_CASE("store: others may read during a write, and only one process writes") {
     const TemporaryFolder folder;
     const std::string path = folder.path("s.db");
     Store store = two_points(path);
@@ -158,7 +158,7 @@ TEST_CASE("store: others may read while one writes, and only one writes") {
     CHECK_THROWS_WITH_AS(Store::open_to_write(path), doctest::Contains("another sweep"), RunError);
 }
 
-TEST_CASE("store: what is no store is said to be none") {
+TEST_CASE("store: a file that is not a store is refused") {
     const TemporaryFolder folder;
     CHECK(error_of(folder.path("none.db")).find("no such store") != std::string::npos);
     CHECK(error_of(folder.path("")).find("it is a folder") != std::string::npos);
@@ -174,7 +174,7 @@ TEST_CASE("store: what is no store is said to be none") {
                          doctest::Contains("cannot be written"), RunError);
 }
 
-TEST_CASE("store: a file whose making was cut short is made anew") {
+TEST_CASE("store: a file whose creation was interrupted is created again") {
     const TemporaryFolder folder;
     const std::string path = folder.path("s.db");
     exec(path, "PRAGMA user_version = 0; CREATE TABLE t (x); DROP TABLE t");  // pages, no tables
@@ -183,7 +183,7 @@ TEST_CASE("store: a file whose making was cut short is made anew") {
     CHECK(Store::open(path).values("reach").size() == 1);
 }
 
-TEST_CASE("store: one of a newer format is refused, and not touched") {
+TEST_CASE("store: a newer format is refused and not changed") {
     const TemporaryFolder folder;
     const std::string path = folder.path("s.db");
     { two_points(path); }
@@ -192,7 +192,7 @@ TEST_CASE("store: one of a newer format is refused, and not touched") {
     CHECK_THROWS_AS(Store::open_to_write(path), InputError);
 }
 
-TEST_CASE("store: a question in SQL is answered, and may not change anything") {
+TEST_CASE("store: an SQL query is answered, and may not change anything") {
     const TemporaryFolder folder;
     const std::string path = folder.path("s.db");
     {
@@ -211,7 +211,7 @@ TEST_CASE("store: a question in SQL is answered, and may not change anything") {
     CHECK(store.runs().size() == 1);
 }
 
-TEST_CASE("store: a question reads, and writes no file, attaches none, and sets nothing") {
+TEST_CASE("store: an SQL query reads, and cannot write, attach or set anything") {
     const TemporaryFolder folder;
     const std::string path = folder.path("s.db"), other = folder.path("other.db");
     { two_points(path); }
@@ -237,7 +237,7 @@ TEST_CASE("store: a question reads, and writes no file, attaches none, and sets 
     CHECK(store.points().size() == 2);
 }
 
-TEST_CASE("merge: takes what is missing or failed here, and leaves what is finished") {
+TEST_CASE("merge: copies runs that are missing or failed, and keeps finished ones") {
     const TemporaryFolder folder;
     const std::string shard = folder.path("shard.db");
     {

@@ -64,20 +64,20 @@ std::string id_of(const std::string& text, const ScenarioOptions& options = {}) 
 
 }  // namespace
 
-TEST_CASE("study: the points are all combinations, the last key's values first") {
+TEST_CASE("study: points are all combinations, and the last key varies fastest") {
     CHECK(points_of("vary.a = [1, 2]\nvary.b = [\"x\", \"y\", \"z\"]") ==
           Texts{"a=1, b=x", "a=1, b=y", "a=1, b=z", "a=2, b=x", "a=2, b=y", "a=2, b=z"});
     CHECK(points_of("") == Texts{"the scenario as it is"});
 }
 
-TEST_CASE("study: keys of a zip go together, wherever they stand") {
+TEST_CASE("study: keys of a zip vary together, in any position") {
     CHECK(points_of("vary.a = [1, 2]\nvary.b = [7, 8]\nvary.c = [3, 4]\nzip = [[\"a\", \"c\"]]") ==
           Texts{"a=1, b=7, c=3", "a=1, b=8, c=3", "a=2, b=7, c=4", "a=2, b=8, c=4"});
     CHECK(points_of("vary.a = [1, 2]\nvary.b = [7, 8]\nvary.c = [3, 4]\nzip = [[\"c\", \"a\", "
                     "\"b\"]]") == Texts{"a=1, b=7, c=3", "a=2, b=8, c=4"});
 }
 
-TEST_CASE("study: a point is left out if all keys of an exclusion have one of its values") {
+TEST_CASE("study: a point is skipped if all keys of an exclusion have one of its values") {
     CHECK(points_of("vary.a = [1, 2, 3]\nvary.b = [7, 8]\nexclude = [{ a = [1, 3], b = 8 }]") ==
           Texts{"a=1, b=7", "a=2, b=7", "a=2, b=8", "a=3, b=7"});
     CHECK(points_of("vary.a = [1, 2]\nvary.b = [7, 8]\nexclude = [{ a = 1 }, { b = 8 }]") ==
@@ -86,7 +86,7 @@ TEST_CASE("study: a point is left out if all keys of an exclusion have one of it
                          doctest::Contains("leaves no point"), InputError);
 }
 
-TEST_CASE("study: a range has both ends and no digits of rounding") {
+TEST_CASE("study: a range includes both ends, without rounding digits") {
     CHECK(points_of("vary.a = { from = 0, to = 0.5, step = 0.1 }") ==
           Texts{"a=0.0", "a=0.1", "a=0.2", "a=0.3", "a=0.4", "a=0.5"});
     CHECK(points_of("vary.a = { from = 0, to = 0.3, step = 0.1 }") ==  // 0.3 / 0.1 is below 3
@@ -98,14 +98,14 @@ TEST_CASE("study: a range has both ends and no digits of rounding") {
     CHECK(points_of("vary.a = { from = 2, to = 2, step = 1 }") == Texts{"a=2"});
 }
 
-TEST_CASE("study: paths may be written in quotes or as keys of keys") {
+TEST_CASE("study: paths may be written in quotes or as nested keys") {
     CHECK(points_of("vary.\"a.b\" = [1]\nvary.c.d = [2]\n[study.vary.e]\nf = [3]") ==
           Texts{"a.b=1, c.d=2, e.f=3"});
     // A path that ends in one of the words of a range is a path if its value is a list.
     CHECK(points_of("vary.traffic.0.from = [\"A\"]") == Texts{"traffic.0.from=A"});
 }
 
-TEST_CASE("study: a million points are listed, more are an error") {
+TEST_CASE("study: a million points are accepted, more are an error") {
     const std::string range = " = { from = 1, to = 1000, step = 1 }\n";
     CHECK(points_of("vary.a" + range + "vary.b" + range).size() == 1'000'000);
     CHECK_THROWS_WITH_AS(points_of("vary.a" + range + "vary.b" + range + "vary.c = [1, 2]"),
@@ -125,7 +125,7 @@ TEST_CASE("study: a point's scenario has its values, and its replication") {
     CHECK(study.scenario(0, 0).robots[1].count == 3);
 }
 
-TEST_CASE("study: a mistake in what varies is an error before anything runs, at its place") {
+TEST_CASE("study: an error in a varied value is reported before any run, with its position") {
     const auto wrong = [](const std::string& keys) {
         return error_of(two_robots + "[study]\n" + keys);
     };
@@ -142,7 +142,7 @@ TEST_CASE("study: a mistake in what varies is an error before anything runs, at 
         std::string::npos);
 }
 
-TEST_CASE("study: a value that is listed twice is an error at its place") {
+TEST_CASE("study: a value listed twice is an error with its position") {
     const auto wrong = [](const std::string& keys) {
         return error_of(two_robots + "[study]\n" + keys);
     };
@@ -162,14 +162,14 @@ TEST_CASE("study: a value that is listed twice is an error at its place") {
     CHECK(wrong(twice + "[2, 2]\n" + zip).find("s.toml:17:30: ") != std::string::npos);
 }
 
-TEST_CASE("study: a metric that no run has is an error at its place, with what is near") {
+TEST_CASE("study: an unknown metric is an error with its position and a suggestion") {
     const std::string text =
         error_of(two_robots + "[study]\nmetrics = [\"reach\", \"delivery_ration\"]");
     CHECK(text.find("s.toml:17:21: there is no metric \"delivery_ration\"") != std::string::npos);
     CHECK(text.ends_with("did you mean \"delivery_ratio\"?"));
 }
 
-TEST_CASE("study: what changes a result changes a point's id, and nothing else does") {
+TEST_CASE("study: a point's id changes exactly if a change affects results") {
     const std::string id = id_of(two_robots);
     CHECK(id.size() == 16);
     CHECK(id_of(two_robots) == id);
@@ -189,7 +189,7 @@ TEST_CASE("study: what changes a result changes a point's id, and nothing else d
     CHECK(ids.insert(id_of(two_robots + "[study]\nmetrics = [\"reach\"]")).second);
 }
 
-TEST_CASE("study: the routing protocol varies, with keys of each in one table") {
+TEST_CASE("study: the routing protocol varies, with keys of each protocol in one table") {
     const TemporaryFolder folder;
     const std::string text = two_robots + R"([study]
 vary."routing.protocol" = ["flood", "aodv"]
@@ -208,7 +208,7 @@ vary."routing.protocol" = ["flood", "aodv"]
           std::string::npos);
 }
 
-TEST_CASE("study: another map under the same name is another point") {
+TEST_CASE("study: a different map under the same name is a different point") {
     const TemporaryFolder folder;
     const std::string path = folder.write(
         "s.toml", "[scene]\nmap = \"m.pgm\"\nsize = [\"20 m\", \"20 m\"]\n" + two_robots);
@@ -220,7 +220,7 @@ TEST_CASE("study: another map under the same name is another point") {
     CHECK(id("255 255 255 255") != id("255 255 255 0"));
 }
 
-TEST_CASE("study: other materials in the file beside the map are another point") {
+TEST_CASE("study: different materials in the file beside the map are a different point") {
     const TemporaryFolder folder;
     folder.write("m.pgm", "P2 2 2 255 0 255 255 255");
     const std::string path = folder.write(
@@ -234,7 +234,7 @@ TEST_CASE("study: other materials in the file beside the map are another point")
     CHECK(id("3 dB") != id("4 dB"));
 }
 
-TEST_CASE("study: scenes of closed doors are made once for all points that have them") {
+TEST_CASE("study: scenes with closed doors are shared by all points that have them") {
     const TemporaryFolder folder;
     folder.write("m.pgm", "P2 2 2 255 255 255 255 255");
     const std::string door =
@@ -252,7 +252,7 @@ TEST_CASE("study: scenes of closed doors are made once for all points that have 
           of_first->front().scene);
 }
 
-TEST_CASE("study: another movement file under the same name is another point") {
+TEST_CASE("study: a different movement file under the same name is a different point") {
     const TemporaryFolder folder;
     const std::string path =
         folder.write("s.toml", "[movement]\nfile = \"m.tcl\"\n[propagation]\nmodel = \"friis\"\n");

@@ -77,7 +77,7 @@ std::string message_of(const Bench& bench, const std::vector<std::string>& set =
 
 }  // namespace
 
-TEST_CASE("sweep: every replication of every point runs once, and again it is all there") {
+TEST_CASE("sweep: every replication of every point runs once, and a second sweep runs nothing") {
     const Bench bench(scattered + study_keys);
     const SweepResult first = bench.sweep();
     CHECK(first.progress.finished == 6);
@@ -90,7 +90,7 @@ TEST_CASE("sweep: every replication of every point runs once, and again it is al
     CHECK(bench.csv() == csv);
 }
 
-TEST_CASE("sweep: a run is what a network of its own gives") {
+TEST_CASE("sweep: a run equals that of a separate network") {
     const Bench bench(scattered + study_keys);
     bench.sweep();
     const Store store = Store::open(bench.store());
@@ -104,7 +104,7 @@ TEST_CASE("sweep: a run is what a network of its own gives") {
     }
 }
 
-TEST_CASE("sweep: a run leaves out its warm-up, and says how long that was") {
+TEST_CASE("sweep: a run excludes its warm-up, and stores its length") {
     const Bench bench(scattered + "every = \"500 ms\"\n");
     KeptPlanners kept;
     const auto value = [&](const std::vector<std::string>& set, const std::string& name) {
@@ -118,14 +118,14 @@ TEST_CASE("sweep: a run leaves out its warm-up, and says how long that was") {
     CHECK(value({"study.warmup=1"}, "warmup_s") == 1);
 }
 
-TEST_CASE("sweep: the results are the same bytes from one worker and from five") {
+TEST_CASE("sweep: results have the same bytes from one worker and from five") {
     const Bench one(scattered + study_keys), five(scattered + study_keys);
     one.sweep({.workers = 1});
     five.sweep({.workers = 5});
     CHECK(one.csv() == five.csv());
 }
 
-TEST_CASE("sweep: ways of a replication are searched for once, by any number of workers") {
+TEST_CASE("sweep: paths of a replication are searched once, by any number of workers") {
     const std::string walk = R"([scenario]
 duration = "60 s"
 [scene]
@@ -166,7 +166,7 @@ vary."propagation.model" = ["friis", "log_distance", "two_ray"]
     }
 }
 
-TEST_CASE("sweep: the same replication at two points has the same robots in the same places") {
+TEST_CASE("sweep: equal replications at two points have equal robots and positions") {
     // The larger range reaches at least those that the smaller one does.
     const Bench bench(scattered + study_keys);
     bench.sweep({}, {"study.replications=10"});
@@ -183,7 +183,7 @@ TEST_CASE("sweep: the same replication at two points has the same robots in the 
     CHECK(differ);  // from one replication to the next
 }
 
-TEST_CASE("sweep: more values and more replications go on with what is there") {
+TEST_CASE("sweep: more values and replications extend the existing runs") {
     const Bench bench(scattered + study_keys);
     bench.sweep();
     const SweepResult more =
@@ -197,7 +197,7 @@ TEST_CASE("sweep: more values and more replications go on with what is there") {
     CHECK(bench.csv() == whole.csv());
 }
 
-TEST_CASE("sweep: another scenario or version does not mix with what is there") {
+TEST_CASE("sweep: a different scenario or version is not mixed with existing runs") {
     const Bench bench(scattered + study_keys);
     bench.sweep();
     const std::string csv = bench.csv();
@@ -215,7 +215,7 @@ TEST_CASE("sweep: another scenario or version does not mix with what is there") 
     CHECK(bench.csv() == csv);
 }
 
-TEST_CASE("sweep: a run that fails is kept with its reason, and tried again the next time") {
+TEST_CASE("sweep: a failed run is stored with its reason, and repeated by the next sweep") {
     const Bench bench(scattered + study_keys);
     // The event limit is met by the larger range only.
     std::uint64_t most = 0, least = 1'000'000;
@@ -239,7 +239,7 @@ TEST_CASE("sweep: a run that fails is kept with its reason, and tried again the 
     CHECK(fast.stopped == (fast.progress.left > 0));
 }
 
-TEST_CASE("sweep: a run that takes too long is tried twice, and costs only itself") {
+TEST_CASE("sweep: a run that takes too long is tried twice, and affects only itself") {
     const Bench bench(scattered + "[[traffic]]\nfrom = \"r0\"\nsize = \"9 B\"\nevery = \"1 ms\"\n" +
                       "[study]\nvary.\"scenario.duration\" = [\"10 ms\", \"1e8 s\"]\n");
     const SweepResult result = bench.sweep({.workers = 2, .limits = {.timeout_s = 3, .memory = {}}},
@@ -249,7 +249,7 @@ TEST_CASE("sweep: a run that takes too long is tried twice, and costs only itsel
     CHECK(result.failure->error.find("took longer than 3 s") != std::string::npos);
 }
 
-TEST_CASE("sweep: stopped, it finishes what runs and keeps it; then it goes on to the same end") {
+TEST_CASE("sweep: after a stop it stores running runs, and later continues to the same result") {
     const Bench bench(scattered + study_keys), whole(scattered + study_keys);
     whole.sweep();
     SweepOptions options{.workers = 1};
@@ -269,7 +269,7 @@ TEST_CASE("sweep: stopped, it finishes what runs and keeps it; then it goes on t
     CHECK(at_once.csv() == whole.csv());
 }
 
-TEST_CASE("sweep: shards are the whole when they are together") {
+TEST_CASE("sweep: all shards together give the whole study") {
     const Bench bench(scattered + study_keys);
     std::uint64_t finished = 0;
     for (std::uint64_t i = 0; i < 3; ++i) {
@@ -282,7 +282,7 @@ TEST_CASE("sweep: shards are the whole when they are together") {
     CHECK(bench.csv() == whole.csv());
 }
 
-TEST_CASE("sweep: the states of the runs are in the order that shards divide") {
+TEST_CASE("sweep: states of runs are in the order by which shards divide them") {
     const Bench bench(scattered + study_keys);
     bench.sweep({.workers = 1, .shard = Shard{1, 2}});
     Study study = bench.study();
@@ -298,7 +298,7 @@ TEST_CASE("sweep: the states of the runs are in the order that shards divide") {
     CHECK(finished_runs(store).size() == 2);
 }
 
-TEST_CASE("sweep: runs that another store has are not made again") {
+TEST_CASE("sweep: runs in another store are not repeated") {
     const Bench bench(scattered + study_keys), other(scattered + study_keys);
     other.sweep({.workers = 1, .shard = Shard{0, 4}});
     const SweepResult rest = bench.sweep({.elsewhere = finished_runs(Store::open(other.store()))});
@@ -314,7 +314,7 @@ TEST_CASE("sweep: runs that another store has are not made again") {
     CHECK(bench.csv() == whole.csv());
 }
 
-TEST_CASE("sweep: precision repeats each point until its interval is narrow, however it runs") {
+TEST_CASE("sweep: with precision each point is repeated until its interval is narrow") {
     const Bench bench(scattered + study_keys);
     const std::vector<std::string> wanted = {"study.precision=0.1", "study.max_replications=40"};
     bench.sweep({.workers = 3}, wanted);
@@ -329,7 +329,7 @@ TEST_CASE("sweep: precision repeats each point until its interval is narrow, how
     CHECK(one.csv() == bench.csv());
 }
 
-TEST_CASE("sweep: a point that does not reach its precision is told, with what it reached") {
+TEST_CASE("sweep: a point that does not reach its precision is reported with its interval") {
     const Bench bench(scattered + study_keys);
     const std::vector<std::string> wanted = {"study.precision=0.01", "study.max_replications=8"};
     const SweepResult result = bench.sweep({.workers = 3}, wanted);
@@ -343,7 +343,7 @@ TEST_CASE("sweep: a point that does not reach its precision is told, with what i
     CHECK(bench.sweep({}).imprecise.empty());
 }
 
-TEST_CASE("sweep: precision asks no more of a point of which a run failed") {
+TEST_CASE("sweep: precision adds no runs to a point with a failed run") {
     const Bench bench(scattered + study_keys);
     const SweepResult result = bench.sweep(
         {}, {"study.precision=1e-9", "study.max_replications=50", "scenario.event_limit=1"});
@@ -351,7 +351,7 @@ TEST_CASE("sweep: precision asks no more of a point of which a run failed") {
     CHECK_FALSE(result.stopped);
 }
 
-TEST_CASE("explain: the command that makes a run again has the sweep's options and the point's") {
+TEST_CASE("explain: the command that repeats a run has the options of the sweep and the point") {
     const Bench bench(scattered + study_keys);
     bench.sweep({}, {"scenario.name=it's"});
     const Store store = Store::open(bench.store());

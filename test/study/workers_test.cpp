@@ -42,7 +42,7 @@ std::map<std::uint64_t, TaskEnd> all(Workers& workers, std::uint64_t tasks) {
 
 }  // namespace
 
-TEST_CASE("workers: every task is answered once, by as many processes as there may be") {
+TEST_CASE("workers: every task is answered once, by at most the given number of processes") {
     Workers workers(3, [](std::uint64_t task) { return fmt::format("{} {}", task, getpid()); }, {});
     const auto ends = all(workers, 100);
     std::map<std::string, int> by_process;
@@ -56,7 +56,7 @@ TEST_CASE("workers: every task is answered once, by as many processes as there m
     CHECK(workers.busy() == 0);
 }
 
-TEST_CASE("workers: an answer of many megabytes comes whole") {
+TEST_CASE("workers: a result of many megabytes arrives complete") {
     Workers workers(
         2, [](std::uint64_t task) { return std::string(20'000'000, task == 0 ? 'a' : 'b'); }, {});
     const auto ends = all(workers, 2);
@@ -64,7 +64,7 @@ TEST_CASE("workers: an answer of many megabytes comes whole") {
     CHECK(ends.at(1).text == std::string(20'000'000, 'b'));
 }
 
-TEST_CASE("workers: what a task throws is its end, and its process goes on") {
+TEST_CASE("workers: an exception ends the task, and its process continues") {
     Workers workers(1,
                     [](std::uint64_t task) -> std::string {
                         if (task == 1) throw std::runtime_error("no such luck");
@@ -77,7 +77,7 @@ TEST_CASE("workers: what a task throws is its end, and its process goes on") {
     CHECK(ends.at(0).text == ends.at(2).text);
 }
 
-TEST_CASE("workers: a crash costs its task only, and says its last words") {
+TEST_CASE("workers: a crash affects only its task, and reports its last output") {
     Workers workers(1,
                     [](std::uint64_t task) -> std::string {
                         if (task == 1) {
@@ -102,7 +102,7 @@ TEST_CASE("workers: a crash costs its task only, and says its last words") {
     CHECK(ends.at(3).text == "well");
 }
 
-TEST_CASE("workers: a task that takes too long is ended, while others go on") {
+TEST_CASE("workers: a task that takes too long is killed, while others continue") {
     Workers workers(2,
                     [](std::uint64_t task) -> std::string {
                         if (task == 0) {
@@ -117,7 +117,7 @@ TEST_CASE("workers: a task that takes too long is ended, while others go on") {
     for (std::uint64_t task = 1; task < 20; ++task) CHECK(ends.at(task).text == "well");
 }
 
-TEST_CASE("workers: a task that wants too much memory dies alone") {
+TEST_CASE("workers: a task that needs too much memory fails alone") {
     if (test::has_address_sanitizer) return;  // whose shadow memory is more than any limit
     Workers workers(
         1,
@@ -131,7 +131,7 @@ TEST_CASE("workers: a task that wants too much memory dies alone") {
     CHECK(ends.at(2).text == "1");
 }
 
-TEST_CASE("workers: one that died between its tasks is found and replaced") {
+TEST_CASE("workers: a worker that died between tasks is detected and replaced") {
     Workers workers(1, [](std::uint64_t) { return std::to_string(getpid()); }, {});
     workers.begin(0, 0);
     const pid_t pid = std::stoi(workers.wait(long_enough_s)->text);
@@ -142,7 +142,7 @@ TEST_CASE("workers: one that died between its tasks is found and replaced") {
     CHECK(workers.wait(long_enough_s)->kind == TaskEnd::done);
 }
 
-TEST_CASE("workers: waiting ends when its time is over, and there is nothing to tell") {
+TEST_CASE("workers: waiting ends after its time without a result") {
     Workers workers(1,
                     [](std::uint64_t) -> std::string {
                         for (;;) pause();
@@ -155,7 +155,7 @@ TEST_CASE("workers: waiting ends when its time is over, and there is nothing to 
     CHECK(workers.idle().empty());
 }
 
-TEST_CASE("workers: they do not outlive the process that they work for") {
+TEST_CASE("workers: do not outlive their parent process") {
     int pids[2];
     REQUIRE(pipe(pids) == 0);
     const pid_t supervisor = fork();
@@ -185,7 +185,7 @@ TEST_CASE("workers: they do not outlive the process that they work for") {
     CHECK(gone);
 }
 
-TEST_CASE("workers: a task is made by the worker that it is given to") {
+TEST_CASE("workers: a task is executed by the given worker") {
     Workers workers(3, [](std::uint64_t) { return std::to_string(getpid()); }, {});
     std::map<std::size_t, std::set<std::string>> processes;
     for (int i = 0; i < 9; ++i) {

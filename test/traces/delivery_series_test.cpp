@@ -11,7 +11,7 @@ namespace delivery_series_test {
 using namespace rovernet;
 using namespace rovernet::testing;
 
-TEST_CASE("delivery series: packets that no application sent leave the series as it is") {
+TEST_CASE("delivery series: packets that no application sent do not change the series") {
     Stream stream;
     const auto series = std::make_shared<DeliverySeries>();
     stream.sinks = {series};

@@ -48,17 +48,17 @@ struct Run {
 
 }  // namespace
 
-TEST_CASE("fingerprint: of nothing it is XXH64 of no bytes") {
+TEST_CASE("fingerprint: without records it is XXH64 of no bytes") {
     CHECK(Fingerprint{}.text() == "ef46db3751d8e999");  // the reference value of xxHash
     CHECK(Fingerprint{}.value() == 0xef46db3751d8e999);
 }
 
 // The value is that of another implementation of XXH64, fed with the bytes that the header lists.
-TEST_CASE("fingerprint: pinned for one record of each kind") {
+TEST_CASE("fingerprint: is pinned for one record of each kind") {
     CHECK(Run{}.text() == "d05f6eb83126bfae");
 }
 
-TEST_CASE("fingerprint: any field that it covers changes it") {
+TEST_CASE("fingerprint: changes with every covered field") {
     const std::function<void(Run&)> changes[] = {
         [](Run&) {},
         [](Run& r) { r.message.origin = {3}; },
@@ -106,7 +106,7 @@ TEST_CASE("fingerprint: any field that it covers changes it") {
     CHECK(seen.size() == std::size(changes));
 }
 
-TEST_CASE("fingerprint: who listens, slots, keys and payloads do not change it") {
+TEST_CASE("fingerprint: listeners, slots, keys and payloads do not change it") {
     Run run;
     run.sent.reachable.reset();
     run.message.payload = "other";
@@ -116,7 +116,7 @@ TEST_CASE("fingerprint: who listens, slots, keys and payloads do not change it")
     CHECK(run.text() == Run{}.text());
 }
 
-TEST_CASE("fingerprint: the same however the receptions of a transmission are cut") {
+TEST_CASE("fingerprint: does not depend on the division of receptions") {
     Run whole;
     Stream stream;
     stream.messages.add(whole.message);

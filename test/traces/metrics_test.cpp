@@ -36,7 +36,7 @@ struct LineOfFour : Measured {
 
 }  // namespace
 
-TEST_CASE("metrics: nothing sent, nothing to divide by") {
+TEST_CASE("metrics: without messages there is no division by 0") {
     const auto v = Metrics{}.values();
     CHECK(v.messages == 0);
     CHECK_FALSE(v.delivery_ratio);
@@ -47,7 +47,7 @@ TEST_CASE("metrics: nothing sent, nothing to divide by") {
     CHECK(v.hops.empty());
 }
 
-TEST_CASE("metrics: a flood of ttl 2 along a line of four, counted by hand") {
+TEST_CASE("metrics: a flood of ttl 2 along a line of four equals a manual count") {
     const auto v = LineOfFour{}.values();
     CHECK(v.messages == 1);
     CHECK(v.transmissions == 2);
@@ -65,7 +65,7 @@ TEST_CASE("metrics: a flood of ttl 2 along a line of four, counted by hand") {
     CHECK(v.hops == std::vector<std::uint64_t>{0, 1, 1});
 }
 
-TEST_CASE("metrics: the origin's own transmissions and a robot's second ones save nothing") {
+TEST_CASE("metrics: transmissions of the origin, and repeated ones, save nothing") {
     LineOfFour run;  // the thesis's rule: everybody forwards every copy
     const MessageId m{0};
     run.transmit(at(4'000), frame(m, a, 0, 3), b);
@@ -76,7 +76,7 @@ TEST_CASE("metrics: the origin's own transmissions and a robot's second ones sav
     CHECK(run.values().saved_rebroadcasts == 0.0);
 }
 
-TEST_CASE("metrics: a new message in the slot of an old one has relays of its own") {
+TEST_CASE("metrics: a new message in a reused slot has its own relays") {
     LineOfFour run;
     REQUIRE(run.messages.release(MessageId{0}));
     const auto m = run.send(at(9'000), a, 2);
@@ -89,7 +89,7 @@ TEST_CASE("metrics: a new message in the slot of an old one has relays of its ow
     CHECK(v.delivery_ratio == 3.0 / 6);
 }
 
-TEST_CASE("metrics: a radio that is off decodes nothing, and loses the copy that waits") {
+TEST_CASE("metrics: a radio that is off decodes nothing, and loses its waiting copy") {
     LineOfFour run;
     const MessageId m{0};
     run.receive(frame(m, b, 1, 2), {{at(4'000), d, Fate::off, false}});
@@ -99,14 +99,14 @@ TEST_CASE("metrics: a radio that is off decodes nothing, and loses the copy that
     CHECK(v.drops[2] == DropCount{"SLP", 2});
 }
 
-TEST_CASE("metrics: robots count as destinations from when they are there") {
+TEST_CASE("metrics: robots count as destinations once they have joined") {
     LineOfFour run;
     run.place(Vec3{});
     run.send(at(9'000), a, 2);
     CHECK(run.values().delivery_ratio == 2.0 / (3 + 4));
 }
 
-TEST_CASE("metrics: a single robot has nobody to deliver to") {
+TEST_CASE("metrics: a single robot has no destination") {
     Measured run;
     run.place(Vec3{});
     run.send(at(0), a, 2, 64, 0);
@@ -115,7 +115,7 @@ TEST_CASE("metrics: a single robot has nobody to deliver to") {
     CHECK_FALSE(run.values().reach);
 }
 
-TEST_CASE("metrics: percentiles of 1 ... 20 ns by nearest rank, in whatever order they come") {
+TEST_CASE("metrics: percentiles of 1 ... 20 ns are by nearest rank, in any order") {
     Measured run;
     for (int i = 0; i < 21; ++i) run.place(Vec3{});
     const auto m = run.send(at(0), a, 1);
@@ -129,7 +129,7 @@ TEST_CASE("metrics: percentiles of 1 ... 20 ns by nearest rank, in whatever orde
     CHECK(latency.mean == 10.5e-9);
 }
 
-TEST_CASE("metrics: asks the network for what can be reached") {
+TEST_CASE("metrics: request the number of reachable robots from the network") {
     constexpr KindMask both = kind_reachable | kind_cheap_reachable;
     const auto asks = [](std::optional<bool> reach) {
         return Metrics(start_of_run, {.reach = reach}).kinds() & both;
@@ -139,7 +139,7 @@ TEST_CASE("metrics: asks the network for what can be reached") {
     CHECK(asks(false) == 0);
 }
 
-TEST_CASE("metrics: the same to the last digit however the receptions are cut") {
+TEST_CASE("metrics: do not depend on the division of receptions, to the last digit") {
     struct Cut {
         Sink target;
         KindMask kinds() const { return target.kinds(); }
@@ -176,7 +176,7 @@ TEST_CASE("metrics: every reason of a drop is counted under its own code") {
     });
 }
 
-TEST_CASE("metrics: a packet that no application sent takes over nothing from the message before") {
+TEST_CASE("metrics: a control packet does not inherit counts of the message before") {
     Measured run;
     for (int i = 0; i < 3; ++i) run.place(Vec3{10.0 * i, 0, 0});
     const auto m = run.send(at(0), a, 2, 64, 2);

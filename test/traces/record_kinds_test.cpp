@@ -229,7 +229,7 @@ TEST_CASE("kinds of records: rows, names and channels are those of the kind") {
 }
 
 // The layouts are those of format 4, which readers elsewhere were written for.
-TEST_CASE("kinds of records: layouts in recorded traces") {
+TEST_CASE("kinds of records: layouts of recorded traces are pinned") {
     const std::vector<RecordedKind> kinds = recorded_kinds();
     const std::string frame = "message:v sender:v ttl:v hops:v next_hop:node?";
     const std::string air = frame + " heard_from:node? kind:b attempt:b number:v reserved:z";

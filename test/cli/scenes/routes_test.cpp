@@ -65,7 +65,7 @@ Json route(const Json& all, std::size_t robot, const std::string& destination) {
 
 }  // namespace
 
-TEST_CASE("routes: the tables of a row of robots lead from one to the next") {
+TEST_CASE("routes: the routing tables of robots in a row lead from one robot to the next") {
     const TemporaryFolder folder;
     const std::string file = folder.write("row.toml", row);
     const Json all = json_of(folder, {"routes", file, "--at", "5s"});
@@ -88,7 +88,7 @@ TEST_CASE("routes: the tables of a row of robots lead from one to the next") {
     CHECK(route(all, 4, "n0")["hops"] == 4);
 }
 
-TEST_CASE("routes: a broken route says so") {
+TEST_CASE("routes: a broken route is marked as broken") {
     const TemporaryFolder folder;
     const std::string file = folder.write("row.toml", row);
     const Json all = json_of(folder, {"routes", file, "--at", "7s", "--robot", "n2"});
@@ -98,7 +98,7 @@ TEST_CASE("routes: a broken route says so") {
     CHECK(route(all, 0, "n0")["state"] == "valid");
 }
 
-TEST_CASE("routes: the CSV has a line for each route, the text the same") {
+TEST_CASE("routes: the CSV has a line for each route, and agrees with the text") {
     const TemporaryFolder folder;
     const std::string file = folder.write("row.toml", row);
     const Ended csv = command(folder, {"routes", file, "--at", "5s", "--csv"});
@@ -117,7 +117,7 @@ TEST_CASE("routes: the CSV has a line for each route, the text the same") {
     CHECK(begin.out == "n2 has no routes at 0 s\n");
 }
 
-TEST_CASE("routes: what cannot be shown is an error that says what can") {
+TEST_CASE("routes: an impossible request is an error that says what is possible") {
     const TemporaryFolder folder;
     const std::string file = folder.write("row.toml", row);
     const auto refusal = [&](std::vector<std::string> more, int exit) {
@@ -140,7 +140,8 @@ TEST_CASE("routes: what cannot be shown is an error that says what can") {
     CHECK(refusal({"--at", "5s", "--csv", "--json"}, 2).find("excludes") != std::string::npos);
 }
 
-TEST_CASE("draw --routes, --search: the picture, and what cannot be drawn") {
+TEST_CASE(
+    "draw --routes, --search: the picture shows the route and the search; errors are reported") {
     const TemporaryFolder folder;
     const std::string file = folder.write("row.toml", row);
     const auto draw = [&](std::vector<std::string> more) {

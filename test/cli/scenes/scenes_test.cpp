@@ -81,7 +81,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("links: a robot's table says who it hears, at what level, and what it is called") {
+TEST_CASE("links: the table of a robot lists the robots that it hears, with level and name") {
     const TemporaryFolder folder;
     folder.write("pair.toml", pair);
     const Json tables = json_of(folder, {"links", folder.path("pair.toml")});
@@ -101,7 +101,7 @@ TEST_CASE("links: a robot's table says who it hears, at what level, and what it 
     CHECK(a["links"].empty());      // B's -20 dBm arrive at -80.2 dBm; A needs -75
 }
 
-TEST_CASE("links: the text shows the same, and one robot's table can be asked for") {
+TEST_CASE("links: text and JSON agree, and --robot selects one table") {
     const TemporaryFolder folder;
     folder.write("pair.toml", pair);
     const Ended ended = command(folder, {"links", folder.path("pair.toml"), "--robot", "B"});
@@ -112,7 +112,7 @@ TEST_CASE("links: the text shows the same, and one robot's table can be asked fo
     CHECK(command(folder, {"links", folder.path("pair.toml"), "--robot", "C"}).exit == 2);
 }
 
-TEST_CASE("links: the history is a CSV with a line per change") {
+TEST_CASE("links: --history prints a CSV with a line for each link change") {
     const TemporaryFolder folder;
     folder.write("pair.toml", pair + "[propagation]\nmodel = \"disc\"\nrange = \"60 m\"\n");
     const Ended ended = command(folder, {"links", folder.path("pair.toml"), "--history"});
@@ -125,7 +125,7 @@ TEST_CASE("links: the history is a CSV with a line per change") {
     CHECK(lines[4] == "50.000000001,B,A,down");
 }
 
-TEST_CASE("where: positions, speeds and headings at several times") {
+TEST_CASE("where: prints positions, speeds and headings at several times") {
     const TemporaryFolder folder;
     folder.write("pair.toml", pair);
     const Json times =
@@ -163,7 +163,7 @@ TEST_CASE(
         2);
 }
 
-TEST_CASE("scene: a bare picture needs a size, and is then measured") {
+TEST_CASE("scene: an image without a size is refused; with a size it is described") {
     const TemporaryFolder folder;
     folder.write("m.png", wall_picture());
     const Ended without = command(folder, {"scene", folder.path("m.png")});
@@ -177,7 +177,7 @@ TEST_CASE("scene: a bare picture needs a size, and is then measured") {
     CHECK(near(scene["free_area_m2"], 112, 1e-9));
 }
 
-TEST_CASE("scene: a scenario's robots, and how links join them") {
+TEST_CASE("scene: describes the robots of a scenario and the links between them") {
     const TemporaryFolder folder;
     folder.write("line.toml", R"(robot = [{ name = "a", at = ["0 m", "0 m"] },
         { name = "b", at = ["9 m", "0 m"] }, { name = "c", at = ["18 m", "0 m"] },
@@ -195,7 +195,7 @@ range = "10 m"
     CHECK(scene["robots"][3]["x_m"] == 99.0);
 }
 
-TEST_CASE("scene: the diameter is that of the widest part, wherever its robots are in the list") {
+TEST_CASE("scene: the diameter is that of the widest connected part, in any order of robots") {
     const TemporaryFolder folder;
     folder.write("parts.toml", R"(robot = [{ name = "lone", at = ["500 m", "0 m"] },
         { name = "c", at = ["18 m", "0 m"] }, { name = "x", at = ["99 m", "0 m"] },
@@ -213,7 +213,7 @@ range = "10 m"
     CHECK(joined["links"] == 6);
 }
 
-TEST_CASE("worlds: a Stage world is a FILE everywhere") {
+TEST_CASE("worlds: a Stage world is accepted as FILE by every command") {
     const TemporaryFolder folder;
     folder.write("hall.png", hall_picture());
     folder.write("w.world", world);
@@ -230,8 +230,7 @@ TEST_CASE("worlds: a Stage world is a FILE everywhere") {
     CHECK(command(folder, {"run", file, "--out", folder.path("out")}).exit == 0);
 }
 
-TEST_CASE(
-    "worlds: a missing bitmap exits 3 and names every place tried; another can stand for it") {
+TEST_CASE("worlds: a missing bitmap is an error that lists all paths tried; --bitmap replaces it") {
     const TemporaryFolder folder;
     folder.write("other.png", hall_picture());
     folder.write("w.world", world);
@@ -244,7 +243,7 @@ TEST_CASE(
     CHECK(command(folder, {"links", file, "--lenient"}).exit == 0);
 }
 
-TEST_CASE("worlds: a scenario over a world adds to its robots by their names") {
+TEST_CASE("worlds: a scenario with a world overrides the world's robots by name") {
     const TemporaryFolder folder;
     folder.write("hall.png", hall_picture());
     folder.write("w.world", world);
@@ -276,7 +275,7 @@ payload = "F"
     CHECK(again.out == printed.out);
 }
 
-TEST_CASE("where: says who is not there, and answers in the order asked") {
+TEST_CASE("where: marks absent robots, and prints times in the given order") {
     const TemporaryFolder folder;
     folder.write("v.xml",
                  "<fcd-export>\n"
@@ -299,7 +298,7 @@ TEST_CASE("where: says who is not there, and answers in the order asked") {
     CHECK(scene["robots"][0]["on"] == false);
 }
 
-TEST_CASE("where, link, links, scene, draw: a time after the end of the run is a notice") {
+TEST_CASE("where, link, links, scene, draw: a time after the end of the run gives a notice") {
     const TemporaryFolder folder;
     folder.write("pair.toml", pair);
     const std::string file = folder.path("pair.toml");
@@ -318,7 +317,7 @@ TEST_CASE("where, link, links, scene, draw: a time after the end of the run is a
     }
 }
 
-TEST_CASE("draw: robots that only a movement file names, with or without a [[robot]] beside") {
+TEST_CASE("draw: robots of a movement file are drawn, with and without a [[robot]]") {
     const TemporaryFolder folder;
     folder.write("mv.tcl",
                  "$node_(0) set X_ 1\n$node_(0) set Y_ 2\n$node_(1) set X_ 50\n"
@@ -337,7 +336,7 @@ TEST_CASE("draw: robots that only a movement file names, with or without a [[rob
     }
 }
 
-TEST_CASE("draw: writes a whole picture or nothing, the same bytes each time") {
+TEST_CASE("draw: writes a complete picture or none, with the same bytes each time") {
     const TemporaryFolder folder;
     folder.write("pair.toml", pair);
     for (const std::string out : {"a.svg", "b.svg"}) {

@@ -43,7 +43,7 @@ std::size_t runs_in(const std::string& store) {
 
 }  // namespace
 
-TEST_CASE("advise: it prints verdicts, a sentence, and the choice for a scenario file") {
+TEST_CASE("advise: prints verdicts, a sentence, and the chosen models as a scenario file") {
     const Advised advised;
     const Ended text = command(advised.folder, advised.words({}));
     CAPTURE(text.err);
@@ -71,7 +71,7 @@ TEST_CASE("advise: it prints verdicts, a sentence, and the choice for a scenario
               .exit == 0);
 }
 
-TEST_CASE("advise: the advice is the same for any number of workers") {
+TEST_CASE("advise: the number of workers does not change the advice") {
     const Advised advised;
     const Json one = json_of(advised.folder, advised.words({"--workers", "1"}));
     const Json two = json_of(advised.folder, advised.words({"--workers", "2"}));
@@ -81,7 +81,7 @@ TEST_CASE("advise: the advice is the same for any number of workers") {
     CHECK(one["reference"]["path_loss"] == "two_ray");
 }
 
-TEST_CASE("advise: interrupted and gone on with, it is the same as in one go") {
+TEST_CASE("advise: interrupted and continued, gives the same advice as without interruption") {
     const Advised advised;
     const auto with_store = advised.words({"--store", advised.store(), "--workers", "1"});
     const Process first(advised.folder, with_store);
@@ -101,7 +101,7 @@ TEST_CASE("advise: interrupted and gone on with, it is the same as in one go") {
     CHECK(strict["criterion"] == "run");
 }
 
-TEST_CASE("advise: a budget that is spent and Ctrl-C end it with the interim verdict") {
+TEST_CASE("advise: at the end of the budget or at Ctrl-C, prints the preliminary verdict") {
     const Advised advised;
     const auto strict = [&](std::vector<std::string> more) {
         std::vector<std::string> words = advised.words({});
@@ -132,7 +132,7 @@ TEST_CASE("advise: a budget that is spent and Ctrl-C end it with the interim ver
     CHECK(command(advised.folder, strict({"--budget", "soon"})).exit == 2);
 }
 
-TEST_CASE("advise: with costs it says what each model takes, and draws error against cost") {
+TEST_CASE("advise: with costs, prints the CPU time of each model and draws error against cost") {
     const Advised advised;
     auto words = advised.words({"-o", advised.folder.path("advice.svg")});
     std::erase(words, "--no-cost");
@@ -145,7 +145,7 @@ TEST_CASE("advise: with costs it says what each model takes, and draws error aga
     CHECK(svg.find("two_ray + sinr") != std::string::npos);
 }
 
-TEST_CASE("advise: a metric without bounds needs a tolerance, and is judged by Student's looks") {
+TEST_CASE("advise: a metric without bounds needs --tolerance, and is tested by Student's t") {
     const Advised advised;
     const std::vector<std::string> metric = {"advise", advised.file, "--no-cost", "--metric",
                                              "transmissions"};
@@ -160,7 +160,7 @@ TEST_CASE("advise: a metric without bounds needs a tolerance, and is judged by S
     CHECK(json["advice"].get<std::string>().find("by Student's intervals") != std::string::npos);
 }
 
-TEST_CASE("advise: mistakes in options are told with what is expected") {
+TEST_CASE("advise: errors in options say what was expected") {
     const Advised advised;
     const auto error = [&](const std::vector<std::string>& more) {
         std::vector<std::string> words = {"advise", advised.file};

@@ -68,7 +68,8 @@ Json row(const Json& all, const std::string& metric, const std::string& protocol
 
 }  // namespace
 
-TEST_CASE("compare --protocols: deliveries, delays, loads and airtimes, with paired differences") {
+TEST_CASE(
+    "compare --protocols: prints deliveries, delays, loads, airtimes and paired differences") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", three);
     const Json all = json_of(folder, protocols(file, "flood,aodv"));
@@ -85,7 +86,7 @@ TEST_CASE("compare --protocols: deliveries, delays, loads and airtimes, with pai
     CHECK(row(all, "airtime_per_byte_us", "aodv")["mean"] > 0);
 }
 
-TEST_CASE("compare --protocols: airtimes are those of the frames") {
+TEST_CASE("compare --protocols: airtimes equal the airtimes of the frames") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", three);
     const Json all = json_of(folder, protocols(file, "flood,aodv"));
@@ -99,7 +100,7 @@ TEST_CASE("compare --protocols: airtimes are those of the frames") {
     CHECK(row(all, "airtime_per_byte_us", "flood")["n"] == 3);
 }
 
-TEST_CASE("compare --protocols: the notice on one hop, a table for each metric, a CSV, a picture") {
+TEST_CASE("compare --protocols: gives a notice on one hop, a table per metric, CSV and a picture") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", three);
     auto words = protocols(file, "aodv,flood");
@@ -123,7 +124,7 @@ TEST_CASE("compare --protocols: the notice on one hop, a table for each metric, 
     CHECK(csv.out.find("\nrouting_load,flood,,,,0,0,0,3,,") != std::string::npos);
 }
 
-TEST_CASE("compare --protocols: what cannot be compared ends at once") {
+TEST_CASE("compare --protocols: an impossible comparison ends at once with an error") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", three);
     const auto refusal = [&](const std::vector<std::string>& words) {
@@ -146,7 +147,7 @@ TEST_CASE("compare --protocols: what cannot be compared ends at once") {
     CHECK(refusal(words).find("excludes") != std::string::npos);
 }
 
-TEST_CASE("compare: a study that varies the protocol needs no --protocols") {
+TEST_CASE("compare: a study that varies the protocol is compared without --protocols") {
     const TemporaryFolder folder;
     const std::string file = folder.write(
         "s.toml",

@@ -14,7 +14,7 @@ namespace fit_test {
 using namespace rovernet;
 using namespace rovernet::test;
 
-TEST_CASE("fit: +- is half the 95 % interval by Student's t of groups - 1 degrees") {
+TEST_CASE("fit: the number after +- is half of Student's 95 % interval with groups - 1 degrees") {
     // Measured at three receivers: t(2) is 4.303, and not 1.96.
     const TemporaryFolder folder;
     const std::string file = folder.write("talkers.toml", talkers);
@@ -66,7 +66,7 @@ std::string levels_by(const std::vector<std::string>& receivers) {
 
 }  // namespace
 
-TEST_CASE("fit: groups are named by the column that made them, and one alone is in-sample") {
+TEST_CASE("fit: groups have the name of their column, and a single group is called in-sample") {
     const TemporaryFolder folder;
     const std::string file = folder.write("talkers.toml", talkers);
     const auto fitted = [&](const std::vector<std::string>& receivers) {
@@ -88,7 +88,7 @@ TEST_CASE("fit: groups are named by the column that made them, and one alone is 
     CHECK(has(one, "errors on the fitted links"));
 }
 
-TEST_CASE("fit: --gains prints the lines of a scenario file that hold them") {
+TEST_CASE("fit: --gains prints lines for the scenario file that contain the gains") {
     const TemporaryFolder folder;
     const std::string file =
         folder.write("s.toml", talkers + "[[robot]]\nname = \"AP\"\nat = [\"10 m\", \"0 m\"]\n");

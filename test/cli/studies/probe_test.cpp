@@ -44,7 +44,7 @@ at = ["14 m", "4.5 m"]
 
 }  // namespace
 
-TEST_CASE("probe: the text names the cliff, the flip and the message that is lost") {
+TEST_CASE("probe: the text names the cliff, the link that flips and the lost message") {
     const TemporaryFolder folder;
     const Ended ended = command(folder, {"probe", folder.write("rim.toml", rim)});
     CHECK(ended.exit == 0);
@@ -62,8 +62,7 @@ TEST_CASE("probe: the text names the cliff, the flip and the message that is los
     CHECK(all["effects"][0]["distance_m"] == 10);
 }
 
-TEST_CASE(
-    "probe: the document has the perturbations of a map, and no more effects than asked for") {
+TEST_CASE("probe: the JSON lists the perturbations of a map, and at most --top effects") {
     const TemporaryFolder folder;
     const Json all = json_of(folder, {"probe", with_map(folder)});
     CHECK(all["model"] == "raytrace_2007");
@@ -80,7 +79,7 @@ TEST_CASE(
     CHECK(one["messages"].empty());
 }
 
-TEST_CASE("probe: robots out of reach and counts that are none are errors in words") {
+TEST_CASE("probe: robots out of range and invalid counts are errors in words") {
     const TemporaryFolder folder;
     const std::string file = folder.write("rim.toml", rim);
     const Ended alone = command(folder, {"probe", file, "--set", "propagation.range=\"1 m\""});

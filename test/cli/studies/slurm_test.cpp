@@ -109,7 +109,7 @@ bool has(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("sweep on Slurm: tasks and their merge give what a local sweep gives") {
+TEST_CASE("sweep on Slurm: tasks and merge give the results of a local sweep") {
     const Cluster cluster;
     const Ended ended = cluster.submit({"--workers", "2", "--sbatch", "--partition=x --time=1:00"});
     CAPTURE(ended.err);
@@ -125,7 +125,7 @@ TEST_CASE("sweep on Slurm: tasks and their merge give what a local sweep gives")
     CHECK(has(cluster.submit().err, "nothing to submit"));
 }
 
-TEST_CASE("sweep on Slurm: a task that is lost is named, and the same command makes its runs") {
+TEST_CASE("sweep on Slurm: a lost task is named, and the same command repeats its runs") {
     const Cluster cluster;
     cluster.folder.write("bin/lost", "1");
     CHECK(cluster.submit().exit == 0);
@@ -140,7 +140,7 @@ TEST_CASE("sweep on Slurm: a task that is lost is named, and the same command ma
     CHECK(cluster.csv() == Cluster::local_csv());
 }
 
-TEST_CASE("sweep on Slurm: a task makes neither what the store has nor what its shard has") {
+TEST_CASE("sweep on Slurm: a task skips runs that are in the store or in its shard") {
     const Cluster cluster;
     CHECK(cluster.sweep({"--shard", "0", "--chunk", "3"}).exit == 0);
     fs::create_directories(cluster.shards());
@@ -159,7 +159,7 @@ TEST_CASE("sweep on Slurm: a task makes neither what the store has nor what its 
     CHECK(json["finished"] == 2);
 }
 
-TEST_CASE("sweep on Slurm: a dry run shows the scripts and their commands, and submits nothing") {
+TEST_CASE("sweep on Slurm: a dry run prints scripts and commands, and submits nothing") {
     const Cluster cluster;
     const Ended ended = cluster.submit({"--dry-run", "--seed", "3", "--replications", "3",
                                         "--timeout", "60 s", "--memory", "2GB", "--fail-fast"});
@@ -177,7 +177,7 @@ TEST_CASE("sweep on Slurm: a dry run shows the scripts and their commands, and s
     }
 }
 
-TEST_CASE("sweep on Slurm: with --json every answer is one document") {
+TEST_CASE("sweep on Slurm: with --json every result is one document") {
     const Cluster cluster;
     const Json shown = Json::parse(cluster.submit({"--dry-run", "--json"}).out);
     CHECK(shown["merge_script"] == content(cluster.store() + ".slurm/merge.sh"));
@@ -189,7 +189,7 @@ TEST_CASE("sweep on Slurm: with --json every answer is one document") {
     CHECK(Json::parse(cluster.submit({"--json"}).out)["tasks"] == 0);
 }
 
-TEST_CASE("sweep on Slurm: a dry run throws nothing away, and --fresh is not to be repeated") {
+TEST_CASE("sweep on Slurm: a dry run deletes nothing, and the printed command has no --fresh") {
     const Cluster cluster;
     CHECK(cluster.sweep({"--shard", "0", "--chunk", "5"}).exit == 0);
     const std::string kept = cluster.csv();
@@ -200,7 +200,7 @@ TEST_CASE("sweep on Slurm: a dry run throws nothing away, and --fresh is not to 
     CHECK_FALSE(has(fresh, "--fresh"));
 }
 
-TEST_CASE("sweep on Slurm: an sbatch that is not there or takes no job is told") {
+TEST_CASE("sweep on Slurm: a missing sbatch, or one that refuses the job, is reported") {
     const Cluster cluster;
     const Ended none = cluster.sweep({"--executor", "slurm"}, "/nowhere");
     CHECK(none.exit == 1);
@@ -220,7 +220,7 @@ TEST_CASE("sweep on Slurm: an sbatch that is not there or takes no job is told")
     CHECK(cluster.csv() == Cluster::local_csv());
 }
 
-TEST_CASE("sweep on Slurm: a run that fails is tried by every sweep") {
+TEST_CASE("sweep on Slurm: a failed run is repeated by every sweep") {
     const Cluster cluster;
     const std::vector<std::string> limit{"--set", "scenario.event_limit=1"};
     cluster.submit(limit);
@@ -230,7 +230,7 @@ TEST_CASE("sweep on Slurm: a run that fails is tried by every sweep") {
     CHECK(has(cluster.submit(limit).out, "job 77: "));
 }
 
-TEST_CASE("sweep on Slurm: what it cannot do together is refused") {
+TEST_CASE("sweep on Slurm: options that exclude each other are refused") {
     const Cluster cluster;
     CHECK(cluster.submit({"--shard", "1"}).exit == 2);
     CHECK(cluster.submit({"--merge", "x.db"}).exit == 2);
@@ -241,7 +241,7 @@ TEST_CASE("sweep on Slurm: what it cannot do together is refused") {
     CHECK_FALSE(fs::exists(cluster.store()));
 }
 
-TEST_CASE("sweep --merge: says in JSON what the store has, and ends with 4 until it has all") {
+TEST_CASE("sweep --merge: prints the state of the store as JSON, and exits with 4 until complete") {
     const Cluster cluster;
     for (const char* shard : {"0", "1"}) {
         const std::string store = std::string(shard) + ".db";
@@ -257,7 +257,7 @@ TEST_CASE("sweep --merge: says in JSON what the store has, and ends with 4 until
     CHECK(cluster.csv() == Cluster::local_csv());
 }
 
-TEST_CASE("sweep --fresh: shards that are not merged are thrown away too, if that is meant") {
+TEST_CASE("sweep --fresh: also deletes shards that are not merged, after confirmation") {
     const Cluster cluster;
     fs::create_directories(cluster.shards());
     CHECK(cluster.sweep({"--store", cluster.shards() + "/0.db"}).exit == 0);

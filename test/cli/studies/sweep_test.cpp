@@ -92,7 +92,7 @@ void wait_a_moment() { std::this_thread::sleep_for(std::chrono::milliseconds{1})
 
 }  // namespace
 
-TEST_CASE("sweep: a dry run lists every point, and makes nothing") {
+TEST_CASE("sweep: a dry run lists every point and runs nothing") {
     const Place place;
     const Ended ended = command(place.folder, {"sweep", place.file, "--dry-run"});
     CHECK(ended.exit == 0);
@@ -105,7 +105,7 @@ TEST_CASE("sweep: a dry run lists every point, and makes nothing") {
     CHECK(json["runs"] == 200);
 }
 
-TEST_CASE("sweep: a precision that is not reached ends with 4 and says what was, point by point") {
+TEST_CASE("sweep: exit code 4 if a precision is not reached, with the precision of each point") {
     const Place place;
     const std::vector<std::string> wanted = {"sweep",       place.file, "--replications",     "2",
                                              "--precision", "0.01",     "--max-replications", "4"};
@@ -127,7 +127,7 @@ TEST_CASE("sweep: a precision that is not reached ends with 4 and says what was,
     CHECK(coarse.exit == 0);
 }
 
-TEST_CASE("results: intervals are by STaR-Bets, a betting confidence sequence or t, as asked") {
+TEST_CASE("results: --interval selects STaR-Bets, a betting confidence sequence or t") {
     const Place place;
     json_of(place.folder, {"sweep", place.file, "--replications", "6"});
     const auto first = [&](std::vector<std::string> more) {
@@ -142,7 +142,7 @@ TEST_CASE("results: intervals are by STaR-Bets, a betting confidence sequence or
     CHECK(command(place.folder, {"results", place.store(), "--interval", "z"}).exit == 2);
 }
 
-TEST_CASE("sweep: the runs of a study come to a table, to CSV, and to an explanation") {
+TEST_CASE("sweep: the runs of a study appear in results, in CSV and in explain") {
     const Place place;
     const Json made = json_of(place.folder, {"sweep", place.file, "--replications", "6"});
     CHECK(made["finished"] == 30);
@@ -173,14 +173,14 @@ TEST_CASE("sweep: the runs of a study come to a table, to CSV, and to an explana
     CHECK(again["delivery_ratio"] == run["metrics"]["delivery_ratio"]);
 }
 
-TEST_CASE("sweep: few replications are warned of") {
+TEST_CASE("sweep: few replications give a warning") {
     const Place place;
     command(place.folder, {"sweep", place.file, "--replications", "2"});
     CHECK(command(place.folder, {"results", place.store()}).err.find("fewer than 5 replications") !=
           std::string::npos);
 }
 
-TEST_CASE("sweep: Ctrl-C ends it with what is finished and with the command to go on") {
+TEST_CASE("sweep: Ctrl-C keeps finished runs and prints the command that continues") {
     const Place place;
     const Process sweep(place.folder, {"sweep", place.file, "--workers", "2"});
     while (finished(place.store()).size() < 3) wait_a_moment();
@@ -197,7 +197,7 @@ TEST_CASE("sweep: Ctrl-C ends it with what is finished and with the command to g
     for (const auto& [id, making] : kept) CHECK(all.at(id) == making);
 }
 
-TEST_CASE("sweep: a second Ctrl-C does not wait for runs that never end") {
+TEST_CASE("sweep: a second Ctrl-C does not wait for endless runs") {
     const Place place(chatter + "[links]\n");
     const Process sweep(place.folder,
                         {"sweep", place.file, "--set", "scenario.duration=1e8", "--set",
@@ -209,7 +209,7 @@ TEST_CASE("sweep: a second Ctrl-C does not wait for runs that never end") {
     CHECK(sweep.stop().exit == 130);
 }
 
-TEST_CASE("sweep: killed 50 times, it loses nothing, repeats nothing, and ends the same") {
+TEST_CASE("sweep: killed 50 times, it loses and repeats no run, and gives the same results") {
     const std::vector<std::string> slow = {"--set", "scenario.duration=30"};
     const auto sweep_of = [&](const Place& p) {
         return std::vector<std::string>{"sweep", p.file, slow[0], slow[1]};
@@ -247,7 +247,7 @@ TEST_CASE("sweep: killed 50 times, it loses nothing, repeats nothing, and ends t
     CHECK(place.csv() == undisturbed.csv());
 }
 
-TEST_CASE("sweep: a worker that is killed costs nothing, as its run is made once more") {
+TEST_CASE("sweep: a run whose worker is killed is made once more") {
     const Place place;
     const Process sweep(place.folder, {"sweep", place.file, "--workers", "1", "--set",
                                        "scenario.duration=300", "--replications", "3"});
@@ -259,7 +259,7 @@ TEST_CASE("sweep: a worker that is killed costs nothing, as its run is made once
     CHECK(finished(place.store()).size() == 15);
 }
 
-TEST_CASE("compare: ways around walls are searched for once, by any number of workers") {
+TEST_CASE("compare: paths around walls are searched only once, by any number of workers") {
     const TemporaryFolder folder;
     std::string wall = "P1 20 20\n";
     for (int row = 0; row < 20; ++row)
@@ -298,7 +298,7 @@ replications = 5
     }
 }
 
-TEST_CASE("sweep: two at once on one store, and the second is told so") {
+TEST_CASE("sweep: of two sweeps on one store, the second gets an error") {
     const Place place;
     const Process first(place.folder, {"sweep", place.file, "--set", "scenario.duration=1e8",
                                        "--set", "scenario.event_limit=1000000000000"});
@@ -310,7 +310,7 @@ TEST_CASE("sweep: two at once on one store, and the second is told so") {
     CHECK(first.stop().exit == 130);
 }
 
-TEST_CASE("sweep: a full disk ends it with what was finished, and room lets it go on") {
+TEST_CASE("sweep: a full disk ends it with finished runs kept; with free space it continues") {
     const Place place;
     const std::string limited =
         fmt::format("trap '' XFSZ; ulimit -f 200; exec {} sweep {}", ROVERNET_COMMAND, place.file);
@@ -326,7 +326,7 @@ TEST_CASE("sweep: a full disk ends it with what was finished, and room lets it g
     for (const auto& [id, making] : kept) CHECK(all.at(id) == making);
 }
 
-TEST_CASE("sweep: a store that cannot be written is said before anything runs") {
+TEST_CASE("sweep: a store that cannot be written is an error before any run") {
     const Place place;
     const Ended ended = command(place.folder, {"sweep", place.file, "--store", "/proc/s.db"});
     CHECK(ended.exit == 1);
@@ -334,7 +334,7 @@ TEST_CASE("sweep: a store that cannot be written is said before anything runs") 
     CHECK(command(place.folder, {"results", place.folder.path("none.db")}).exit == 3);
 }
 
-TEST_CASE("sweep: --fresh asks, and without a terminal wants --yes") {
+TEST_CASE("sweep: --fresh asks for confirmation, and needs --yes without a terminal") {
     const Place place;
     command(place.folder, {"sweep", place.file, "--replications", "1"});
     const Ended asked = command(place.folder, {"sweep", place.file, "--fresh"});
@@ -347,7 +347,7 @@ TEST_CASE("sweep: --fresh asks, and without a terminal wants --yes") {
     CHECK(made["before"] == 0);
 }
 
-TEST_CASE("sweep: runs that fail end it with 4, and are listed with their command") {
+TEST_CASE("sweep: failed runs give exit code 4, and are listed with their command") {
     const Place place;
     const Ended ended = command(place.folder, {"sweep", place.file, "--replications", "2", "--set",
                                                "scenario.event_limit=500"});
@@ -358,7 +358,7 @@ TEST_CASE("sweep: runs that fail end it with 4, and are listed with their comman
     CHECK(failures.out.find("--replication 1\n") != std::string::npos);
 }
 
-TEST_CASE("results: an unfinished study says so, and a failed run is in its row") {
+TEST_CASE("results: an unfinished study is marked, and a failed run is counted in its row") {
     const Place place;
     const std::string plan = "study.replications=3";
     command(place.folder, {"sweep", place.file, "--set", plan, "--shard", "0", "--chunk", "12"});
@@ -383,7 +383,7 @@ TEST_CASE("results: an unfinished study says so, and a failed run is in its row"
     CHECK(json["rows"].back()["missing"] == 1);
 }
 
-TEST_CASE("results: options that cannot be meant together are refused") {
+TEST_CASE("results: options that exclude each other are refused") {
     const Place place;
     command(place.folder, {"sweep", place.file, "--replications", "1"});
     for (const char* other : {"--quantile=0.5", "--confidence=0.9", "--json", "--failures"}) {
@@ -396,7 +396,7 @@ TEST_CASE("results: options that cannot be meant together are refused") {
     CHECK(std::count(csv.out.begin(), csv.out.end(), '\n') == 2);
 }
 
-TEST_CASE("compare: other keys of the study are held, and what cannot be compared ends at once") {
+TEST_CASE("compare: other varied keys are fixed; an impossible comparison ends at once") {
     const Place place(chatter + "vary.routing.ttl = [1, 2]\n");
     const std::vector<std::string> models = {"compare", place.file, "--replications", "5"};
     const auto with = [&](std::vector<std::string> more) {
@@ -418,7 +418,7 @@ TEST_CASE("compare: other keys of the study are held, and what cannot be compare
               .err.find("expected one of disc, friis") != std::string::npos);
 }
 
-TEST_CASE("compare: the values of any key, paired, with the first as the baseline") {
+TEST_CASE("compare: the values of any key are compared in pairs, with the first as the baseline") {
     const Place place;
     const auto with = [&](const std::string& vary, std::vector<std::string> more) {
         std::vector<std::string> words = {"compare", place.file, "--replications",
@@ -440,7 +440,7 @@ TEST_CASE("compare: the values of any key, paired, with the first as the baselin
     CHECK(with("routing.ttl=1,2", {"--models", "disc,friis"}).exit == 2);
 }
 
-TEST_CASE("compare: of a sweep's store it takes the points that it compares, and adds to them") {
+TEST_CASE("compare: uses the runs of its points in a sweep's store, and adds new runs") {
     const Place place;
     CHECK(command(place.folder, {"sweep", place.file, "--replications", "3"}).exit == 0);
     const auto before = finished(place.store());
@@ -458,7 +458,7 @@ TEST_CASE("compare: of a sweep's store it takes the points that it compares, and
     CHECK(finished(place.store()).size() == 25);
 }
 
-TEST_CASE("compare: of a store it takes the values that are there, and makes those that are not") {
+TEST_CASE("compare: uses the values that a store has, and runs the missing ones") {
     const Place place;
     CHECK(command(place.folder, {"sweep", place.file, "--replications", "3"}).exit == 0);
     const std::size_t before = finished(place.store()).size();
@@ -487,7 +487,7 @@ TEST_CASE("compare: of a store it takes the values that are there, and makes tho
     CHECK(joined["rows"].size() == 7);
 }
 
-TEST_CASE("compare: of a store with more replications it takes those that are asked for") {
+TEST_CASE("compare: of a store with more replications, uses the requested ones") {
     const Place place;
     CHECK(command(place.folder, {"sweep", place.file, "--replications", "6"}).exit == 0);
     const auto with = [&](const std::vector<std::string>& more) {
@@ -507,7 +507,7 @@ TEST_CASE("compare: of a store with more replications it takes those that are as
     CHECK(finished(place.store()).size() == 30);
 }
 
-TEST_CASE("compare: what it takes for granted is said, or can be asked for") {
+TEST_CASE("compare: assumptions are printed, and can be changed by options") {
     const Place place;
     const auto with = [&](const std::string& vary, std::vector<std::string> more) {
         std::vector<std::string> words = {"compare", place.file, "--replications",
@@ -534,7 +534,7 @@ TEST_CASE("compare: what it takes for granted is said, or can be asked for") {
 }
 
 TEST_CASE(
-    "compare: a picture is of the kind that its name ends in, and another ending is refused") {
+    "compare: the ending of the name selects the kind of picture; other endings are refused") {
     const Place place;
     const auto with = [&](const std::string& out) {
         return command(place.folder, {"compare", place.file, "--models", "disc,friis",
@@ -554,7 +554,7 @@ TEST_CASE(
     CHECK(content(place.folder.path("c.pdf")).starts_with("%PDF"));
 }
 
-TEST_CASE("compare: with failed runs it compares what is there, and ends with 4") {
+TEST_CASE("compare: with failed runs, compares the finished ones and exits with 4") {
     const Place place;
     const Ended ended =
         command(place.folder, {"compare", place.file, "--models", "disc,friis", "--replications",

@@ -77,7 +77,7 @@ TEST_CASE("every command has examples in its --help, and they run") {
     }
 }
 
-TEST_CASE("bash completes commands, those below them, and options") {
+TEST_CASE("bash completion offers commands, subcommands and options") {
     const TemporaryFolder folder;
     CHECK(completed(folder, "rovernet ex", 1) == std::vector<std::string>{"explain"});
     CHECK(completed(folder, "rovernet move ''", 2).front() == "convert");
@@ -94,7 +94,7 @@ TEST_CASE("bash completes commands, those below them, and options") {
     CHECK(std::count(all.begin(), all.end(), "man") == 0);
 }
 
-TEST_CASE("completion knows zsh and fish, and no other shell") {
+TEST_CASE("completion supports zsh and fish, and refuses other shells") {
     const TemporaryFolder folder;
     CHECK(command(folder, {"completion", "zsh"}).out.starts_with("#compdef rovernet\n"));
     CHECK(command(folder, {"completion", "fish"}).out.find("-l seed") != std::string::npos);
@@ -112,7 +112,7 @@ TEST_CASE("the man page names every command") {
     }
 }
 
-TEST_CASE("--quiet silences notices, --verbose says what takes how long") {
+TEST_CASE("--quiet suppresses notices, --verbose prints how long each step takes") {
     const TemporaryFolder folder;
     const std::string file =
         folder.write("s.toml", "[[robot]]\nname = \"r\"\nat = [\"0 m\", \"0 m\"]\n");

@@ -76,8 +76,7 @@ std::vector<std::string> parts_in(const std::string& folder) {
 
 }  // namespace
 
-TEST_CASE(
-    "a signal ends every command that is long at work with 130, and no file is half written") {
+TEST_CASE("a signal ends every long command with 130, and leaves no partial file") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", endless);
     const std::string end = "100000000 s";
@@ -106,7 +105,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("a signal ends a command that reads a map, and a run that is being set up") {
+TEST_CASE("a signal ends a command while it reads a map or sets up a run") {
     const TemporaryFolder folder;
     const std::string map = slow_map(folder);
     CHECK(stopped(folder, {"scene", map, "--size", "500x500"}).exit == 130);
@@ -121,7 +120,7 @@ at = ["1 m", "1 m"]
     CHECK_FALSE(fs::exists(folder.path("out")));
 }
 
-TEST_CASE("a signal ends a replay at once, also while it reads a long log or plays it") {
+TEST_CASE("a signal ends a replay at once, also while it reads or plays a long log") {
     const TemporaryFolder folder;
     std::string text = endless;
     text.replace(text.find("100000000"), 9, "240");
@@ -154,7 +153,7 @@ TEST_CASE("a signal ends a replay at once, also while it reads a long log or pla
     CHECK(stopped(folder, {"replay", inputs, "--verify"}).exit == 130);
 }
 
-TEST_CASE("a signal ends a comparison that keeps nothing, and its workers, at once") {
+TEST_CASE("a signal ends a comparison without a store, and its workers, at once") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", endless);
     const Ended ended =
@@ -163,7 +162,7 @@ TEST_CASE("a signal ends a comparison that keeps nothing, and its workers, at on
     CHECK(ended.err.find("--store") != std::string::npos);
 }
 
-TEST_CASE("a signal ends a question in SQL") {
+TEST_CASE("a signal ends an SQL query") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", R"([study]
 replications = 1
@@ -178,7 +177,7 @@ at = ["0 m", "0 m"]
     CHECK(command(folder, {"results", folder.path("s.db"), "--sql", "SELECT 1"}).exit == 0);
 }
 
-TEST_CASE("two runs into one folder at once: its files are all of the one or all of the other") {
+TEST_CASE("two simultaneous runs into one folder: all files are of one run or all of the other") {
     const TemporaryFolder folder;
     const std::string out = folder.path("out");
     const std::string file = folder.write("s.toml", R"([scenario]

@@ -26,7 +26,7 @@ bool near(const Json& value, double expected) {
 
 }  // namespace
 
-TEST_CASE("material: losses of 20 cm of concrete are those of the vectors (slab_transmission)") {
+TEST_CASE("material: losses of 20 cm of concrete equal the vectors (slab_transmission)") {
     const Ended ended = material(
         {"concrete", "--thickness", "0.2", "--frequency", "2.4 GHz", "--angle", "30", "--json"});
     REQUIRE(ended.exit == 0);
@@ -41,14 +41,14 @@ TEST_CASE("material: losses of 20 cm of concrete are those of the vectors (slab_
     CHECK(json["angle_deg"] == 30);
 }
 
-TEST_CASE("material: without options a slab is hit square on at 2450 MHz, where TE is TM") {
+TEST_CASE("material: by default the wave is perpendicular at 2450 MHz, where TE equals TM") {
     const Json json = Json::parse(material({"brick", "--thickness", "10 cm", "--json"}).out);
     CHECK(json["frequency_hz"] == 2.45e9);
     CHECK(json["angle_deg"] == 0);
     CHECK(near(json["te_transmission_loss_db"], json["tm_transmission_loss_db"].get<double>()));
 }
 
-TEST_CASE("material: losses of metal are finite, and a loss without end is null in JSON") {
+TEST_CASE("material: losses of metal are finite, and an infinite loss is null in JSON") {
     const Json metal = Json::parse(material({"metal", "--thickness", "1 m", "--json"}).out);
     CHECK(metal["te_transmission_loss_db"].get<double>() > 1e6);
     const Json film = Json::parse(material({"wood", "--thickness", "1e-200 m", "--json"}).out);
@@ -57,7 +57,7 @@ TEST_CASE("material: losses of metal are finite, and a loss without end is null 
     CHECK(material({"wood", "--thickness", "1e-200 m"}).out.find("inf") != std::string::npos);
 }
 
-TEST_CASE("material: what is wrong is said with what was found and expected") {
+TEST_CASE("material: an error says what was found and what was expected") {
     const auto error = [](std::vector<std::string> arguments) {
         const Ended ended = material(std::move(arguments));
         CHECK(ended.exit == 2);

@@ -18,7 +18,7 @@ bool holds(const std::string& text, const std::string& words) {
 
 }  // namespace
 
-TEST_CASE("validate: a folder of measurements that is not there is told before anything is run") {
+TEST_CASE("validate: a missing folder of measurements is an error before anything is run") {
     const TemporaryFolder folder;
     const Ended run = test::command(
         folder, {"validate", "--quick", "--field", folder.path("nowhere"), "-o", folder.path("r")});
@@ -27,7 +27,7 @@ TEST_CASE("validate: a folder of measurements that is not there is told before a
     CHECK(run.out.empty());
 }
 
-TEST_CASE("validate: the folder of the report must be given") {
+TEST_CASE("validate: the folder of the report is required") {
     const TemporaryFolder folder;
     const Ended run = test::command(folder, {"validate", "--quick"});
     CHECK(run.exit == 2);

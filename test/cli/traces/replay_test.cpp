@@ -71,7 +71,7 @@ bool ends_without_difference(const std::string& line) {
 
 }  // namespace
 
-TEST_CASE("replay of an ns-2 trace compares radios with its first radio, not with ns-2") {
+TEST_CASE("replay of an ns-2 trace compares radios with the first given radio, not with ns-2") {
     const TemporaryFolder folder;
     const Ended ended = command(folder, {"replay", sample, "--with", "radio.power=40 dBm;seed=2",
                                          "--with", "radio.power=0 dBm"});
@@ -89,7 +89,7 @@ TEST_CASE("replay of an ns-2 trace compares radios with its first radio, not wit
           std::string::npos);
 }
 
-TEST_CASE("replay --as changes the radio that others are compared with") {
+TEST_CASE("replay --as sets the radio with which the others are compared") {
     const TemporaryFolder folder;
     const std::vector<std::string> words = {"replay", sample,         "--as", "radio.power=40 dBm",
                                             "--with", "routing.ttl=2"};
@@ -104,7 +104,7 @@ TEST_CASE("replay --as changes the radio that others are compared with") {
     CHECK(json_of(folder, direct)["radios"][0]["hops_max"] == 1);
 }
 
-TEST_CASE("replay: what only an ns-2 trace needs is refused for a recorded one") {
+TEST_CASE("replay: options for ns-2 traces are refused for a recorded trace") {
     const TemporaryFolder folder;
     const std::string out = run_two(folder, "trace.record=true");
     for (const char* option : {"--as", "--movements"}) {
@@ -117,8 +117,7 @@ TEST_CASE("replay: what only an ns-2 trace needs is refused for a recorded one")
 }
 
 TEST_CASE(
-    "replay --verify of an ns-2 trace runs the scenario beside it, and shows the first "
-    "line that differs") {
+    "replay --verify of an ns-2 trace runs its scenario, and shows the first different line") {
     const TemporaryFolder folder;
     for (const char* format : {"trace.ns2=old", "trace.ns2=new"}) {
         const std::string trace = run_two(folder, format) + "/trace.tr";
@@ -142,8 +141,7 @@ TEST_CASE(
     CHECK(alone.err.find("there is no") != std::string::npos);
 }
 
-TEST_CASE(
-    "replay --verify of an ns-2 trace sees lines at its end that the run has not, and lacks") {
+TEST_CASE("replay --verify of an ns-2 trace finds additional and missing lines at the end") {
     const TemporaryFolder folder;
     const std::string trace = run_two(folder, "trace.ns2=old") + "/trace.tr";
     const std::string text = content(trace);
@@ -157,7 +155,7 @@ TEST_CASE(
     CHECK(shorter.out.find("recorded  nothing more\n") != std::string::npos);
 }
 
-TEST_CASE("replay --speed prints the events of both kinds of trace, each in its place") {
+TEST_CASE("replay --speed prints the events of both kinds of trace in order") {
     const TemporaryFolder folder;
     const Ended ns2 = command(folder, {"replay", sample, "--speed", "x1000"});
     CHECK(ns2.exit == 0);
@@ -173,7 +171,7 @@ TEST_CASE("replay --speed prints the events of both kinds of trace, each in its 
     CHECK(command(folder, {"replay", sample, "--speed", "0"}).exit == 2);
 }
 
-TEST_CASE("replay --store keeps the rows for results, and adds those of a second replay") {
+TEST_CASE("replay --store writes rows for results, and adds the rows of a second replay") {
     const TemporaryFolder folder;
     const std::string store = folder.path("radios.db");
     const std::vector<std::string> words = {"replay", sample, "--store", store, "--with"};
@@ -209,7 +207,7 @@ TEST_CASE("replay --store keeps the rows for results, and adds those of a second
               .exit == 0);
 }
 
-TEST_CASE("replay --verify of a recording that is broken, cut off or none fails, and says why") {
+TEST_CASE("replay --verify of a damaged, incomplete or empty trace fails and says why") {
     const TemporaryFolder folder;
     folder.write(
         "a.toml",

@@ -45,7 +45,7 @@ ns2 = "old"
 
 }  // namespace
 
-TEST_CASE("trace follow --json has what the text has, and of a recorded trace the frames") {
+TEST_CASE("trace follow --json agrees with the text, and has the frames of a recorded trace") {
     const Run run;
     const Json from_text = json_of(run.folder, {"trace", "follow", run.text, "--message", "0"});
     const Json recorded = json_of(run.folder, {"trace", "follow", run.recorded, "--message", "0"});
@@ -65,7 +65,7 @@ TEST_CASE("trace follow --json has what the text has, and of a recorded trace th
           "B never was within reach: the only frame came 2.7 dB below its sensitivity.");
 }
 
-TEST_CASE("trace follow says of a robot that only an ns-2 trace tells of what it can") {
+TEST_CASE("trace follow prints what an ns-2 trace has about a robot without a scenario") {
     const Run run;
     const Ended ended =
         command(run.folder, {"trace", "follow", run.text, "--message", "0", "--robot", "B"});
@@ -74,13 +74,13 @@ TEST_CASE("trace follow says of a robot that only an ns-2 trace tells of what it
     CHECK(ended.out.find("within reach") == std::string::npos);
 }
 
-TEST_CASE("trace stats names a recorded trace as what it is") {
+TEST_CASE("trace stats names the kind of a recorded trace") {
     const Run run;
     CHECK(json_of(run.folder, {"trace", "stats", run.recorded})["format"] == "recorded");
     CHECK(json_of(run.folder, {"trace", "stats", run.text})["format"] == "old");
 }
 
-TEST_CASE("trace convert --to pcapng wants a recorded trace, and says why") {
+TEST_CASE("trace convert --to pcapng needs a recorded trace, and says why") {
     const Run run;
     const std::string out = run.folder.path("x.pcapng");
     const Ended ended = command(run.folder, {"trace", "convert", run.text, out, "--to", "pcapng"});
@@ -91,7 +91,7 @@ TEST_CASE("trace convert --to pcapng wants a recorded trace, and says why") {
     CHECK(content(out).size() > 100);
 }
 
-TEST_CASE("trace: an empty file, or one that another program packed, is refused with the reason") {
+TEST_CASE("trace: an empty file, or a file of an unknown packer, is refused with the reason") {
     const TemporaryFolder folder;
     const std::vector<std::pair<std::string, std::string>> files = {
         {"", "the file is empty"},
@@ -119,7 +119,7 @@ TEST_CASE("trace: an empty file, or one that another program packed, is refused 
     }
 }
 
-TEST_CASE("a movement file of ns-2 that begins with set, or is packed, is known as one") {
+TEST_CASE("an ns-2 movement file is recognised if it is compressed or begins with set") {
     const TemporaryFolder folder;
     const std::string moves =
         "set opt(nn) 3\n$node_(0) set X_ 5.0\n$ns_ at 1.0 \"$node_(0) setdest 10.0 0.0 1.0\"\n";

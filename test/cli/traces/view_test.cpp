@@ -68,7 +68,7 @@ TEST_CASE("view --with shows the run that replay --with plays") {
     CHECK(std::filesystem::file_size(page) <= 1000 * limit);
 }
 
-TEST_CASE("view: a wrong input or option has an error that says what to do") {
+TEST_CASE("view: an invalid input or option is an error that says what to do") {
     const TemporaryFolder folder;
     const std::string page = folder.path("page.html");
     const auto has = [](const std::string& error, const char* words) {

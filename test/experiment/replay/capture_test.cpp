@@ -181,7 +181,7 @@ std::string lines_of(const std::string& trace) {
 
 }  // namespace
 
-TEST_CASE("a capture has every frame at its sender and at all who received it") {
+TEST_CASE("capture: every frame is recorded at its sender and at all its receivers") {
     const CapturedRun run(busy);
     const Capture made = capture_recorded(run.trace, run.capture);
     CHECK(made.left_out == 0);
@@ -203,7 +203,7 @@ TEST_CASE("a capture has every frame at its sender and at all who received it") 
     CHECK(with_retry > 0);
 }
 
-TEST_CASE("a capture has our header in front of each message") {
+TEST_CASE("capture: each message has our header before it") {
     const CapturedRun run(busy);
     capture_recorded(run.trace, run.capture);
     const std::size_t header = 16 + 24 + 8 + 20 + 8;
@@ -240,7 +240,7 @@ TEST_CASE("tshark reads a capture: no frame is malformed; times, addresses, leng
                      "-e ip.src -e ip.dst -e udp.length") == lines_of(run.trace));
 }
 
-TEST_CASE("a capture of a trace that is cut or broken has what is left of it") {
+TEST_CASE("capture: a damaged or incomplete trace gives a capture of its intact part") {
     const CapturedRun run(busy);
     const std::uint64_t all = capture_recorded(run.trace, run.capture).packets;
     std::filesystem::resize_file(run.trace, std::filesystem::file_size(run.trace) - 40);
@@ -252,7 +252,7 @@ TEST_CASE("a capture of a trace that is cut or broken has what is left of it") {
     CHECK_THROWS_AS(capture_recorded(run.folder / "text.tr", run.capture), InputError);
 }
 
-TEST_CASE("a capture of an ARP packet for everyone, which only a broken trace has, is written") {
+TEST_CASE("capture: an ARP packet to everyone, which only a damaged trace has, is written") {
     const testing::TempFolder folder;
     const CapturedRun run("[[robot]]\nname = \"A\"\nat = [\"0 m\", \"0 m\"]\n");
     RecordedReader whole(run.trace);

@@ -60,7 +60,7 @@ const std::string one_message = "[[traffic]]\nfrom = \"A\"\npayload = \"x\"\nsta
 
 }  // namespace
 
-TEST_CASE("a message that was too weak: the margin is that of free space") {
+TEST_CASE("message at a robot: for a signal that was too weak, the margin is that of free space") {
     const Run run({0, 1000}, one_message);
     const MessageAtRobot there = run.look(0, 1);
     REQUIRE(there.frames.size() == 1);
@@ -75,7 +75,7 @@ TEST_CASE("a message that was too weak: the margin is that of free space") {
           "B never was within reach: the only frame came 8.7 dB below its sensitivity.");
 }
 
-TEST_CASE("a message that came: from whom, when and how strong") {
+TEST_CASE("message at a robot: a received message is described by sender, time and level") {
     const Run run({0, 100, 400}, one_message);
     CHECK(run.says(0, 0) == "A sent it.");
     CHECK(run.says(0, 1).starts_with(
@@ -91,7 +91,7 @@ TEST_CASE("a message that came: from whom, when and how strong") {
     CHECK(back.frames[0].outcome == Outcome::duplicate);
 }
 
-TEST_CASE("a message that a robot missed while it was off, or in another network") {
+TEST_CASE("message at a robot: a message is missed while off, or in another network") {
     const Run off({0, 100}, one_message +
                                 "[[robot]]\nname = \"X\"\nat = [\"50 m\", \"0 m\"]\n"
                                 "off = [\"0.5 s\"]\n");
@@ -104,7 +104,7 @@ TEST_CASE("a message that a robot missed while it was off, or in another network
     CHECK(gated.says(0, 2).starts_with("X is in another network"));
 }
 
-TEST_CASE("a message that collided: who else was on air, and how strong") {
+TEST_CASE("message at a robot: a collision names the other frames on air and their levels") {
     // A and C send at once, and B, in their middle, hears both alike.
     const Run run({0, 200, 400},
                   "[reception]\nmodel = \"collision\"\n" + one_message +
@@ -121,7 +121,7 @@ TEST_CASE("a message that collided: who else was on air, and how strong") {
     CHECK(run.says(1, 1) == sentence(there));
 }
 
-TEST_CASE("a message that came while its receiver was sending") {
+TEST_CASE("message at a robot: a message is lost because the receiver was sending") {
     const Run run({0, 200}, "[reception]\nmodel = \"collision\"\n" + one_message +
                                 "[[traffic]]\nfrom = \"B\"\npayload = \"y\"\nstart = \"1 s\"\n");
     const MessageAtRobot there = run.look(0, 1);
@@ -134,7 +134,8 @@ TEST_CASE("a message that came while its receiver was sending") {
           "B was within reach of 1 of 1 frame and lost it: while it was sending itself.");
 }
 
-TEST_CASE("a unicast: each attempt at it is a frame, and others are told whom it was for") {
+TEST_CASE(
+    "message at a robot: each attempt of a unicast is a frame; others learn its destination") {
     const Run run({0, 100, 200},
                   "[access]\nmodel = \"csma\"\n[[traffic]]\nkind = \"unicast\"\nfrom = \"A\"\nto = "
                   "\"B\"\npayload = \"x\"\nstart = \"1 s\"\n"
@@ -149,7 +150,7 @@ TEST_CASE("a unicast: each attempt at it is a frame, and others are told whom it
     CHECK(run.says(1, 3).starts_with("D never was within reach: the strongest of 7 frames"));
 }
 
-TEST_CASE("in the rescue: levels and walls are those that the command link tells") {
+TEST_CASE("message at a robot: levels and walls in the rescue equal those of the command link") {
     const std::string file = ROVERNET_EXAMPLES "/rescue/rescue.toml";
     const Run run(file);
     const Scenario scenario = load_scenario(file, {});
@@ -174,7 +175,7 @@ TEST_CASE("in the rescue: levels and walls are those that the command link tells
     CHECK(run.says(0, 4).find("wall") != std::string::npos);
 }
 
-TEST_CASE("a trace of a network that was made in code has no levels") {
+TEST_CASE("message at a robot: a trace of a network built in code has no levels") {
     const TempFolder folder;
     RecordedTrace trace(folder / "t.mcap", {.version = "1"});
     trace.begin({.scenario = {},

@@ -109,7 +109,7 @@ bool find_pair(std::string& traces, std::string& movements) {
 
 }  // namespace
 
-TEST_CASE("an ns-2 day: robots move and speak as the trace says, and its messages flood") {
+TEST_CASE("an ns-2 day: robots move and send as in the trace, and messages are flooded") {
     const RecordedDay day = read_ns2_day(sample, {});
     CHECK(day.robots() == std::vector<std::string>{"n0", "n1", "n2", "n3"});
     CHECK(day.recorded().metrics.messages == 15);
@@ -124,7 +124,7 @@ TEST_CASE("an ns-2 day: robots move and speak as the trace says, and its message
     CHECK(deliveries(day, {"radio.power=0 dBm"}) == 0);
 }
 
-TEST_CASE("an ns-2 day: messages that go straight reach whom their sender hears") {
+TEST_CASE("an ns-2 day: messages without routing reach the robots that hear their sender") {
     const RecordedDay day = read_ns2_day(sample, {.routing = DayRouting::direct, .movements = {}});
     CHECK(deliveries(day) == 0);
     const PlayedDay strong = day.play({"radio.power=50 dBm"});
@@ -133,7 +133,7 @@ TEST_CASE("an ns-2 day: messages that go straight reach whom their sender hears"
     CHECK(strong.metrics.receptions == 15);  // a unicast is for nobody else
 }
 
-TEST_CASE("an ns-2 day: sources that speak together draw a backoff first, as in ns-2") {
+TEST_CASE("an ns-2 day: simultaneous senders draw a backoff first, as in ns-2") {
     const TemporaryFolder folder;
     const auto day_of = [&](double apart) {
         std::string text = move_line(0, 0) + move_line(1, 50) + move_line(2, -50);
@@ -159,7 +159,7 @@ TEST_CASE("an ns-2 day: sources that speak together draw a backoff first, as in 
     CHECK(together.starts_together({"access.model=aloha", "reception.model=threshold"}).empty());
 }
 
-TEST_CASE("an ns-2 day: lines that are none of ns-2 are told") {
+TEST_CASE("an ns-2 day: lines that are not in ns-2 format are counted in a notice") {
     const TemporaryFolder folder;
     const RecordedDay day =
         read_ns2_day(folder.write("half.tr", move_line(0, 0) + move_line(1, 50) +
@@ -170,7 +170,8 @@ TEST_CASE("an ns-2 day: lines that are none of ns-2 are told") {
           "1 of 4 lines are not in ns-2 format and are left out; the first is line 3");
 }
 
-TEST_CASE("an ns-2 day: receptions from beyond its radio's range are told, with a power for them") {
+TEST_CASE(
+    "an ns-2 day: receptions beyond the radio's range give a notice with a sufficient power") {
     const TemporaryFolder folder;
     const auto day_of = [&](double metres) {
         const std::string heard =
@@ -199,7 +200,7 @@ TEST_CASE("an ns-2 day: receptions from beyond its radio's range are told, with 
     CHECK(far.hears_farther({"propagation.model=disc", "propagation.range=397 m"}).empty());
 }
 
-TEST_CASE("an ns-2 day: broadcasts are for everyone, and reach whom they reach") {
+TEST_CASE("an ns-2 day: broadcasts are sent to everyone in range") {
     const TemporaryFolder folder;
     const std::string trace = folder.write(
         "all.tr", move_line(0, 0) + move_line(1, 200) + move_line(2, 400) + said(1, 0, 0, "-1"));
@@ -207,7 +208,7 @@ TEST_CASE("an ns-2 day: broadcasts are for everyone, and reach whom they reach")
     CHECK(deliveries(read_ns2_day(trace, {.routing = DayRouting::direct, .movements = {}})) == 1);
 }
 
-TEST_CASE("an ns-2 day: its radio reaches 250 m and no farther") {
+TEST_CASE("an ns-2 day: the range of its radio is exactly 250 m") {
     const TemporaryFolder folder;
     for (const double x : {249.9, 250.1}) {
         const std::string trace =
@@ -216,7 +217,7 @@ TEST_CASE("an ns-2 day: its radio reaches 250 m and no farther") {
     }
 }
 
-TEST_CASE("an ns-2 day: a robot whose place the trace does not tell is named") {
+TEST_CASE("an ns-2 day: a robot without a position in the trace is named") {
     const TemporaryFolder folder;
     const std::string trace = folder.write("lost.tr", move_line(0, 0) + said(1, 0, 0, "1"));
     CHECK_THROWS_WITH_AS(
@@ -235,7 +236,7 @@ TEST_CASE("an ns-2 day: a robot whose place the trace does not tell is named") {
                          doctest::Contains("one.tcl: no position of robot 1"), InputError);
 }
 
-TEST_CASE("an ns-2 day: messages to no other robot are left out, and counted") {
+TEST_CASE("an ns-2 day: messages without another robot as destination are skipped and counted") {
     const TemporaryFolder folder;
     const std::string trace =
         folder.write("own.tr", move_line(0, 0) + move_line(1, 9) + said(1, 0, 0, "0") +
@@ -254,7 +255,7 @@ TEST_CASE("an ns-2 day: a trace without robots is refused") {
                          InputError);
 }
 
-TEST_CASE("an ns-2 day: M lines alone tell the motion that made them within 15 cm") {
+TEST_CASE("an ns-2 day: M lines alone reproduce the motion within 15 cm") {
     std::string traces, movements;
     if (!find_pair(traces, movements)) return;
     for (const char* name : {"old_aodv_mac.tr", "old_dsdv.tr", "old_dsr.tr"}) {
@@ -273,7 +274,7 @@ TEST_CASE("an ns-2 day: M lines alone tell the motion that made them within 15 c
     }
 }
 
-TEST_CASE("an ns-2 day: packet lines of the new format refine it to 1 cm at each of them") {
+TEST_CASE("an ns-2 day: packet lines of the new format improve this to 1 cm at each line") {
     std::string traces, movements;
     if (!find_pair(traces, movements)) return;
     const Told told = told_by(traces + "new_aodv_mac.tr");
@@ -290,7 +291,7 @@ TEST_CASE("an ns-2 day: packet lines of the new format refine it to 1 cm at each
     CHECK(deliveries(day) > 0);
 }
 
-TEST_CASE("an ns-2 day: the tagged format tells of places in its packet lines") {
+TEST_CASE("an ns-2 day: packet lines of the tagged format have positions") {
     std::string traces, movements;
     if (!find_pair(traces, movements)) return;
     const RecordedDay day = read_ns2_day(traces + "aodv_tag.tr", {});

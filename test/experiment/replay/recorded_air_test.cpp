@@ -111,7 +111,7 @@ struct Run {
 
 }  // namespace
 
-TEST_CASE("the air of a recorded run: levels and times of all receptions are those of the run") {
+TEST_CASE("recorded air: levels and times of all receptions equal those of the run") {
     const std::pair<const char*, const char*> radios[] = {
         {"free space", "[propagation]\nmodel = \"friis\"\n"},
         {"shadowing of links", "[shadowing]\nmodel = \"link\"\nsigma = \"6 dB\"\n"},
@@ -148,7 +148,7 @@ TEST_CASE("the air of a recorded run: levels and times of all receptions are tho
     }
 }
 
-TEST_CASE("the air of a recorded run knows who is off, and forgets frames that are over") {
+TEST_CASE("recorded air: knows which robots are off, and forgets frames that have ended") {
     const Run run("");
     RecordedReader trace(run.recorded);
     RecordedAir air(trace.run(), run.recorded);
@@ -166,7 +166,7 @@ TEST_CASE("the air of a recorded run knows who is off, and forgets frames that a
     CHECK(most < 20);
 }
 
-TEST_CASE("a robot's own frame arrives at once and drowns all others") {
+TEST_CASE("recorded air: a robot's own frame arrives at once and hides all others") {
     const Run run("");
     RecordedReader trace(run.recorded);
     RecordedAir air(trace.run(), run.recorded);

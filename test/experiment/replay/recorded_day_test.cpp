@@ -62,7 +62,7 @@ std::string record(const TemporaryFolder& folder, const std::string& scenario) {
 
 }  // namespace
 
-TEST_CASE("a recorded day under its own radio comes out as it was, to the last digit") {
+TEST_CASE("recorded day: with its own radio, gives the recorded result to the last digit") {
     for (const std::string more :
          {"", "[reception]\nmodel = \"sinr\"\n[access]\nmodel = \"csma\"\n",
           "[study]\nwarmup = \"5 s\"\n"}) {
@@ -79,7 +79,7 @@ TEST_CASE("a recorded day under its own radio comes out as it was, to the last d
     }
 }
 
-TEST_CASE("a recorded day under a weaker radio loses deliveries, and says at which robots") {
+TEST_CASE("recorded day: with a weaker radio, loses deliveries, and names the robots") {
     const TemporaryFolder folder;
     const RecordedDay day(record(folder, busy_day));
     const PlayedDay weak = day.play({"radio.power=-30 dBm"});
@@ -92,14 +92,14 @@ TEST_CASE("a recorded day under a weaker radio loses deliveries, and says at whi
     CHECK(back.metrics == day.recorded().metrics);
 }
 
-TEST_CASE("a recorded day: a setting that is none is refused by its name") {
+TEST_CASE("recorded day: an unknown setting is refused by its name") {
     const TemporaryFolder folder;
     const RecordedDay day(record(folder, busy_day));
     CHECK_THROWS_WITH_AS(day.play({"propagation.modle=friis"}), doctest::Contains("modle"),
                          InputError);
 }
 
-TEST_CASE("a recorded day under its own radio: robots keep their roles in the protocol") {
+TEST_CASE("recorded day: with its own radio, robots keep their roles in the protocol") {
     std::string scenario =
         "[scenario]\nduration = \"9 s\"\n[propagation]\nmodel = \"disc\"\nrange = \"9 m\"\n"
         "[routing]\nprotocol = \"managed\"\n"
@@ -115,7 +115,7 @@ TEST_CASE("a recorded day under its own radio: robots keep their roles in the pr
     CHECK(day.recorded().metrics.deliveries > 0);
 }
 
-TEST_CASE("a recorded day without the legs of a robot: it stands where the scenario begins it") {
+TEST_CASE("recorded day: a robot without legs stands at its start in the scenario") {
     const TemporaryFolder folder;
     RecordedReader trace(record(folder, busy_day));
     RecordedRun run = trace.run();

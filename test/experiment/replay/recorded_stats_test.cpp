@@ -245,7 +245,7 @@ size = "900 B"
 
 }  // namespace
 
-TEST_CASE("recorded trace: counts and ways of its records are those of its text: real runs") {
+TEST_CASE("recorded trace: counts and paths from records equal those from its text: real runs") {
     for (const std::string access : {"csma\"\nrts_threshold = \"300 B", "csma", "aloha"}) {
         CAPTURE(access);
         const TempFolder folder;
@@ -259,7 +259,8 @@ TEST_CASE("recorded trace: counts and ways of its records are those of its text:
     }
 }
 
-TEST_CASE("recorded trace: counts and ways of its records are those of its text: any records") {
+TEST_CASE(
+    "recorded trace: counts and paths from records equal those from its text: random records") {
     const TempFolder folder;
     for (unsigned seed = 0; seed < 6; ++seed) {
         CAPTURE(seed);
@@ -287,7 +288,7 @@ TEST_CASE("recorded trace: a message that is sent twice is refused, as in its te
     CHECK(recorded_stats(folder / "trace.mcap").stats.counts.refused == 1);
 }
 
-TEST_CASE("recorded trace: its counts are those of its text where chunks are broken") {
+TEST_CASE("recorded trace: counts equal those of its text if chunks are damaged") {
     const TempFolder folder;
     const std::string path = folder / "trace.mcap";
     record(path, [](Stream& stream) { OddRecords(stream, 1, 0).run(900); });

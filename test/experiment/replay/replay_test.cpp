@@ -75,7 +75,7 @@ start = "1 s"
 const std::string examples = ROVERNET_EXAMPLES;
 
 TEST_CASE(
-    "a recorded run of each example has its fingerprint, its ns-2 trace, and can be repeated") {
+    "a recorded run of each example reproduces fingerprint and ns-2 trace, and is repeatable") {
     for (const char* name : {"patrol/patrol.toml", "rescue/rescue.toml", "stage/office.world"}) {
         CAPTURE(name);
         const RecordedRunOf run(examples + "/" + name, {});
@@ -95,7 +95,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("metrics from a recorded trace are those of the run") {
+TEST_CASE("metrics from a recorded trace equal those of the run") {
     for (const char* warmup : {"0 s", "10 s"}) {
         const RecordedRunOf run(examples + "/patrol/patrol.toml",
                                 {"scenario.duration=30 s", fmt::format("study.warmup={}", warmup)});
@@ -108,7 +108,7 @@ TEST_CASE("metrics from a recorded trace are those of the run") {
     }
 }
 
-TEST_CASE("a run repeats itself with each model of propagation, reception and access") {
+TEST_CASE("a run is repeatable with each model of propagation, reception and access") {
     TempFolder folder;
     const std::string path = folder / "busy.toml";
     testing::write_file(path, busy);
@@ -133,7 +133,7 @@ TEST_CASE("a trace of format 3, without the bit rates of its frames, can be repe
     CHECK(again.same == 28);
 }
 
-TEST_CASE("a trace that the scenario does not make any more differs, with both lines") {
+TEST_CASE("a trace that the scenario no longer reproduces differs, and both lines are shown") {
     const RecordedRunOf run(examples + "/patrol/patrol.toml", {"scenario.duration=30 s"});
     std::string bytes = content(run.trace);
     const auto at = bytes.find("seed = 3");
@@ -145,8 +145,7 @@ TEST_CASE("a trace that the scenario does not make any more differs, with both l
     CHECK(again.difference->recorded != again.difference->now);
 }
 
-TEST_CASE(
-    "a trace without its end is compared as far as it goes, and its end is said to be missing") {
+TEST_CASE("an incomplete trace is compared up to its end, and the missing end is reported") {
     const RecordedRunOf run(examples + "/patrol/patrol.toml", {"scenario.duration=30 s"});
     const std::string bytes = content(run.trace);
     testing::write_file(run.trace, bytes.substr(0, bytes.size() - 40));
@@ -155,7 +154,7 @@ TEST_CASE(
     CHECK(again.damage == std::vector<std::string>{"the end is missing"});
 }
 
-TEST_CASE("a recorded trace is repeated without the files of its scenario") {
+TEST_CASE("a recorded trace is repeatable without the files of its scenario") {
     TempFolder folder;
     for (const char* name : {"rescue.toml", "map.yaml", "office.png"}) {
         std::filesystem::copy(examples + "/rescue/" + name, folder / name);
@@ -167,7 +166,7 @@ TEST_CASE("a recorded trace is repeated without the files of its scenario") {
     CHECK_FALSE(verify_replay(run.trace, {}).difference);
 }
 
-TEST_CASE("a recorded trace of several storeys is repeated without their maps") {
+TEST_CASE("a recorded trace of several storeys is repeatable without the maps") {
     TempFolder folder;
     for (const char* name : {"storeys.toml", "ground.png", "upper.png"}) {
         std::filesystem::copy(examples + "/storeys/" + name, folder / name);

@@ -36,7 +36,7 @@ RunComparison compare(const std::string& a, const std::string& b, ComparisonChoi
 
 }  // namespace
 
-TEST_CASE("comparison of runs: a recorded replay gains and loses what the table of replay counts") {
+TEST_CASE("run comparison: gained and lost messages equal the table of replay") {
     const test::TemporaryFolder folder;
     const std::string trace = record(folder, "rescue/rescue.toml", "run");
     const std::string other = folder.path("other.mcap");
@@ -68,7 +68,7 @@ TEST_CASE("comparison of runs: a recorded replay gains and loses what the table 
     CHECK(back.changes[0].time == found.changes[0].time);
 }
 
-TEST_CASE("comparison of runs: a run does not differ from itself") {
+TEST_CASE("run comparison: a run does not differ from itself") {
     const test::TemporaryFolder folder;
     const std::string trace = record(folder, "rescue/rescue.toml", "run");
     const RunComparison found = compare(trace, trace);
@@ -78,7 +78,7 @@ TEST_CASE("comparison of runs: a run does not differ from itself") {
     CHECK(found.first.is_equal);
 }
 
-TEST_CASE("comparison of runs: the fate in the other run is that of the last frame there") {
+TEST_CASE("run comparison: the fate in the other run is that of its last frame") {
     const test::TemporaryFolder folder;
     const std::string trace = record(folder, "relay/routes.toml", "run");
     const std::string other = folder.path("other.mcap");
@@ -92,7 +92,7 @@ TEST_CASE("comparison of runs: the fate in the other run is that of the last fra
     CHECK(collided < found.lost);
 }
 
-TEST_CASE("comparison of runs: other robots are an error that names one") {
+TEST_CASE("run comparison: different robots are an error that names one") {
     const test::TemporaryFolder folder;
     const std::string rescue = record(folder, "rescue/rescue.toml", "rescue");
     const std::string patrol = record(folder, "patrol/patrol.toml", "patrol");

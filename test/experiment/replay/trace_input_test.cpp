@@ -48,7 +48,7 @@ TraceInput old_with_mac(const std::string& path) {
 
 }  // namespace
 
-TEST_CASE("the text of a recorded trace is what its run wrote, to the byte") {
+TEST_CASE("the text of a recorded trace equals the ns-2 trace of its run, byte by byte") {
     for (const char* format : {"old", "new"}) {
         for (const char* mac : {"false", "true"}) {
             CAPTURE(format);
@@ -68,7 +68,7 @@ TEST_CASE("the text of a recorded trace is what its run wrote, to the byte") {
     }
 }
 
-TEST_CASE("a file of ns-2 text is read as it is") {
+TEST_CASE("a file of ns-2 text is read unchanged") {
     const Rescue run("new", "false");
     const TraceInput trace(run.text, {});
     CHECK_FALSE(trace.is_recorded());
@@ -76,7 +76,7 @@ TEST_CASE("a file of ns-2 text is read as it is") {
     CHECK(all_of(trace.text()) == content(run.text));
 }
 
-TEST_CASE("a recorded trace has the counts, the ways and the events of the ns-2 trace of its run") {
+TEST_CASE("a recorded trace has the counts, paths and events of the ns-2 trace of its run") {
     const Rescue run("old", "true");
     const TraceStats told = ns2_stats(old_with_mac(run.recorded).text());
     const TraceStats written = ns2_stats(run.text);
@@ -89,7 +89,7 @@ TEST_CASE("a recorded trace has the counts, the ways and the events of the ns-2 
     CHECK(way.robots.size() == follow_ns2(run.text, 0).robots.size());
 }
 
-TEST_CASE("a recorded trace without its end is read as far as it goes, and says so") {
+TEST_CASE("an incomplete recorded trace is read up to its end, with a notice") {
     const Rescue run("old", "true");
     std::filesystem::resize_file(run.recorded, std::filesystem::file_size(run.recorded) - 40);
     const TraceInput trace = old_with_mac(run.recorded);

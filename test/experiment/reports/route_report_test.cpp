@@ -42,7 +42,7 @@ struct ThreeRobots {
 
 }  // namespace
 
-TEST_CASE("routes: what a protocol does not know is empty, and a path has its names") {
+TEST_CASE("routes: unknown data is empty, and a path has the names of its robots") {
     const ThreeRobots robots;
     const Network& net = robots.net;
     std::string csv, json;
@@ -59,7 +59,7 @@ TEST_CASE("routes: what a protocol does not know is empty, and a path has its na
     CHECK(json.find(R"({"robot":"c","routes":[]})") != std::string::npos);
 }
 
-TEST_CASE("routes: of one robot only, or of nobody whom the network does not have") {
+TEST_CASE("routes: lists one robot, and refuses a robot that the network does not have") {
     const ThreeRobots robots;
     const Network& net = robots.net;
     int told = 0;
@@ -73,7 +73,7 @@ TEST_CASE("routes: of one robot only, or of nobody whom the network does not hav
                     std::invalid_argument);
 }
 
-TEST_CASE("routes: a router knows whether its protocol has tables") {
+TEST_CASE("routes: a router knows whether its protocol has routing tables") {
     CHECK(Router(Paths{}).has_routes());
     Scenario scenario;
     std::size_t with = 0, without = 0;

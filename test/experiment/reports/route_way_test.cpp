@@ -56,7 +56,7 @@ RouteState broken(RouteState route) {
 
 }  // namespace
 
-TEST_CASE("a way leads from table to table, with the ages of the routes") {
+TEST_CASE("route path: leads from table to table, with the ages of the routes") {
     const Row row({{0, {route(3, 1, 3)}}, {1, {route(3, 2, 2, 1s)}}, {2, {route(3, 3, 1)}}});
     const RouteWay way = row.way(3);
     REQUIRE(way.hops.size() == 3);
@@ -69,7 +69,7 @@ TEST_CASE("a way leads from table to table, with the ages of the routes") {
     CHECK(row.text(3) == "route from r0 to r3: r0 > r1 > r2 > r3, 3 hops, learnt up to 4 s ago");
 }
 
-TEST_CASE("a way breaks off where a robot has no route, or a broken one") {
+TEST_CASE("route path: ends at a robot without a route, or with a broken one") {
     CHECK(Row({}).text(3) == "route from r0 to r3 breaks off at r0: it has no route to r3");
     const Row none({{0, {route(3, 1, 3)}}, {1, {route(4, 2, 3)}}});
     CHECK(none.way(3).broken_at == NodeId{1});
@@ -83,7 +83,8 @@ TEST_CASE("a way breaks off where a robot has no route, or a broken one") {
     CHECK(two.text(2).find("r0 > r1 > r2, 2 hops") != std::string::npos);
 }
 
-TEST_CASE("a way breaks off where the next robot does not hear, but goes on in the tables") {
+TEST_CASE(
+    "route path: is marked broken where the next robot does not hear, and continues by tables") {
     const Row far({{0, {route(4, 2, 2)}}, {2, {route(4, 3, 2)}}, {3, {route(4, 4, 1)}}});
     const RouteWay way = far.way(4);
     REQUIRE(way.hops.size() == 3);
@@ -96,7 +97,7 @@ TEST_CASE("a way breaks off where the next robot does not hear, but goes on in t
     CHECK(off.way(2).broken_at == NodeId{0});
 }
 
-TEST_CASE("a way that leads back to a robot ends there") {
+TEST_CASE("route path: a loop ends the path") {
     const Row loop({{0, {route(4, 1, 3)}}, {1, {route(4, 2, 2)}}, {2, {route(4, 1, 3)}}});
     const RouteWay way = loop.way(4);
     CHECK(way.hops.size() == 3);
@@ -104,7 +105,7 @@ TEST_CASE("a way that leads back to a robot ends there") {
     CHECK(way.reason == "its route leads back to it");
 }
 
-TEST_CASE("a path that the first robot knows is followed, whatever the tables say") {
+TEST_CASE("route path: a source route is followed, whatever the tables contain") {
     RouteState known = route(3, 1, 3);
     known.path = {NodeId{1}, NodeId{2}, NodeId{3}};
     const Row row({{0, {known}}, {1, {route(3, 4, 9)}}});

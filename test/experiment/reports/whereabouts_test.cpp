@@ -48,7 +48,7 @@ TEST_CASE("whereabouts: a vehicle has not departed, is on, and has left") {
     CHECK(all[0].robots[1].position == Vec3{0, 40, 0});  // where it will appear
 }
 
-TEST_CASE("whereabouts: a robot that is switched off is there, and off") {
+TEST_CASE("whereabouts: a robot that is switched off is present and off") {
     test::TemporaryFolder folder;
     const Scenario s = load_scenario(
         folder.write("s.toml",
@@ -71,7 +71,8 @@ TEST_CASE("whereabouts: the answers are in the order of the times") {
     CHECK(all[2].robots[0].position == Vec3{10, 0, 0});
 }
 
-TEST_CASE("network: a robot that is taken away is silent until it is switched on") {
+TEST_CASE(
+    "network: a robot that is taken away neither sends nor receives until it is switched on") {
     Network net;
     const NodeId a = net.add({.name = "a", .at = {}, .radius = {0.7}});
     CHECK(net.robot(a).presence == Presence::on);

@@ -97,7 +97,7 @@ class Echo {
 
 }  // namespace
 
-TEST_CASE("web sockets: the handshake is that of the RFC's example") {
+TEST_CASE("web sockets: the handshake equals the example of the RFC") {
     const Echo echo;
     const WebClient client(echo.port, "Sec-WebSocket-Extensions: permessage-deflate\r\n");
     REQUIRE(client.is_in());
@@ -107,7 +107,7 @@ TEST_CASE("web sockets: the handshake is that of the RFC's example") {
     CHECK(echo.has(1));
 }
 
-TEST_CASE("web sockets: messages of any length come whole, as text or as bytes") {
+TEST_CASE("web sockets: messages of any length arrive complete, as text or binary") {
     const Echo echo;
     WebClient client(echo.port);
     for (const std::size_t length : {0UL, 1UL, 125UL, 126UL, 65'535UL, 65'536UL, longest}) {
@@ -126,7 +126,7 @@ TEST_CASE("web sockets: messages of any length come whole, as text or as bytes")
     CHECK(answer.bytes == bytes);
 }
 
-TEST_CASE("web sockets: frames of a message are one message, and a ping between them is answered") {
+TEST_CASE("web sockets: fragments form one message, and a ping between them is answered") {
     const Echo echo;
     WebClient client(echo.port);
     client.send("one ", WebClient::text, false);
@@ -139,7 +139,7 @@ TEST_CASE("web sockets: frames of a message are one message, and a ping between 
     CHECK(client.message() == "one and two");
 }
 
-TEST_CASE("web sockets: what breaks the protocol or a limit is closed with the RFC's reason") {
+TEST_CASE("web sockets: a violation of protocol or limits is closed with the RFC's code") {
     const Echo echo;
     WebClient long_one(echo.port), no_text(echo.port), unmasked(echo.port);
     long_one.send(std::string(longest + 1, 'a'));
@@ -181,7 +181,7 @@ TEST_CASE("web sockets: a client that does not read is closed, and others are se
     CHECK(crowded.reason() == 1013);
 }
 
-TEST_CASE("web sockets: a message may be longer than what may wait, for a client that reads") {
+TEST_CASE("web sockets: a message may exceed the send queue, for a client that reads") {
     const Echo echo;
     WebClient reader(echo.port);
     reader.send("map");
@@ -190,7 +190,7 @@ TEST_CASE("web sockets: a message may be longer than what may wait, for a client
     CHECK(reader.message().size() == 1);
 }
 
-TEST_CASE("web sockets: a server closes once all is out, and says goodbye at its end") {
+TEST_CASE("web sockets: the server closes after all data is sent, with a close frame") {
     Echo echo;
     WebClient closed(echo.port), stays(echo.port);
     closed.send("close");
@@ -203,7 +203,7 @@ TEST_CASE("web sockets: a server closes once all is out, and says goodbye at its
     stop.join();
 }
 
-TEST_CASE("web sockets: clients that are silent are asked, and gone if they do not answer") {
+TEST_CASE("web sockets: silent clients are pinged, and closed if they do not answer") {
     const Echo echo({.request = 100ms, .silence = 1s});
     WebClient alive(echo.port), dead(echo.port);
     LineClient asks_nothing(echo.port);
@@ -219,7 +219,7 @@ TEST_CASE("web sockets: clients that are silent are asked, and gone if they do n
     CHECK(alive.message() == "still there");
 }
 
-TEST_CASE("web sockets: clients that vanish are told as gone") {
+TEST_CASE("web sockets: clients that vanish are reported as gone") {
     const Echo echo;
     for (int i = 0; i < 100; ++i) {
         WebClient client(echo.port);
@@ -236,7 +236,7 @@ TEST_CASE("web sockets: clients that vanish are told as gone") {
     CHECK(echo.has(0));
 }
 
-TEST_CASE("web sockets: requests of strange pages, for strange hosts, or for no WebSocket") {
+TEST_CASE("web sockets: requests of foreign pages, foreign hosts or without upgrade are refused") {
     const Echo echo;
     const std::string own = "127.0.0.1:" + std::to_string(echo.port);
     const auto answer = [&](const std::string& origin, const std::string& target = "/",
@@ -282,7 +282,7 @@ TEST_CASE("web sockets: requests of strange pages, for strange hosts, or for no 
     CHECK(endless.line().empty());
 }
 
-TEST_CASE("web sockets: fixed pages are sent for GET and HEAD, and nothing else is there") {
+TEST_CASE("web sockets: fixed pages are served for GET and HEAD; other paths are not found") {
     const std::string large(std::size_t{3} << 20U, 'x');
     const Echo echo({}, {{"/", {"text/html; charset=utf-8", "<p>hello</p>\n"}},
                          {"/large", {"text/plain", large}}});
@@ -324,7 +324,7 @@ TEST_CASE("web sockets: fixed pages are sent for GET and HEAD, and nothing else 
     CHECK_FALSE(WebClient(echo.port, "Origin: null\r\n").is_in());
 }
 
-TEST_CASE("admission: pages of others need the token, names of others never lead here") {
+TEST_CASE("admission: foreign pages need the token, and foreign host names are refused") {
     const std::string secret = "0123456789abcdef0123456789abcdef";
     const Admission admission({"127.0.0.1", 9090}, secret);
     const std::string right = "/any/path?x=1&token=" + secret, part = "/?token=0123",

@@ -54,7 +54,7 @@ std::string fault(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("device addresses: one that no device can have is an error with its place") {
+TEST_CASE("device addresses: an address that no device can have is an error with its position") {
     const std::vector<std::string> macs = {"hello",
                                            "",
                                            "02:00:00:00:00",
@@ -88,7 +88,7 @@ TEST_CASE("device addresses: one that no device can have is an error with its pl
     CHECK(fault(two("", "", "netmask = \"255.0.255.0\"")).starts_with("s.toml:4:11: robot A: "));
 }
 
-TEST_CASE("device addresses: that of a network and that of all its hosts are no host's") {
+TEST_CASE("device addresses: network and broadcast addresses are refused for hosts") {
     CHECK(fault(two("", "ip = \"10.0.0.0\""))
               .starts_with("s.toml:12:16: robot B: the ip 10.0.0.0 is the address of the network "
                            "10.0.0.0/24; "));
@@ -105,7 +105,7 @@ TEST_CASE("device addresses: that of a network and that of all its hosts are no 
     CHECK(fault(two("", "ip = \"10.0.0.0\", netmask = \"255.255.255.255\"")).empty());
 }
 
-TEST_CASE("device addresses: no two robots have one, however it is written") {
+TEST_CASE("device addresses: equal addresses of two robots are refused, in any notation") {
     CHECK(fault(two("mac = \"02:00:00:00:00:aA\"", "mac = \"02:00:00:00:00:Aa\""))
               .starts_with("s.toml:12:17: robot B: found the mac 02:00:00:00:00:Aa, which robot A "
                            "has, too; "));
@@ -119,7 +119,7 @@ TEST_CASE("device addresses: no two robots have one, however it is written") {
     CHECK(fault(many).empty());
 }
 
-TEST_CASE("device addresses: robots outside of each other's network are told") {
+TEST_CASE("device addresses: robots in different networks give a notice") {
     CHECK(notices(two("", "")).empty());
     CHECK(notices(two("ip = \"10.0.0.77\"", "")).empty());
     CHECK(notices(two("ip = \"192.168.1.1\"", "ip = \"192.168.1.2\"")).empty());
@@ -142,7 +142,7 @@ TEST_CASE("device addresses: robots outside of each other's network are told") {
     CHECK(notices(two("netmask = \"255.0.0.0\"", "netmask = \"255.255.0.0\"")).empty());
 }
 
-TEST_CASE("device addresses: more robots than the made addresses of one network are told") {
+TEST_CASE("device addresses: more robots than generated addresses in a network give a notice") {
     const auto robots = [](int count, const std::string& radio) {
         return notices(
             fmt::format("[scenario]\nduration = \"1 s\"\n[radio]\n{}\n[[robot]]\nname = "
@@ -158,7 +158,7 @@ TEST_CASE("device addresses: more robots than the made addresses of one network 
     CHECK(robots(260, "netmask = \"255.255.0.0\"").empty());
 }
 
-TEST_CASE("emulate: a wrong address ends it with code 3 before anything is made") {
+TEST_CASE("emulate: an invalid address ends it with code 3 before anything is created") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", two("", "mac = \"01:00:00:00:00:01\""));
     const Ended ended = command(folder, {"emulate", file, "--out", folder.path("out")});

@@ -32,7 +32,7 @@ Programs programs_of(const std::string& more = {}) {
 
 }  // namespace
 
-TEST_CASE("ethernet: a frame is carried unchanged, and on air without its header of 14 bytes") {
+TEST_CASE("ethernet: a frame is passed unchanged, and is on air without its header of 14 bytes") {
     Programs programs = programs_of();
     programs.send(0, arp_request);
     programs.run_to(start_of_run + 100ms);
@@ -46,7 +46,7 @@ TEST_CASE("ethernet: a frame is carried unchanged, and on air without its header
     CHECK(took <= on_air + 2us);
 }
 
-TEST_CASE("ethernet: a robot's address is a unicast, a group address is everyone in range") {
+TEST_CASE("ethernet: a robot's address gives a unicast, a group address a broadcast") {
     Programs programs = programs_of();
     programs.send(1, frame(c, b, 100));
     programs.run_to(start_of_run + 10ms);
@@ -82,7 +82,7 @@ TEST_CASE("ethernet: with csma a unicast is acknowledged and repeated, a broadca
     CHECK(std::abs(broadcasts - 50) <= four_sigma);
 }
 
-TEST_CASE("ethernet: frames to nobody's address, or without a header, are lost and counted") {
+TEST_CASE("ethernet: frames to unknown addresses, or without a header, are dropped and counted") {
     Programs programs = programs_of();
     programs.send(0, frame("\x02\x00\x00\x00\x00\x09"s, a, 100));
     programs.send(0, frame(a, a, 100));
@@ -96,14 +96,14 @@ TEST_CASE("ethernet: frames to nobody's address, or without a header, are lost a
     CHECK(programs.got.size() == 1);
 }
 
-TEST_CASE("ethernet: messages that are no frames, or for others, do not reach programs") {
+TEST_CASE("ethernet: messages that are not frames, or for other robots, do not reach programs") {
     Programs programs =
         programs_of("[[traffic]]\nfrom = \"B\"\npayload = \"not to your address\"\n");
     programs.run_to(start_of_run + 1s);
     CHECK(programs.got.empty());
 }
 
-TEST_CASE("ethernet: addresses") {
+TEST_CASE("ethernet: addresses are printed and parsed") {
     CHECK(mac_bytes("02:00:00:00:00:01") == a);
     CHECK(mac_bytes("AA:bb:0c:d0:00:ff") == "\xaa\xbb\x0c\xd0\x00\xff"s);
     for (const char* bad :

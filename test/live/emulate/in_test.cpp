@@ -117,7 +117,7 @@ const std::vector<std::string> stubborn = {"sh", "-c",
 
 }  // namespace
 
-TEST_CASE("in: a network that another user hands out is entered only if root is told to") {
+TEST_CASE("in: root enters the network of another user's run only with --user") {
     if (!is_root()) return;
     const std::string robot = "Q" + std::to_string(getpid());
     const Stranger squatter([&] { return hand_out_own_network(robot); });
@@ -142,7 +142,7 @@ TEST_CASE("in: a network that another user hands out is entered only if root is 
     CHECK(try_in({"--user", "no such user"}).exit == 2);
 }
 
-TEST_CASE("in: a plain user does not enter another's run, by whatever option") {
+TEST_CASE("in: a user cannot enter another user's run by any option") {
     if (!is_root()) return;
     const std::string robot = "Q" + std::to_string(getpid());
     const int listener = open_listener(getpid(), robot);
@@ -159,7 +159,7 @@ TEST_CASE("in: a plain user does not enter another's run, by whatever option") {
     close(listener);
 }
 
-TEST_CASE("emulate: the namespaces of a run are handed to its user alone") {
+TEST_CASE("emulate: only the user of a run gets its namespaces") {
     const auto run = is_root() ? emulated_by_tap() : nullptr;
     if (!run) return;
     const auto gets_it = [&] {
@@ -178,7 +178,7 @@ TEST_CASE("emulate: the namespaces of a run are handed to its user alone") {
     CHECK(gets_it() == 1);
 }
 
-TEST_CASE("robot listener: a name that is taken is passed over, and each listener is found") {
+TEST_CASE("robot listener: a name in use is skipped, and each listener is found") {
     const std::string robot = "R/.." + std::to_string(getpid());
     const int first = open_listener(getpid(), robot), second = open_listener(getpid(), robot);
     std::set<std::string> marks;
@@ -198,7 +198,7 @@ TEST_CASE("robot listener: a name that is taken is passed over, and each listene
     CHECK_FALSE(RobotListener{getpid(), "", robot}.connect_to());
 }
 
-TEST_CASE("in: several runs are told apart by their folders") {
+TEST_CASE("in: several runs are distinguished by their folders") {
     const auto one = emulated_by_tap();
     const auto other = one ? emulated_by_tap() : nullptr;
     if (!other) return;
@@ -241,7 +241,7 @@ TEST_CASE("in: several runs are told apart by their folders") {
     }
 }
 
-TEST_CASE("in: programs end with the run, however it ends, and a sentence says so") {
+TEST_CASE("in: programs end with the run, with a message") {
     for (const std::string how : {"interrupted", "killed", "killed with its keeper"}) {
         CAPTURE(how);
         const auto run = emulated_by_tap();
@@ -265,7 +265,7 @@ TEST_CASE("in: programs end with the run, however it ends, and a sentence says s
     }
 }
 
-TEST_CASE("in: a program that puts away something when the run ends has the time for it") {
+TEST_CASE("in: a program has time to clean up when the run ends") {
     const auto run = emulated_by_tap();
     if (!run) return;
     const TemporaryFolder folder;
@@ -280,7 +280,7 @@ TEST_CASE("in: a program that puts away something when the run ends has the time
     CHECK(ended.exit == 1);
 }
 
-TEST_CASE("in: a program's own end is that of the command, and signals reach it") {
+TEST_CASE("in: the exit code of the program is that of the command, and signals reach it") {
     const auto run = emulated_by_tap();
     if (!run) return;
     const TemporaryFolder folder;

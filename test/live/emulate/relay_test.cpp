@@ -37,7 +37,7 @@ Duration airtime(std::size_t bytes) {
 
 }  // namespace
 
-TEST_CASE("relay: a datagram to everyone reaches those in range, with source, level and hops") {
+TEST_CASE("relay: a datagram to everyone reaches robots in range, with source, level and hops") {
     Programs programs = relay();
     programs.run_to(start_of_run + 100ms);
     programs.send(1, to_all + "F");
@@ -62,7 +62,7 @@ TEST_CASE("relay: a datagram to everyone reaches those in range, with source, le
     CHECK(programs.got[1].robot == NodeId{2});
 }
 
-TEST_CASE("relay: a datagram to one robot is heard by that one, and goes no further") {
+TEST_CASE("relay: a datagram to one robot is received by it alone, over one hop") {
     Programs programs = relay();
     programs.send(0, to_b + "for B");
     programs.send(2, to_b + "for B, too");
@@ -77,7 +77,7 @@ TEST_CASE("relay: a datagram to one robot is heard by that one, and goes no furt
     CHECK(programs.count("packets_received") == 2);
 }
 
-TEST_CASE("relay: programs get the messages of the scenario, too") {
+TEST_CASE("relay: programs also get the messages of the scenario") {
     Programs programs = relay();
     programs.run_to(start_of_run + 1s);  // A says "tick" at 0.5 s, which is flooded to C
     std::vector<std::string> at_c;
@@ -90,7 +90,7 @@ TEST_CASE("relay: programs get the messages of the scenario, too") {
     CHECK(short_at(at_c[0], 10) == 2);
 }
 
-TEST_CASE("relay: what makes no sense, nobody's address and a robot that is off are counted") {
+TEST_CASE("relay: invalid datagrams, unknown addresses and robots that are off are counted") {
     Programs programs = relay();
     for (const std::string& bad :
          {""s, "R"s, "RN\x01\x00\xff\xff\xff"s, "RN\x01\x01\xff\xff\xff\xff"s,
@@ -110,7 +110,7 @@ TEST_CASE("relay: what makes no sense, nobody's address and a robot that is off 
     CHECK(programs.count("packets_sent") == 10);
 }
 
-TEST_CASE("relay: a level that does not fit is cut, and one that is not known is told as -32768") {
+TEST_CASE("relay: a level out of range is clamped, and an unknown level is -32768") {
     const RelayFormat format;
     HeardMessage heard{start_of_run, NodeId{0}, NodeId{7}, 3, "x"};
     CHECK(short_at(*format.write(heard), 8) == -32'768);

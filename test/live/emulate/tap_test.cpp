@@ -45,7 +45,8 @@ bool has_ping() {
 
 }  // namespace
 
-TEST_CASE("emulate: the kernel's pings cross the radio, and the run is replayed without them") {
+TEST_CASE(
+    "emulate: pings of the kernel pass over the radio, and the run is replayed without them") {
     const auto run = has_ping() ? emulated_by_tap() : nullptr;
     if (!run) return;
     const std::vector<double> times = ping(*run, "A", "10.0.0.2", 20);
@@ -63,7 +64,7 @@ TEST_CASE("emulate: the kernel's pings cross the radio, and the run is replayed 
     CHECK_FALSE(has_listeners(run->pid()));
 }
 
-TEST_CASE("emulate: a radio that loses a fifth each way loses 36 % of the pings") {
+TEST_CASE("emulate: a radio that loses a fifth in each direction loses 36 % of the pings") {
     std::string lossy = tap_scenario;
     lossy.insert(lossy.find("preamble"), "success_rate = 0.8\n");
     const auto run = has_ping() ? emulated_by_tap(lossy) : nullptr;
@@ -78,7 +79,7 @@ TEST_CASE("emulate: a radio that loses a fifth each way loses 36 % of the pings"
     CHECK(run->stop().exit == 0);
 }
 
-TEST_CASE("emulate: a megabyte by TCP arrives whole") {
+TEST_CASE("emulate: a megabyte by TCP arrives complete") {
     std::string fast = tap_scenario;
     fast.replace(fast.find("1.94 ms"), 7, "20 us");
     const auto run = emulated_by_tap(fast);
@@ -114,7 +115,7 @@ print(got == f"{len(sent)} {hashlib.sha256(sent).hexdigest()}", len(sent))
     CHECK(run->replay().exit == 0);
 }
 
-TEST_CASE("emulate: nothing is left of a run that is killed") {
+TEST_CASE("emulate: a killed run leaves nothing behind") {
     const auto run = emulated_by_tap();
     if (!run) return;
     CHECK(has_listeners(run->pid()));
@@ -124,7 +125,7 @@ TEST_CASE("emulate: nothing is left of a run that is killed") {
     CHECK_FALSE(has_listeners(run->pid()));
 }
 
-TEST_CASE("in: no run, no such robot, no such program") {
+TEST_CASE("in: a missing run, robot or program is an error") {
     const TemporaryFolder folder;
     const auto try_in = [&](std::vector<std::string> words) {
         words.insert(words.begin(), "in");

@@ -48,7 +48,7 @@ const std::string to_b = "RN\x01\x00\x01\x00\x00\x00"s;
 
 }  // namespace
 
-TEST_CASE("emulate --udp: programs reach those in range, and the run is replayed without them") {
+TEST_CASE("emulate --udp: programs reach robots in range, and the run is replayed without them") {
     Emulation emulation(scenario, {"--udp", "127.0.0.1:0", "--late", "60 s"});
     const std::vector<int> ports = emulation.ports(4);
     const Datagrams a(ports[0]), b(ports[1]), c(ports[2]);
@@ -80,7 +80,7 @@ TEST_CASE("emulate --udp: programs reach those in range, and the run is replayed
     CHECK(emulation.replay().out == "identical: 40 inputs, fingerprint " + fingerprint + "\n");
 }
 
-TEST_CASE("emulate --udp: a fifth of what a radio of success_rate 0.8 sends is lost") {
+TEST_CASE("emulate --udp: a radio with success_rate 0.8 loses a fifth of the datagrams") {
     Emulation emulation(scenario, {"--udp", "127.0.0.1:0", "--late", "60 s"});
     const std::vector<int> ports = emulation.ports(4);
     const Datagrams a(ports[0]), d(ports[3]);
@@ -101,7 +101,7 @@ TEST_CASE("emulate --udp: a fifth of what a radio of success_rate 0.8 sends is l
     CHECK(emulation.replay().exit == 0);
 }
 
-TEST_CASE("emulate: behind the clock it warns once, or fails if it is told to") {
+TEST_CASE("emulate: a late run gives one warning, or fails with --on-late fail") {
     const std::string talks =
         scenario + "[[traffic]]\nfrom = \"A\"\nsize = \"10 B\"\nevery = \"10 ms\"\n";
     Emulation warns(talks, {"--udp", "127.0.0.1:0", "--late", "1 ns", "--speed", "100"});
@@ -120,7 +120,7 @@ TEST_CASE("emulate: behind the clock it warns once, or fails if it is told to") 
     CHECK(fails.replay().exit == 0);
 }
 
-TEST_CASE("emulate: a process that is stopped while nothing is due is late, and fails if told to") {
+TEST_CASE("emulate: a process stopped while idle is late, and fails with --on-late fail") {
     for (const std::string on_late : {"warn", "fail"}) {
         CAPTURE(on_late);
         Emulation run(scenario, {"--udp", "127.0.0.1:0", "--late", "300ms", "--on-late", on_late});
@@ -141,7 +141,7 @@ TEST_CASE("emulate: a process that is stopped while nothing is due is late, and 
     }
 }
 
-TEST_CASE("emulate --udp: only this machine is listened to, and a port in use is told") {
+TEST_CASE("emulate --udp: listens only to this machine, and reports a port in use") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", scenario);
     const auto emulate = [&](std::vector<std::string> options) {

@@ -45,7 +45,7 @@ std::string type_of(const std::string& line) { return Json::parse(line).at("type
 
 }  // namespace
 
-TEST_CASE("lockstep: the transcript of the documentation, byte for byte") {
+TEST_CASE("lockstep: the transcript in the documentation is reproduced byte for byte") {
     Talk talk(three_in_a_row());
     std::ifstream file(ROVERNET_TEST_DATA "/../live/transcript.txt");
     REQUIRE(file);
@@ -71,7 +71,7 @@ TEST_CASE("lockstep: the transcript of the documentation, byte for byte") {
     }
 }
 
-TEST_CASE("lockstep: each malformed line has its code and its place, and changes nothing") {
+TEST_CASE("lockstep: each malformed line gets its code and position, and changes nothing") {
     Talk talk(three_in_a_row());
     const auto check = [&](const std::vector<std::pair<std::string, std::string>>& table) {
         for (const auto& row : table) {
@@ -168,8 +168,7 @@ TEST_CASE("lockstep: each malformed line has its code and its place, and changes
     CHECK(fault(talk.ask(0, step(3))) == "old_number n");
 }
 
-TEST_CASE(
-    "lockstep: an unknown robot is told with those that there are, a key with what was meant") {
+TEST_CASE("lockstep: an unknown robot gets a list of robots, an unknown key a suggestion") {
     Talk talk(three_in_a_row());
     talk.say(0, hello_a);
     CHECK(Json::parse(talk.ask(0, step(1, R"(,"do":{"Zoe":{}})"))).at("msg") ==
@@ -195,7 +194,8 @@ TEST_CASE(
           "found 65536; expected a whole number from 0 to 65507");
 }
 
-TEST_CASE("lockstep: time goes to the nearest end of a step once everybody has asked") {
+TEST_CASE(
+    "lockstep: time advances to the nearest end of a step when all controllers have requested") {
     Talk talk(three_in_a_row(), {.wait_for = 2});
     CHECK(talk.ask(0, hello_a).empty());
     CHECK(fault(talk.ask(0, step(1))) == "too_early ");
@@ -210,7 +210,7 @@ TEST_CASE("lockstep: time goes to the nearest end of a step once everybody has a
     CHECK(Json::parse(talk.told[1].back()).at("t_ns") == 300'000'000);
 }
 
-TEST_CASE("lockstep: neither the order of arrival nor that of the controllers shows in a result") {
+TEST_CASE("lockstep: results do not depend on the order of arrival or of the controllers") {
     const auto run = [](bool swapped) {
         Talk talk(three_in_a_row(), {.wait_for = 2});
         const Lockstep::Connection a = 0, b = 1;
@@ -229,7 +229,7 @@ TEST_CASE("lockstep: neither the order of arrival nor that of the controllers sh
     CHECK(run(false) == run(true));
 }
 
-TEST_CASE("lockstep: nor does the order in which controllers leave") {
+TEST_CASE("lockstep: results do not depend on the order in which controllers leave") {
     const auto run = [](Lockstep::Connection first) {
         Talk talk(three_in_a_row(), {.wait_for = 2});
         talk.say(0, hello_a);
@@ -245,7 +245,7 @@ TEST_CASE("lockstep: nor does the order in which controllers leave") {
     CHECK(run(0) == run(1));
 }
 
-TEST_CASE("lockstep: those who leave together do so by their robots, whoever came first") {
+TEST_CASE("lockstep: controllers that leave together do so in the order of their robots") {
     for (const bool is_a_first : {true, false}) {
         CAPTURE(is_a_first);
         Talk talk(three_in_a_row(), {.wait_for = 2});
@@ -263,7 +263,7 @@ TEST_CASE("lockstep: those who leave together do so by their robots, whoever cam
     }
 }
 
-TEST_CASE("lockstep: robots are one controller's, and columns say what objects say") {
+TEST_CASE("lockstep: each robot has one controller, and columns contain the data of the objects") {
     Talk talk(three_in_a_row(), {.wait_for = 1});
     talk.say(0, hello_a);
     CHECK(fault(talk.ask(1, R"({"type":"hello","protocol":1,"robots":["B","A"],"step":"1 s"})")) ==
@@ -288,7 +288,7 @@ TEST_CASE("lockstep: robots are one controller's, and columns say what objects s
     CHECK(lists.fingerprint->text() == objects.fingerprint->text());
 }
 
-TEST_CASE("lockstep: a robot is put elsewhere, at rest, as it is told or as it was") {
+TEST_CASE("lockstep: a robot is placed elsewhere, at rest, with a given or its old heading") {
     Talk talk(three_in_a_row());
     talk.say(0, hello_a);
     talk.say(0, step(1, R"(,"do":{"A":{"v":1,"w":0.5}})"));
@@ -306,7 +306,8 @@ TEST_CASE("lockstep: a robot is put elsewhere, at rest, as it is told or as it w
     CHECK(state(talk.ask(0, step(4, R"(,"do":{"A":{"place":[0,0]}})"))) == State{0, 0, 5, -1.5, 0});
 }
 
-TEST_CASE("lockstep: a place without room is an error, a goal without a way is in the state") {
+TEST_CASE(
+    "lockstep: a place without room is an error; a goal without a path is reported in the state") {
     Talk talk(load_scenario(ROVERNET_EXAMPLES "/rescue/rescue.toml", {}));
     talk.say(0, hello_a);
     for (const char* place : {"[-5,3]", "[24,100]", "[2,6]"}) {
@@ -330,7 +331,7 @@ TEST_CASE("lockstep: a place without room is an error, a goal without a way is i
     }
 }
 
-TEST_CASE("lockstep: scans are told to those who ask, in the frame that the welcome tells") {
+TEST_CASE("lockstep: scans are sent on request, in the frame stated in the welcome") {
     const std::string hello =
         R"({"type":"hello","protocol":1,"robots":["A","B"],"step":"100 ms","observe":["scan"]})";
     Talk without(three_in_a_row());
@@ -367,7 +368,7 @@ at = ["2 m", "0 m"]
     CHECK(scan.at("A")[0][0] == 6);
 }
 
-TEST_CASE("lockstep: a robot goes up the stairs by its goals, and heights are told") {
+TEST_CASE("lockstep: a robot climbs stairs to its goals, and heights are sent") {
     Talk talk(load_scenario(ROVERNET_EXAMPLES "/storeys/storeys.toml", {}));
     const Json welcome = Json::parse(talk.ask(
         0, R"({"type":"hello","protocol":1,"robots":["courier","landing"],"step":"100 ms"})"));
@@ -402,7 +403,7 @@ TEST_CASE("lockstep: a robot goes up the stairs by its goals, and heights are to
           Vec3{13.2, 2, 3});
 }
 
-TEST_CASE("lockstep: without storeys heights are told where one is not 0") {
+TEST_CASE("lockstep: without storeys, heights are sent if any height is not 0") {
     Talk objects(three_in_a_row()), lists(three_in_a_row());
     objects.say(0, R"({"type":"hello","protocol":1,"robots":["A","B"],"step":"1 s"})");
     lists.say(0, R"({"type":"hello","protocol":1,"robots":["A","B"],"step":"1 s","columns":true})");
@@ -417,7 +418,7 @@ TEST_CASE("lockstep: without storeys heights are told where one is not 0") {
     CHECK(Json::parse(lists.ask(0, step(2, up))).at("state").at("z") == Json{1, 0});
 }
 
-TEST_CASE("lockstep: a run ends when its time is over, and begins anew by a reset") {
+TEST_CASE("lockstep: a run ends at its end time, and restarts by a reset") {
     Talk talk(three_in_a_row());
     talk.say(0, R"({"type":"hello","protocol":1,"robots":["A"],"step":"1.5 s","seed":4})");
     CHECK(Json::parse(talk.told[0].back()).at("seed") == 4);
@@ -439,7 +440,7 @@ TEST_CASE("lockstep: a run ends when its time is over, and begins anew by a rese
     CHECK(Json::parse(talk.told[0].back()).at("reason") == "bye");
 }
 
-TEST_CASE("lockstep: a controller that leaves early is told the end, the others go on") {
+TEST_CASE("lockstep: a controller that leaves early gets the end, and the others continue") {
     Talk talk(three_in_a_row(), {.wait_for = 2});
     talk.say(0, hello_a);
     talk.say(1, hello_b);
@@ -451,7 +452,7 @@ TEST_CASE("lockstep: a controller that leaves early is told the end, the others 
     CHECK(Json::parse(talk.told[1].back()).at("t_ns") == 300'000'000);
 }
 
-TEST_CASE("lockstep: loss of a controller ends the run, stops its robots, or is waited for") {
+TEST_CASE("lockstep: loss of a controller ends the run, stops its robots, or pauses the run") {
     const auto lose = [](Talk& talk) {
         talk.say(0, hello_a);
         talk.say(1, hello_b);
@@ -484,7 +485,7 @@ TEST_CASE("lockstep: loss of a controller ends the run, stops its robots, or is 
     CHECK(Json::parse(waits.ask(5, step(3))).at("t_ns") == 300'000'000);
 }
 
-TEST_CASE("lockstep: a run that is stopped in the midst of a step is told so") {
+TEST_CASE("lockstep: a run stopped in the middle of a step sends this to its controllers") {
     Talk talk(three_in_a_row());
     talk.say(0, hello_a);
     talk.lockstep.received(0, step(1));
@@ -493,7 +494,7 @@ TEST_CASE("lockstep: a run that is stopped in the midst of a step is told so") {
     CHECK(Json::parse(talk.told[0].back()).at("reason") == "stopped");
 }
 
-TEST_CASE("lockstep: what comes during a step counts from its end, in the order in which it came") {
+TEST_CASE("lockstep: input during a step takes effect at its end, in order of arrival") {
     const auto run = [](bool is_ahead) {
         Talk talk(three_in_a_row(), {.on_loss = OnLoss::stop});
         const auto say = [&](Lockstep::Connection from, const std::string& line) {
@@ -520,7 +521,7 @@ TEST_CASE("lockstep: what comes during a step counts from its end, in the order 
     CHECK(run(true) == run(false));
 }
 
-TEST_CASE("lockstep: during a step, too, a first line that is no JSON object is known for it") {
+TEST_CASE("lockstep: a first line that is not a JSON object is recognised also during a step") {
     Talk talk(three_in_a_row());
     talk.say(0, hello_a);
     talk.lockstep.received(0, step(1));
@@ -532,7 +533,7 @@ TEST_CASE("lockstep: during a step, too, a first line that is no JSON object is 
     CHECK(fault(talk.told[1].back()) == "missing_key protocol");
 }
 
-TEST_CASE("lockstep: a robot that another front drives is taken") {
+TEST_CASE("lockstep: a robot driven by another front is refused") {
     Talk talk(three_in_a_row());
     talk.session->attach({NodeId{1}}, "player");
     CHECK(fault(talk.ask(0, R"({"type":"hello","protocol":1,"robots":["A","B"],"step":"1 s"})")) ==
@@ -540,7 +541,7 @@ TEST_CASE("lockstep: a robot that another front drives is taken") {
 }
 
 TEST_CASE(
-    "lockstep: patience, programs that have gone, and who is missing are told while it waits") {
+    "lockstep: while it waits, patience, ended programs and missing controllers are handled") {
     using namespace std::chrono_literals;
     std::vector<std::string> said;
     Talk talk(three_in_a_row(),

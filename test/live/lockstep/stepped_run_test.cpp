@@ -84,7 +84,7 @@ std::string refusal(Act act) {
 
 }  // namespace
 
-TEST_CASE("stepped run: the same commands give the run that the lock-step protocol gives") {
+TEST_CASE("stepped run: the same commands give the same run as the lock-step protocol") {
     const Scenario scenario = three_in_a_row();
     for (const auto seed : {std::optional<std::uint64_t>(), std::optional<std::uint64_t>(7)}) {
         CHECK(by_steps(scenario, seed) == by_lines(scenario, seed));
@@ -92,7 +92,7 @@ TEST_CASE("stepped run: the same commands give the run that the lock-step protoc
     CHECK(by_steps(scenario, 7) != by_steps(scenario, 8));  // delays before forwarding
 }
 
-TEST_CASE("stepped run: its log of inputs makes the run again") {
+TEST_CASE("stepped run: its log of inputs reproduces the run") {
     const TemporaryFolder folder;
     const std::string fingerprint = by_steps(three_in_a_row(), 7, folder.path("run"));
     const InputReplay replay = replay_inputs(folder.path("run"), {});
@@ -102,7 +102,7 @@ TEST_CASE("stepped run: its log of inputs makes the run again") {
     CHECK_FALSE(replay.is_other_scenario);
 }
 
-TEST_CASE("stepped run: a step that is cut goes on, and its log makes the run again") {
+TEST_CASE("stepped run: an interrupted step continues, and the log reproduces the run") {
     const TemporaryFolder folder;
     SteppedRun run(three_in_a_row(), {.step = 1s, .folder = folder.path("run")});
     run.command(0, SendCommand{.payload = "a"});
@@ -116,7 +116,7 @@ TEST_CASE("stepped run: a step that is cut goes on, and its log makes the run ag
     CHECK(replay_inputs(folder.path("run"), {}).now == fingerprint);
 }
 
-TEST_CASE("stepped run: poses follow the arc, by row, at one place in memory") {
+TEST_CASE("stepped run: poses follow the arc, one row for each robot, always at one address") {
     SteppedRun run(three_in_a_row(), {.robots = std::vector<std::string>{"C", "A"}});
     const double* pose = run.poses().data();
     CHECK(pose[0] == 300);
@@ -135,7 +135,7 @@ TEST_CASE("stepped run: poses follow the arc, by row, at one place in memory") {
     CHECK(pose[0] == 300);
 }
 
-TEST_CASE("stepped run: what a robot heard has time, way, level and port") {
+TEST_CASE("stepped run: received messages have time, sender, level and port") {
     SteppedRun run(three_in_a_row(), {});
     run.command(0, SendCommand{.port = 7, .payload = "F"});
     step(run);
@@ -150,7 +150,7 @@ TEST_CASE("stepped run: what a robot heard has time, way, level and port") {
     CHECK(run.heard().empty());
 }
 
-TEST_CASE("stepped run: it ends with the scenario, and can begin anew") {
+TEST_CASE("stepped run: ends with the scenario, and can be reset") {
     SteppedRun run(three_in_a_row(), {.step = 1500ms});
     CHECK(step(run));
     CHECK_FALSE(run.is_done());
@@ -167,7 +167,7 @@ TEST_CASE("stepped run: it ends with the scenario, and can begin anew") {
     CHECK(step(run));
 }
 
-TEST_CASE("stepped run: numbers out of their range are refused, and nothing of them is kept") {
+TEST_CASE("stepped run: numbers out of range are refused without effect") {
     SteppedRun run(three_in_a_row(), {});
     const auto driven = [&](double v, double w) {
         return refusal([&] { run.drive(std::vector<double>{1, 1, v, w, 1, 1}); });
@@ -198,8 +198,7 @@ TEST_CASE("stepped run: numbers out of their range are refused, and nothing of t
           }) == "robot A is listed twice");
 }
 
-TEST_CASE(
-    "stepped run: what a sink commands while commands are carried out holds from the next step") {
+TEST_CASE("stepped run: commands of a sink during commands take effect in the next step") {
     struct Echo {
         SteppedRun** run;
         KindMask kinds() const { return kind_of<Sent>(); }

@@ -42,7 +42,7 @@ PlayerConfig read(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("player configuration: world, robots and their places") {
+TEST_CASE("player configuration: world, robots and their ports are read") {
     const PlayerConfig config = read(head + robots);
     CHECK(config.world.ends_with("/worlds/two.world"));
     REQUIRE(config.robots.size() == 3);
@@ -65,7 +65,7 @@ TEST_CASE("player configuration: world, robots and their places") {
               .index == 3);
 }
 
-TEST_CASE("player configuration: blanks in an address and lists over lines do not matter") {
+TEST_CASE("player configuration: blanks in an address and lists over several lines are accepted") {
     const PlayerConfig config = read(head + R"(driver ( name "stage" provides [
   " 7001 :position2d: 2 "   # where it drives
   "7001:ranger:1 "
@@ -112,7 +112,7 @@ driver ( name "comdriver" provides [ "6667:opaque:1" ] )
     CHECK(!read(head + robots).has_comdriver());
 }
 
-TEST_CASE("player configuration: mistakes are told with their place") {
+TEST_CASE("player configuration: errors have a position") {
     const auto fault = [](const std::string& text) -> std::string {
         try {
             read(text);
@@ -148,7 +148,7 @@ TEST_CASE("player configuration: mistakes are told with their place") {
     CHECK_THROWS_AS(read_player_config("/nowhere/two.cfg"), InputError);
 }
 
-TEST_CASE("player listeners: a port for each robot, one for all, or those of a configuration") {
+TEST_CASE("player listeners: one port per robot, one for all, or the ports of a configuration") {
     const std::vector<std::string> names = {"r0", "r1", "r2"};
     const FrontListeners ports = player_ports({"127.0.0.1", 7000}, names, {});
     REQUIRE(ports.entries.size() == 3);
@@ -169,7 +169,7 @@ TEST_CASE("player listeners: a port for each robot, one for all, or those of a c
     CHECK_THROWS_AS(player_ports({"127.0.0.1", 65535}, {"a", "b"}, {}), std::invalid_argument);
 }
 
-TEST_CASE("player listeners: robots of tables, of a count and of a movement file") {
+TEST_CASE("player listeners: serve robots of tables, of a count and of a movement file") {
     const TemporaryFolder folder;
     folder.write("m.tcl", R"($node_(0) set X_ 1
 $node_(0) set Y_ 2

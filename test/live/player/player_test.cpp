@@ -174,7 +174,7 @@ std::string types(const std::vector<Wire>& all) {
 
 }  // namespace
 
-TEST_CASE("player: a real client's links session is answered as the original answered it") {
+TEST_CASE("player: a real client's links session gets the same answers as from the original") {
     PlayerTalk talk(player_scenario(pair));
     const auto capture = raw_capture("links_pull.log");
     REQUIRE(capture.size() > 25);
@@ -191,7 +191,7 @@ TEST_CASE("player: a real client's links session is answered as the original ans
     check_devices(without_synch.theirs[1].payload, without_synch.ours[1].payload);
 }
 
-TEST_CASE("player: a real client's driving session is answered as the original answered it") {
+TEST_CASE("player: a real client's driving session gets the same answers as from the original") {
     PlayerTalk talk(player_scenario(pair));
     const auto capture = decoded_capture("drive_pull.log");
     REQUIRE(capture.size() > 80);
@@ -208,19 +208,19 @@ TEST_CASE("player: a real client's driving session is answered as the original a
     CHECK(geometry->payload == doubles({0, 0, 0, 0, 0, 0, 0.4, 0.4, 0.3}));
 }
 
-TEST_CASE("player: a real client that is pushed to is answered as the original answered it") {
+TEST_CASE("player: a real client in PUSH mode gets the same answers as from the original") {
     PlayerTalk talk(player_scenario(pair));
     auto capture = decoded_capture("drive_push.log");
     for (Captured& each : capture) each.message.robot = each.by_client ? 0 : 6665;
     check_same(answers(talk, capture));
 }
 
-TEST_CASE("player: the banner is 32 bytes, in one piece") {
+TEST_CASE("player: the banner is sent as one piece of 32 bytes") {
     CHECK(player_banner().size() == 32);
     CHECK(player_banner().starts_with("Player v."));
 }
 
-TEST_CASE("player: the data of position2d are those of a sample, byte for byte") {
+TEST_CASE("player: the data of position2d equal a sample, byte for byte") {
     PlayerTalk talk(player_scenario(pair));
     const auto client = talk.come();
     const std::string sample =
@@ -239,7 +239,7 @@ TEST_CASE("player: the data of position2d are those of a sample, byte for byte")
     CHECK(to_hex(told[0].bytes()).starts_with("0100007f00001a09"));
 }
 
-TEST_CASE("player: the link table of wifi is that of a sample, byte for byte") {
+TEST_CASE("player: the link table of wifi equals a sample, byte for byte") {
     PlayerTalk talk(player_scenario(pair));
     const auto client = talk.come();
     talk.say(client, device(23, 0));
@@ -257,7 +257,7 @@ TEST_CASE("player: the link table of wifi is that of a sample, byte for byte") {
     CHECK(types(talk.ask(client, request(23, 0, 2))) == "N");
 }
 
-TEST_CASE("player: a robot that is driven goes on the arc, by its odometry and in the world") {
+TEST_CASE("player: a driven robot follows the arc, in its odometry and in the world") {
     PlayerTalk talk(player_scenario(pair));
     const auto client = talk.come();
     talk.say(client, mode(pull) + device(4, 0) + device(31, 0) + drive(0.3, 0.1));
@@ -280,7 +280,7 @@ TEST_CASE("player: a robot that is driven goes on the arc, by its odometry and i
     CHECK(double_at(world[0].payload, 16) == doctest::Approx(double_at(pose, 0) - 3));
 }
 
-TEST_CASE("player: odometry is set and reset, and a robot is put elsewhere") {
+TEST_CASE("player: odometry is set and reset, and a robot is placed elsewhere") {
     PlayerTalk talk(player_scenario(pair));
     const auto client = talk.come();
     const std::string name = counted(std::string("robot2\0", 7));
@@ -303,7 +303,7 @@ TEST_CASE("player: odometry is set and reset, and a robot is put elsewhere") {
     }
 }
 
-TEST_CASE("player: a device that is not there is refused, and no SYNCH comes without data") {
+TEST_CASE("player: an unknown device is refused, and there is no SYNCH without data") {
     PlayerTalk talk(player_scenario(pair));
     const auto client = talk.come();
     const auto refused = talk.ask(client, mode(pull) + device(23, 9));
@@ -327,8 +327,7 @@ TEST_CASE("player: a device that is not there is refused, and no SYNCH comes wit
     CHECK(to_hex(told[0].payload) == "000000020000000203460000");
 }
 
-TEST_CASE(
-    "player: the relay reaches all clients of a robot, its sender too, and no other robot's") {
+TEST_CASE("player: the relay reaches all clients of a robot, including the sender, and no others") {
     PlayerTalk talk(player_scenario(pair));
     const auto sender = talk.come(), listener = talk.come(), other = talk.come(1);
     for (const auto client : {sender, listener, other}) talk.say(client, device(51, 0));
@@ -343,7 +342,7 @@ TEST_CASE(
     CHECK(data_of(talk.told(other), 51).empty());
 }
 
-TEST_CASE("player: what is said by radio is heard at the other robots, if they are in range") {
+TEST_CASE("player: radio messages are received by the other robots in range") {
     PlayerTalk talk(player_scenario(pair));
     const auto sender = talk.come(0), hearer = talk.come(1);
     talk.say(sender, device(51, 1));
@@ -365,7 +364,7 @@ TEST_CASE("player: what is said by radio is heard at the other robots, if they a
     CHECK(talk.session.network().metrics().messages == 1);
 }
 
-TEST_CASE("player: of two clients of a robot both see data, and one that leaves stops nothing") {
+TEST_CASE("player: two clients of a robot both get data, and one that leaves stops nothing") {
     PlayerTalk talk(player_scenario(pair));
     const auto first = talk.come(), second = talk.come();
     talk.say(first, device(4, 0) + drive(1, 0));
@@ -384,7 +383,7 @@ TEST_CASE("player: of two clients of a robot both see data, and one that leaves 
     CHECK_FALSE(talk.session.driver(NodeId{0}));
 }
 
-TEST_CASE("player: a robot that nobody drives moves as the scenario says, whoever looks at it") {
+TEST_CASE("player: a robot without a driver moves as in the scenario, whoever subscribes") {
     PlayerTalk talk(
         player_scenario(pair + "move = { model = \"goal\", to = [\"7 m\", \"1 m\"] }\n"));
     const auto client = talk.come(1);
@@ -396,7 +395,7 @@ TEST_CASE("player: a robot that nobody drives moves as the scenario says, whoeve
     CHECK(talk.session.network().position(NodeId{1}).x == doctest::Approx(1));
 }
 
-TEST_CASE("player: a client that pulls gets the newest data once, and all that was said") {
+TEST_CASE("player: a client in PULL mode gets the newest data once, and all messages") {
     PlayerTalk talk(player_scenario(pair));
     const auto client = talk.come();
     talk.say(client, mode(pull) + device(4, 0) + device(51, 0));
@@ -423,8 +422,7 @@ TEST_CASE("player: a client that pulls gets the newest data once, and all that w
     CHECK(told.back().time == 0);
 }
 
-TEST_CASE(
-    "player: range finders are measured only for those who are told, and are never negative") {
+TEST_CASE("player: range finders are measured only for subscribers, and are never negative") {
     const std::string in_a_wall = R"([scenario]
 duration = "60 s"
 [[robot]]
@@ -479,7 +477,7 @@ at = ["0 m", "AWAY"]
     CHECK(float_at(config[0].payload, 24) == 4);
 }
 
-TEST_CASE("player: robots at one port have an index each") {
+TEST_CASE("player: robots at one port have different indices") {
     PlayerTalk talk(player_scenario(pair), {.places = {{"robot1", 0, 0}, {"robot2", 0, 1}}});
     const auto client = talk.come();
     const auto list = talk.ask(client, request(1, 0, 1));
@@ -493,8 +491,7 @@ TEST_CASE("player: robots at one port have an index each") {
     CHECK(data_of(told, 51, 3).size() == 1);
 }
 
-TEST_CASE(
-    "player: in lock-step time waits for all who pull, and runs are the same, byte for byte") {
+TEST_CASE("player: in lock-step, time waits for all PULL clients, and runs are reproducible") {
     const auto run = [](bool swapped) {
         PlayerTalk talk(player_scenario(pair), {.is_lockstep = true, .wait_for = 2});
         const auto a = talk.come(0), b = talk.come(1);
@@ -529,7 +526,7 @@ TEST_CASE(
     CHECK(once == run(true));
 }
 
-TEST_CASE("player: in lock-step a client that leaves takes its commands with it") {
+TEST_CASE("player: in lock-step, a client that leaves cancels its commands") {
     PlayerTalk talk(player_scenario(pair), {.is_lockstep = true});
     const auto a = talk.come(0), b = talk.come(1);
     for (const auto client : {a, b}) talk.say(client, mode(pull) + device(4, 0));
@@ -542,7 +539,7 @@ TEST_CASE("player: in lock-step a client that leaves takes its commands with it"
     CHECK(talk.session.network().heading(NodeId{1}).value == 0);
 }
 
-TEST_CASE("player: malformed messages are refused or end their connection, and disturb nobody") {
+TEST_CASE("player: malformed messages are refused or end their connection without other effect") {
     PlayerTalk talk(player_scenario(pair));
     const auto bystander = talk.come();
     talk.say(bystander, device(4, 0));
@@ -601,7 +598,7 @@ TEST_CASE("player: malformed messages are refused or end their connection, and d
     CHECK(talk.session.network().position(NodeId{0}) == Vec3{-3, 0, 0});
 }
 
-TEST_CASE("player: bytes may come in any pieces") {
+TEST_CASE("player: bytes may arrive in any pieces") {
     const std::string words = mode(pull) + device(4, 0) + drive(1, 0) + ask();
     std::string whole;
     for (const std::size_t piece : {words.size(), std::size_t{1}, std::size_t{39}}) {
@@ -619,7 +616,7 @@ TEST_CASE("player: bytes may come in any pieces") {
     CHECK_FALSE(whole.empty());
 }
 
-TEST_CASE("player: noise of any kind is survived") {
+TEST_CASE("player: random bytes do not stop the server") {
     std::mt19937 bits(1);
     for (unsigned n = 0; n < 300; ++n) {
         PlayerTalk talk(player_scenario(pair));

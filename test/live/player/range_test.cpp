@@ -62,7 +62,7 @@ std::string answer(PlayerTalk& talk, std::uint32_t interface, std::uint32_t inde
 
 }  // namespace
 
-TEST_CASE("player: the lasers of a robot are laser:0 and laser:1, a sonar and a ranger are 0") {
+TEST_CASE("player: the lasers of a robot are laser:0 and laser:1; sonar and ranger have index 0") {
     PlayerTalk talk(
         player_scenario(with_scans("[" + ahead + ", " + ring + ", " + rear + "]", eyes)));
     const std::string first = told(talk, laser, 0), second = told(talk, laser, 1);
@@ -80,7 +80,7 @@ TEST_CASE("player: the lasers of a robot are laser:0 and laser:1, a sonar and a 
     CHECK(told(talk, ranger, 0).empty());
 }
 
-TEST_CASE("player: geometry says where on the robot a range finder is and where beams begin") {
+TEST_CASE("player: geometry gives the position of a range finder and the origin of its beams") {
     PlayerTalk talk(player_scenario(
         with_scans("[" + ahead + ", " + rear + ", " + ring + ", " + eyes + "]", "{}")));
     CHECK(answer(talk, laser, 0, 1) == std::string(72, '\0'));
@@ -103,7 +103,7 @@ TEST_CASE("player: geometry says where on the robot a range finder is and where 
     CHECK(answer(talk, sonar, 0, 9) == "refused");
 }
 
-TEST_CASE("player: at one port each robot has as many numbers of a kind as one robot needs") {
+TEST_CASE("player: at one port each robot has the same number of indices of a kind") {
     const std::vector<PlayerPlace> places = {{"robot1", 0, 0}, {"robot2", 0, 1}};
     PlayerTalk alike(player_scenario(with_scans("{ range = \"1 m\" }", "{ range = \"2 m\" }")),
                      {.places = places});

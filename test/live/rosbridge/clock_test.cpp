@@ -28,7 +28,7 @@ std::string ids(const std::vector<RosClock::Step>& steps) {
 
 }  // namespace
 
-TEST_CASE("rosbridge clock: steps that end at one time are answered in the order of their calls") {
+TEST_CASE("rosbridge clock: steps with the same end are answered in the order of their calls") {
     RosClock clock;
     for (const char* id : {"b", "c", "a"}) clock.begin(step(id, 10ms));
     clock.begin(step("longer", 11ms));
@@ -37,7 +37,7 @@ TEST_CASE("rosbridge clock: steps that end at one time are answered in the order
     CHECK(clock.next() == start_of_run + 11ms);
 }
 
-TEST_CASE("rosbridge clock: a pause and its end overtake all steps, the oldest call first") {
+TEST_CASE("rosbridge clock: pause and resume precede all steps, the oldest call first") {
     RosClock clock;
     const auto begin = [&] {
         clock.begin(step("a", 30ms, 1));
@@ -54,7 +54,7 @@ TEST_CASE("rosbridge clock: a pause and its end overtake all steps, the oldest c
     CHECK(clock.next() == never);
 }
 
-TEST_CASE("rosbridge clock: a step of a client that has left goes on while another holds time") {
+TEST_CASE("rosbridge clock: a step of a client that has left continues while another pauses time") {
     RosClock clock;
     CHECK(clock.pause(1, start_of_run).empty());
     clock.begin(step("a", 10ms, 2));
@@ -67,7 +67,7 @@ TEST_CASE("rosbridge clock: a step of a client that has left goes on while anoth
     CHECK(clock.next() == never);
 }
 
-TEST_CASE("rosbridge clock: of the steps of clients that have left only the last end is kept") {
+TEST_CASE("rosbridge clock: of the steps of clients that have left, only the last end is kept") {
     RosClock clock;
     CHECK(clock.pause(1, start_of_run).empty());
     for (RosClock::Connection client = 2; client < 1000; ++client) {

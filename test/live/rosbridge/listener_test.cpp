@@ -71,8 +71,7 @@ Json call(WebClient& client, const std::string& service, const Json& args = Json
 
 }  // namespace
 
-TEST_CASE(
-    "rosbridge listener: clients drive by WebSocket while time stands still and goes by steps") {
+TEST_CASE("rosbridge listener: clients drive by WebSocket while time is paused and stepped") {
     Server server;
     WebClient client(server.port);
     call(client, "/simulation/pause");
@@ -98,7 +97,7 @@ TEST_CASE(
     CHECK(replay.now == result.run.fingerprint);
 }
 
-TEST_CASE("rosbridge listener: robots of a client that is killed stop, and nothing of it is left") {
+TEST_CASE("rosbridge listener: robots of a killed client stop, and no state of it remains") {
     Server server;
     WebClient watcher(server.port);
     call(watcher, "/simulation/pause");

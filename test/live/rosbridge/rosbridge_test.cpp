@@ -52,7 +52,7 @@ std::vector<Number> numbers(const Json& binary) {
 
 }  // namespace
 
-TEST_CASE("rosbridge: cmd_vel drives a robot, and odometry and transforms say where it is") {
+TEST_CASE("rosbridge: cmd_vel drives a robot, and odometry and transforms give its pose") {
     RosTalk talk(three_in_a_row());
     talk.subscribe("/A/odom");
     talk.subscribe("tf");
@@ -87,7 +87,7 @@ TEST_CASE("rosbridge: cmd_vel drives a robot, and odometry and transforms say wh
     CHECK(std::abs(talk.session.network().heading({0}).value - before) < exact);  // it is over
 }
 
-TEST_CASE("rosbridge: a robot turns in place by the rate that it is told") {
+TEST_CASE("rosbridge: a robot turns in place at the commanded rate") {
     RosTalk talk(three_in_a_row());
     talk.subscribe("/A/odom");
     talk.publish("/A/cmd_vel", twist(0, -0.25));
@@ -97,7 +97,7 @@ TEST_CASE("rosbridge: a robot turns in place by the rate that it is told") {
     CHECK(std::abs(pose["twist"]["twist"]["angular"]["z"].get<double>() + 0.25) < exact);
 }
 
-TEST_CASE("rosbridge: topics come at their rates in simulated time, under the client's names") {
+TEST_CASE("rosbridge: topics arrive at their rates in simulated time, under the client's names") {
     RosTalk talk(three_in_a_row());
     for (const char* topic : {"/clock", "clock", "/tf", "/A/odom", "C/radio/neighbors"}) {
         talk.subscribe(topic);
@@ -124,7 +124,8 @@ TEST_CASE("rosbridge: a throttled stream has exactly 10 messages a second, the n
     }
 }
 
-TEST_CASE("rosbridge: a queue keeps the newest messages, no queue drops what comes too early") {
+TEST_CASE(
+    "rosbridge: a queue keeps the newest messages; without a queue early messages are dropped") {
     RosTalk talk(three_in_a_row());
     talk.subscribe("/B/radio/received", {{"throttle_rate", 500}, {"queue_length", 2}});
     talk.come(1);
@@ -142,7 +143,7 @@ TEST_CASE("rosbridge: a queue keeps the newest messages, no queue drops what com
     CHECK(talk.messages("/B/radio/received", 1).size() == 2);
 }
 
-TEST_CASE("rosbridge: a queue holds 256 KiB at most, the newest messages") {
+TEST_CASE("rosbridge: a queue keeps at most 256 KiB, the newest messages") {
     RosStream stream;
     stream.add("1", {.interval = 1s, .queue_length = 1'000});
     std::vector<std::string> emitted;
@@ -158,7 +159,7 @@ TEST_CASE("rosbridge: a queue holds 256 KiB at most, the newest messages") {
     CHECK(stream.next() == never);
 }
 
-TEST_CASE("rosbridge: subscriptions of a client to one topic are one stream, the fastest counts") {
+TEST_CASE("rosbridge: a client's subscriptions to one topic form one stream at the fastest rate") {
     RosTalk talk(three_in_a_row());
     talk.subscribe("/clock", {{"id", "slow"}, {"throttle_rate", 500}});
     talk.subscribe("/clock", {{"id", "fast"}, {"throttle_rate", 100}});
@@ -203,7 +204,7 @@ TEST_CASE("rosbridge: a message arrives with the level that Friis' equation give
 }
 
 TEST_CASE(
-    "rosbridge: a message for one robot reaches it alone, and a robot that is off sends none") {
+    "rosbridge: a message to one robot reaches only this robot; a robot that is off sends none") {
     RosTalk talk(three_in_a_row());
     for (const char* topic : {"/A/radio/received", "/C/radio/received"}) talk.subscribe(topic);
     talk.publish("/B/radio/send", {{"dst_address", "C"}, {"data", {1, 255}}, {"size", 64}});
@@ -219,7 +220,7 @@ TEST_CASE(
     CHECK(answer["uid"].is_null());
 }
 
-TEST_CASE("rosbridge: neighbours are those in range, with the time at which they were heard last") {
+TEST_CASE("rosbridge: neighbours are the robots in range, with the time of their last signal") {
     RosTalk talk(three_in_a_row());
     talk.subscribe("/B/radio/neighbors");
     talk.run_until(400ms);
@@ -238,7 +239,7 @@ TEST_CASE("rosbridge: neighbours are those in range, with the time at which they
     CHECK(later["neighbors"][1]["last_heard"].is_null());
 }
 
-TEST_CASE("rosbridge: what is fixed is told once to each subscriber") {
+TEST_CASE("rosbridge: constant topics are sent once to each subscriber") {
     RosTalk talk(office());
     talk.subscribe("/map");
     const auto maps = talk.messages("/map");
@@ -267,7 +268,7 @@ TEST_CASE("rosbridge: what is fixed is told once to each subscriber") {
     CHECK(talk.told().empty());
 }
 
-TEST_CASE("rosbridge: a scan is the same in JSON and in CBOR, and infinity is where nothing is") {
+TEST_CASE("rosbridge: a scan is equal in JSON and CBOR, and infinity means no obstacle") {
     RosTalk talk(office());
     talk.subscribe("/A/scan");
     talk.come(1);
@@ -289,7 +290,7 @@ TEST_CASE("rosbridge: a scan is the same in JSON and in CBOR, and infinity is wh
     CHECK(json["header"] == cbor["header"]);
 }
 
-TEST_CASE("rosbridge: CBOR has the bytes that RFC 8949 and RFC 8746 give") {
+TEST_CASE("rosbridge: CBOR bytes equal the examples of RFC 8949 and RFC 8746") {
     std::string bytes;
     RosCborWriter out(bytes);
     for (const std::int64_t each : {0, 23, 24, 1000, -1, -500, 1'000'000}) out.whole(each);
@@ -307,7 +308,7 @@ TEST_CASE("rosbridge: CBOR has the bytes that RFC 8949 and RFC 8746 give") {
     CHECK(bytes == std::string("\xd8\x55\x4c\x00\x00\x80\x3f\x00\x00\x20\x40\x00\x00\x40\xc0", 15));
 }
 
-TEST_CASE("rosbridge: a robot goes to a goal, and is put elsewhere") {
+TEST_CASE("rosbridge: a robot goes to a goal, and is placed elsewhere") {
     RosTalk talk(office());
     talk.publish("/A/goal_pose", {{"header", {{"frame_id", "map"}}},
                                   {"pose", {{"position", {{"x", 25}, {"y", 12}}}}}});
@@ -325,7 +326,7 @@ TEST_CASE("rosbridge: a robot goes to a goal, and is put elsewhere") {
     CHECK(std::abs(talk.session.network().heading({0}).value - std::numbers::pi / 2) < exact);
 }
 
-TEST_CASE("rosbridge: a robot goes up the stairs, and odometry and transforms have its height") {
+TEST_CASE("rosbridge: a robot climbs stairs, and odometry and transforms have its height") {
     RosTalk talk(load_scenario(ROVERNET_EXAMPLES "/storeys/storeys.toml", {}));
     const NodeId courier = *talk.session.network().find("courier");
     const auto pose = [](double x, double y, std::optional<double> z = {}) {
@@ -363,7 +364,7 @@ TEST_CASE("rosbridge: a robot goes up the stairs, and odometry and transforms ha
     CHECK(put(pose(2.5, 3, 0)) == Vec3{2.5, 3, 0});
 }
 
-TEST_CASE("rosbridge: time stands still while it is paused, and goes on by steps") {
+TEST_CASE("rosbridge: time stands still while it is paused, and advances by steps") {
     RosTalk talk(three_in_a_row());
     talk.run_until(105ms);
     talk.call("/simulation/pause");
@@ -388,7 +389,7 @@ TEST_CASE("rosbridge: time stands still while it is paused, and goes on by steps
     CHECK(talk.told().back()["id"] == "t");  // at the end of the scenario
 }
 
-TEST_CASE("rosbridge: time goes on when the last client that held it has left") {
+TEST_CASE("rosbridge: time continues when the last client that paused it has left") {
     RosTalk talk(three_in_a_row());
     const auto ask = [&](Front::Connection client, const std::string& what) {
         talk.say(
@@ -417,7 +418,7 @@ TEST_CASE("rosbridge: time goes on when the last client that held it has left") 
     CHECK(talk.session.network().now() == start_of_run + 2s);
 }
 
-TEST_CASE("rosbridge: steps of several clients are each as long as they were asked for") {
+TEST_CASE("rosbridge: simultaneous steps of several clients each have the requested length") {
     RosTalk talk(three_in_a_row());
     talk.come(1);
     const auto step = [&](const std::string& seconds, Front::Connection client) {
@@ -447,7 +448,7 @@ TEST_CASE("rosbridge: steps of several clients are each as long as they were ask
     CHECK(talk.session.network().now() == start_of_run + 400ms);
 }
 
-TEST_CASE("rosbridge: a client has 64 steps that are not over at most, and is told so") {
+TEST_CASE("rosbridge: a client may have at most 64 unfinished steps") {
     RosTalk talk(three_in_a_row());
     talk.come(1);
     const auto step = [&](int id, Front::Connection client) {
@@ -471,7 +472,7 @@ TEST_CASE("rosbridge: a client has 64 steps that are not over at most, and is to
     CHECK(step(70, 0).empty());
 }
 
-TEST_CASE("rosbridge: robots stop when the client that drove them last has gone") {
+TEST_CASE("rosbridge: robots stop when the client that drove them last has left") {
     RosTalk talk(three_in_a_row());
     talk.come(1);
     talk.publish("/A/cmd_vel", twist(1, 0), 1);
@@ -485,7 +486,7 @@ TEST_CASE("rosbridge: robots stop when the client that drove them last has gone"
     CHECK(std::abs(talk.session.network().position({0}).x - 1) < exact);
 }
 
-TEST_CASE("rosbridge: rosapi says what there is") {
+TEST_CASE("rosbridge: rosapi lists topics, services and nodes") {
     RosTalk talk(three_in_a_row());
     const Json topics = talk.call("rosapi/topics");
     REQUIRE(topics["topics"].size() == topics["types"].size());
@@ -541,7 +542,7 @@ void check_members(const Json& message, const std::string& type_name) {
 
 }  // namespace
 
-TEST_CASE("rosbridge: every message has the members of its type, and every type can be asked for") {
+TEST_CASE("rosbridge: every message has the members of its type, and rosapi describes every type") {
     RosTalk talk(office());
     const Json topics = talk.call("rosapi/topics");
     std::map<std::string, std::string> types;
@@ -571,7 +572,7 @@ TEST_CASE("rosbridge: every message has the members of its type, and every type 
           std::string::npos);
 }
 
-TEST_CASE("rosbridge: whatever is wrong with a message is told, and the connection goes on") {
+TEST_CASE("rosbridge: an invalid message gets an error, and the connection continues") {
     struct Row {
         const char* message;
         const char* why;  // part of the status
@@ -645,7 +646,7 @@ TEST_CASE("rosbridge: whatever is wrong with a message is told, and the connecti
     CHECK(talk.call("rosapi/nodes")["nodes"] == Json{"/rovernet"});
 }
 
-TEST_CASE("rosbridge: a call that fails is answered by its result, with its id") {
+TEST_CASE("rosbridge: a failed call is answered by a result with its id") {
     struct Row {
         const char* call;
         const char* why;
@@ -681,7 +682,7 @@ TEST_CASE("rosbridge: a call that fails is answered by its result, with its id")
     CHECK(goal[0]["result"] == false);
 }
 
-TEST_CASE("rosbridge: statuses below a client's level are not told") {
+TEST_CASE("rosbridge: statuses below a client's level are not sent") {
     RosTalk talk(three_in_a_row());
     const Json sideways = {{"linear", {{"y", 1}}}};
     talk.publish("/A/cmd_vel", sideways);
@@ -697,8 +698,7 @@ TEST_CASE("rosbridge: statuses below a client's level are not told") {
     CHECK(talk.ask("{").empty());
 }
 
-TEST_CASE(
-    "rosbridge: subscriptions of a client are limited, and a robot of others cannot be driven") {
+TEST_CASE("rosbridge: subscriptions are limited, and robots of other clients cannot be driven") {
     RosTalk talk(three_in_a_row());
     for (int i = 0; i < 256; ++i) talk.subscribe("/clock", {{"id", std::to_string(i)}});
     CHECK(talk.told().empty());
@@ -709,7 +709,7 @@ TEST_CASE(
     CHECK(talk.told().at(0)["msg"] == "robot C is driven by other programs");
 }
 
-TEST_CASE("rosbridge: what roslib says is understood (capture)") {
+TEST_CASE("rosbridge: messages of roslib are understood (capture)") {
     const TemporaryFolder folder;
     RosTalk talk(load_scenario(folder.write("r1.toml", R"([scenario]
 duration = "2 s"

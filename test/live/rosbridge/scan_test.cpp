@@ -45,7 +45,7 @@ std::vector<std::string> scans(RosTalk& talk) {
 
 }  // namespace
 
-TEST_CASE("rosbridge: the first laser is /A/scan, another is by its name, a ring is none") {
+TEST_CASE("rosbridge: the first laser is /A/scan, others have their names, a ring has no topic") {
     RosTalk talk(
         with_scan("[" + ring + ", { kind = \"ranger\", beams = 3 }, " + front + ", " + rear + "]"));
     CHECK(scans(talk) == std::vector<std::string>{"/A/ranger/scan", "/A/scan", "/A/rear/scan"});
@@ -74,14 +74,14 @@ TEST_CASE("rosbridge: the first laser is /A/scan, another is by its name, a ring
     }
 }
 
-TEST_CASE("rosbridge: without a laser the first fan is /A/scan; a robot of rings has none") {
+TEST_CASE("rosbridge: without a laser the first fan is /A/scan; a robot with only rings has none") {
     RosTalk talk(with_scan("[" + ring + ", { kind = \"ranger\", beams = 3 }]"));
     CHECK(scans(talk) == std::vector<std::string>{"/A/scan"});
     RosTalk rings(with_scan(ring));
     CHECK(scans(rings).empty());
 }
 
-TEST_CASE("rosbridge: a range finder beside the middle of its robot has a frame of its own") {
+TEST_CASE("rosbridge: a range finder beside the robot's centre has its own frame") {
     RosTalk talk(with_scan("[" + front + ", " + rear + "]"));
     talk.subscribe("/tf_static");
     const Json transforms = talk.messages("/tf_static").at(0)["transforms"];

@@ -65,7 +65,7 @@ std::string json(const Value* value) { return to_json(*value); }
 
 }  // namespace
 
-TEST_CASE("viewer answers: they are what the command line prints") {
+TEST_CASE("viewer answers: equal the output of the command line") {
     const Recorded run;
     ViewerAnswers answers(run.path());
     const Scenario scenario = load_scenario(rescue, {});
@@ -99,7 +99,7 @@ TEST_CASE("viewer answers: they are what the command line prints") {
           static_cast<std::size_t>(number("columns") * number("rows")));
 }
 
-TEST_CASE("viewer answers: links are those of the link tables, at later and earlier times") {
+TEST_CASE("viewer answers: links equal the link tables, also at earlier times") {
     const Recorded run;
     ViewerAnswers answers(run.path());
     const Scenario scenario = load_scenario(rescue, {});
@@ -146,7 +146,7 @@ TEST_CASE("viewer answers: links under the model disc have neither level nor mar
     for (const Value& margin : margins) CHECK(std::holds_alternative<std::monostate>(margin.data));
 }
 
-TEST_CASE("viewer answers: run 1 is the second run") {
+TEST_CASE("viewer answers: run 1 means the second run") {
     const Recorded run;
     const std::string path = run.folder.path("other.mcap");
     RecordedDay(run.path()).record(path, {"propagation.model=friis"});
@@ -160,7 +160,7 @@ TEST_CASE("viewer answers: run 1 is the second run") {
     CHECK(error_of(both, pair + R"(, "run": 2})") != "");
 }
 
-TEST_CASE("viewer answers: coverage, contours, and the difference of two models") {
+TEST_CASE("viewer answers: coverage, contours and the difference of two models are right") {
     const Recorded run;
     ViewerAnswers answers(run.path());
     const auto levels_under = [&](std::vector<std::string> set) {
@@ -221,7 +221,7 @@ TEST_CASE("viewer answers: coverage under the model disc is its range, without l
     CHECK(!contour.find("lines")->array()->empty());
 }
 
-TEST_CASE("viewer answers: the drawing is that of the command draw") {
+TEST_CASE("viewer answers: the drawing equals that of the command draw") {
     const Recorded run;
     ViewerAnswers answers(run.path());
     const Value answer = ask(answers, R"({"id": 1, "op": "svg", "t_ns": 10000000000, "storey": 0,
@@ -231,7 +231,7 @@ TEST_CASE("viewer answers: the drawing is that of the command draw") {
     CHECK(error_of(answers, R"({"id": 1, "op": "svg", "t_ns": 0, "storey": 1})") != "");
 }
 
-TEST_CASE("viewer answers: a wrong question has an error and its id, and the next is answered") {
+TEST_CASE("viewer answers: an invalid question gets an error with its id, and the next an answer") {
     const Recorded run;
     ViewerAnswers answers(run.path());
     CHECK(error_of(answers, "no json") != "");
@@ -253,7 +253,7 @@ TEST_CASE("viewer answers: a wrong question has an error and its id, and the nex
     CHECK(error_of(answers, R"({"id": 1, "op": "robot", "robot": 0, "t_ns": 0})").empty());
 }
 
-TEST_CASE("viewer answers: whatever a page sends, it gets an answer in JSON") {
+TEST_CASE("viewer answers: any input of a page gets an answer in JSON") {
     const Recorded run;
     ViewerAnswers answers(run.path());
     const std::vector<std::string> questions = {
@@ -288,7 +288,7 @@ TEST_CASE("viewer answers: whatever a page sends, it gets an answer in JSON") {
     CHECK(error_of(answers, questions[0]).empty());
 }
 
-TEST_CASE("view server: the page, the view file and answers, and nothing else") {
+TEST_CASE("view server: serves the page, the view file and answers, and nothing else") {
     const std::string file("RVW1\0\xff data", 12);
     ViewServer server(
         {"127.0.0.1", 0}, file,

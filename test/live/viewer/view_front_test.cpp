@@ -113,7 +113,7 @@ std::map<std::size_t, Numbers> starts_of_legs(const std::vector<std::string>& fi
 
 }  // namespace
 
-TEST_CASE("view front: the parts of a run are what the view of its trace has") {
+TEST_CASE("view front: the parts of a run equal the view of its trace") {
     Viewed viewed(rescue());
     viewed.front.opened(1, {});
     viewed.go(viewed.run.session().end());
@@ -146,8 +146,7 @@ TEST_CASE("view front: without pages the run is not observed") {
     CHECK(ViewReader(viewed.files[1][0]).numbers("legs.first").size() == 6);
 }
 
-TEST_CASE(
-    "view front: the run of a page waits for it, pauses, goes on by steps, and changes speed") {
+TEST_CASE("view front: a run for a page waits for it, pauses, steps, and changes speed") {
     Viewed viewed(rescue(), {.of_time = true, .is_for_page = true, .speed = 1});
     viewed.go(Time(5s));
     CHECK(viewed.now() == start_of_run);
@@ -170,7 +169,7 @@ TEST_CASE(
     CHECK(viewed.ask(R"({"id": 4, "op": "pace", "spede": 2})").find("speed") != std::string::npos);
 }
 
-TEST_CASE("view front: pages change nothing that they may not, and their commands are inputs") {
+TEST_CASE("view front: pages need permission for changes, and their commands are logged inputs") {
     Viewed looking(rescue(), {});
     looking.front.opened(1, {});
     CHECK(looking.ask(R"({"id": 1, "op": "pace", "paused": true})").find("--view-control") !=
@@ -206,7 +205,7 @@ TEST_CASE("view front: pages change nothing that they may not, and their command
     CHECK(std::holds_alternative<StopCommand>(inputs[2].command));
 }
 
-TEST_CASE("view front: questions are about the present") {
+TEST_CASE("view front: answers are about the current time") {
     Viewed viewed(rescue());
     viewed.front.opened(1, {});
     viewed.go(Time(10s));
@@ -219,8 +218,7 @@ TEST_CASE("view front: questions are about the present") {
           std::string::npos);
 }
 
-TEST_CASE(
-    "view front: a page that does not read gets the rest later, and one that comes late all") {
+TEST_CASE("view front: a slow page gets the rest later, and a late page gets everything") {
     Viewed viewed(rescue());
     viewed.front.opened(1, {});
     viewed.front.opened(2, {});
@@ -237,7 +235,7 @@ TEST_CASE(
     CHECK(viewed.files[3] == viewed.files[1]);
 }
 
-TEST_CASE("view log: beyond its bytes the oldest frames are left out, and nothing else") {
+TEST_CASE("view log: beyond its limit only the oldest frames are removed") {
     ViewLog log;
     log.begin("start");
     const std::size_t size = ViewLog::most_frame_bytes / 2 - 10;

@@ -85,7 +85,7 @@ TEST_CASE("bonnmotion: commands come in order of time, those of one time in orde
         "scen.movements is not in order of time: 4 legs are kept in memory"));
 }
 
-TEST_CASE("bonnmotion: of many nodes that start and turn at the same times the first is first") {
+TEST_CASE("bonnmotion: of many nodes that start and turn at the same times the first comes first") {
     std::string text;
     for (int node = 0; node < 100; ++node) {
         text += "1 0 0 2 1 0 " + std::string(node % 3 == 0 ? "3 1 1 4 5 5" : "4 2 2") + "\n";
@@ -115,15 +115,14 @@ TEST_CASE("bonnmotion: a node whose first time is later appears then") {
     CHECK(p.file.end() == start_of_run + from_seconds(4));
 }
 
-TEST_CASE("bonnmotion: places in space are told from the numbers of a line") {
+TEST_CASE("bonnmotion: positions with z are recognised by the numbers in a line") {
     const auto p = played("0 1 2 3 10 11 2 13\n0 4 5 6\n");
     REQUIRE(p.file.robots().size() == 2);
     CHECK(p.file.robots()[1].start == Vec3{4, 5, 6});
     CHECK(near(p.position("n0", 5), {6, 2, 8}));
 }
 
-TEST_CASE(
-    "bonnmotion: twelve numbers are places in the plane if the times then rise, else in space") {
+TEST_CASE("bonnmotion: twelve numbers are 2-D positions if the times then ascend, otherwise 3-D") {
     CHECK(near(played("0 5 5 1 6 6 2 7 7 3 8 8\n").position("n0", 3), {8, 8, 0}));
     CHECK(near(played("0 9 9 1 5 8 8 2 9 7 7 3\n").position("n0", 9), {7, 7, 3}));
     // One line decides for all.
@@ -131,7 +130,7 @@ TEST_CASE(
     CHECK(p.file.robots()[0].start == Vec3{1, 2, 3});
 }
 
-TEST_CASE("bonnmotion: the .params file says whether places have a z") {
+TEST_CASE("bonnmotion: the .params file determines whether positions have a z") {
     const std::string twelve = "0 0 1 1 5 2 2 5 9 3 3 9\n";  // rising times either way
     CHECK(near(played(twelve).position("n0", 9), {3, 9, 0}));
     CHECK(near(played(twelve, "model=Static\nx=9.0\ny=9.0\n").position("n0", 9), {3, 9, 0}));
@@ -145,13 +144,13 @@ TEST_CASE("bonnmotion: the .params file says whether places have a z") {
           "multiple of 3");
 }
 
-TEST_CASE("bonnmotion: the status of a disaster area's node is left out") {
+TEST_CASE("bonnmotion: the status of nodes in the disaster area model is ignored") {
     const std::string params = "model=DisasterArea\nx=9.0\ny=9.0\n";
     CHECK(near(played("0 1 2 0 4 5 2 1\n", params).position("n0", 2), {3, 2, 0}));
     CHECK(near(played("0 1 2 7 0 4 5 2 7 1\n", params + "z=9\n").position("n0", 2), {3, 2, 7}));
 }
 
-TEST_CASE("bonnmotion: a file zipped by gzip is the same file, whatever its name") {
+TEST_CASE("bonnmotion: a gzip file is read like the plain file, under any name") {
     const TemporaryFolder folder;
     const Playback p(folder.write("any.name", zipped(two_nodes)));
     CHECK(p.file.robots().size() == 2);
@@ -162,7 +161,7 @@ TEST_CASE("bonnmotion: a file zipped by gzip is the same file, whatever its name
     CHECK(near(q.position("n0", 9), {3, 3, 9}));
 }
 
-TEST_CASE("bonnmotion: a zipped file that is cut off or damaged is an input error") {
+TEST_CASE("bonnmotion: a damaged or incomplete gzip file is an input error") {
     const TemporaryFolder folder;
     std::string text;
     for (int i = 0; i < 20'000; ++i)
@@ -179,7 +178,8 @@ TEST_CASE("bonnmotion: a zipped file that is cut off or damaged is an input erro
               .starts_with("bad.gz: cannot read the file: "));
 }
 
-TEST_CASE("bonnmotion: comments, CR LF, blanks, a repeated place and empty lines at the end") {
+TEST_CASE(
+    "bonnmotion: comments, CR LF, blanks, repeated positions and final empty lines are accepted") {
     const auto p =
         played("# a comment\n#\n \t0 1 1\t 2  3 1 2 3 1 4 3 5 \r\n# 9 9 9\n0 2 2\r\n\r\n\n");
     REQUIRE(p.file.robots().size() == 2);
@@ -192,7 +192,7 @@ TEST_CASE("bonnmotion: comments, CR LF, blanks, a repeated place and empty lines
     CHECK(still.file.notices().empty());
 }
 
-TEST_CASE("bonnmotion: what is no list of waypoints names its place") {
+TEST_CASE("bonnmotion: an invalid list of waypoints is an error with its position") {
     CHECK(error_of("0 1 1 2 x 1\n") == "scen.movements:1:9: found \"x\", expected a number");
     CHECK(error_of("0 1 1\n0 2 nan\n") == "scen.movements:2:5: found \"nan\", expected a number");
     CHECK(error_of("0 1 1\n\n0 2 2\n") ==
@@ -216,7 +216,7 @@ TEST_CASE("bonnmotion: what is no list of waypoints names its place") {
     CHECK(error_of(std::string("0 1 1\0", 6)).starts_with("scen.movements:1:6: found \"?\""));
 }
 
-TEST_CASE("bonnmotion: lines may be longer than the portions in which the file is read") {
+TEST_CASE("bonnmotion: lines may be longer than the blocks in which the file is read") {
     std::string text;
     for (int node = 0; node < 3; ++node) {
         for (int i = 0; i < 40'000; ++i) {
@@ -238,7 +238,7 @@ TEST_CASE("bonnmotion: lines may be longer than the portions in which the file i
     CHECK(error_of(text.substr(0, text.size() - 1) + " x").starts_with("scen.movements:3:"));
 }
 
-TEST_CASE("bonnmotion: a damaged file is read or refused, never more") {
+TEST_CASE("bonnmotion: a damaged file is read or refused, without a crash") {
     std::mt19937 draw(5);
     const auto below = [&](std::size_t n) { return draw() % n; };
     int refused = 0;
@@ -258,7 +258,7 @@ TEST_CASE("bonnmotion: a damaged file is read or refused, never more") {
     CHECK(refused < 400);
 }
 
-TEST_CASE("bonnmotion: a line without end is refused, zipped or not") {
+TEST_CASE("bonnmotion: an endless line is refused, compressed or not") {
     const TemporaryFolder folder;
     std::string zeros(20U << 20, ' ');
     for (std::size_t i = 0; i < zeros.size(); i += 2) zeros[i] = '0';
@@ -272,7 +272,8 @@ TEST_CASE("bonnmotion: a line without end is refused, zipped or not") {
     CHECK(movement_error(folder.write("scen.movements", comment)).find(words) != std::string::npos);
 }
 
-TEST_CASE("bonnmotion: a track with a line for each time is refused; robots that stand are not") {
+TEST_CASE(
+    "bonnmotion: a track with one line for each time is refused; resting robots are accepted") {
     for (const char* track : {"0 0.5 1.5\n1 1.5 1.5\n2 2.5 1.5\n", "0.0 1 2 0\n0.1 1 3 0\n",
                               "0 1 1\n0 5 5\n1 1 2\n1 5 6\n", "3 1 1\n4 1 1\n"}) {
         CAPTURE(track);

@@ -50,7 +50,7 @@ std::string error_of(const std::string& text, MovementSyntax syntax = MovementSy
 
 }  // namespace
 
-TEST_CASE("fcd: a robot is at its place at the time of each timestep, straight in between") {
+TEST_CASE("fcd: a robot is at its position at each timestep, and moves straight in between") {
     const auto p = played(fcd(step("0.00", at("a", "1", "2")) + step("2.00", at("a", "5", "2")) +
                               step("3.00", at("a", "5", "-1"))));
     REQUIRE(p.file.robots().size() == 1);
@@ -92,14 +92,14 @@ TEST_CASE("fcd: robots appear, vanish after their last timestep and may come bac
     CHECK(near(p.position("b", 4), {9, 9, 0}));
 }
 
-TEST_CASE("fcd: who is in a first timestep after the start appears at its time") {
+TEST_CASE("fcd: a robot in a first timestep after the start appears at that time") {
     const auto p = played(fcd(step("1", at("a", "5", "0")) + step("2", at("a", "9", "0"))));
     CHECK_FALSE(p.present("a", 0.5));
     CHECK(p.present("a", 1.5));
     CHECK(near(p.position("a", 1.5), {7, 0, 0}));
 }
 
-TEST_CASE("fcd: persons and containers are robots; z counts; a parked car has nothing to do") {
+TEST_CASE("fcd: persons and containers are robots; z counts; a parked car stays") {
     const auto p = played(
         fcd(step("0",
                  "<person id='p' y='1' x='2' z='3.5' edge='e'/><container id='c' x='0' "
@@ -112,7 +112,7 @@ TEST_CASE("fcd: persons and containers are robots; z counts; a parked car has no
     CHECK(near(p.position("c", 0.5), {0, 2, 0}));
 }
 
-TEST_CASE("fcd: ids are names, with character references and beyond ASCII") {
+TEST_CASE("fcd: ids are names, with character references and non-ASCII letters") {
     const auto p = played(
         fcd(step("0", at("a&amp;b&lt;&#65;&#x42;&#xe4;", "0", "0") + at("\xc3\xa4>", "1", "1"))));
     REQUIRE(p.file.robots().size() == 2);
@@ -131,7 +131,7 @@ TEST_CASE("fcd: ids are names, with character references and beyond ASCII") {
     CHECK(error_of(fcd(step("0", at("a&amp", "0", "0")))) != "");
 }
 
-TEST_CASE("fcd: what an FCD file cannot say names its place") {
+TEST_CASE("fcd: content that an FCD file cannot have is an error with its position") {
     const auto body = [](const std::string& text) { return error_of(fcd(text)); };
     CHECK(body(step("0", at("a", "0", "0")) + step("1", at("a", "0", "0") + at("a", "1", "0"))) ==
           "fcd.xml:5:76: found \"a\", expected each id once in a timestep");
@@ -154,7 +154,7 @@ TEST_CASE("fcd: what an FCD file cannot say names its place") {
           "movements here");
 }
 
-TEST_CASE("fcd: what is not well-formed names its place") {
+TEST_CASE("fcd: XML that is not well-formed is an error with its position") {
     const auto body = [](const std::string& text) { return error_of(fcd(text)); };
     CHECK(body("<timestep time=\"0\">") ==
           "fcd.xml:4:20: found \"</fcd-export>\", expected </timestep>");
@@ -190,7 +190,7 @@ TEST_CASE("fcd: an empty export has no robots") {
     CHECK(played("\xef\xbb\xbf" + fcd(step("0", ""))).commands.empty());
 }
 
-TEST_CASE("fcd: elements that mean nothing, nested ones too, and broken robots may be left out") {
+TEST_CASE("fcd: tolerant reading skips unknown elements, also nested ones, and broken robots") {
     std::string deep;
     for (int i = 0; i < 50; ++i) deep += "<e" + std::to_string(i) + ">";
     for (int i = 50; i-- > 0;) deep += "</e" + std::to_string(i) + ">";
@@ -210,7 +210,7 @@ TEST_CASE("fcd: elements that mean nothing, nested ones too, and broken robots m
           std::string::npos);
 }
 
-TEST_CASE("fcd: tags and comments across the portions in which the file is read are whole") {
+TEST_CASE("fcd: tags and comments across block borders of the file are read correctly") {
     std::string steps = "<!--" + std::string(600'000, '-') + "-->";
     for (int i = 0; i < 8'000; ++i) {
         steps += step(std::to_string(i), at("a", std::to_string(i), "7") +
@@ -227,7 +227,7 @@ TEST_CASE("fcd: tags and comments across the portions in which the file is read 
     CHECK(wrong == 0);
 }
 
-TEST_CASE("fcd: the end of a comment may lie across two portions") {
+TEST_CASE("fcd: the end of a comment may lie across two blocks") {
     const std::size_t portion = 64 * 1024;
     for (std::size_t n = portion - 100; n < portion + 3; ++n) {
         const std::string comment = "<!--" + std::string(n, 'x') + "-->\n";
@@ -265,7 +265,7 @@ TEST_CASE("fcd: many robots that come and go keep their names apart") {
     CHECK(wrong == 0);
 }
 
-TEST_CASE("fcd: a damaged file is read or refused, never more") {
+TEST_CASE("fcd: a damaged file is read or refused, without a crash") {
     std::mt19937 draw(5);
     const auto below = [&](std::size_t n) { return draw() % n; };
     const std::string good =
@@ -289,7 +289,7 @@ TEST_CASE("fcd: a damaged file is read or refused, never more") {
     CHECK(refused < 400);
 }
 
-TEST_CASE("fcd: SUMO's file, read line by line in another way, says the same") {
+TEST_CASE("fcd: a second, line-based reader gets the same content of SUMO's file") {
     const char* folder = std::getenv("ROVERNET_MOVEMENTS");
     if (!folder) {
         MESSAGE("ROVERNET_MOVEMENTS is not set: skipped");
@@ -318,7 +318,7 @@ TEST_CASE("fcd: SUMO's file, read line by line in another way, says the same") {
     CHECK(wrong == 0);
 }
 
-TEST_CASE("fcd: places in degrees are refused, by the head of the file or by the speeds") {
+TEST_CASE("fcd: positions in degrees are refused, by the file's header or by the speeds") {
     const TemporaryFolder folder;
     const auto refused = [&](const std::string& head, const std::string& places) {
         const std::string error =

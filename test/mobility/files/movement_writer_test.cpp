@@ -113,7 +113,7 @@ TEST_CASE("writer: tracks written as an ns-2 movement file are read back as the 
     CHECK(error_of(tracks, setdest_text(tracks, at(duration)), duration, true) < setdest_tolerance);
 }
 
-TEST_CASE("writer: an ns-2 movement file keeps the motion in the plane of tracks that climb") {
+TEST_CASE("writer: an ns-2 movement file keeps the horizontal motion of climbing tracks") {
     const auto tracks = wanderers(20, duration, true);
     CHECK(error_of(tracks, setdest_text(tracks, at(duration)), duration, false) <
           setdest_tolerance);
@@ -127,7 +127,7 @@ TEST_CASE("writer: tracks written for BonnMotion are read back as the same motio
     }
 }
 
-TEST_CASE("writer: the lines of an ns-2 movement file") {
+TEST_CASE("writer: an ns-2 movement file has the expected lines") {
     const std::vector<Track> tracks = {
         {"a", {leg(0, 10, {1, 2, 3}, {11, 2, 3}), rest(10, {11, 2, 3})}},
         {"b", {rest(0, {50, 60, 0})}},
@@ -148,14 +148,14 @@ TEST_CASE("writer: the lines of an ns-2 movement file") {
           "$ns_ at 2.500000000 \"$node_(2) setdest 7.000000000 9.000000000 0.500000000000\"\n");
 }
 
-TEST_CASE("writer: places where ns-2 cannot go are said in the file") {
+TEST_CASE("writer: positions that ns-2 cannot reach are noted in the file") {
     const std::vector<Track> tracks = {{"a", {leg(0, 10, {0, 2, 0}, {-3.5, 2, 0})}}};
     CHECK(setdest_text(tracks, at(100))
               .find("# and at one with x or y not above 0; here the least are x -3.50, y 2.00\n") !=
           std::string::npos);
 }
 
-TEST_CASE("writer: the places of BonnMotion, with their parameters") {
+TEST_CASE("writer: a BonnMotion file has the expected positions and parameters") {
     const std::vector<Track> flat = {
         {"a", {leg(0, 10, {1, 2, 0}, {11, 2, 0}), rest(10, {11, 2, 0})}},
         {"b", {rest(0, {5, 6, 0})}}};
@@ -171,7 +171,7 @@ TEST_CASE("writer: the places of BonnMotion, with their parameters") {
     CHECK(bonnmotion_params(high, at(20)).find("J=3D\n") != std::string::npos);
 }
 
-TEST_CASE("writer: with the parameters beside it a BonnMotion file has the right dimensions") {
+TEST_CASE("writer: with its parameter file, a BonnMotion file has the right dimensions") {
     const TemporaryFolder folder;
     // A single node, three places in space: twelve numbers.
     const std::vector<Track> tracks = {
@@ -182,7 +182,7 @@ TEST_CASE("writer: with the parameters beside it a BonnMotion file has the right
     CHECK(distance(p.position("n0", 1.5), {2, 4.5, 5.5}) < bonnmotion_tolerance);
 }
 
-TEST_CASE("writer: a motion that the end cuts off is written up to there") {
+TEST_CASE("writer: a motion cut off by the end is written up to the end") {
     const std::vector<Track> tracks = {
         {"a", {leg(0, 10, {1, 1, 0}, {11, 1, 0}), leg(10, 20, {11, 1, 0}, {1, 1, 0})}}};
     const auto text = setdest_text(tracks, at(4));
@@ -191,7 +191,7 @@ TEST_CASE("writer: a motion that the end cuts off is written up to there") {
     CHECK(bonnmotion_text(tracks, at(4)).ends_with(" 4.000000000 5.000000000 1.000000000\n"));
 }
 
-TEST_CASE("writer: a motion without end needs an end of its track") {
+TEST_CASE("writer: an endless motion needs an end time") {
     Track track{"a", {rest(0, {1, 1, 0})}};
     track.legs[0].velocity = {2, 0, 0};
     const std::vector<Track> tracks = {track};
@@ -220,7 +220,7 @@ TEST_CASE("writer: between two legs and after the last a robot rests") {
     CHECK(distance(p.position("n0", 8), {5, 5, 0}) < setdest_tolerance);
 }
 
-TEST_CASE("writer: a jump is a jump in both kinds of file") {
+TEST_CASE("writer: a jump is a jump in both file formats") {
     const std::vector<Track> tracks = {
         {"a",
          {leg(0, 10, {1, 1, 0}, {11, 1, 0}), leg(5, 10, {50, 60, 7}, {55, 60, 7}),

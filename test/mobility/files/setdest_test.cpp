@@ -46,7 +46,7 @@ const std::string place_0 =
 // The first sixteen cases are those of ns-3's mobility-ns2-trace-helper test, with lines of our
 // own.
 
-TEST_CASE("setdest: places before the run are where the robots start") {
+TEST_CASE("setdest: positions before the run are start positions") {
     const auto p = played(place_0);
     REQUIRE(p.file.robots().size() == 1);
     CHECK(p.file.robots()[0].name == "n0");
@@ -57,7 +57,7 @@ TEST_CASE("setdest: places before the run are where the robots start") {
     CHECK(p.position("n0", 100) == Vec3{1, 2, 3});
 }
 
-TEST_CASE("setdest: comments may stand anywhere") {
+TEST_CASE("setdest: comments are accepted everywhere") {
     const auto p = played(
         "# $node_(0) set X_ 9\n"
         "   # blanks before\n"
@@ -72,7 +72,7 @@ TEST_CASE("setdest: comments may stand anywhere") {
     CHECK(near(p.position("n0", 3), {3, 2, 0}));
 }
 
-TEST_CASE("setdest: to (25, 0) at 5 m/s from 1 s on: there at 6 s, at rest") {
+TEST_CASE("setdest: a node moves to (25, 0) at 5 m/s from 1 s on, arrives at 6 s and rests") {
     const auto p = played("$ns_ at 1.0 \"$node_(0) setdest 25 0 5\"\n");
     CHECK(near(p.velocity("n0", 0.999), {}));
     CHECK(near(p.position("n0", 1), {}));
@@ -83,7 +83,7 @@ TEST_CASE("setdest: to (25, 0) at 5 m/s from 1 s on: there at 6 s, at rest") {
     CHECK(p.file.end() == start_of_run + from_seconds(6));
 }
 
-TEST_CASE("setdest: around a square") {
+TEST_CASE("setdest: a node moves around a square") {
     const auto p = played(
         "$node_(0) set X_ 0.0\n$node_(0) set Y_ 0.0\n"
         "$ns_ at 1.0 \"$node_(0) setdest 5 0 5\"\n"
@@ -101,7 +101,7 @@ TEST_CASE("setdest: around a square") {
     CHECK(near(p.velocity("n0", 5), {}));
 }
 
-TEST_CASE("setdest: places at the end of the file are places before the run, and not in memory") {
+TEST_CASE("setdest: positions at the end of the file are start positions, and take no memory") {
     const std::string moves =
         "$ns_ at 1.0 \"$node_(0) setdest 10 2 1\"\n"
         "$ns_ at 2.0 \"$node_(1) setdest 1 1 1\"\n";
@@ -115,7 +115,7 @@ TEST_CASE("setdest: places at the end of the file are places before the run, and
     CHECK(played(places + moves).file.end() == p.file.end());
 }
 
-TEST_CASE("setdest: a scheduled place is a jump, one coordinate at a time") {
+TEST_CASE("setdest: a scheduled position is a jump of one coordinate") {
     const auto p = played(
         "$ns_ at 1.0 \"$node_(0) set X_ 10\"\n"
         "$ns_ at 2.0 \"$node_(0) set Y_ 20\"\n"
@@ -132,7 +132,7 @@ TEST_CASE("setdest: a scheduled place is a jump, one coordinate at a time") {
     CHECK(p.file.end() == start_of_run + from_seconds(6));
 }
 
-TEST_CASE("setdest: a line that means nothing is an error that names it, or left out and counted") {
+TEST_CASE("setdest: an invalid line is an error with its number, or is skipped and counted") {
     const std::vector<std::pair<std::string, std::string>> lines = {
         {"$node_() set X_ 1",
          "1: found \"$node_()\", expected a node as in $node_(0), its number "
@@ -191,7 +191,7 @@ TEST_CASE("setdest: a line that means nothing is an error that names it, or left
     }
 }
 
-TEST_CASE("setdest: impossible values are errors, or left out with one notice for all") {
+TEST_CASE("setdest: impossible values are errors, or are skipped with one notice for all") {
     const std::vector<std::string> lines = {
         "$node_(0) set X_ NaN",
         "$node_(0) set X_ inf",
@@ -221,7 +221,7 @@ TEST_CASE("setdest: impossible values are errors, or left out with one notice fo
     CHECK(p.file.notices()[0].starts_with("14 lines are left out; the first: "));
 }
 
-TEST_CASE("setdest: robots come by number, and a number that is not named is no robot") {
+TEST_CASE("setdest: robots have the numbers in the file, without robots for missing numbers") {
     const auto p = played(
         "$ns_ at 1 \"$node_(7) setdest 8 0 1\"\n"
         "$node_(3) set X_ 3\n"
@@ -256,7 +256,7 @@ TEST_CASE("setdest: coordinates may be negative") {
     CHECK(near(p.position("n0", 2), {-5, -0.5, 0}));
 }
 
-TEST_CASE("setdest: numbers as C and Tcl write them") {
+TEST_CASE("setdest: numbers in the notation of C and Tcl are accepted") {
     const auto p = played(
         "$node_(0) set X_ 1.0e+2\n$node_(0) set Y_ +1E1\n$node_(0) set Z_ 5.\n"
         "$ns_ at 1e0 \"$node_(0) setdest 1.1e+2 1.0e+1 1e+0\"\n");
@@ -291,7 +291,7 @@ TEST_CASE("setdest: lines may end with CR LF (ns-3 bug 1059), blanks and semicol
     CHECK(near(p.position("n0", 10), {1, 3, 3}));
 }
 
-TEST_CASE("setdest: to where the robot is already, nothing moves (ns-3 bug 1301)") {
+TEST_CASE("setdest: a target at the current position causes no motion (ns-3 bug 1301)") {
     const auto p = played(place_0 +
                           "$ns_ at 1.0 \"$node_(0) setdest 1.0 2.0 5.0\"\n"
                           "$ns_ at 2.0 \"$node_(0) setdest 1.0 2.0 0.0\"\n"
@@ -301,7 +301,7 @@ TEST_CASE("setdest: to where the robot is already, nothing moves (ns-3 bug 1301)
     CHECK(p.file.end() == start_of_run + from_seconds(5));
 }
 
-TEST_CASE("setdest: a course of six legs ends where it should, at its height (ns-3 bug 1316)") {
+TEST_CASE("setdest: a course of six legs has the right end and height (ns-3 bug 1316)") {
     const auto p = played(
         "$node_(0) set X_ 200\n$node_(0) set Y_ 100\n$node_(0) set Z_ 7\n"
         "$ns_ at 20 \"$node_(0) setdest 500 100 2\"\n"
@@ -322,7 +322,7 @@ TEST_CASE("setdest: a course of six legs ends where it should, at its height (ns
     CHECK(p.file.end() == start_of_run + from_seconds(920));
 }
 
-TEST_CASE("setdest: what is said to ns-2's god is passed over") {
+TEST_CASE("setdest: commands to ns-2's god are ignored") {
     const auto p = played(place_0 +
                           "$god_ set-dist 0 1 16777215\n"
                           "$ns_ at 3.9 \"$god_ set-dist 0 1 1\"\n");
@@ -330,7 +330,7 @@ TEST_CASE("setdest: what is said to ns-2's god is passed over") {
     CHECK(p.file.end() == start_of_run);
 }
 
-TEST_CASE("setdest: a file out of order is in memory, says so once and plays the same") {
+TEST_CASE("setdest: an unsorted file is kept in memory, gives one notice and plays the same") {
     std::mt19937 draw(3);
     const auto below = [&](unsigned n) { return static_cast<double>(draw() % n); };
     std::vector<std::string> lines;
@@ -371,7 +371,7 @@ TEST_CASE("setdest: a file out of order is in memory, says so once and plays the
     CHECK(a.file.end() == b.file.end());
 }
 
-TEST_CASE("setdest: commands at the same time stay as in the file, also out of order") {
+TEST_CASE("setdest: simultaneous commands keep the order of the file, also in an unsorted file") {
     const std::string late = "$ns_ at 9 \"$node_(0) setdest 9 9 9\"\n";
     std::string same;
     for (int i = 0; i < 50; ++i) {
@@ -391,7 +391,7 @@ TEST_CASE("setdest: a target that is never reached ends at the limit of time") {
     CHECK(p.file.end() == start_of_run + from_seconds(9e9));
 }
 
-TEST_CASE("setdest: lines across the portions in which the file is read are whole") {
+TEST_CASE("setdest: lines across block borders of the file are read correctly") {
     std::string text = place_0;
     for (int i = 0; text.size() < 1'000'000; ++i) {
         text += "$ns_ at " + std::to_string(i) + " \"$node_(0) setdest " + std::to_string(i) +
@@ -409,7 +409,7 @@ TEST_CASE("setdest: lines across the portions in which the file is read are whol
     CHECK(error_of(place_0 + "#" + std::string(65'000, 'x') + "\n") == "");
 }
 
-TEST_CASE("setdest: a damaged file is read or refused, never more") {
+TEST_CASE("setdest: a damaged file is read or refused, without a crash") {
     std::mt19937 draw(5);
     const auto below = [&](std::size_t n) { return draw() % n; };
     const std::string good = place_0 +
@@ -434,7 +434,7 @@ TEST_CASE("setdest: a damaged file is read or refused, never more") {
     CHECK(refused < 400);
 }
 
-TEST_CASE("setdest: the scene that CMU's setdest wrote keeps its robots in its field") {
+TEST_CASE("setdest: a scenario written by CMU's setdest keeps its robots in its field") {
     const char* folder = std::getenv("ROVERNET_MOVEMENTS");
     if (!folder) {
         MESSAGE("ROVERNET_MOVEMENTS is not set: skipped");

@@ -51,7 +51,7 @@ struct Station {
 
 }  // namespace
 
-TEST_CASE("backoff: a slot that the medium becomes busy in does not count") {
+TEST_CASE("backoff: a slot in which the medium becomes busy does not count") {
     Station s;
     s.backoff.energy(at(20), at(60));
     s.ask_while_busy(30, 4);
@@ -60,7 +60,7 @@ TEST_CASE("backoff: a slot that the medium becomes busy in does not count") {
     CHECK(s.backoff.grant() == at(118));
 }
 
-TEST_CASE("backoff: no slots, after one frame and after two that follow at once") {
+TEST_CASE("backoff: no slots count after one frame, or after two consecutive frames") {
     Station s;
     s.good_frame(20, 60);
     s.ask_while_busy(30, 0);
@@ -69,7 +69,7 @@ TEST_CASE("backoff: no slots, after one frame and after two that follow at once"
     CHECK(s.backoff.grant() == at(110));
 }
 
-TEST_CASE("backoff: an idle medium costs a DIFS from the asking on") {
+TEST_CASE("backoff: on an idle medium access takes a DIFS from the request on") {
     Station s;
     s.good_frame(20, 60);
     s.ask_while_idle(62);
@@ -80,7 +80,7 @@ TEST_CASE("backoff: an idle medium costs a DIFS from the asking on") {
     CHECK(later.backoff.grant() == at(80));
 }
 
-TEST_CASE("backoff: a frame with errors costs an EIFS, unless a good one follows") {
+TEST_CASE("backoff: a frame with errors requires an EIFS, unless an error-free frame follows") {
     Station s;
     s.backoff.energy(at(20), at(60));
     s.ask_while_busy(30, 4);
@@ -96,7 +96,7 @@ TEST_CASE("backoff: a frame with errors costs an EIFS, unless a good one follows
     CHECK(idle.backoff.grant() == at(86));
 }
 
-TEST_CASE("backoff: the medium stays busy to the end of a frame that failed within") {
+TEST_CASE("backoff: the medium is busy up to the end of a frame that was lost during it") {
     Station s;
     s.backoff.energy(at(20), at(60));
     s.backoff.frame_lost(at(40), eifs);
@@ -115,7 +115,7 @@ TEST_CASE("backoff: a reservation counts as busy, and a shorter one does not end
     CHECK(s.backoff.grant() == at(93));
 }
 
-TEST_CASE("backoff: longer interframe spaces") {
+TEST_CASE("backoff: longer interframe spaces delay the slots") {
     Station s;
     s.timing.difs = 14us;
     s.good_frame(20, 60);
@@ -130,7 +130,7 @@ TEST_CASE("backoff: longer interframe spaces") {
     CHECK(busy.backoff.grant() == at(108));
 }
 
-TEST_CASE("backoff: slots that counted before each of several frames add up") {
+TEST_CASE("backoff: slots counted before each of several frames add up") {
     Station s;
     s.good_frame(20, 60);
     s.ask_while_busy(60, 6);
@@ -139,7 +139,7 @@ TEST_CASE("backoff: slots that counted before each of several frames add up") {
     CHECK(s.backoff.grant() == at(150 + 3 * 4));
 }
 
-TEST_CASE("backoff: of frames on air together the first ends the counting, in any order") {
+TEST_CASE("backoff: of simultaneous frames the first stops the count, in any order") {
     for (const bool swapped : {false, true}) {
         Station s;
         s.good_frame(20, 60);
@@ -152,7 +152,7 @@ TEST_CASE("backoff: of frames on air together the first ends the counting, in an
     }
 }
 
-TEST_CASE("backoff: what arrives late in a slot is sensed in the next one") {
+TEST_CASE("backoff: energy that arrives late in a slot is sensed in the next slot") {
     const WifiTiming timing = timing_of(WifiStandard::b);
     for (const auto& [into, counted] : {std::pair{1, 2}, std::pair{3, 3}}) {
         Backoff backoff(timing);
@@ -165,7 +165,7 @@ TEST_CASE("backoff: what arrives late in a slot is sensed in the next one") {
     }
 }
 
-TEST_CASE("backoff: short slots") {
+TEST_CASE("backoff: short slots count like long ones") {
     Station s;
     s.timing.slot = 1us, s.timing.sifs = 3us, s.timing.difs = 4us;
     s.ask_while_idle(1);
@@ -175,7 +175,7 @@ TEST_CASE("backoff: short slots") {
     CHECK(s.backoff.grant() == at(12));
 }
 
-TEST_CASE("backoff: the own frame, its answer, and waiting for one count as busy") {
+TEST_CASE("backoff: the own frame, its answer and the wait for the answer count as busy") {
     Station answered;
     answered.timing.difs = 14us;
     answered.ask_while_idle(20);
@@ -193,7 +193,7 @@ TEST_CASE("backoff: the own frame, its answer, and waiting for one count as busy
     CHECK(ignored.backoff.grant() == at(80));
 }
 
-TEST_CASE("backoff: two stations whose slots run out together both send, whatever the delay") {
+TEST_CASE("backoff: two stations whose slots end together both send, whatever the delay") {
     WifiTiming timing = timing_of(WifiStandard::b);
     for (const Duration delay : {Duration{0}, Duration{1000}, Duration{1999}}) {
         Backoff first(timing), second(timing);

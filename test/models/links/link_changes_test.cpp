@@ -51,7 +51,7 @@ struct Rings {
 
 }  // namespace
 
-TEST_CASE("link changes: a disc's are at the first nanosecond inside and the first outside") {
+TEST_CASE("link changes: of a disc are at the first nanosecond inside and the first outside") {
     const Scene field;
     MovingPair pair{&field};
     pair.add(Disc{.range = 10_m}, resting({}));
@@ -63,7 +63,7 @@ TEST_CASE("link changes: a disc's are at the first nanosecond inside and the fir
     CHECK(pair.changes(b, a, start_of_run, start_of_run + 60s) == found);
 }
 
-TEST_CASE("link changes: by distance they are exact to the nanosecond") {
+TEST_CASE("link changes: of models by distance are exact to the nanosecond") {
     const Scene field;
     const std::vector<Propagation> models{Disc{.range = 15_m}, Friis{}, ItuIndoor{}, LogDistance{}};
     test::Draw draw(8);
@@ -83,7 +83,7 @@ TEST_CASE("link changes: by distance they are exact to the nanosecond") {
     CHECK(seen > 100);
 }
 
-TEST_CASE("link changes: a tangent is none, a nanometre further in it is two") {
+TEST_CASE("link changes: a tangent gives none, a nanometre further inside gives two") {
     const Scene field;
     for (const double miss : {10.0, 10.0 - 1e-9}) {
         MovingPair pair{&field};
@@ -96,7 +96,7 @@ TEST_CASE("link changes: a tangent is none, a nanometre further in it is two") {
     }
 }
 
-TEST_CASE("link changes: fixed steps miss the share of passes of the vectors, the search none") {
+TEST_CASE("link changes: fixed steps miss the share of passes in the vectors, the search none") {
     constexpr double sigmas = 5;
     constexpr std::uint64_t passes = 4000;
     const test::Vectors vectors("contact_miss_fixed_step.csv");
@@ -131,7 +131,7 @@ TEST_CASE("link changes: fixed steps miss the share of passes of the vectors, th
     }
 }
 
-TEST_CASE("link changes: a pair that stays out of reach is not looked at") {
+TEST_CASE("link changes: a pair that stays out of range is not sampled") {
     const Scene field;
     const Radio radio{.power = {-30}, .sensitivity = {-75}};
     for (const double miss : {0.0, 100.0}) {
@@ -146,7 +146,7 @@ TEST_CASE("link changes: a pair that stays out of reach is not looked at") {
     }
 }
 
-TEST_CASE("link changes: legs that come to rest, legs without end, and robots at rest") {
+TEST_CASE("link changes: legs that come to rest, endless legs and resting robots are handled") {
     const Scene field;
     const Propagation disc = Disc{.range = 10_m};
     MovingPair pair{&field};
@@ -182,7 +182,7 @@ TEST_CASE("link changes: steps below a nanosecond are refused") {
         CHECK_THROWS_AS(pair.changes(a, b, start_of_run, never, search), std::invalid_argument);
 }
 
-TEST_CASE("link changes: of a model that goes by heights they are exact between level robots") {
+TEST_CASE("link changes: of a model by heights are exact between robots at constant height") {
     const Scene field;
     MovingPair pair{&field};
     const Leg away = moving({10, 0, 0}, {20, 0, 0}, 100s);
@@ -212,7 +212,7 @@ TEST_CASE(
     CHECK(pair.up(a, b, found[0]));
 }
 
-TEST_CASE("link changes: of a model of unknown shape those of the dwell time are found") {
+TEST_CASE("link changes: of a model of unknown shape are found if they last for min_dwell") {
     const Scene field;
     MovingPair pair{&field};
     pair.add(Rings{}, resting({}));
@@ -232,7 +232,7 @@ TEST_CASE("link changes: of a model of unknown shape those of the dwell time are
     CHECK(endless.changes(b, a, start_of_run, never).empty());
 }
 
-TEST_CASE("link changes: a search in pieces finds what one in a row finds, in as many looks") {
+TEST_CASE("link changes: a search in parts finds the same as one search, with as many samples") {
     const Scene field;
     MovingPair pair{&field};
     pair.add(Rings{}, resting({}));

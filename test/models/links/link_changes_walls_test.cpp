@@ -39,7 +39,7 @@ Scene wall_with_gap(double gap, double thickness, const Material& material) {
 
 }  // namespace
 
-TEST_CASE("link changes: through a door, however narrow, for as long as no corner is in the way") {
+TEST_CASE("link changes: a link through a narrow door is up while no corner is in the way") {
     constexpr Duration within = 3ns;  // rounding of the corner and of the times
     for (const double gap : {1.0, 0.1, 1e-5, 1e-7}) {
         CAPTURE(gap);
@@ -81,7 +81,7 @@ TEST_CASE("link changes: over a wall of finite height the top edge decides") {
     CHECK(std::chrono::abs(rising[0] - (start_of_run + from_seconds(3 - 20 / 10.1))) <= within);
 }
 
-TEST_CASE("link changes: a link for a moment between two corners, where the loss is least") {
+TEST_CASE("link changes: a short link between two corners, at the least loss, is found") {
     // Along a wall: the less slanted the ray the less wall it pays for; both ends move.
     constexpr double above = 1e-4;  // [dB] of the budget over the least loss
     const Scene scene = wall_with_gap(0, 0.5, {.per_metre = DbPerMeter{40}});
@@ -111,7 +111,7 @@ TEST_CASE("link changes: a link for a moment between two corners, where the loss
     }
 }
 
-TEST_CASE("link changes: a link for a moment behind a wall, where the ends are nearest") {
+TEST_CASE("link changes: a short link behind a wall, at the shortest distance, is found") {
     // Down by 37 dB at the start and at half time, by 51 dB at the end; up within 2.94 m, where
     // 30 log10(200 / d) is the wall's 55 dB.
     const Scene scene(OccupancyGrid{.columns = 1,
@@ -177,7 +177,7 @@ Scene random_scene(test::Draw& draw, bool rich) {
 
 }  // namespace
 
-TEST_CASE("link changes: what dense sampling sees is found, for every model and direction") {
+TEST_CASE("link changes: all changes of dense sampling are found, for every model and direction") {
     constexpr auto time = 4s;
     constexpr LinkSearch search{.tolerance = 1ms, .min_dwell = 1ms};
     const std::vector<Propagation> models{Friis{},
@@ -214,7 +214,7 @@ TEST_CASE("link changes: what dense sampling sees is found, for every model and 
     }
 }
 
-TEST_CASE("link changes: behind walls that stand askew, what dense sampling sees is found") {
+TEST_CASE("link changes: behind oblique walls all changes of dense sampling are found") {
     constexpr auto time = 4s;
     constexpr LinkSearch search{.tolerance = 1ms, .min_dwell = 1ms};
     constexpr double cell = 0.05, side = 6, angle = 0.35;
@@ -247,7 +247,7 @@ TEST_CASE("link changes: behind walls that stand askew, what dense sampling sees
     }
 }
 
-TEST_CASE("link changes: between storeys, what dense sampling sees is found") {
+TEST_CASE("link changes: between storeys all changes of dense sampling are found") {
     constexpr auto time = 4s;
     constexpr LinkSearch search{.tolerance = 1ms, .min_dwell = 1ms};
     const std::vector<Propagation> models{MultiWall{.floor_loss = 6_dB},
@@ -281,7 +281,7 @@ TEST_CASE("link changes: between storeys, what dense sampling sees is found") {
     }
 }
 
-TEST_CASE("link changes: between equal radios both ways change at the same time") {
+TEST_CASE("link changes: between equal radios both directions change at the same time") {
     // So slow that rounding moves the times of passages by many nanoseconds.
     constexpr Duration time = 5'000'000'000s;
     test::Draw draw(10);

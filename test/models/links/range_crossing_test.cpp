@@ -14,7 +14,7 @@
 namespace range_crossing_test {
 using namespace rovernet;
 
-TEST_CASE("range crossing: enters and leaves at the times of the vectors") {
+TEST_CASE("range crossing: times of entering and leaving equal the vectors") {
     constexpr double tolerance = 1e-13;          // a few roundings, see the vectors' description
     constexpr double tangent_tolerance = 1e-12;  // where the discriminant nearly vanishes
     const test::Vectors vectors("range_crossing.csv");
@@ -37,7 +37,7 @@ TEST_CASE("range crossing: enters and leaves at the times of the vectors") {
     }
 }
 
-TEST_CASE("range crossing: in three dimensions it is the flat one of the plane of the motion") {
+TEST_CASE("range crossing: in three dimensions it equals the two-dimensional case in its plane") {
     constexpr double tolerance = 1e-12;  // of the rotation
     test::Draw draw(7);
     for (int i = 0; i < 1000; ++i) {
@@ -55,7 +55,7 @@ TEST_CASE("range crossing: in three dimensions it is the flat one of the plane o
     }
 }
 
-TEST_CASE("range crossing: nothing crosses at rest, without a range, or out of the numbers") {
+TEST_CASE("range crossing: there is none at rest, without a range, or for infinite numbers") {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     constexpr double infinity = std::numeric_limits<double>::infinity();
     CHECK_FALSE(range_crossing({1, 0, 0}, {}, 10));

@@ -35,7 +35,7 @@ bool passes_at(const Scene& scene, const StraightMotion& a, const StraightMotion
 
 }  // namespace
 
-TEST_CASE("wall passages: a line of sight that turns about one end passes the corners in view") {
+TEST_CASE("wall passages: a line of sight that turns about one end passes the visible corners") {
     const Scene scene(box(4, 2, 2, 1));
     const StraightMotion eye{{0, 0, 0}}, far{{10, 0, 0}, {0, 1, 0}};
     // The corner (x, y) is in line with (10, t) at t = 10 y / x.
@@ -48,7 +48,7 @@ TEST_CASE("wall passages: a line of sight that turns about one end passes the co
     CHECK(times.empty());
 }
 
-TEST_CASE("wall passages: an end that drives through a wall passes its edges") {
+TEST_CASE("wall passages: an end that moves through a wall passes its edges") {
     const Scene scene(box(4, -1, 2, 2));
     for (const double speed : {1.0, 0.625})
         for (const double x : {4.0, 6.0}) {
@@ -58,7 +58,7 @@ TEST_CASE("wall passages: an end that drives through a wall passes its edges") {
         }
 }
 
-TEST_CASE("wall passages: a line of sight that touches a corner and turns away is not missed") {
+TEST_CASE("wall passages: a line of sight that touches a corner and turns back is found") {
     // The line from (t, 0) to (0, 10 - t) touches the parabola of the points
     // (t^2, (10 - t)^2) / 10 from below; both roots are one.
     constexpr double parted = 1e-6;  // [s] two equal roots, by the rounding of what parts them
@@ -71,7 +71,7 @@ TEST_CASE("wall passages: a line of sight that touches a corner and turns away i
     }
 }
 
-TEST_CASE("wall passages: where the edges of overlapping walls of one material meet is a corner") {
+TEST_CASE("wall passages: intersections of overlapping walls of one material count as corners") {
     // A square on its tip, (5, 1) ... (7, 3) its lower right edge, which meets x = 5.5 at 1.5.
     const double side = std::sqrt(8.0), eighth = std::acos(-1.0) / 4;
     const OccupancyGrid tip = box(5, 1, side, side, eighth);
@@ -93,7 +93,7 @@ TEST_CASE("wall passages: an end that rises passes the height of the wall's top"
     CHECK_FALSE(passes_at(scene, level, beside, 4));
 }
 
-TEST_CASE("wall passages: between storeys it passes ceilings and the feet of walls above") {
+TEST_CASE("wall passages: between storeys the line passes ceilings and bottoms of upper walls") {
     OccupancyGrid ground = box(-50, -50, 1, 1), upper = box(4, -1, 2, 2);
     ground.cells = {Cell::free};
     upper.origin.z = 3;

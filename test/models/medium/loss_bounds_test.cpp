@@ -13,7 +13,7 @@
 namespace loss_bounds_test {
 using namespace rovernet;
 
-TEST_CASE("loss bounds: a loss lies between them, and they are close together") {
+TEST_CASE("loss bounds: the loss lies between the bounds, which are close together") {
     const Propagation disc = Disc{.range = 100_m};
     for (const Propagation& model :
          {Propagation{Friis{}}, Propagation{LogDistance{.sigma = {0}}}, disc}) {
@@ -37,7 +37,7 @@ TEST_CASE("loss bounds: a loss lies between them, and they are close together") 
     }
 }
 
-TEST_CASE("loss bounds: nothing is known very near and very far") {
+TEST_CASE("loss bounds: very short and very long distances have no bounds") {
     LossBounds bounds;
     const auto never_asked = [](double) -> double {
         FAIL("asked");

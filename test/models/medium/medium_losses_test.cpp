@@ -131,7 +131,7 @@ struct Twins {
 
 }  // namespace
 
-TEST_CASE("medium: kept losses change nothing while robots start, stop, jump and are switched") {
+TEST_CASE("medium: cached losses change nothing while robots start, stop, jump and are switched") {
     const CountedRays counted;
     const std::vector<Propagation> walls{counted}, mixed{counted, TwoRay{}, Raytrace2007{}};
     for (std::uint32_t seed = 1; seed <= 30; ++seed) {
@@ -152,7 +152,7 @@ TEST_CASE("medium: kept losses change nothing while robots start, stop, jump and
     }
 }
 
-TEST_CASE("medium: resting robots trace each ray once, moving ones each time") {
+TEST_CASE("medium: rays of resting robots are traced once, of moving robots each time") {
     for (const bool moving : {false, true}) {
         const CountedRays counted;
         Twins twins(5);
@@ -175,7 +175,7 @@ TEST_CASE("medium: resting robots trace each ray once, moving ones each time") {
     }
 }
 
-TEST_CASE("medium: who judges a frame gets the losses that its receivers were found with") {
+TEST_CASE("medium: the judge of a frame gets the losses computed in the search for receivers") {
     const CountedRays counted;
     Twins twins(6);
     for (std::uint32_t i = 0; i < 20; ++i) {
@@ -205,7 +205,7 @@ TEST_CASE("medium: who judges a frame gets the losses that its receivers were fo
     }
 }
 
-TEST_CASE("recent losses: a loss above its limit tells no more than that") {
+TEST_CASE("recent losses: a loss above its cut-off is only a lower bound") {
     RecentLosses losses;
     const RecentLosses::Link link{NodeId{1}, NodeId{2}, {0, 0, 1}, {5, 0, 1}};
     CHECK(!losses.find(link, 90_dB));

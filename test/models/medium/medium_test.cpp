@@ -141,7 +141,7 @@ constexpr std::size_t robots = 60;
 
 }  // namespace
 
-TEST_CASE("medium: who hears is who a search over all pairs finds, for every model") {
+TEST_CASE("medium: receivers equal a search over all pairs, for every model") {
     for_each_model([]<class Model>() {
         CAPTURE(std::string(Model::name));
         Crowd crowd(1);
@@ -155,7 +155,7 @@ TEST_CASE("medium: who hears is who a search over all pairs finds, for every mod
     });
 }
 
-TEST_CASE("medium: so it is among few kinds of radios, where tables decide with shadowing") {
+TEST_CASE("medium: receivers are right with few radio kinds, decided by tables of shadowing") {
     for (const std::size_t kinds : {std::size_t{1}, std::size_t{3}}) {
         CAPTURE(kinds);
         Crowd crowd(12);
@@ -175,7 +175,7 @@ TEST_CASE("medium: so it is among few kinds of radios, where tables decide with 
     }
 }
 
-TEST_CASE("medium: the transmitter's model rules where models are mixed") {
+TEST_CASE("medium: with mixed models the transmitter's model applies") {
     Crowd crowd(2);
     std::vector<Propagation> models;
     for_each_model([&]<class Model>() { models.push_back(model<Model>()); });
@@ -187,7 +187,7 @@ TEST_CASE("medium: the transmitter's model rules where models are mixed") {
     }
 }
 
-TEST_CASE("medium: a keener receiver that joins later is heard of at once") {
+TEST_CASE("medium: a more sensitive receiver that joins later is found at once") {
     for (const Propagation& model :
          {Propagation{Friis{}}, Propagation{LogDistance{.sigma = {6}}}}) {
         Crowd crowd(3);
@@ -198,7 +198,7 @@ TEST_CASE("medium: a keener receiver that joins later is heard of at once") {
     }
 }
 
-TEST_CASE("medium: a reception ends when the frame has come all the way") {
+TEST_CASE("medium: a reception ends after airtime and propagation delay") {
     const Scene field;
     Medium medium({.scene = &field});
     Legs legs;
@@ -230,7 +230,7 @@ TEST_CASE("medium: without propagation delay all receptions end with the frame")
     CHECK(heard[1].time == start_of_run + 1us);
 }
 
-TEST_CASE("medium: a loss equal to the budget is a link, one rounding less budget is none") {
+TEST_CASE("medium: a loss equal to the budget is a link, a budget one rounding smaller is none") {
     const Scene field;
     Legs legs;
     for (const double x : {0.0, 50.0}) legs.add({.from = {x, 0, 0}, .to = {x, 0, 0}});
@@ -245,7 +245,7 @@ TEST_CASE("medium: a loss equal to the budget is a link, one rounding less budge
     CHECK_FALSE(hears(std::nextafter(-loss, 0.0)));
 }
 
-TEST_CASE("medium: a radio that is off neither hears nor joins others; on again it does") {
+TEST_CASE("medium: a radio that is off neither receives nor counts; switched on again, it does") {
     const Scene field;
     Medium medium({.scene = &field});
     Legs legs;
@@ -268,7 +268,7 @@ TEST_CASE("medium: a radio that is off neither hears nor joins others; on again 
     CHECK(Reachability::count_anew(medium, {0}, start_of_run, legs) == 4);
 }
 
-TEST_CASE("medium: random radios switched off are as if they were not there") {
+TEST_CASE("medium: random radios that are off have no effect") {
     Crowd crowd(4);
     const Propagation friis = Friis{};
     for (std::size_t i = 0; i < robots; ++i) crowd.add(friis);
@@ -276,7 +276,8 @@ TEST_CASE("medium: random radios switched off are as if they were not there") {
     crowd.check(start_of_run + 2s);
 }
 
-TEST_CASE("medium: robots reachable are the sender's component of Boost.Graph, less the sender") {
+TEST_CASE(
+    "medium: reachable robots are the sender's component by Boost.Graph, without the sender") {
     for (std::uint32_t seed = 1; seed <= 20; ++seed) {
         Crowd crowd(seed);
         const Propagation disc = Disc{.range = 7_m};
@@ -299,7 +300,7 @@ TEST_CASE("medium: robots reachable are the sender's component of Boost.Graph, l
     }
 }
 
-TEST_CASE("medium: a radio or a frequency that makes no sense is refused") {
+TEST_CASE("medium: an invalid radio or frequency is refused") {
     const Scene field;
     Medium medium({.scene = &field});
     const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -341,7 +342,7 @@ TEST_CASE("medium: ns-2's default radio decodes to 250 m and senses to 550 m ove
     CHECK(sensors == std::vector{NodeId{2}, NodeId{3}});
 }
 
-TEST_CASE("medium: a lone sender hears of all that jump to it, more than were near") {
+TEST_CASE("medium: a lone sender reaches all robots that jump to it") {
     const Scene field;
     Medium medium{{.scene = &field}};
     Legs legs;
@@ -361,7 +362,7 @@ TEST_CASE("medium: a lone sender hears of all that jump to it, more than were ne
     for (std::uint32_t i = 1; i <= jumping; ++i) CHECK(heard[i - 1].node == NodeId{i});
 }
 
-TEST_CASE("medium: which of two frames is stronger is what their levels say, however it is found") {
+TEST_CASE("medium: the stronger of two frames is that of the higher level, by every method") {
     const Scene field;
     test::Draw draw(23);
     int stronger = 0, plain = 0;
@@ -400,7 +401,7 @@ TEST_CASE("medium: which of two frames is stronger is what their levels say, how
     CHECK(plain > 10'000);
 }
 
-TEST_CASE("medium: what is left out adds to the noise what the weakest that is told would add") {
+TEST_CASE("medium: the bound on neglected interference counts each frame at the cut-off level") {
     const Scene field;
     // Noise of -93.6 dBm; the cut is at -95 dBm: each adds 0.72 of the noise at most.
     Medium medium{{.scene = &field, .interference_cut = Db{20}}};
@@ -417,8 +418,7 @@ TEST_CASE("medium: what is left out adds to the noise what the weakest that is t
           doctest::Approx(10 * std::log10(2.0)).epsilon(1e-9));
 }
 
-TEST_CASE(
-    "medium: a frame interferes down to the cut below the sensitivity, or where it is sensed") {
+TEST_CASE("medium: a frame interferes down to the cut-off below the sensitivity, or if sensed") {
     const Scene field;
     const Radio radio{.sensitivity = {-85}};  // nothing weaker is sensed; noise of -93.6 dBm
     for (const std::optional<Db> cut : {std::optional<Db>{}, std::optional{Db{6}}}) {

@@ -94,7 +94,7 @@ struct Swarm {
 
 }  // namespace
 
-TEST_CASE("neighbour index: finds whom a look at everybody finds, while all move and turn") {
+TEST_CASE("neighbour index: finds the same nodes as a full search, while all move and turn") {
     for (std::uint32_t seed = 1; seed <= 60; ++seed) {
         Swarm swarm(seed);
         const double size = std::pow(10, swarm.draw.uniform(0, 5));
@@ -124,7 +124,7 @@ TEST_CASE("neighbour index: finds whom a look at everybody finds, while all move
     }
 }
 
-TEST_CASE("neighbour index: of nodes at rest the first look is told nearly the squared distance") {
+TEST_CASE("neighbour index: for resting nodes the first test gets nearly the squared distance") {
     Swarm swarm(7);
     const auto place = [&] {
         return Vec3{swarm.draw.uniform(0, 1e4), swarm.draw.uniform(0, 1e4), 0};
@@ -149,7 +149,7 @@ TEST_CASE("neighbour index: of nodes at rest the first look is told nearly the s
     CHECK(looked_at > 300);
 }
 
-TEST_CASE("neighbour index: a leg without an end leads away, too") {
+TEST_CASE("neighbour index: a node on an endless leg is found") {
     Swarm swarm(4);
     for (int i = 0; i < 20; ++i) {
         swarm.index.add(static_cast<std::uint32_t>(i) % 7);
@@ -162,7 +162,7 @@ TEST_CASE("neighbour index: a leg without an end leads away, too") {
     }
 }
 
-TEST_CASE("neighbour index: one node at 1e9 m, all in one place, a line, and no radius") {
+TEST_CASE("neighbour index: one node at 1e9 m, coincident nodes, a line and radius 0 are handled") {
     Swarm swarm(3);
     for (int i = 0; i < 300; ++i) swarm.add({5, 5, 0}, 0);
     for (int i = 0; i < 300; ++i) swarm.add({10.0 * i, -70, 0}, 1);

@@ -29,7 +29,7 @@ void keep(PairCache& cache, NodeId from, NodeId to, double loss_db) {
 
 }  // namespace
 
-TEST_CASE("pair cache: a loss is kept from the one to the other, not the other way round") {
+TEST_CASE("pair cache: a loss is stored for one direction only") {
     PairCache cache;
     CHECK(kept(cache, a, b) == std::nullopt);
     keep(cache, a, b, 70);
@@ -41,7 +41,7 @@ TEST_CASE("pair cache: a loss is kept from the one to the other, not the other w
     CHECK(kept(cache, a, b) == 70);
 }
 
-TEST_CASE("pair cache: a loss is void once either end has moved") {
+TEST_CASE("pair cache: a loss is invalid after either end has moved") {
     for (const NodeId moved : {a, b}) {
         PairCache cache;
         keep(cache, a, b, 70);
@@ -54,7 +54,7 @@ TEST_CASE("pair cache: a loss is void once either end has moved") {
     }
 }
 
-TEST_CASE("pair cache: a row in many orders gives each node its own loss") {
+TEST_CASE("pair cache: a row filled in any order gives each node its own loss") {
     PairCache cache;
     for (std::uint32_t round = 0; round < 50; ++round) {
         for (std::uint32_t from = 0; from < 7; ++from) {
@@ -77,7 +77,7 @@ TEST_CASE("pair cache: a row in many orders gives each node its own loss") {
     }
 }
 
-TEST_CASE("pair cache: losses given up at less than is asked for now are void") {
+TEST_CASE("pair cache: losses computed with a smaller cut-off are invalid") {
     PairCache cache;
     keep(cache, a, b, 95);  // more than the budget of 90 dB: who knows how much
     CHECK(kept(cache, a, b, Db{80}) == 95);
@@ -85,7 +85,7 @@ TEST_CASE("pair cache: losses given up at less than is asked for now are void") 
     CHECK(kept(cache, a, b, Db{91}) == std::nullopt);
 }
 
-TEST_CASE("pair cache: what joins a row later is asked for with the row's budget") {
+TEST_CASE("pair cache: a node added to a row later is computed with the row's cut-off") {
     PairCache cache;
     keep(cache, a, b, 95);
     CHECK(cache.open(a, Db{80}) == budget);
@@ -93,7 +93,7 @@ TEST_CASE("pair cache: what joins a row later is asked for with the row's budget
     CHECK(cache.open(b, Db{-20}) == Db{-20});
 }
 
-TEST_CASE("pair cache: memory is bounded, and given back when a node moves") {
+TEST_CASE("pair cache: memory is bounded, and freed when a node moves") {
     PairCache cache(10);
     cache.open(a, budget);
     REQUIRE(cache.renew(6));

@@ -137,7 +137,7 @@ class RandomWorld {
 
 }  // namespace
 
-TEST_CASE("reachability: the number of a search from scratch, in random worlds of every kind") {
+TEST_CASE("reachability: counts equal a search without cache, in random worlds of every kind") {
     const World worlds[] = {
         {.name = "a sparse disc", .model = Disc{.range = {3}}},
         {.name = "a dense disc", .model = Disc{.range = {6}}},

@@ -72,7 +72,7 @@ struct Ground {
 
 }  // namespace
 
-TEST_CASE("two-ray: nobody is missed as robots climb, jump and come, higher than all before") {
+TEST_CASE("two-ray: no receiver is missed as robots climb, jump and join above all others") {
     std::size_t links = 0;
     for (std::uint32_t seed = 1; seed <= 10; ++seed) {
         Ground ground(seed);
@@ -87,7 +87,7 @@ TEST_CASE("two-ray: nobody is missed as robots climb, jump and come, higher than
     CHECK(links > 3000);
 }
 
-TEST_CASE("two-ray: distance decides, to the last bit, until an antenna leaves the common height") {
+TEST_CASE("two-ray: distance decides exactly, until an antenna leaves the common height") {
     Ground ground(1);
     const Radio radio{.power = {10}, .antenna_height = {1.5}};
     const auto add = [&](double x) {
@@ -116,7 +116,7 @@ TEST_CASE("two-ray: distance decides, to the last bit, until an antenna leaves t
     CHECK(ground.compare(start_of_run + 8s) > 500);
 }
 
-TEST_CASE("two-ray: over 4 km of flat ground only those nearby are looked at") {
+TEST_CASE("two-ray: over 4 km of flat ground only nearby robots are checked") {
     Scene scene;
     Legs legs;
     Medium medium({.scene = &scene});

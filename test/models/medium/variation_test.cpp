@@ -134,7 +134,7 @@ Emission frame_of(Medium& medium, NodeId from, Time t, const Legs& legs) {
 
 }  // namespace
 
-TEST_CASE("variation: who hears is who a search over all pairs finds, and whose level suffices") {
+TEST_CASE("variation: receivers equal a search over all pairs, with sufficient levels") {
     for (const Variation& v : variations()) {
         CAPTURE(std::string(v.name));
         Twins twins(v, 3);
@@ -173,7 +173,7 @@ TEST_CASE("variation: who hears is who a search over all pairs finds, and whose 
     }
 }
 
-TEST_CASE("variation: shadowing of sigma 0 is none") {
+TEST_CASE("variation: shadowing of sigma 0 has no effect") {
     for (const ShadowingModel kind : {ShadowingModel::link, ShadowingModel::field}) {
         Medium medium({.shadowing = {.model = kind, .sigma = Db{0}}});
         const Propagation friis = Friis{};
@@ -183,7 +183,7 @@ TEST_CASE("variation: shadowing of sigma 0 is none") {
     }
 }
 
-TEST_CASE("variation: shadowing of links is log_distance's sigma over any model") {
+TEST_CASE("variation: shadowing of links equals log_distance's sigma, with any model") {
     Medium own({.scene = &open_field, .seed = 4, .replication = 1});
     Medium over({.scene = &open_field,
                  .shadowing = {.model = ShadowingModel::link, .sigma = Db{7}},
@@ -201,7 +201,7 @@ TEST_CASE("variation: shadowing of links is log_distance's sigma over any model"
     }
 }
 
-TEST_CASE("variation: a shadowed model is reciprocal, bounded by its reach and gives up soundly") {
+TEST_CASE("variation: a shadowed model is symmetric, bounded by its reach and cut off correctly") {
     for (const Shadowing& shadowing : {link_shadowing, field_shadowing}) {
         const Propagation model = Shadowed(Friis{}, shadowing, 3, 5);
         CHECK(model.as<Shadowed>()->base().name() == Friis::name);
@@ -221,7 +221,7 @@ TEST_CASE("variation: a shadowed model is reciprocal, bounded by its reach and g
     }
 }
 
-TEST_CASE("variation: the loss of a link is model and shadowing, never below 0") {
+TEST_CASE("variation: the loss of a link is model plus shadowing, never below 0") {
     const Propagation deep =
         Shadowed(Friis{}, {.model = ShadowingModel::field, .sigma = Db{60}}, 3, 5);
     int none = 0;
@@ -233,13 +233,13 @@ TEST_CASE("variation: the loss of a link is model and shadowing, never below 0")
     CHECK(none > 0);
 }
 
-TEST_CASE("variation: a model that is random itself takes no shadowing") {
+TEST_CASE("variation: shadowing is refused for a model with its own random part") {
     Medium medium({.scene = &open_field, .shadowing = field_shadowing});
     CHECK_THROWS_AS(medium.add({}, 1, LogDistance{}), std::invalid_argument);
     CHECK_NOTHROW(medium.add({}, 1, LogDistance{.sigma = Db{0}}));
 }
 
-TEST_CASE("variation: links are local means, which no frame's fade is in") {
+TEST_CASE("variation: link levels are local means without fading") {
     Medium medium({.scene = &open_field, .fading = {.model = FadingModel::rayleigh}}),
         plain({.scene = &open_field});
     Legs legs;
@@ -288,7 +288,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("variation: where places have fades, a robot that comes back is heard as before") {
+TEST_CASE("variation: with fading by place, a robot that returns is heard as before") {
     Medium medium({.scene = &open_field,
                    .fading = {.model = FadingModel::rayleigh, .coherence = Coherence::place}});
     Legs legs;
@@ -309,7 +309,7 @@ TEST_CASE("variation: where places have fades, a robot that comes back is heard 
     CHECK(later != before);
 }
 
-TEST_CASE("antennas: a sector hears in front, not behind; its link has the pattern at both ends") {
+TEST_CASE("antennas: a sector antenna hears ahead, not behind; its link has both patterns") {
     Medium medium({.scene = &open_field});
     Legs legs;
     Radio sector{.antenna = AntennaShape::cosine,
@@ -336,7 +336,7 @@ TEST_CASE("antennas: a sector hears in front, not behind; its link has the patte
                      medium.links().level(a, {2}, start_of_run, legs).value, tolerance));
 }
 
-TEST_CASE("antennas: a robot that turns in place gets links, and loses them, on time") {
+TEST_CASE("antennas: a robot that turns in place gains and loses links in time") {
     const Scene field;
     test::MovingPair pair{&field};
     Radio sector{.antenna = AntennaShape::cosine, .antenna_beamwidth = Radians{60 * degree}};

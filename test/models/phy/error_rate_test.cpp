@@ -42,7 +42,7 @@ bool close(double a, double b, double relative) {
 
 }  // namespace
 
-TEST_CASE("error rate: frames of 1000 bytes are lost as in the vectors") {
+TEST_CASE("error rate: losses of frames of 1000 bytes equal the vectors") {
     const test::Vectors vectors("per_1000B.csv");
     int compared = 0;
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -66,7 +66,7 @@ TEST_CASE("error rate: frames of 1000 bytes are lost as in the vectors") {
     CHECK(compared == 47);
 }
 
-TEST_CASE("error rate: frames get through as in the tests of ns-3") {
+TEST_CASE("error rate: success of frames equals the tests of ns-3") {
     struct Row {
         Modulation modulation;
         double db;       // SINR of OFDM, level of DSSS [dBm]
@@ -96,7 +96,7 @@ TEST_CASE("error rate: frames get through as in the tests of ns-3") {
     }
 }
 
-TEST_CASE("error rate: a bit is never worse than a guess, and no frame better than sure") {
+TEST_CASE("error rate: a bit error is at most 1/2, and success at most 1") {
     const double inf = std::numeric_limits<double>::infinity();
     for (const Modulation modulation : all) {
         CAPTURE(static_cast<int>(modulation));
@@ -117,7 +117,7 @@ TEST_CASE("error rate: a bit is never worse than a guess, and no frame better th
     }
 }
 
-TEST_CASE("error rate: a stronger signal is never worse") {
+TEST_CASE("error rate: a stronger signal never has more errors") {
     for (const Modulation modulation : all) {
         CAPTURE(static_cast<int>(modulation));
         double before = 0.5;
@@ -129,7 +129,7 @@ TEST_CASE("error rate: a stronger signal is never worse") {
     }
 }
 
-TEST_CASE("error rate: the log of success keeps bit errors that a difference from 1 loses") {
+TEST_CASE("error rate: the log of success keeps bit errors below 1e-16") {
     // 1 - p is 1 in doubles here; a frame is lost with n p.
     for (const Modulation modulation : all) {
         double db = -10;
@@ -141,7 +141,7 @@ TEST_CASE("error rate: the log of success keeps bit errors that a difference fro
     }
 }
 
-TEST_CASE("error rate: success of the parts of a frame multiplies, whatever their SINR") {
+TEST_CASE("error rate: the success of a frame is the product over its parts") {
     const double header = 192 * log_success(Modulation::dsss_1, ratio(-4));
     const double body = 4000 * log_success(Modulation::cck_11, ratio(5.5));
     constexpr double roundings = 1e-14;  // relative
@@ -150,7 +150,7 @@ TEST_CASE("error rate: success of the parts of a frame multiplies, whatever thei
                      std::log1p(-bit_error_rate(Modulation::ofdm_6, ratio(2))), roundings));
 }
 
-TEST_CASE("error rate: each bit rate of 802.11 has its modulation, and others none") {
+TEST_CASE("error rate: each bit rate of 802.11 has its modulation, and other rates have none") {
     const std::array rates{1.0, 2.0, 5.5, 11.0, 6.0, 9.0, 12.0, 18.0, 24.0, 36.0, 48.0, 54.0};
     for (std::size_t i = 0; i < rates.size(); ++i) {
         CHECK(modulation_of({rates[i] * 1e6}) == all[i]);
@@ -235,7 +235,7 @@ double drawn_symbol_error(const std::vector<Word>& words, double Es_over_N0, int
 
 }  // namespace
 
-TEST_CASE("cck: 5.5 Mb/s is the integral of Pursley and Royster, from a guess to 1e-220") {
+TEST_CASE("cck: 5.5 Mb/s equals the integral of Pursley and Royster, from a guess to 1e-220") {
     for (const double b : {0.01, 0.5, 1.0, 2.0, 3.0, 4.5, 5.9, 6.1, 8.0, 10.0, 11.9, 12.1, 15.0,
                            18.0, 20.9, 21.1, 30.0, 45.0}) {
         const double S = b * b / 16;
@@ -246,7 +246,7 @@ TEST_CASE("cck: 5.5 Mb/s is the integral of Pursley and Royster, from a guess to
     }
 }
 
-TEST_CASE("cck: an ideal coherent receiver of the standard's own words is 3 dB better") {
+TEST_CASE("cck: an ideal coherent receiver of the standard's code words is 3 dB better") {
     constexpr int symbols = 20'000;
     for (const double db : {-2.0, 0.0, 2.0}) {
         const double S = ratio(db);
@@ -258,7 +258,7 @@ TEST_CASE("cck: an ideal coherent receiver of the standard's own words is 3 dB b
     }
 }
 
-TEST_CASE("cck: two sets of 16 stand for the 256 words of 11 Mb/s, 0.2 dB off at most") {
+TEST_CASE("cck: two sets of 16 replace the 256 code words of 11 Mb/s within 0.2 dB") {
     constexpr int symbols = 20'000;
     for (const double db : {1.0, 3.0}) {
         const auto model = [](double at_db) {
@@ -272,14 +272,14 @@ TEST_CASE("cck: two sets of 16 stand for the 256 words of 11 Mb/s, 0.2 dB off at
     }
 }
 
-TEST_CASE("cck: 11 Mb/s at a SINR is 5.5 Mb/s at half of it") {
+TEST_CASE("cck: 11 Mb/s at an SINR equals 5.5 Mb/s at half of it") {
     for (double db = -20; db < 15; db += 0.5) {
         CHECK(bit_error_rate(Modulation::cck_11, 2 * ratio(db)) ==
               bit_error_rate(Modulation::cck_5_5, ratio(db)));
     }
 }
 
-TEST_CASE("cck: without a signal a symbol is one of 16 or of 256 by chance") {
+TEST_CASE("cck: without a signal a symbol is guessed among 16 or 256") {
     constexpr double faint = 1e-12;
     CHECK(test::near(success(4 * log_success(Modulation::cck_5_5, faint)), 1.0 / 16, 1e-5));
     CHECK(test::near(success(8 * log_success(Modulation::cck_11, faint)), 1.0 / 256, 1e-5));
@@ -349,7 +349,7 @@ const Code three_quarters{{{true, true, false}, {true, false, true}}, 15};
 
 }  // namespace
 
-TEST_CASE("ofdm: the bound is over the first weights of the standard's punctured codes") {
+TEST_CASE("ofdm: the bound uses the first weights of the standard's punctured codes") {
     struct Row {
         Modulation modulation;
         const Code& code;
@@ -382,7 +382,7 @@ TEST_CASE("ofdm: the bound is over the first weights of the standard's punctured
     }
 }
 
-TEST_CASE("error rate: the same bits from every compiler") {
+TEST_CASE("error rate: all compilers give the same bits") {
     std::uint64_t sum = 0;
     for (const Modulation modulation : all) {
         for (int i = -300; i < 400; ++i) {
@@ -394,8 +394,7 @@ TEST_CASE("error rate: the same bits from every compiler") {
     CHECK(sum == 0x478273263e15067e);
 }
 
-TEST_CASE(
-    "error rate: what is certain succeeds whatever the draw, and what is 1 dB weaker may not") {
+TEST_CASE("error rate: above certain_sinr every frame succeeds, 1 dB below it some may fail") {
     constexpr double bits = 8 * 0x1p32;
     for (const Modulation modulation : all) {
         CAPTURE(static_cast<int>(modulation));

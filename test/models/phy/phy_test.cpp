@@ -34,7 +34,7 @@ void for_each_phy(Visit visit) {
 
 }  // namespace
 
-TEST_CASE("every phy: a frame of no bytes takes its preamble; more bytes never take less time") {
+TEST_CASE("every phy: an empty frame takes its preamble; more bytes never take less time") {
     for_each_phy([](const Phy& phy) {
         for (const BitRate rate : phy.rates()) {
             CHECK(airtime(phy, Duration{5'000}, rate, 0) == Duration{5'000});
@@ -48,8 +48,7 @@ TEST_CASE("every phy: a frame of no bytes takes its preamble; more bytes never t
     });
 }
 
-TEST_CASE(
-    "every phy: bits are the surer the stronger the signal, and certain from certain_sinr on") {
+TEST_CASE("every phy: success grows with the signal, and is certain from certain_sinr on") {
     for_each_phy([](const Phy& phy) {
         for (const BitRate rate : phy.rates()) {
             REQUIRE(phy.coding(rate));
@@ -73,14 +72,14 @@ TEST_CASE("every phy: a rate that it does not list has no coding") {
     });
 }
 
-TEST_CASE("wifi: twelve rates, and the error rates of their modulations") {
+TEST_CASE("wifi: twelve rates have the error rates of their modulations") {
     const Phy phy = Wifi{};
     CHECK(phy.rates().size() == 12);
     CHECK(phy.log_success(*phy.coding(54_Mbps), 30) == log_success(Modulation::ofdm_54, 30));
     CHECK(phy.certain_sinr(*phy.coding(1_Mbps)) == certain_sinr(Modulation::dsss_1));
 }
 
-TEST_CASE("wifi: with a standard's framing frames last whole microseconds or symbols") {
+TEST_CASE("wifi: with a standard's framing, airtimes are whole microseconds or symbols") {
     // 802.11-2020, 17.4.3: 16 + 8 n + 6 bits in symbols of 216 bits, 4 us each; 106 bytes and the
     // tail just do not fit into four.
     for (const auto& [bytes, symbols] : {std::pair{105U, 4}, {106U, 5}}) {
@@ -91,12 +90,12 @@ TEST_CASE("wifi: with a standard's framing frames last whole microseconds or sym
           Duration{192'000 + 47'000});
 }
 
-TEST_CASE("wifi: 64 bytes at 11 Mb/s behind a long preamble take 238,545 ns") {
+TEST_CASE("wifi: 64 bytes at 11 Mb/s after a long preamble take 238,545 ns") {
     CHECK(airtime(Wifi{}, Duration{192'000}, 11_Mbps, 64) ==
           Duration{192'000 + 46'545});  // 512 / 11 us = 46.5454 us
 }
 
-TEST_CASE("wifi: the airtime is rounded to the nearest nanosecond; no byte takes the preamble") {
+TEST_CASE("wifi: airtime is rounded to the nearest nanosecond; an empty frame takes the preamble") {
     CHECK(airtime(Wifi{}, Duration{192'000}, 11_Mbps, 0) == Duration{192'000});
     CHECK(airtime(Wifi{}, Duration{0}, 11_Mbps, 1) == Duration{727});
     CHECK(airtime(Wifi{}, Duration{0}, 3_Mbps, 1) == Duration{2667});

@@ -126,7 +126,7 @@ std::vector<double> losses(const Propagation& model, const LinkBatch& batch) {
 
 }  // namespace
 
-TEST_CASE("every model: the loss is finite and not negative, at no distance and far off too") {
+TEST_CASE("every model: the loss is finite and not negative, at distance 0 and far away") {
     World world;
     world.to.insert(world.to.end(), {world.from, {1e6, 0, 0}, {0, 0, 1e5}, {-1e9, 1e9, 0}});
     world.keys.resize(world.to.size(), 1);
@@ -140,7 +140,7 @@ TEST_CASE("every model: the loss is finite and not negative, at no distance and 
     });
 }
 
-TEST_CASE("every model: the loss depends on neither the time nor the frame: it may be kept") {
+TEST_CASE("every model: the loss does not depend on time or frame, so that it can be cached") {
     const World world;
     LinkBatch later = world.batch();
     later.at = start_of_run + Duration{12'345'678'901};
@@ -149,7 +149,7 @@ TEST_CASE("every model: the loss depends on neither the time nor the frame: it m
         [&](const auto& model) { CHECK(losses(model, world.batch()) == losses(model, later)); });
 }
 
-TEST_CASE("every model: low frequencies and short ways do not make a gain") {
+TEST_CASE("every model: low frequencies and short distances give no gain") {
     for_each_variant([&](const auto& model) {
         if constexpr (requires { model.environment; }) {
             if (model.environment) return;  // has no row at 1 MHz
@@ -179,7 +179,7 @@ TEST_CASE("every model: the loss is the same in both directions, to the last bit
     });
 }
 
-TEST_CASE("every model whose loss goes by distance never loses less farther off") {
+TEST_CASE("every model by distance: the loss never decreases with distance") {
     int checked = 0;
     for_each_variant([&](const auto& model) {
         const LossShape shape = model.shape();
@@ -195,7 +195,7 @@ TEST_CASE("every model whose loss goes by distance never loses less farther off"
     CHECK(checked >= 6);
 }
 
-TEST_CASE("every model: a link's loss does not depend on who else is in the batch") {
+TEST_CASE("every model: the loss of a link does not depend on the rest of the batch") {
     World world;
     for_each_variant([&](const auto& model) {
         const auto together = losses(model, world.batch());
@@ -244,7 +244,7 @@ TEST_CASE("every model: beyond its reach for a budget the loss is more than the 
     });
 }
 
-TEST_CASE("every model: giving up leaves what is within the budget, and more than it elsewhere") {
+TEST_CASE("every model: with a cut-off, losses within it are exact and others are above it") {
     World world;
     for_each_variant([&](const auto& model) {
         const auto exact = losses(model, world.batch());
@@ -258,7 +258,7 @@ TEST_CASE("every model: giving up leaves what is within the budget, and more tha
     });
 }
 
-TEST_CASE("every model: a missing parameter is refused, and one out of its range") {
+TEST_CASE("every model: a missing parameter, or one out of its range, is refused") {
     int checked = 0;
     for_each_model([&]<class Model>() {
         for_each_field<Model>([&](const auto& f) {
@@ -296,7 +296,7 @@ TEST_CASE("every model: infinite parameters are refused") {
     CHECK_THROWS_AS(Propagation{Raytrace2007{.wall_factor = inf}}, std::invalid_argument);
 }
 
-TEST_CASE("every model: names are unique and plain") {
+TEST_CASE("every model: names are unique and simple words") {
     std::vector<std::string> names;
     for_each_model([&]<class Model>() { names.emplace_back(Model::name); });
     std::sort(names.begin(), names.end());

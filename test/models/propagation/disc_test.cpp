@@ -13,37 +13,37 @@ namespace disc_test {
 using namespace rovernet;
 using test::loss_at;
 
-TEST_CASE("disc: nothing is lost up to the range, the range itself included") {
+TEST_CASE("disc: the loss is 0 up to the range, including the range itself") {
     CHECK(loss_at(Disc{.range = 100_m}, 0) == 0);
     CHECK(loss_at(Disc{.range = 100_m}, 99) == 0);
     CHECK(loss_at(Disc{.range = 100_m}, 100) == 0);
     CHECK(test::OneLink{.to = {3, 4, 0}}.loss(Disc{.range = 5_m}) == 0);
 }
 
-TEST_CASE("disc: one rounding beyond the range 1000 dB are lost") {
+TEST_CASE("disc: the loss is 1000 dB one rounding beyond the range") {
     CHECK(loss_at(Disc{.range = 100_m}, std::nextafter(100.0, 101.0)) == 1000);
     CHECK(loss_at(Disc{.range = 100_m}, 1e9) == 1000);
 }
 
-TEST_CASE("disc: of range 0 m joins only robots at one place") {
+TEST_CASE("disc: with range 0 m only robots at one place are linked") {
     CHECK(loss_at(Disc{.range = 0_m}, 0) == 0);
     CHECK(loss_at(Disc{.range = 0_m}, 1e-9) == 1000);
 }
 
-TEST_CASE("disc: height counts as distance") {
+TEST_CASE("disc: height differences count as distance") {
     CHECK(test::OneLink{.to = {0, 0, 11}}.loss(Disc{.range = 10_m}) == 1000);
 }
 
-TEST_CASE("disc: frequency does not matter") {
+TEST_CASE("disc: frequency has no effect") {
     CHECK(loss_at(Disc{.range = 10_m}, 10, {1}) == 0);
     CHECK(loss_at(Disc{.range = 10_m}, 10.1, {1}) == 1000);
 }
 
-TEST_CASE("disc: without a range it is refused") {
+TEST_CASE("disc: a missing range is refused") {
     CHECK_THROWS_AS(Propagation{Disc{}}, std::invalid_argument);
 }
 
-TEST_CASE("disc: its reach is its range, and unbounded for a budget of 1000 dB") {
+TEST_CASE("disc: its reach is its range, and infinite for a budget of 1000 dB") {
     CHECK(Disc{.range = 7_m}.reach(91_dB, 2450_MHz) == 7_m);
     CHECK(std::isinf(Disc{.range = 7_m}.reach(1000_dB, 2450_MHz).value));
 }

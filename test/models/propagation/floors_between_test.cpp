@@ -66,7 +66,7 @@ const Material concrete{.name = "concrete", .slab = ItuMaterial::concrete, .thic
 
 }  // namespace
 
-TEST_CASE("storeys: a scene that says nothing of them has one, however high antennas hang") {
+TEST_CASE("storeys: a scene without storeys has one, at any antenna height") {
     const auto loss_at = [](const Propagation& model, double height, Hertz f, Meters storey) {
         const Vec3 to{25, 0, height};
         const std::uint64_t key = 2;
@@ -96,7 +96,7 @@ TEST_CASE("storeys: a scene that says nothing of them has one, however high ante
         }
 }
 
-TEST_CASE("storeys: multi_wall between them has the losses of COST 231") {
+TEST_CASE("storeys: multi_wall has the losses of COST 231 between storeys") {
     const test::Vectors vectors("cost231_multiwall.csv");
     constexpr int light = 1, heavy = 4, apart = 8;  // [cells]: 5 cm, 20 cm
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -132,7 +132,7 @@ TEST_CASE("storeys: multi_wall between them has the losses of COST 231") {
     }
 }
 
-TEST_CASE("storeys: a ceiling costs what it is made of, or what the model says, never both") {
+TEST_CASE("storeys: a ceiling has the loss of its material or of the model, never both") {
     const MultiWall model{};
     const auto more = [&](const std::vector<Material>& ceilings) {
         const Scene scene = empty_storeys(ceilings.size() + 1, ceilings);
@@ -151,7 +151,7 @@ TEST_CASE("storeys: a ceiling costs what it is made of, or what the model says, 
     CHECK(near(more({concrete}), slab_loss(ItuMaterial::concrete, {0.2}, 2450_MHz).value, 1e-9));
 }
 
-TEST_CASE("storeys: below the lowest floor and above the highest there are no more ceilings") {
+TEST_CASE("storeys: there are no ceilings below the lowest floor and above the highest") {
     const Scene scene = empty_storeys(2, {slab_15});
     const auto floors = [&](double z0, double z1) {
         const Vec3 to{9, 0.2, z1};
@@ -168,7 +168,7 @@ TEST_CASE("storeys: below the lowest floor and above the highest there are no mo
     CHECK(floors(-50, 50).of_model == 0);
 }
 
-TEST_CASE("storeys: itu_indoor counts their ceilings in an environment") {
+TEST_CASE("storeys: itu_indoor counts ceilings if an environment is given") {
     const ItuIndoor office{.environment = Environment::office};
     const Hertz f = 1900_MHz;
     const double d = std::sqrt(64 + 36.0);
@@ -184,8 +184,7 @@ TEST_CASE("storeys: itu_indoor counts their ceilings in an environment") {
     CHECK(near(loss(ItuIndoor{}, empty_storeys(3, {slab_15, {}}), 1, 7, f), without, tolerance));
 }
 
-TEST_CASE(
-    "storeys: raytrace_2007 adds a ceiling that has a loss, and nothing for one that has none") {
+TEST_CASE("storeys: raytrace_2007 adds only ceilings that have a loss") {
     const Raytrace2007 model{.coefficient = 20};
     const double without = loss(model, Scene{}, 1, 4);
     CHECK(near(loss(model, empty_storeys(2), 1, 4), without, tolerance));
@@ -196,20 +195,20 @@ TEST_CASE(
     CHECK(near(loss(model, walls, 1, 4), without + 15 + 100 * 0.2 * slope, tolerance));
 }
 
-TEST_CASE("storeys: models that see no walls see no ceilings") {
+TEST_CASE("storeys: models that ignore walls also ignore ceilings") {
     const Scene scene = empty_storeys(2, {slab_15});
     CHECK(loss(Friis{}, scene, 1, 4) == loss(Friis{}, Scene{}, 1, 4));
     CHECK(loss(LogDistance{}, scene, 1, 4) == loss(LogDistance{}, Scene{}, 1, 4));
 }
 
-TEST_CASE("storeys: a ceiling ends the line of sight of itu_site_general") {
+TEST_CASE("storeys: a ceiling blocks the line of sight of itu_site_general") {
     const ItuSiteGeneral office{}, blocked{.los = LineOfSight::no};
     const Scene scene = empty_storeys(2);
     CHECK(loss(office, scene, 1, 2) < loss(blocked, scene, 1, 2));
     CHECK(loss(office, scene, 1, 4) == loss(blocked, scene, 1, 4));
 }
 
-TEST_CASE("storeys: rays refuses more than one, behind shadowing, too") {
+TEST_CASE("storeys: rays refuses several storeys, also with shadowing") {
     CHECK_NOTHROW(Propagation(Rays{}).check_scene(empty_storeys(1)));
     CHECK_THROWS_AS(Propagation(Rays{}).check_scene(empty_storeys(2)), std::invalid_argument);
     CHECK_NOTHROW(Propagation(MultiWall{}).check_scene(empty_storeys(2)));

@@ -19,7 +19,7 @@ constexpr double tolerance = 1e-12;  // [dB]
 
 }  // namespace
 
-TEST_CASE("friis: free-space losses are those of the vectors, and never below 0 dB") {
+TEST_CASE("friis: free-space losses equal the vectors, and are never below 0 dB") {
     const test::Vectors vectors("friis.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         const double d = vectors.number(i, "d_m");
@@ -38,14 +38,14 @@ TEST_CASE("friis: twice the distance or twice the frequency costs 20 log10(2) dB
     CHECK(near(loss_at(Friis{}, 50, {4900e6}) - loss_at(Friis{}, 50), step, tolerance));
 }
 
-TEST_CASE("friis: at no distance nothing is lost") { CHECK(loss_at(Friis{}, 0) == 0); }
+TEST_CASE("friis: the loss at distance 0 is 0") { CHECK(loss_at(Friis{}, 0) == 0); }
 
 TEST_CASE("friis: the loss depends on the distance in three dimensions") {
     const test::OneLink link{.from = {1, 2, 3}, .to = {3, 5, 9}};
     CHECK(near(link.loss(Friis{}), loss_at(Friis{}, 7), tolerance));
 }
 
-TEST_CASE("friis: the reach is the distance at which the loss is met") {
+TEST_CASE("friis: the reach is the distance at which the loss equals the budget") {
     const double reach = Friis{}.reach(80_dB, 2450_MHz).value;
     CHECK(near(loss_at(Friis{}, reach), 80, tolerance));
 }

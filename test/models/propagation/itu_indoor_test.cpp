@@ -67,7 +67,7 @@ TEST_CASE("itu_indoor: environment, frequency and floors give the losses of the 
     CHECK(used > 60);
 }
 
-TEST_CASE("itu_indoor: a bare coefficient gives the losses of the vectors without the floors") {
+TEST_CASE("itu_indoor: a given coefficient gives the losses of the vectors without floors") {
     const test::Vectors vectors("p1238_classic.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         const double d = vectors.number(i, "d_m");
@@ -84,12 +84,12 @@ TEST_CASE("itu_indoor: without coefficient and environment N is 30") {
     CHECK(near(loss_at(ItuIndoor{}, 100) - loss_at(ItuIndoor{}, 10), 30, tolerance));
 }
 
-TEST_CASE("itu_indoor: the coefficient prevails over the environment's") {
+TEST_CASE("itu_indoor: a given coefficient overrides that of the environment") {
     const ItuIndoor both = indoor(40, Environment::office);
     CHECK(near(loss_at(both, 100) - loss_at(both, 10), 40, tolerance));
 }
 
-TEST_CASE("itu_indoor: below 1 m the loss is that at 1 m") {
+TEST_CASE("itu_indoor: below 1 m the loss is the value at 1 m") {
     const double at_1_m = loss_at(ItuIndoor{}, 1);
     for (const double d : {0.0, 1e-12, 0.5, 0.999}) CHECK(loss_at(ItuIndoor{}, d) == at_1_m);
     CHECK(loss_at(ItuIndoor{}, 1.001) > at_1_m);
@@ -108,13 +108,13 @@ TEST_CASE("itu_indoor: a frequency more than a factor 1.5 from every row is refu
     CHECK_THROWS_AS(home.check_frequency(868_MHz), std::invalid_argument);
 }
 
-TEST_CASE("itu_indoor: with a coefficient any frequency will do") {
+TEST_CASE("itu_indoor: with a given coefficient any frequency is accepted") {
     CHECK_NOTHROW(indoor(30).check_frequency(1_MHz));
     const ItuIndoor both = indoor(30, Environment::office);
     CHECK_NOTHROW(both.check_frequency(20'000_MHz));
 }
 
-TEST_CASE("itu_indoor: floors need an environment and a row that has so many") {
+TEST_CASE("itu_indoor: floors need an environment and a row with so many floors") {
     CHECK_THROWS_AS(indoor({}, {}, 1).check_frequency(2450_MHz), std::invalid_argument);
     const ItuIndoor two = indoor({}, Environment::office, 2);
     CHECK_THROWS_AS(two.check_frequency(2450_MHz), std::invalid_argument);
@@ -123,7 +123,7 @@ TEST_CASE("itu_indoor: floors need an environment and a row that has so many") {
     CHECK_THROWS_AS(four.check_frequency(900_MHz), std::invalid_argument);
 }
 
-TEST_CASE("itu_indoor: no floor costs nothing, in any environment") {
+TEST_CASE("itu_indoor: zero floors cost nothing, in any environment") {
     for (const auto e : {Environment::residential, Environment::office, Environment::commercial}) {
         const auto unsaid = indoor({}, e), none = indoor({}, e, 0);
         CHECK(near(loss_at(none, 1, 1900_MHz), 20 * std::log10(1900.0) - 28, tolerance));
@@ -141,13 +141,13 @@ TEST_CASE("itu_indoor: floors are counted from the storeys of the antennas") {
     CHECK(near(between(office, 3, 5.9) - same, 0, tolerance));
 }
 
-TEST_CASE("itu_indoor: heights change nothing for a bare coefficient or given floors") {
+TEST_CASE("itu_indoor: heights have no effect with a bare coefficient or given floors") {
     CHECK(near(between(indoor(30), 1, 7), between(indoor(30), 1, 1), tolerance));
     const ItuIndoor one = indoor({}, Environment::office, 1);
     CHECK(near(between(one, 1, 7), between(one, 1, 1), tolerance));
 }
 
-TEST_CASE("itu_indoor: beyond the last tabulated floor its loss is held") {
+TEST_CASE("itu_indoor: beyond the last tabulated floor the loss is constant") {
     const ItuIndoor office = indoor({}, Environment::office);
     const auto rise = [&](double z) {
         return test::OneLink{.frequency = {900e6}, .to = {40, 0, z}}.loss(office) -

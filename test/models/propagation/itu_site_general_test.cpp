@@ -22,7 +22,7 @@ Site site_named(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("itu_site_general: medians are those of the vectors, with and without line of sight") {
+TEST_CASE("itu_site_general: medians equal the vectors, with and without line of sight") {
     const test::Vectors vectors("p1238_sitegeneral.csv");
     int compared = 0;
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -40,7 +40,7 @@ TEST_CASE("itu_site_general: medians are those of the vectors, with and without 
     CHECK(compared >= 48);
 }
 
-TEST_CASE("itu_site_general: the map decides which row holds; an open field is clear") {
+TEST_CASE("itu_site_general: the map selects the row; an open field has line of sight") {
     OccupancyGrid grid;
     grid.columns = 20;
     grid.rows = 10;
@@ -58,7 +58,7 @@ TEST_CASE("itu_site_general: the map decides which row holds; an open field is c
           test::loss_at(ItuSiteGeneral{.los = LineOfSight::yes}, 16));
 }
 
-TEST_CASE("itu_site_general: frequencies outside of a site's range are refused, in words") {
+TEST_CASE("itu_site_general: frequencies outside a site's range are refused with a message") {
     CHECK_NOTHROW(ItuSiteGeneral{}.check_frequency(2450_MHz));
     CHECK_NOTHROW(ItuSiteGeneral{}.check_frequency(433_MHz));
     const ItuSiteGeneral corridor{.site = Site::corridor};

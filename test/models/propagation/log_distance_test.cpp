@@ -32,7 +32,7 @@ double shadowing(const OneLink& link, Db sigma = 5_dB) {
 
 }  // namespace
 
-TEST_CASE("log_distance: medians of measured buildings") {
+TEST_CASE("log_distance: medians equal those of measured buildings") {
     const test::Vectors vectors("log_distance_buildings.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         CAPTURE(vectors.text(i, "building"));
@@ -47,7 +47,7 @@ TEST_CASE("log_distance: ten times the distance costs 10 n dB") {
     CHECK(near(loss_at(median, 500) - loss_at(median, 50), 25, tolerance));
 }
 
-TEST_CASE("log_distance: inside the reference distance the loss is that at it, free space") {
+TEST_CASE("log_distance: inside the reference distance the loss is constant, free space") {
     const LogDistance model{.sigma = 0_dB, .reference_distance = 10_m};
     for (const double d : {0.0, 1e-9, 5.0, 10.0}) {
         CHECK(near(loss_at(model, d), loss_at(Friis{}, 10), tolerance));
@@ -69,7 +69,7 @@ TEST_CASE("log_distance: shadowing is the same in both directions, to the last b
     }
 }
 
-TEST_CASE("log_distance: shadowing belongs to the link, wherever and how often one looks") {
+TEST_CASE("log_distance: shadowing belongs to the pair, independent of positions and samples") {
     const LogDistance model{};
     const OneLink near_by{.to = {10, 0, 0}}, far_off{.to = {-70, 3, 0}};
     const double first = near_by.loss(model);
@@ -86,7 +86,7 @@ TEST_CASE("log_distance: shadowing is sigma times the pair's draw") {
     }
 }
 
-TEST_CASE("log_distance: another replication, seed or pair has another shadowing") {
+TEST_CASE("log_distance: a different replication, seed or pair has different shadowing") {
     const double here = shadowing({});
     CHECK(shadowing({.replication = 1}) != here);
     CHECK(shadowing({.seed = 1}) != here);
@@ -110,7 +110,7 @@ TEST_CASE("log_distance: shadowing has mean 0 and standard deviation sigma over 
     CHECK(near(sd, sigma, k * sigma / std::sqrt(2.0 * n)));
 }
 
-TEST_CASE("log_distance: strong shadowing never makes a loss negative, nor more than 5 sigma") {
+TEST_CASE("log_distance: strong shadowing never gives a negative loss, nor more than 5 sigma") {
     const LogDistance model{.sigma = 40_dB};
     int held = 0;
     for (std::uint64_t key = 0; key < 2000; ++key) {
@@ -122,7 +122,7 @@ TEST_CASE("log_distance: strong shadowing never makes a loss negative, nor more 
     CHECK(held > 100);  // the median is 48 dB: 11 % of the links lie below 0
 }
 
-TEST_CASE("log_distance: without sigma nothing is drawn: keys and seeds do not matter") {
+TEST_CASE("log_distance: without sigma nothing is random: keys and seeds have no effect") {
     const double plain = OneLink{.to = {33, 0, 0}}.loss(median);
     for (std::uint64_t key = 0; key < 20; ++key) {
         const OneLink link{.to = {33, 0, 0}, .from_key = key, .seed = key, .replication = 7};

@@ -77,7 +77,7 @@ TEST_CASE("multi_wall: losses are those of COST 231 through light and heavy wall
     }
 }
 
-TEST_CASE("multi_wall: a wall takes the same at any angle, and its thickness is its own") {
+TEST_CASE("multi_wall: a wall has the same loss at any angle, by its own thickness") {
     // 5 cm thick, the ray at up to 63 degrees to its normal: 11 cm of chord.
     const Scene scene(strip(2, {{20, 1}}));
     const auto loss = [&](Vec3 from, Vec3 to) {
@@ -92,7 +92,7 @@ TEST_CASE("multi_wall: a wall takes the same at any angle, and its thickness is 
     }
 }
 
-TEST_CASE("multi_wall: a wall that is drawn askew is one wall, though rays leave it at its steps") {
+TEST_CASE("multi_wall: an oblique wall drawn in steps counts as one wall") {
     constexpr int cells = 200;
     constexpr double side = cells * cell, half_thickness = 0.075;  // [m]
     const Vec3 normal{-std::sin(0.35), std::cos(0.35), 0};
@@ -122,7 +122,7 @@ TEST_CASE("multi_wall: a wall that is drawn askew is one wall, though rays leave
     CHECK(in_parts > 3);
 }
 
-TEST_CASE("multi_wall: what a material says comes first, by the crossing or by the metre") {
+TEST_CASE("multi_wall: a loss given by the material, per crossing or metre, takes precedence") {
     const auto through = [](Material material) {
         const Scene scene(strip(4, {{20, 4}}), {std::move(material)});
         return loss_through(scene, 3) - loss_through(Scene{}, 3);

@@ -160,7 +160,8 @@ TEST_CASE("property: every loss is finite and not negative, wherever two robots 
     }));
 }
 
-TEST_CASE("property: every loss is the same bits in both directions, so that no link flips (S41)") {
+TEST_CASE(
+    "property: every loss has the same bits in both directions, so that no link flips (S41)") {
     CHECK(holds("reciprocal", [] {
         const Vec3 a = place(), b = place();
         for (const auto& [model, steps] : listed()) {
@@ -172,7 +173,7 @@ TEST_CASE("property: every loss is the same bits in both directions, so that no 
     }));
 }
 
-TEST_CASE("property: a batch gives each link its loss, however large it is and in any order") {
+TEST_CASE("property: a batch gives each link its loss, for any size and order") {
     CHECK(holds("batches", [] {
         const Vec3 from = place();
         std::vector<Vec3> to(static_cast<std::size_t>(*rc::gen::inRange(1, 12)));
@@ -198,12 +199,12 @@ TEST_CASE("property: a batch gives each link its loss, however large it is and i
 }
 
 TEST_CASE(
-    "property: a millimetre costs less than half a decibel, but where the page says so (S04)") {
+    "property: a millimetre changes the loss by less than 0.5 dB, except as documented (S04)") {
     CHECK(holds("steps in the open", [] { check_steps(Scene{}, false); }));
     CHECK(holds("steps among walls", [] { check_steps(rooms(), true); }));
 }
 
-TEST_CASE("property: no model has a step where another equation begins, millimetre by millimetre") {
+TEST_CASE("property: no model has a step where its equation changes, checked every millimetre") {
     // Borders of peers' models lie at 0.5 m, 1 m and 10 m, with steps of 34 and 47 dB (S04, S05).
     const Scene open_field;
     for (const auto& [model, steps] : listed()) {

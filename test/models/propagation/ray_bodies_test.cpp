@@ -102,7 +102,7 @@ double row_loss(std::vector<RowCorner> corners, double length) {
 
 }  // namespace
 
-TEST_CASE("edge row: n screens in the line leave 1 / (n + 1); two are those of a pair") {
+TEST_CASE("edge row: n screens in the line give 1 / (n + 1); two equal a pair") {
     const std::array limits{0.001, 0.05, 0.3, 0.7, 1.2, 1.75};
     std::vector<RowCorner> corners;
     for (std::size_t n = 1; n <= limits.size(); ++n) {
@@ -125,7 +125,7 @@ TEST_CASE("edge row: in deep shadow it is the product of the edges' rays") {
     CHECK(near(row_loss(corners, 20), -20 * std::log10(field), 1));
 }
 
-TEST_CASE("edge row: it is the same both ways; a corner far below takes nothing; none steps") {
+TEST_CASE("edge row: is symmetric and continuous; a corner far below has no effect") {
     const std::vector<RowCorner> there{{3, 0, 0.2, 0}, {6, 0.1, 0, 1}, {8, 0, 0.05, 2}};
     const std::vector<RowCorner> back{{2, 0, 0.05, 2}, {4, 0.1, 0, 1}, {7, 0, 0.2, 0}};
     CHECK(near(row_loss(there, 10), row_loss(back, 10), 1e-9));
@@ -136,7 +136,7 @@ TEST_CASE("edge row: it is the same both ways; a corner far below takes nothing;
                    row_loss({{3, 0, 0.2, 0}, {6, 0, tiny, 1}, {8, 0, 0.05, 2}}, 10), 0.15));
 }
 
-TEST_CASE("edge pair: a face of no length leaves a single edge; far from one edge the other") {
+TEST_CASE("edge pair: a face of length 0 gives a single edge; a far edge leaves the other one") {
     for (const double bend : {1e-4, 0.01, 0.1}) {
         const double along = 1e-9;
         // A turn by an angle w is shared: bends at both edges by w / 2 over the short face.
@@ -156,9 +156,7 @@ TEST_CASE("edge pair: a face of no length leaves a single edge; far from one edg
     }
 }
 
-TEST_CASE(
-    "rays: behind a solid block they are within 1.2 dB of the exact wave, with knife edges 2.5 "
-    "dB") {
+TEST_CASE("rays: behind a solid block the error is 1.2 dB, with knife edges 2.5 dB") {
     for (const double width : {0.3, 0.6, 1.0, 2.0}) {
         const test::SoftBody exact(
             {{-width / 2, 0}, {width / 2, 0}, {width / 2, 1}, {-width / 2, 1}}, wavelength);
@@ -184,7 +182,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("rays: deep behind a shelf they are within 2.5 dB of the exact wave") {
+TEST_CASE("rays: deep behind a shelf the error is at most 2.5 dB") {
     for (const double thick : {0.3, 0.5}) {
         const test::SoftBody exact({{0, -1}, {thick, -1}, {thick, 1}, {0, 1}}, wavelength);
         const Scene scene = drawn(block(0, -1, thick, 1), metal);
@@ -202,7 +200,7 @@ TEST_CASE("rays: deep behind a shelf they are within 2.5 dB of the exact wave") 
     }
 }
 
-TEST_CASE("rays: along a shelf, and past a round or a square pillar, there is a way around") {
+TEST_CASE("rays: along a shelf, and past round or square pillars, a path around is found") {
     int number = 0;  // of the body; the seventh is a container
     const auto round = [](double x, double y) { return x * x + y * y < 0.09; };
     const auto slanting = [](double x, double y) {
@@ -225,7 +223,7 @@ TEST_CASE("rays: along a shelf, and past a round or a square pillar, there is a 
     }
 }
 
-TEST_CASE("rays: nothing jumps along the border of a block's face, and its end in a wall") {
+TEST_CASE("rays: the loss is continuous along the border of a block's face, and at its end") {
     const Scene wide = drawn(block(-1, 0, 1, 1.5), metal);
     for (const auto by : both) {
         const Rays model{.order = 0, .diffraction = by};
@@ -236,7 +234,7 @@ TEST_CASE("rays: nothing jumps along the border of a block's face, and its end i
     }
 }
 
-TEST_CASE("rays: a face's reflection begins with nothing where a link comes out of its plane") {
+TEST_CASE("rays: the reflection of a face begins at 0 where a link leaves its plane") {
     for (const double half : {1.0, 0.2}) {
         const Scene scene = drawn(block(-half, 0, half, 1.5), metal);
         for (const auto by : both)
@@ -249,7 +247,7 @@ TEST_CASE("rays: a face's reflection begins with nothing where a link comes out 
     }
 }
 
-TEST_CASE("rays: 1 mm before the face of a block a link loses what it loses 1 mm behind it") {
+TEST_CASE("rays: 1 mm before the face of a block a link has the loss of 1 mm behind it") {
     const Scene wide = drawn(block(-1, 0, 1, 1.5), metal);
     for (const auto by : both) {
         const Rays model{.order = 0, .diffraction = by};
@@ -262,7 +260,7 @@ TEST_CASE("rays: 1 mm before the face of a block a link loses what it loses 1 mm
     }
 }
 
-TEST_CASE("rays: nothing jumps at the free end of a wall, whose material is given or not") {
+TEST_CASE("rays: the loss is continuous at the free end of a wall, with given material or not") {
     for (const auto wall : {ItuMaterial::brick, ItuMaterial::concrete, ItuMaterial::plasterboard})
         for (const Material& material : {Material{}, Material{.slab = wall, .thickness = 0.1_m}}) {
             const Scene scene = drawn(block(-0.05, -9, 0.05, 0), material);
@@ -279,7 +277,7 @@ TEST_CASE("rays: nothing jumps at the free end of a wall, whose material is give
         }
 }
 
-TEST_CASE("rays: shelves in a row are gone around one by one") {
+TEST_CASE("rays: paths go around shelves in a row one by one") {
     const auto shelves = [](double x, double y) {
         return std::abs(y) < 1 && x > -6 && x < 6 && std::fmod(x + 6, 3) < 0.9;
     };
@@ -292,7 +290,7 @@ TEST_CASE("rays: shelves in a row are gone around one by one") {
     }
 }
 
-TEST_CASE("rays: a thin wall between shelves is passed through on the way around these") {
+TEST_CASE("rays: a thin wall between shelves is crossed on the path around the shelves") {
     const auto shelf = [](double x, double y) {
         return std::abs(y) < 0.2 && std::abs(std::abs(x) - 3.5) < 0.45;
     };
@@ -309,8 +307,7 @@ TEST_CASE("rays: a thin wall between shelves is passed through on the way around
     }
 }
 
-TEST_CASE(
-    "rays: shelves in a row do not jump where the way around the first comes to graze the next") {
+TEST_CASE("rays: behind shelves in a row the loss is continuous where a path begins to graze") {
     const auto shelves = [](double width) {
         return [=](double x, double y) {
             return y > -4 && y < 3 && x > -4 && x < 5 && std::fmod(x + 4, 3) < width;
@@ -330,7 +327,7 @@ TEST_CASE(
         }
 }
 
-TEST_CASE("rays: nothing jumps at the shadow borders of pillars, and of a slanting wall's end") {
+TEST_CASE("rays: the loss is continuous at shadow borders of pillars and of oblique walls") {
     struct Case {
         std::function<bool(double, double)> inside;
         Material material;

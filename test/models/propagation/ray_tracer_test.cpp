@@ -87,7 +87,7 @@ double reflections(const RayPaths& paths, const RayPath& path) {
 
 }  // namespace
 
-TEST_CASE("ray tracer: images of a room are as many and as strong as the table has them") {
+TEST_CASE("ray tracer: images of a room have the number and strength of the table") {
     // The tracer plans in plan: floor and ceiling enter as receivers mirrored in them.
     const test::Vectors vectors("room_images.csv");
     int compared = 0;
@@ -113,7 +113,7 @@ TEST_CASE("ray tracer: images of a room are as many and as strong as the table h
     CHECK(compared >= 50);
 }
 
-TEST_CASE("ray tracer: the series of a corridor with lossy walls, order by order") {
+TEST_CASE("ray tracer: reflections in a corridor of lossy walls equal the series, by order") {
     const test::Vectors vectors("corridor_lossy_images.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         const double a = vectors.number(i, "a_m"), rho = vectors.number(i, "rho_m");
@@ -135,7 +135,7 @@ TEST_CASE("ray tracer: the series of a corridor with lossy walls, order by order
     }
 }
 
-TEST_CASE("ray tracer: the series of a corridor of metal, and how far it is from the exact field") {
+TEST_CASE("ray tracer: reflections in a metal corridor equal the series, near the exact field") {
     const test::Vectors vectors("corridor_pec_modal_vs_images.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         const double a = vectors.number(i, "a_m"), rho = vectors.number(i, "rho_m");
@@ -154,7 +154,7 @@ TEST_CASE("ray tracer: the series of a corridor of metal, and how far it is from
     }
 }
 
-TEST_CASE("ray tracer: a wall drawn at an angle is a mirror at that angle") {
+TEST_CASE("ray tracer: a wall drawn at an angle reflects at that angle") {
     for (int degrees = 0; degrees < 180; degrees += 7) {
         CAPTURE(degrees);
         const double angle = degrees * pi / 180, cell = 0.05;
@@ -185,7 +185,7 @@ TEST_CASE("ray tracer: a wall drawn at an angle is a mirror at that angle") {
     }
 }
 
-TEST_CASE("ray tracer: a path along a slanting wall passes none of its steps") {
+TEST_CASE("ray tracer: a path along an oblique wall crosses none of its steps") {
     OccupancyGrid grid;
     grid.columns = grid.rows = 200;
     grid.cell_width = grid.cell_height = 0.05;
@@ -216,7 +216,7 @@ TEST_CASE("ray tracer: a path along a slanting wall passes none of its steps") {
     }
 }
 
-TEST_CASE("ray tracer: images of two walls at a right angle are those of closed form") {
+TEST_CASE("ray tracer: images of two perpendicular walls have their closed form") {
     const Scene scene = hollow(8, 6, 0.5);
     const Vec3 a{1.2, 2.1, 1}, b{6.3, 4.4, 2.5};
     RayTracer tracer(scene, a, 2, 0.1);
@@ -237,7 +237,7 @@ TEST_CASE("ray tracer: images of two walls at a right angle are those of closed 
     for (std::size_t i = 0; i < found.size(); ++i) CHECK(near(found[i], expected[i], 1e-12));
 }
 
-TEST_CASE("ray tracer: reflections end where the face ends, to the side and in height") {
+TEST_CASE("ray tracer: reflections end at the face's ends, horizontally and in height") {
     OccupancyGrid grid = test::drawn_map({"......", ".####.", "......", "......", "......"});
     const Scene scene(grid, {Material{.height = 2_m}});
     const auto count = [&](Vec3 from, Vec3 to) {
@@ -254,7 +254,7 @@ TEST_CASE("ray tracer: reflections end where the face ends, to the side and in h
     CHECK(count({1.5, 1}, {4.5, 3.5}) == 0);  // behind the wall
 }
 
-TEST_CASE("ray tracer: paths are the same from both ends, with a limit and without one") {
+TEST_CASE("ray tracer: paths are equal from both ends, with and without a limit") {
     test::Draw draw(11);
     const Scene scene(test::random_map(draw, 30, 30, 6));
     const RayMaterials materials(scene.materials(), 2450_MHz, ItuMaterial::concrete, {}, 6_dB);
@@ -282,7 +282,7 @@ TEST_CASE("ray tracer: paths are the same from both ends, with a limit and witho
     CHECK(seen > 300);
 }
 
-TEST_CASE("ray tracer: made for few receivers, it finds the paths that one for many finds") {
+TEST_CASE("ray tracer: in the mode for few receivers it finds the same paths") {
     test::Draw draw(12);
     const Scene scene(test::random_map(draw, 30, 30, 6));
     std::size_t reflected = 0;

@@ -58,7 +58,7 @@ const Rays straight_only{.order = 0, .diffraction = RayDiffraction::none};
 
 }  // namespace
 
-TEST_CASE("rays: in the open they are free space, whatever their parameters") {
+TEST_CASE("rays: in the open they equal free space, for any parameters") {
     for (const double d : {0.001, 1.0, 7.0, 300.0, 1e7}) {
         for (const int order : {0, 3})
             for (const auto sum : {RaySum::power, RaySum::coherent})
@@ -67,7 +67,7 @@ TEST_CASE("rays: in the open they are free space, whatever their parameters") {
     }
 }
 
-TEST_CASE("rays: a slab takes what P.2040 says at the path's angle") {
+TEST_CASE("rays: the loss of a slab equals P.2040 at the path's angle") {
     const Material concrete{.slab = ItuMaterial::concrete, .thickness = 0.2_m};
     const Scene scene = drawn(20, 6, 0.1, bar(-10, 10, 0.1), concrete);
     for (const double dx : {0.0, 1.0, 3.0, 6.0, 11.0}) {
@@ -80,7 +80,7 @@ TEST_CASE("rays: a slab takes what P.2040 says at the path's angle") {
     }
 }
 
-TEST_CASE("rays: a wall without losses of its own is a slab of `wall`, as thick as it is drawn") {
+TEST_CASE("rays: a wall without losses is a slab of `wall` with its drawn thickness") {
     for (const double thick : {0.1, 0.2, 0.3}) {
         const Scene scene = drawn(20, 6, 0.1, bar(-10, 10, thick), {});
         for (const auto wall : {ItuMaterial::concrete, ItuMaterial::glass}) {
@@ -92,8 +92,7 @@ TEST_CASE("rays: a wall without losses of its own is a slab of `wall`, as thick 
     }
 }
 
-TEST_CASE(
-    "rays: decibels of a material are taken as they are, and its reflections lose the model's") {
+TEST_CASE("rays: a material in decibels has its loss, and the model's loss for reflections") {
     const Material board{.per_crossing = 7_dB, .per_metre = DbPerMeter{30}};
     const Scene scene = drawn(20, 6, 0.1, bar(-10, 10, 0.1), board);
     CHECK(near(loss(straight_only, scene, {0, -2}, {0, 2}), free_space_db(4, f) + 10, 1e-9));
@@ -103,8 +102,7 @@ TEST_CASE(
                free_space_db(1, f) - 10 * math::log10(direct + mirrored), 1e-9));
 }
 
-TEST_CASE(
-    "rays: two fields add with their phases, to a null before a mirror of half a wave's turn") {
+TEST_CASE("rays: two fields add with their phases, to a null before a mirror") {
     const Material mirror{.per_crossing = 200_dB};
     const Scene scene = drawn(40, 6, 0.1, bar(-20, 20, 0.1), mirror);
     const Rays coherent{.order = 1,
@@ -124,7 +122,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("rays: max_paths keeps the strongest") {
+TEST_CASE("rays: max_paths keeps the strongest paths") {
     const Scene scene = drawn(
         12, 8, 0.5, [](double x, double y) { return std::abs(x) > 5.5 || std::abs(y) > 3.5; });
     const Vec3 from{-3, 1}, to{2, -1.3};
@@ -142,7 +140,7 @@ TEST_CASE("rays: max_paths keeps the strongest") {
     CHECK(near(loss(model, scene, from, to), free_space_db(distance(from, to), f), 1e-12));
 }
 
-TEST_CASE("rays: what max_paths leaves out is counted, and how much higher the loss is for it") {
+TEST_CASE("rays: paths left out by max_paths are counted, with their effect on the loss") {
     const Scene scene = drawn(
         12, 8, 0.5, [](double x, double y) { return std::abs(x) > 5.5 || std::abs(y) > 3.5; });
     const Vec3 from{-3, 1}, to{2, -1.3};
@@ -159,7 +157,7 @@ TEST_CASE("rays: what max_paths leaves out is counted, and how much higher the l
     CHECK(model.paths(link).too_high.value == 0);
 }
 
-TEST_CASE("rays: behind a screen they lose what a knife edge takes, on the way around it") {
+TEST_CASE("rays: behind a screen the path around it has the loss of a knife edge") {
     const Scene scene = drawn(84, 6, 0.05, bar(-40, 0, 0.05));
     for (const double x : {0.2, 0.5, 1.5}) {
         const Vec3 from{-x, -2, 1}, to{-x, 2.55, 1};
@@ -175,7 +173,7 @@ TEST_CASE("rays: behind a screen they lose what a knife edge takes, on the way a
                0.1));
 }
 
-TEST_CASE("rays: with utd a half screen is within 0.3 dB of Fresnel's field in and out of shadow") {
+TEST_CASE("rays: with utd a half screen is within 0.3 dB of Fresnel's field, lit and in shadow") {
     const Scene scene = drawn(24, 12, 0.01, bar(-12, 0, 0.01));
     const Rays utd{.order = 0, .diffraction = RayDiffraction::utd};
     for (double x = -1; x < 1; x += 0.05) {
@@ -189,7 +187,7 @@ TEST_CASE("rays: with utd a half screen is within 0.3 dB of Fresnel's field in a
     }
 }
 
-TEST_CASE("rays: nothing jumps at the border of a wall's shadow") {
+TEST_CASE("rays: the loss is continuous at the shadow border of a wall") {
     const Material brick{.slab = ItuMaterial::brick, .thickness = 0.1_m};
     const Material metal{.slab = ItuMaterial::metal, .thickness = 0.01_m};
     for (const auto by : {RayDiffraction::knife_edge, RayDiffraction::utd})
@@ -212,7 +210,7 @@ TEST_CASE("rays: nothing jumps at the border of a wall's shadow") {
         }
 }
 
-TEST_CASE("rays: sheet, wedge and bricks of 1 mm and 10 cm throw one shadow, within 1 dB") {
+TEST_CASE("rays: sheet, wedge and bricks of 1 mm and 10 cm have equal shadows within 1 dB") {
     std::vector<Scene> scenes;
     for (const double thick : {0.001, 0.01, 0.1}) {
         const double cell = thick < 0.005 ? 0.001 : 0.01, low = thick == 0.1 ? -0.05 : 0;
@@ -235,7 +233,7 @@ TEST_CASE("rays: sheet, wedge and bricks of 1 mm and 10 cm throw one shadow, wit
     }
 }
 
-TEST_CASE("rays: a thick wall and one with round ends reflect as a thin one") {
+TEST_CASE("rays: thick walls and walls with round ends reflect like thin walls") {
     const Rays model{.order = 1, .diffraction = RayDiffraction::none};
     const Vec3 from{-1, -2}, to{1.5, -1.2};
     const double thin = loss(model, drawn(8, 6, 0.05, bar(-2, 2, 0.05)), from, to);
@@ -252,7 +250,7 @@ TEST_CASE("rays: a thick wall and one with round ends reflect as a thin one") {
     CHECK(near(round, thin, 0.05));
 }
 
-TEST_CASE("rays: there is no hole behind an obstacle between two lit places") {
+TEST_CASE("rays: no point behind an obstacle between two lit places lacks a path") {
     // Behind half a metre the exact wave is up to 42 dB down: see ray_bodies_test.cpp.
     for (const double thick : {0.05, 0.3, 0.5}) {
         CAPTURE(thick);
@@ -267,7 +265,7 @@ TEST_CASE("rays: there is no hole behind an obstacle between two lit places") {
     }
 }
 
-TEST_CASE("rays: half and double cells change the loss of a slanting wall by less than 1 dB") {
+TEST_CASE("rays: half and double cells change the loss of an oblique wall by less than 1 dB") {
     const auto slanting = [](double x, double y) {
         const double along = 0.8 * x + 0.6 * y, off = 0.8 * y - 0.6 * x;
         return std::abs(along) < 3 && std::abs(off) < 0.1;

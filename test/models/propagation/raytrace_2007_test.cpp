@@ -28,7 +28,7 @@ Scene wall(double at, double thickness) {
 
 }  // namespace
 
-TEST_CASE("raytrace_2007: losses are those of the vectors, through a wall of that length") {
+TEST_CASE("raytrace_2007: losses equal the vectors, through a wall of that length") {
     const test::Vectors vectors("thesis_raytrace.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         const double d = vectors.number(i, "d_m");
@@ -44,7 +44,7 @@ TEST_CASE("raytrace_2007: losses are those of the vectors, through a wall of tha
     }
 }
 
-TEST_CASE("raytrace_2007: on an open field it is P.1238 with the same coefficient") {
+TEST_CASE("raytrace_2007: on an open field it equals P.1238 with the same coefficient") {
     ItuIndoor indoor;
     indoor.coefficient = 25;
     for (const double d : {0.0, 0.5, 1.0, 7.0, 300.0}) {
@@ -52,7 +52,7 @@ TEST_CASE("raytrace_2007: on an open field it is P.1238 with the same coefficien
     }
 }
 
-TEST_CASE("raytrace_2007: a slanted ray pays for its whole way in the wall") {
+TEST_CASE("raytrace_2007: an oblique ray counts its whole length inside the wall") {
     constexpr double tolerance = 1e-9;  // [dB], the scene's 1e-9 of a cell is less
     const Scene scene = wall(4, 0.3);
     const OneLink level{.to = {10, 0, 0}, .scene = &scene};
@@ -65,7 +65,7 @@ TEST_CASE("raytrace_2007: a slanted ray pays for its whole way in the wall") {
     CHECK(near(wall_loss(rising), 30 * std::sqrt(2.0), tolerance));
 }
 
-TEST_CASE("raytrace_2007: giving up never changes who is within the budget") {
+TEST_CASE("raytrace_2007: the cut-off never changes which links are within the budget") {
     test::Draw draw(2007);
     const Scene scene(test::random_map(draw, 40, 40, 10));
     int within = 0, beyond = 0;

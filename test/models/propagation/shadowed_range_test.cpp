@@ -163,7 +163,7 @@ int disagreements_around(double d, const Setting& setting, const Links& links, s
 
 }  // namespace
 
-TEST_CASE("shadowed range: decides a million links of a thousand networks as the loss does") {
+TEST_CASE("shadowed range: decides a million links of a thousand networks like the loss") {
     Numbers draw(1);
     int wrong = 0, in_range = 0;
     for (int network = 0; network < 1000; ++network) {
@@ -230,7 +230,7 @@ TEST_CASE("shadowed range: agrees with the loss to the last bit of the draw") {
     CHECK(wrong == 0);
 }
 
-TEST_CASE("shadowed range: without sigma, the largest distance of the model and no draw") {
+TEST_CASE("shadowed range: without sigma it is the largest distance of the model, without a draw") {
     for (const double budget : {-1.0, 0.0, 40.0, 80.0, 120.0}) {
         CAPTURE(budget);
         const Setting setting{.model = {.sigma = 0_dB}, .budget = {budget}};
@@ -244,7 +244,7 @@ TEST_CASE("shadowed range: without sigma, the largest distance of the model and 
     }
 }
 
-TEST_CASE("shadowed range: budgets that no link or every link meets") {
+TEST_CASE("shadowed range: budgets that no link or every link meets are handled") {
     for (const double d2 : {0.0, 1e-300, 1.0, 1e4, 1e300, infinity}) {
         CAPTURE(d2);
         for (std::uint64_t key = 0; key < 50; ++key) {
@@ -258,7 +258,7 @@ TEST_CASE("shadowed range: budgets that no link or every link meets") {
     CHECK_FALSE(wide.in_range(infinity, 1, 2));
 }
 
-TEST_CASE("shadowed range: a link is up as often as the normal distribution says") {
+TEST_CASE("shadowed range: the share of links that are up is that of the normal distribution") {
     constexpr int pairs = 20'000;
     constexpr double k = 4;  // standard errors
     const Setting setting{.model = {.exponent = 3, .sigma = 8_dB}};
@@ -272,7 +272,7 @@ TEST_CASE("shadowed range: a link is up as often as the normal distribution says
     }
 }
 
-TEST_CASE("shadowed range: less than one link in a hundred is computed, wherever it is") {
+TEST_CASE("shadowed range: the loss is computed for less than one link in a hundred") {
     Numbers draw(4);
     double sum = 0;
     int looks = 0;
@@ -291,7 +291,7 @@ TEST_CASE("shadowed range: less than one link in a hundred is computed, wherever
     CHECK(sum / looks < 0.002);
 }
 
-TEST_CASE("first look: lets all pass that are in range of somebody, and few others") {
+TEST_CASE("first look: passes all pairs that may be in range, and few others") {
     Numbers draw(77);
     for (int network = 0; network < 40; ++network) {
         const ShadowedLoss loss{.at_reference = draw.uniform(20, 60),
@@ -323,7 +323,7 @@ TEST_CASE("first look: lets all pass that are in range of somebody, and few othe
     }
 }
 
-TEST_CASE("first look: of no reach and of one without end") {
+TEST_CASE("first look: works with reach 0 and with infinite reach") {
     const ShadowedLoss loss{
         .at_reference = 40, .per_decade = 30, .reference_distance = 1, .sigma = 4};
     const std::uint64_t bits = shadowing_draws(3, 1).bits(1, 2);
@@ -337,7 +337,7 @@ TEST_CASE("first look: of no reach and of one without end") {
     }
 }
 
-TEST_CASE("shadowed range: a model that offers it is decided by it, and says so itself") {
+TEST_CASE("shadowed range: a model that offers it is decided by it with equal results") {
     for_each_model([]<class Model>() {
         const Propagation model{[] {
             if constexpr (std::same_as<Model, Disc>)

@@ -37,7 +37,7 @@ double parameter(const std::string& text, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("two-ray: losses are those of the vectors, on the slant distance") {
+TEST_CASE("two-ray: losses equal the vectors, over the distance in space") {
     const test::Vectors vectors("two_ray.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         const double d = vectors.number(i, "d_ground_m");
@@ -50,7 +50,7 @@ TEST_CASE("two-ray: losses are those of the vectors, on the slant distance") {
     }
 }
 
-TEST_CASE("two-ray, exact: losses are those of the vectors, over three grounds") {
+TEST_CASE("two-ray, exact: losses equal the vectors, over three grounds") {
     const test::Vectors vectors("two_ray.csv");
     const TwoRay horizontal{.form = TwoRayForm::exact, .polarization = Polarization::horizontal};
     const TwoRay vertical{.form = TwoRayForm::exact};
@@ -72,7 +72,7 @@ TEST_CASE("two-ray, exact: losses are those of the vectors, over three grounds")
     }
 }
 
-TEST_CASE("two-ray, exact: far away it is the fourth power of the distance, to the last digits") {
+TEST_CASE("two-ray, exact: far away the loss is the fourth power of the distance") {
     TwoRay mirror{.form = TwoRayForm::exact, .polarization = Polarization::horizontal};
     mirror.ground_permittivity = 1e300;
     // (d^2 / (ht hr))^2; what is left out falls with (ht / d)^2 and (k ht hr / d)^2.
@@ -80,7 +80,7 @@ TEST_CASE("two-ray, exact: far away it is the fourth power of the distance, to t
                20 * std::log10(1e16 / (1.5 * 1.5)), 1e-6));
 }
 
-TEST_CASE("two-ray, exact: a ground as thin as air reflects nothing") {
+TEST_CASE("two-ray, exact: a ground with the permittivity of air reflects nothing") {
     const TwoRay air{.form = TwoRayForm::exact, .ground_permittivity = 1};
     for (const double d : {1.0, 30.0, 1e4}) {
         const double slant = std::hypot(d, 1.0);
@@ -89,7 +89,7 @@ TEST_CASE("two-ray, exact: a ground as thin as air reflects nothing") {
     }
 }
 
-TEST_CASE("two-ray: levels are those of ns-2.35, with its speed of light") {
+TEST_CASE("two-ray: levels equal ns-2.35, with its speed of light") {
     const test::Vectors vectors("peer_ns2_loss.csv");
     int compared = 0;
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -104,7 +104,7 @@ TEST_CASE("two-ray: levels are those of ns-2.35, with its speed of light") {
     CHECK(compared == 54);
 }
 
-TEST_CASE("two-ray: levels are those of ns-3.37 beyond 0.5 m, at three heights") {
+TEST_CASE("two-ray: levels equal ns-3.37 beyond 0.5 m, at three heights") {
     const test::Vectors vectors("peer_ns3_loss.csv");
     int compared = 0;
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -135,7 +135,7 @@ TEST_CASE("two-ray: ns-2's radio of 914 MHz receives at 250 m and senses at 550 
     CHECK(near(received(550) / 1.55924e-11, 1, half_a_digit));
 }
 
-TEST_CASE("two-ray: free space up to the crossover, and no step there") {
+TEST_CASE("two-ray: up to the crossover it is free space, without a step there") {
     const double crossover = 4 * std::numbers::pi * 1.5 * 1.5 / (speed_of_light / 914e6);  // 86.2 m
     for (const double d : {0.0, 1.0, 40.0, 0.999999 * crossover}) {
         CHECK(loss_over_ground(1.5, 1.5, d, 914_MHz) == test::loss_at(Friis{}, d, 914_MHz));
@@ -169,19 +169,19 @@ TEST_CASE("two-ray: an antenna on the ground or below it counts as the lowest an
     CHECK(loss_over_ground(0, 0, 250, 914_MHz, high) == loss_over_ground(1.5, 1.5, 250, 914_MHz));
 }
 
-TEST_CASE("two-ray: the same in both directions to the last bit, beyond the crossover too") {
+TEST_CASE("two-ray: both directions are equal to the last bit, also beyond the crossover") {
     for (int i = 0; i < 1000; ++i) {
         const double ht = 0.1 + 0.00317 * i, hr = 2.9 - 0.00213 * i;
         CHECK(loss_over_ground(ht, hr, 3e3, 2450_MHz) == loss_over_ground(hr, ht, 3e3, 2450_MHz));
     }
 }
 
-TEST_CASE("two-ray: a climbing antenna draws away and hears better, so that heights matter") {
+TEST_CASE("two-ray: a higher antenna may have less loss at a longer distance, so heights matter") {
     CHECK(loss_over_ground(1.5, 3, 500, 914_MHz) < loss_over_ground(1.5, 1.5, 500, 914_MHz));
     CHECK(Propagation(TwoRay{}).shape() == LossShape::by_heights);
 }
 
-TEST_CASE("two-ray: the highest antennas reach exactly as far as the bound says") {
+TEST_CASE("two-ray: the highest antennas reach exactly as far as the bound") {
     for (const double highest : {-2.0, 0.5, 1.5, 30.0}) {
         const double h = std::max(highest, 0.1);
         for (const double budget : {40.0, 80.0, 95.0, 140.0}) {
@@ -196,7 +196,7 @@ TEST_CASE("two-ray: the highest antennas reach exactly as far as the bound says"
     CHECK(TwoRay{}.reach(102.57078_dB, 914_MHz, 1.5_m).value == doctest::Approx(550).epsilon(1e-4));
 }
 
-TEST_CASE("two-ray: without a bound of the heights the reach is that of free space") {
+TEST_CASE("two-ray: without a bound of heights the reach is that of free space") {
     const Propagation model = TwoRay{};
     CHECK(model.reach(80_dB, 2450_MHz) == Friis{}.reach(80_dB, 2450_MHz));
 }
@@ -225,7 +225,7 @@ TEST_CASE("two-ray, exact: the last null before the far field is finite, 110 dB 
     CHECK(near(loss_over_ground(1.5, 1.5, 36, Hertz{2398339664.0}, mirror), 110.04, half_a_digit));
 }
 
-TEST_CASE("two-ray, exact: antennas straight above one another are a place like any other (S39)") {
+TEST_CASE("two-ray, exact: antennas vertically above one another are handled (S39)") {
     const TwoRay exact{.form = TwoRayForm::exact};
     for (const double rise : {0.1, 1.0, 50.0}) {
         const double above = loss_over_ground(1, 1 + rise, 0, 2450_MHz, exact);

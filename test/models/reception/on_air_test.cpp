@@ -34,7 +34,7 @@ std::set<std::uint64_t> near(OnAir& on_air, const Emission& frame, Time now,
 
 }  // namespace
 
-TEST_CASE("on air: finds every frame that reaches where another is heard") {
+TEST_CASE("on air: finds every frame that reaches the receivers of another frame") {
     std::size_t found = 0, passed_over = 0;
     for (std::uint32_t seed = 1; seed <= 100; ++seed) {
         CAPTURE(seed);
@@ -77,7 +77,7 @@ TEST_CASE("on air: finds every frame that reaches where another is heard") {
     CHECK(passed_over > 10'000);
 }
 
-TEST_CASE("on air: looks as much farther as the fastest can have moved since") {
+TEST_CASE("on air: extends its search by the distance that the fastest node may have moved") {
     OnAir on_air;
     on_air.goes(rest({-1e6, 0, 0}), Meters{0});
     on_air.goes(rest({1e6, 0, 0}), Meters{0});
@@ -100,7 +100,7 @@ TEST_CASE("on air: looks as much farther as the fastest can have moved since") {
     CHECK(near(on_air, here, at(1000)).count(far.serial));
 }
 
-TEST_CASE("on air: frames are forgotten from the first on, as long as they are over") {
+TEST_CASE("on air: ended frames are removed, oldest first") {
     OnAir on_air;
     on_air.goes(rest({}), Meters{0});
     std::vector<std::uint32_t> forgotten;
@@ -136,7 +136,7 @@ TEST_CASE("on air: frames are forgotten from the first on, as long as they are o
     CHECK(on_air.frames().empty());
 }
 
-TEST_CASE("on air: what a node was when a frame began is known as long as the frame is") {
+TEST_CASE("on air: the state of a node when a frame began is kept as long as the frame") {
     constexpr int nodes = 5;
     std::size_t unchanged = 0, changed = 0;
     for (std::uint32_t seed = 1; seed <= 50; ++seed) {
@@ -186,7 +186,7 @@ TEST_CASE("on air: what a node was when a frame began is known as long as the fr
     CHECK(unchanged > 1000);
 }
 
-TEST_CASE("on air: nobody is reached farther away than anybody is") {
+TEST_CASE("on air: reach() is the interference range, or the diagonal of all antennas if smaller") {
     OnAir on_air;
     on_air.goes(rest({0, 0, 0}), Meters{0});
     on_air.goes(rest({3, 0, 0}), Meters{4});

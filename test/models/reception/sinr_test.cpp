@@ -54,7 +54,7 @@ struct Receiver {
 
 }  // namespace
 
-TEST_CASE("sinr: the receiver locks on to the first frame, however strong a later one is") {
+TEST_CASE("sinr: the receiver locks onto the first frame, however strong a later one is") {
     Receiver r;
     const auto weak = r.hear(NodeId{1}, at(0), at(100), -80);
     const auto strong = r.hear(NodeId{2}, at(10), at(110), -40);
@@ -62,7 +62,7 @@ TEST_CASE("sinr: the receiver locks on to the first frame, however strong a late
     CHECK(r.judge(strong) == Fate::collided);
 }
 
-TEST_CASE("sinr: of frames that begin together it locks on to the strongest, whoever sent it") {
+TEST_CASE("sinr: of frames that begin together it locks onto the strongest, in any order") {
     for (const bool strong_first : {true, false}) {
         Receiver r;
         const double first = strong_first ? -40 : -80;
@@ -73,7 +73,7 @@ TEST_CASE("sinr: of frames that begin together it locks on to the strongest, who
     }
 }
 
-TEST_CASE("sinr: so it does if any preamble is found") {
+TEST_CASE("sinr: the order has no effect if any preamble is detected") {
     Receiver r{.model = {.preamble_threshold = Db{-1000}}};
     const auto weak = r.hear(NodeId{1}, at(0), at(100), -80);
     const auto strong = r.hear(NodeId{2}, at(0), at(100), -40);
@@ -81,7 +81,7 @@ TEST_CASE("sinr: so it does if any preamble is found") {
     CHECK(r.judge(strong) == Fate::waiting);
 }
 
-TEST_CASE("sinr: a preamble is found if it stands out by the threshold after 4 us") {
+TEST_CASE("sinr: a preamble is detected if it exceeds the threshold after 4 us") {
     for (const double above : {3.9, 4.1}) {
         Receiver r;
         r.hear(NodeId{1}, at(0), at(20), -60, false);  // is over before the payload begins
@@ -113,7 +113,7 @@ TEST_CASE("sinr: a preamble is found if it stands out by the threshold after 4 u
     }
 }
 
-TEST_CASE("sinr: where a preamble was not found the receiver is free for the next") {
+TEST_CASE("sinr: if a preamble is not detected, the receiver is free for the next one") {
     Receiver r;
     const auto first = r.hear(NodeId{1}, at(0), at(100), -80);
     const auto second = r.hear(NodeId{2}, at(2), at(202), -60);
@@ -121,7 +121,7 @@ TEST_CASE("sinr: where a preamble was not found the receiver is free for the nex
     CHECK(r.judge(second) == Fate::waiting);
 }
 
-TEST_CASE("sinr: a frame that nobody can decode there is interference, and takes no lock") {
+TEST_CASE("sinr: a frame too weak to decode interferes, and does not lock the receiver") {
     Receiver r;
     r.hear(NodeId{1}, at(0), at(100), -90, false);
     const auto good = r.hear(NodeId{2}, at(10), at(110), -50);
@@ -131,7 +131,7 @@ TEST_CASE("sinr: a frame that nobody can decode there is interference, and takes
     CHECK(r.judge(drowned) == Fate::collided);
 }
 
-TEST_CASE("sinr: who sends hears nothing, and has let go of what it was locked on") {
+TEST_CASE("sinr: a transmitting node receives nothing, and releases its lock") {
     Receiver r;
     const auto before = r.hear(NodeId{1}, at(0), at(100), -50);
     constexpr double own = std::numeric_limits<double>::infinity();  // as own_frame() has it
@@ -146,7 +146,7 @@ TEST_CASE("sinr: who sends hears nothing, and has let go of what it was locked o
     CHECK(r.judge(next) == Fate::waiting);
 }
 
-TEST_CASE("sinr: what it sends later does not free the receiver before") {
+TEST_CASE("sinr: a later own transmission does not free the receiver earlier") {
     Receiver r;
     r.hear(NodeId{1}, at(0), at(100), -50);
     const auto second = r.hear(NodeId{2}, at(10), at(50), -30);
@@ -154,7 +154,7 @@ TEST_CASE("sinr: what it sends later does not free the receiver before") {
     CHECK(r.judge(second) == Fate::collided);
 }
 
-TEST_CASE("sinr: a draw decides where bits may fail, and none where they cannot") {
+TEST_CASE("sinr: a draw is made where bits may fail, and only there") {
     Receiver r;
     const double weak = -94 + certain_sinr(Modulation::cck_11).value - 8;
     for (const bool lucky : {true, false}) {
@@ -167,7 +167,7 @@ TEST_CASE("sinr: a draw decides where bits may fail, and none where they cannot"
     }
 }
 
-TEST_CASE("sinr: interference adds to the noise: as strong as that, it costs 3 dB") {
+TEST_CASE("sinr: interference adds to the noise: equal to it, it costs 3 dB") {
     constexpr double noise = -94, above = 8.5, bits = 1100;
     const double sinr = math::exp10(above / 10) / 2;
     const double probability = math::exp(bits * log_success(Modulation::cck_11, sinr));
@@ -182,7 +182,7 @@ TEST_CASE("sinr: interference adds to the noise: as strong as that, it costs 3 d
     }
 }
 
-TEST_CASE("sinr: a faint interferer counts when a loud one before it has ended (S28)") {
+TEST_CASE("sinr: a weak interferer counts after a strong one has ended (S28)") {
     // The loud one overlaps the preamble's first microseconds only. A sum to which it was added and
     // from which it was taken would have lost the faint ones: 1e-3 + 1e-19 - 1e-3 mW.
     for (const double faint : {-300.0, -96.0}) {
@@ -196,7 +196,7 @@ TEST_CASE("sinr: a faint interferer counts when a loud one before it has ended (
     }
 }
 
-TEST_CASE("sinr: interference is the same bits in whatever order it becomes known (S28)") {
+TEST_CASE("sinr: interference has the same bits in any order of frames (S28)") {
     // A draw at the boundary: the last bit of the sum would show.
     const auto judged = [](std::vector<unsigned> order, double draw) {
         Receiver r;
@@ -220,7 +220,7 @@ TEST_CASE("sinr: interference is the same bits in whatever order it becomes know
     }
 }
 
-TEST_CASE("sinr: without any signal to speak of a frame is lost, and nothing is 0 / 0 (S29)") {
+TEST_CASE("sinr: a frame without a signal is lost, without 0 / 0 (S29)") {
     Receiver r;
     const auto nothing = r.hear(NodeId{1}, at(0), at(100), -10000);
     CHECK(r.judge(nothing) == Fate::garbled);

@@ -83,14 +83,14 @@ TEST_CASE("shadowing field: the two directions agree to the last bit") {
     }
 }
 
-TEST_CASE("shadowing field: it is a function of seed, replication and places") {
+TEST_CASE("shadowing field: is a function of seed, replication and positions") {
     const Vec3 a{3, 4, 1}, b{40, -2, 1};
     CHECK(ShadowingField(decorrelation, 7, 1)(a, b) == ShadowingField(decorrelation, 7, 1)(a, b));
     CHECK(ShadowingField(decorrelation, 7, 1)(a, b) != ShadowingField(decorrelation, 8, 1)(a, b));
     CHECK(ShadowingField(decorrelation, 7, 1)(a, b) != ShadowingField(decorrelation, 7, 2)(a, b));
 }
 
-TEST_CASE("shadowing field: mean 0 and variance 1, however far the ends are apart") {
+TEST_CASE("shadowing field: has mean 0 and variance 1 at any distance of the ends") {
     for (const double apart : {0.1, 3.0, 30.0}) {
         CAPTURE(apart);
         const Moments m = moments([&](std::uint64_t seed, std::uint64_t i) {
@@ -103,7 +103,7 @@ TEST_CASE("shadowing field: mean 0 and variance 1, however far the ends are apar
     }
 }
 
-TEST_CASE("shadowing field: correlation e^(-D / d_cor) as either end moves (vectors)") {
+TEST_CASE("shadowing field: the correlation is e^(-D / d_cor) as either end moves (vectors)") {
     const test::Vectors vectors("field_correlation.csv");
     int rows = 0;
     for (std::size_t row = 0; row < vectors.size(); ++row) {
@@ -126,7 +126,7 @@ TEST_CASE("shadowing field: correlation e^(-D / d_cor) as either end moves (vect
     CHECK(rows == 4);
 }
 
-TEST_CASE("shadowing field: correlation is the product as both ends move") {
+TEST_CASE("shadowing field: the correlation is the product as both ends move") {
     const Moments m = moments([&](std::uint64_t seed, std::uint64_t i) {
         const Vec3 a = place(seed, i), b = a + Vec3{0, 80, 0};
         return Pairs{a, b, a + Vec3{3, 0, 0}, b + Vec3{0, 5, 0}};
@@ -134,7 +134,7 @@ TEST_CASE("shadowing field: correlation is the product as both ends move") {
     CHECK(test::near(m.correlation(), std::exp(-0.8), 0.03));
 }
 
-TEST_CASE("shadowing field: heights do not count") {
+TEST_CASE("shadowing field: heights have no effect") {
     const ShadowingField field(decorrelation, 7, 1);
     CHECK(field({1, 2, 0}, {30, 4, 9}) == field({1, 2, 5}, {30, 4, 0}));
 }

@@ -36,7 +36,7 @@ using Texts = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("chart axis: ticks are multiples of 1, 2 or 5 times a power of ten, all inside") {
+TEST_CASE("chart axis: ticks are multiples of 1, 2 or 5 times a power of ten, within the limits") {
     for (double size = 1e-9; size < 1e9; size *= 3.7) {
         const ChartAxis axis = number_axis(range({-0.3 * size, size}), false, 8);
         const double step = axis.ticks[1].value - axis.ticks[0].value;
@@ -56,7 +56,7 @@ TEST_CASE("chart axis: ticks are multiples of 1, 2 or 5 times a power of ten, al
     }
 }
 
-TEST_CASE("chart axis: it ends at a tick, or little beyond one") {
+TEST_CASE("chart axis: ends at a tick, or slightly beyond one") {
     const ChartAxis at_ticks = number_axis(range({2, 97}), false, 11);
     CHECK((at_ticks.low == 0 && at_ticks.high == 100));
     const ChartAxis beyond = number_axis(range({-0.01, 1.01}), false, 7);
@@ -65,7 +65,7 @@ TEST_CASE("chart axis: it ends at a tick, or little beyond one") {
     CHECK((beyond.high > 1.01 && beyond.high < 1.05));
 }
 
-TEST_CASE("chart axis: of a ratio it is 0 to 1, or a part of that if the numbers use little") {
+TEST_CASE("chart axis: of a ratio is 0 to 1, or a part of it if the values use little") {
     const ChartLimits share{.low = 0, .high = 1};
     const ChartAxis wide = number_axis(range({0.4, 0.7}), false, 6, share);
     CHECK((wide.low == 0 && wide.high == 1));
@@ -76,7 +76,7 @@ TEST_CASE("chart axis: of a ratio it is 0 to 1, or a part of that if the numbers
     CHECK(texts(whole).size() == 6);
 }
 
-TEST_CASE("chart axis: it never goes beyond what a number can be") {
+TEST_CASE("chart axis: limits never exceed the largest number") {
     const ChartLimits share{.low = 0, .high = 1}, positive{.low = 0};
     for (const auto& each : {range({0.93, 0.999}), range({0.99, 1}), range({1, 1}), range({0, 0}),
                              range({0, 0.01}), range({0.0001, 0.13}), range({0.9999, 1})}) {
@@ -93,12 +93,12 @@ TEST_CASE("chart axis: it never goes beyond what a number can be") {
     CHECK(number_axis(range({0.1, 0.9}), true, 6, share).high == 1);
 }
 
-TEST_CASE("chart axis: a number beyond its limits is shown all the same") {
+TEST_CASE("chart axis: a value beyond the natural limits is shown nevertheless") {
     const ChartAxis axis = number_axis(range({-0.3, 1.2}), false, 6, {.low = 0, .high = 1});
     CHECK((axis.low <= -0.3 && axis.high >= 1.2));
 }
 
-TEST_CASE("chart axis: a value stands where it divides the axis") {
+TEST_CASE("chart axis: a value is placed linearly between the ends") {
     const ChartAxis linear = number_axis(range({-10, 30}), false, 6);
     CHECK(std::abs(linear.share(0) - 0.25) < rounding);
     CHECK((linear.share(-1e9) == 0 && linear.share(1e9) == 1));
@@ -109,7 +109,8 @@ TEST_CASE("chart axis: a value stands where it divides the axis") {
     CHECK((log.share(0) == 0 && log.share(-1) == 0));
 }
 
-TEST_CASE("chart axis: a logarithmic axis has texts at decades, or at 1, 2 and 5 of a few") {
+TEST_CASE(
+    "chart axis: a logarithmic axis has labels at decades, or at 1, 2 and 5 of a few decades") {
     CHECK(texts(number_axis(range({0.001, 1e4}), true, 8)) == Texts{"0.001", "0.01", "0.1", "1",
                                                                     "10", "100", "1000",
                                                                     "10\xc2\xa0"
@@ -125,13 +126,13 @@ TEST_CASE("chart axis: a logarithmic axis has texts at decades, or at 1, 2 and 5
     }
 }
 
-TEST_CASE("chart axis: small ticks of a decade stand at 2 to 9") {
+TEST_CASE("chart axis: small ticks of a decade are at 2 to 9") {
     const ChartAxis axis = number_axis(range({1, 10}), true, 3);
     REQUIRE(axis.ticks.size() == 10);
     for (int i = 0; i < 9; ++i) CHECK(axis.ticks[static_cast<std::size_t>(i)].value == i + 1);
 }
 
-TEST_CASE("chart axis: equal numbers, no number and the largest numbers make an axis") {
+TEST_CASE("chart axis: equal values, no values and the largest numbers give an axis") {
     const double least = std::numeric_limits<double>::denorm_min();
     for (const auto& each : {range({}), range({0}), range({5}), range({-5, -5}), range({1e100}),
                              range({-1e100, 1e100}), range({1, 1 + 1e-16}),
@@ -148,7 +149,7 @@ TEST_CASE("chart axis: equal numbers, no number and the largest numbers make an 
     CHECK((log.low < 7 && log.high > 7));
 }
 
-TEST_CASE("chart axis: the texts of ticks have the digits of their step") {
+TEST_CASE("chart axis: labels of ticks have the digits of their step") {
     CHECK(texts(number_axis(range({0, 50'000}), false, 6)) == Texts{"0",
                                                                     "10\xc2\xa0"
                                                                     "000",
@@ -168,7 +169,7 @@ TEST_CASE("chart axis: the texts of ticks have the digits of their step") {
     CHECK(texts(number_axis(range({99.5, 100.5}), false, 3)) == Texts{"99.5", "100.0", "100.5"});
 }
 
-TEST_CASE("chart axis: a value is written to a hundredth of the axis") {
+TEST_CASE("chart axis: a value is printed to a hundredth of the axis") {
     const ChartAxis axis = number_axis(range({0, 1}), false, 6);
     CHECK(axis.text(0.126) == "0.13");
     CHECK(axis.text(1) == "1.00");
@@ -176,7 +177,7 @@ TEST_CASE("chart axis: a value is written to a hundredth of the axis") {
     CHECK(number_axis(range({0, 2000}), false, 6).text(1234.4) == "1234");
 }
 
-TEST_CASE("chart axis: numbers have four digits and no needless zeros") {
+TEST_CASE("chart axis: numbers have four digits and no unnecessary zeros") {
     CHECK(number_text(0) == "0");
     CHECK(number_text(0.25) == "0.25");
     CHECK(number_text(-3.14159) == "-3.142");
@@ -193,7 +194,7 @@ TEST_CASE("chart axis: numbers have four digits and no needless zeros") {
     CHECK(number_text(0.0001) == "0.0001");
 }
 
-TEST_CASE("chart axis: between whole numbers there are no ticks with a fraction") {
+TEST_CASE("chart axis: whole numbers have no ticks with fractions") {
     ChartRange few;
     for (const double v : {1, 2, 3, 4, 6}) few.include(v);
     for (const ChartTick& tick : number_axis(few, false, 12).ticks) {
@@ -204,7 +205,7 @@ TEST_CASE("chart axis: between whole numbers there are no ticks with a fraction"
     CHECK_FALSE(few.whole());
 }
 
-TEST_CASE("chart axis: words stand in the middle of equal parts") {
+TEST_CASE("chart axis: words are in the middle of equal parts") {
     const ChartAxis axis = word_axis({"a", "b", "c", "d"});
     CHECK(std::abs(axis.share(0) - 0.125) < rounding);
     CHECK(std::abs(axis.share(3) - 0.875) < rounding);

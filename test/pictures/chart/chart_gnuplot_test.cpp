@@ -63,7 +63,7 @@ Drawn drawn(const std::string& script) {
 
 }  // namespace
 
-TEST_CASE("gnuplot: a script holds the numbers and the intervals of each series") {
+TEST_CASE("gnuplot: a script contains the values and intervals of each series") {
     Chart chart = three_points(ChartKind::scatter, "t");
     chart.series.pop_back();
     const std::string text = chart_gnuplot(chart);
@@ -72,12 +72,12 @@ TEST_CASE("gnuplot: a script holds the numbers and the intervals of each series"
     CHECK(has(text, "set title 't'"));
 }
 
-TEST_CASE("gnuplot: a missing value breaks the line, and a missing interval is no number") {
+TEST_CASE("gnuplot: a missing value breaks the line, and a missing interval is not a number") {
     Chart chart{.series = {{"s", {{.x = 1, .y = 1}, {.x = 2, .y = no_number}, {.x = 3, .y = 3}}}}};
     CHECK(has(chart_gnuplot(chart), "1 1 NaN NaN 0\n\n3 3 NaN NaN 0\n"));
 }
 
-TEST_CASE("gnuplot: a cdf is its steps, a map its cells, bars stand beside one another") {
+TEST_CASE("gnuplot: a cdf has steps, a heat map cells, and bars stand side by side") {
     const Chart cdf{.kind = ChartKind::cdf, .series = {{"s", {{.x = 4}, {.x = 2}}}}};
     CHECK(has(chart_gnuplot(cdf), "# x share\n2 0\n2 0.5\n4 1\n4 1\n"));
     Chart two{.kind = ChartKind::heat_map,
@@ -89,20 +89,20 @@ TEST_CASE("gnuplot: a cdf is its steps, a map its cells, bars stand beside one a
     CHECK(has(chart_gnuplot(two), "set boxwidth 0.4"));
 }
 
-TEST_CASE("gnuplot: a whisker below a logarithmic axis ends there") {
+TEST_CASE("gnuplot: a whisker below a logarithmic axis ends at the axis") {
     Chart chart{.kind = ChartKind::scatter,
                 .series = {{"s", {{.x = 1, .y = 2, .low = -5, .high = 9}}}}};
     chart.log_y = true;
     CHECK(has(chart_gnuplot(chart), "1 2 2 9 0\n"));
 }
 
-TEST_CASE("gnuplot: texts stand in single quotes, on one line") {
+TEST_CASE("gnuplot: texts are in single quotes, on one line") {
     const std::string text = chart_gnuplot(three_points(ChartKind::bars, "it's\n`x` \"y\" 5%"));
     CHECK(has(text, "set title 'it\xe2\x80\x99s `x` \"y\" 5%'"));
     CHECK(has(text, "'it\xe2\x80\x99s `x` \"y\" 5%%' 3"));
 }
 
-TEST_CASE("gnuplot: it draws every kind without a complaint, and runs no text as a command") {
+TEST_CASE("gnuplot: draws every kind without a warning, and executes no text as a command") {
     if (!gnuplot_is_there()) {
         MESSAGE("skipped: gnuplot is not installed");
         return;

@@ -76,7 +76,7 @@ Chart ramp(ChartKind kind, int count) {
 
 }  // namespace
 
-TEST_CASE("chart: marks stay within the axes, also at their ends and where series stand apart") {
+TEST_CASE("chart: marks stay within the axes, also at the ends and side by side") {
     for (const ChartKind kind : {ChartKind::lines, ChartKind::scatter, ChartKind::bars}) {
         for (const std::size_t count : {1U, 2U, 6U, 12U}) {
             Chart chart{.kind = kind, .y_limits = {0, 1}};
@@ -112,7 +112,7 @@ TEST_CASE("chart: marks stay within the axes, also at their ends and where serie
     }
 }
 
-TEST_CASE("chart: a point with y = 0.5 stands midway between the ticks 0 and 1, and so in x") {
+TEST_CASE("chart: a point with y = 0.5 is midway between the ticks 0 and 1, and so in x") {
     for (const ChartKind kind : {ChartKind::lines, ChartKind::scatter}) {
         const auto svg = svg_elements(
             drawn(one_series(kind, {{.x = 0, .y = 0}, {.x = 5, .y = 0.5}, {.x = 10, .y = 1}})));
@@ -125,7 +125,7 @@ TEST_CASE("chart: a point with y = 0.5 stands midway between the ticks 0 and 1, 
     }
 }
 
-TEST_CASE("chart: on a logarithmic axis the geometric mean stands midway") {
+TEST_CASE("chart: on a logarithmic axis the geometric mean is midway") {
     Chart log = one_series(ChartKind::lines,
                            {{.x = 1, .y = 0.01}, {.x = 10, .y = 1}, {.x = 100, .y = 100}});
     log.log_x = log.log_y = true;
@@ -135,7 +135,7 @@ TEST_CASE("chart: on a logarithmic axis the geometric mean stands midway") {
     CHECK(near(p.y, (y_tick(svg, "0.01") + y_tick(svg, "100")) / 2));
 }
 
-TEST_CASE("chart: a band holds the line and ends at the intervals") {
+TEST_CASE("chart: a band contains the line and ends at the intervals") {
     const auto svg = svg_elements(drawn(ramp(ChartKind::lines, 10)));
     const auto line = corners(of_class(svg, "line").at(0)).at(0);
     const auto band = corners(of_class(svg, "band").at(0)).at(0);
@@ -167,7 +167,7 @@ TEST_CASE("chart: few points have whiskers from low to high, and no band") {
     }
 }
 
-TEST_CASE("chart: a band ends where an interval is missing, and a lone interval is a whisker") {
+TEST_CASE("chart: a band ends where an interval is missing; a single interval is a whisker") {
     Chart lines = ramp(ChartKind::lines, 9);
     lines.series[0].points[3].low.reset();
     lines.series[0].points[5].high.reset();
@@ -188,7 +188,7 @@ TEST_CASE("chart: a line is broken where a value is missing") {
     CHECK(has(text, "1 value left out: not finite"));
 }
 
-TEST_CASE("chart: bands and whiskers end at what a number can be, and so does the axis") {
+TEST_CASE("chart: bands, whiskers and axis end at the largest number") {
     for (const int points : {4, 9}) {  // whiskers, a band
         Chart ratio = one_series(ChartKind::lines, {});
         ratio.y_limits = {.low = 0, .high = 1};
@@ -215,7 +215,7 @@ TEST_CASE("chart: bands and whiskers end at what a number can be, and so does th
     }
 }
 
-TEST_CASE("chart: whiskers that hide one another stand side by side, and with them their lines") {
+TEST_CASE("chart: overlapping whiskers are drawn side by side, with their lines") {
     Chart lines = ramp(ChartKind::lines, 4);
     lines.series.push_back({"second", lines.series[0].points});
     const auto svg = svg_elements(drawn(lines));
@@ -237,7 +237,7 @@ TEST_CASE("chart: whiskers that hide one another stand side by side, and with th
     }
 }
 
-TEST_CASE("chart: points of a scatter that hide one another stand side by side") {
+TEST_CASE("chart: overlapping points of a scatter are drawn side by side") {
     Chart scatter = one_series(ChartKind::scatter, {});
     for (int i = 0; i < 5; ++i) {
         scatter.series[0].points.push_back(
@@ -283,7 +283,7 @@ TEST_CASE("chart: bars begin at 0 and end at their values, whiskers at the ends 
     CHECK(near(whiskers[0][0].x, first + width / 2));
 }
 
-TEST_CASE("chart: where bars would look alike dots show the difference") {
+TEST_CASE("chart: dots replace bars that would look equal") {
     const auto svg = svg_elements(drawn(one_series(
         ChartKind::bars, {{.category = "a", .y = 95, .low = 94}, {.category = "b", .y = 100}})));
     CHECK(of_class(svg, "bar").empty());
@@ -294,7 +294,7 @@ TEST_CASE("chart: where bars would look alike dots show the difference") {
     CHECK(near(middle(marks[1]).y, y_tick(svg, "100")));
 }
 
-TEST_CASE("chart: the steps of a cdf rise by the share of the points at each x") {
+TEST_CASE("chart: the steps of a cdf rise by the share of points at each x") {
     const auto svg = svg_elements(
         drawn(one_series(ChartKind::cdf, {{.x = 0}, {.x = 10}, {.x = 10}, {.x = 20}})));
     const auto line = corners(of_class(svg, "line").at(0)).at(0);
@@ -317,7 +317,8 @@ TEST_CASE("chart: the steps of a cdf rise by the share of the points at each x")
     }
 }
 
-TEST_CASE("chart: cells stand at their words, the first row below, with the colours of the bar") {
+TEST_CASE(
+    "chart: cells are at their words, the first row at the bottom, in the colours of the bar") {
     Chart heat = one_series(ChartKind::heat_map, {{.x = 1, .y = 0}, {.x = 2, .y = 50}});
     heat.series.push_back({"above", {{.x = 2, .y = 100}}});
     const std::string text = drawn(heat);
@@ -338,21 +339,21 @@ TEST_CASE("chart: cells stand at their words, the first row below, with the colo
     CHECK(has(text, "no value"));
 }
 
-TEST_CASE("chart: a map without a missing cell says nothing of one") {
+TEST_CASE("chart: a heat map without missing cells does not mention them") {
     const std::string text =
         drawn(one_series(ChartKind::heat_map, {{.x = 1, .y = 0}, {.x = 2, .y = 1}}));
     CHECK_FALSE(has(text, "no value"));
     CHECK(of_class(svg_elements(text), "missing").empty());
 }
 
-TEST_CASE("chart: values are printed in cells that hold them, and in no others") {
+TEST_CASE("chart: values are printed in cells that are large enough, and only there") {
     Chart heat = one_series(ChartKind::heat_map, {{.x = 0, .y = 0.25}, {.x = 1, .y = 0.875}});
     CHECK(has(drawn(heat), ">0.250</text>"));
     for (int i = 2; i < 60; ++i) heat.series[0].points.push_back({.x = double(i), .y = 0.5});
     CHECK_FALSE(has(drawn(heat), ">0.250</text>"));
 }
 
-TEST_CASE("chart: a value is dark on light cells and white on dark ones") {
+TEST_CASE("chart: a value is dark on light cells and white on dark cells") {
     for (const auto& each : svg_elements(
              drawn(one_series(ChartKind::heat_map, {{.x = 1, .y = 0}, {.x = 2, .y = 1}})))) {
         if (each.group != "cells" || each.name != "text") continue;
@@ -360,7 +361,7 @@ TEST_CASE("chart: a value is dark on light cells and white on dark ones") {
     }
 }
 
-TEST_CASE("chart: labels of a scatter overlap neither one another nor any mark") {
+TEST_CASE("chart: labels of a scatter overlap neither each other nor marks") {
     Chart scatter = one_series(ChartKind::scatter, {});
     for (int i = 0; i < 60; ++i) {
         const double x = (i * 37) % 61, y = (i * 23) % 59;
@@ -385,7 +386,7 @@ TEST_CASE("chart: labels of a scatter overlap neither one another nor any mark")
     if (homeless > 0) CHECK(has(text, fmt::format("no room for {} label", homeless)));
 }
 
-TEST_CASE("chart: a label between whiskers stands below or above its own, and under none") {
+TEST_CASE("chart: a label between whiskers is below or above its own, and under no whisker") {
     // Three whiskers too near to one another for a label between them, the middle one the longest
     // at one end or the other; the others' labels stand left and right of their marks.
     for (const double longer : {-0.1, 0.1}) {
@@ -426,7 +427,7 @@ TEST_CASE("chart: a label between whiskers stands below or above its own, and un
     }
 }
 
-TEST_CASE("chart: the ends of a whisker beyond a logarithmic axis reach it, without a cap") {
+TEST_CASE("chart: whiskers beyond a logarithmic axis end at it, without a cap") {
     Chart scatter = one_series(ChartKind::scatter, {{.x = 1, .y = 10, .low = -1, .high = 20},
                                                     {.x = 2, .y = 5, .low = 4, .high = 6}});
     scatter.log_y = true;
@@ -451,12 +452,12 @@ TEST_CASE("chart: series differ in colour, and in mark or dashes") {
     CHECK(dashes.size() == 4);
 }
 
-TEST_CASE("chart: a mark tells its values to who points at it") {
+TEST_CASE("chart: a mark shows its values under the pointer") {
     const std::string text = drawn(ramp(ChartKind::lines, 4));
     CHECK(has(text, "<title>s: 2, 0.2 (0.15 to 0.3), n = 7</title>"));
 }
 
-TEST_CASE("marks beside a line are hollow, in its colour, and have no line") {
+TEST_CASE("marks beside a line are hollow, in its colour, and not joined by a line") {
     Chart chart = one_series(ChartKind::lines, {{.x = 0, .y = 1}, {.x = 5, .y = 2}});
     chart.series.push_back({"beside", {{.x = 2, .y = 1.5}, {.x = 3, .y = 1.2}}, 0});
     const auto svg = svg_elements(drawn(chart));

@@ -72,7 +72,7 @@ std::vector<Chart> gallery(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("chart: an empty chart of any kind says so") {
+TEST_CASE("chart: an empty chart of any kind has a text that says so") {
     CHECK(has(chart_svg({}), "no results"));
     for (const ChartKind kind : chart_kinds) {
         for (const Chart& each : {Chart{.kind = kind}, one_series(kind, {}),
@@ -117,7 +117,7 @@ TEST_CASE("chart: the legend has the key as its title, in every kind of file") {
     CHECK(has(chart_gnuplot(lines), "title 'ttl'"));
 }
 
-TEST_CASE("chart: axes of gnuplot end at the limits, too") {
+TEST_CASE("chart: axes in gnuplot end at the limits") {
     Chart lines = one_series(ChartKind::lines, {{.x = 1, .y = 0.1, .low = -0.3, .high = 0.5},
                                                 {.x = 2, .y = 0.9, .low = 0.6, .high = 1.3}});
     lines.y_limits = {.low = 0, .high = 1};
@@ -125,13 +125,13 @@ TEST_CASE("chart: axes of gnuplot end at the limits, too") {
     CHECK_FALSE(has(chart_gnuplot(lines), "-0.3"));
 }
 
-TEST_CASE("chart: the same charts are the same bytes") {
+TEST_CASE("chart: equal charts give equal bytes") {
     const auto charts = gallery("twice");
     CHECK(chart_svg(charts) == chart_svg(charts));
     CHECK(chart_svg(charts) == chart_svg(gallery("twice")));
 }
 
-TEST_CASE("chart: one point, equal values, many series and many points make finite charts") {
+TEST_CASE("chart: one point, equal values, many series and many points give finite charts") {
     for (const ChartKind kind : chart_kinds) {
         Chart one = one_series(kind, {{.x = 3, .y = 3}}), same = one_series(kind, {}),
               many{.kind = kind}, large = one_series(kind, {});
@@ -156,7 +156,7 @@ TEST_CASE("chart: one point, equal values, many series and many points make fini
     }
 }
 
-TEST_CASE("chart: texts below the x axis stand side by side, slanted if they are too long") {
+TEST_CASE("chart: labels below the x axis are side by side, slanted if they are too long") {
     for (const double largest : {1.0, 7.3e5, 1.234e6, 2e-9}) {
         const auto svg = svg_elements(drawn(
             one_series(ChartKind::lines, {{.x = 0.9 * largest, .y = 1}, {.x = largest, .y = 2}})));
@@ -178,7 +178,7 @@ TEST_CASE("chart: texts below the x axis stand side by side, slanted if they are
     CHECK(has(drawn(bars), "rotate(-40"));
 }
 
-TEST_CASE("chart: panels stand in rows, the parts between their axes at one height") {
+TEST_CASE("chart: panels are in rows, with their axes at one height") {
     const auto charts = gallery("x");
     const auto two = panels(chart_svg(charts, {.width = 300, .height = 100}));
     REQUIRE(two.size() == 5);
@@ -190,7 +190,7 @@ TEST_CASE("chart: panels stand in rows, the parts between their axes at one heig
     CHECK((one[0].x == one[4].x && one[4].y > one[1].y));
 }
 
-TEST_CASE("chart: in a row there is room for the longest title and the most notes") {
+TEST_CASE("chart: a row has room for the longest title and the most notes") {
     std::vector<Chart> charts{one_series(ChartKind::lines, {{.x = 1, .y = 1}}), Chart{}, Chart{}};
     const auto plain = panels(chart_svg(charts));
     charts[0].title = "two lines " + std::string(40, 'w') + " " + std::string(40, 'w');

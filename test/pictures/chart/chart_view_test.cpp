@@ -37,7 +37,7 @@ TEST_CASE("chart view: a line goes through its points in the order of x, broken 
     CHECK(points[2].joined);
 }
 
-TEST_CASE("chart view: what is left out is counted, an end of an interval like a value") {
+TEST_CASE("chart view: omitted points are counted, and ends of intervals like values") {
     const Chart lines = chart(ChartKind::lines, {{.x = no_number, .y = 1},
                                                  {.x = 1, .y = infinity},
                                                  {.x = 2, .y = 2e100},
@@ -51,8 +51,7 @@ TEST_CASE("chart view: what is left out is counted, an end of an interval like a
     CHECK(view.notes == Texts{"4 values left out: not finite"});
 }
 
-TEST_CASE(
-    "chart view: a logarithmic axis leaves out what is not above 0, but no end of a whisker") {
+TEST_CASE("chart view: a logarithmic axis omits values that are not above 0, but no whisker ends") {
     Chart scatter =
         chart(ChartKind::scatter,
               {{.x = 0, .y = 1}, {.x = 1, .y = -1}, {.x = 2, .y = 2, .low = -1, .high = 3}});
@@ -66,7 +65,7 @@ TEST_CASE(
     CHECK(view.notes == Texts{"2 values left out: not finite, or not above 0"});
 }
 
-TEST_CASE("chart view: words stand as they come, numbers among them before, in ascending order") {
+TEST_CASE("chart view: words keep their order, after numbers in ascending order") {
     const Chart bars = chart(ChartKind::bars, {{.category = "b", .y = 1},
                                                {.x = 20, .y = 2},
                                                {.category = "a", .y = 3},
@@ -80,7 +79,7 @@ TEST_CASE("chart view: words stand as they come, numbers among them before, in a
     CHECK(view.series[0][2].y == 1);
 }
 
-TEST_CASE("chart view: x is a word where a point says so") {
+TEST_CASE("chart view: x is a word if a point has a word") {
     CHECK_FALSE(view_of(chart(ChartKind::lines, {{.x = 1, .y = 1}})).has_words);
     CHECK(view_of(chart(ChartKind::lines, {{.category = "w", .y = 1}})).has_words);
     CHECK(view_of(chart(ChartKind::heat_map, {{.x = 1, .y = 1}})).has_words);
@@ -99,7 +98,7 @@ TEST_CASE("chart view: a cdf counts the points at or below x") {
     CHECK(view.left_out == 1);
 }
 
-TEST_CASE("chart view: bars begin at 0, and become dots where all would look alike") {
+TEST_CASE("chart view: bars begin at 0, and become dots if all would look equal") {
     const auto bars = [](std::vector<double> values) {
         Chart out = chart(ChartKind::bars, {});
         for (const double y : values) out.series[0].points.push_back({.category = "w", .y = y});
@@ -129,7 +128,7 @@ TEST_CASE("chart view: few points or words have no band") {
     CHECK_FALSE(has_band(view_of(lines), 0));
 }
 
-TEST_CASE("chart view: bars at a word stand side by side around it") {
+TEST_CASE("chart view: bars at a word are side by side around it") {
     CHECK(std::abs(bar_offset(0, 1)) < rounding);
     CHECK(std::abs(bar_offset(0, 2) + 0.2) < rounding);
     CHECK(std::abs(bar_offset(1, 2) - 0.2) < rounding);

@@ -38,7 +38,7 @@ std::string drawn(const DotPlot& plot) { return dot_plot_svg({&plot, 1}, "", 640
 
 }  // namespace
 
-TEST_CASE("dot plot: every name is written whole, however close the dots are") {
+TEST_CASE("dot plot: every name is complete, however close the dots are") {
     const std::string svg = drawn(crowded(20));
     for (int i = 0; i < 20; ++i) CHECK(count(svg, ">model " + std::to_string(i) + "</text>") == 1);
     CHECK(count(svg, "class=\"whisker\"") == 20);
@@ -46,7 +46,7 @@ TEST_CASE("dot plot: every name is written whole, however close the dots are") {
     CHECK(count(svg, "class=\"mark\"") == 82);   // and two in the legend
 }
 
-TEST_CASE("dot plot: the dots of a row stay within it, however many") {
+TEST_CASE("dot plot: any number of dots stays within its row") {
     DotPlot plot = crowded(1);
     plot.title = "";
     for (std::size_t i = 0; i < 6; ++i) {
@@ -70,7 +70,7 @@ TEST_CASE("dot plot: the dots of a row stay within it, however many") {
     }
 }
 
-TEST_CASE("dot plot: intervals have a legend where there are some") {
+TEST_CASE("dot plot: intervals have an entry in the legend") {
     DotPlot plot = crowded(2);
     plot.whisker_label = "95 % interval";
     const std::string svg = drawn(plot);
@@ -80,7 +80,7 @@ TEST_CASE("dot plot: intervals have a legend where there are some") {
     CHECK(count(drawn(plot), ">95 % interval</text>") == 0);
 }
 
-TEST_CASE("dot plot: the numbers of both scales have room between them") {
+TEST_CASE("dot plot: the numbers of both scales do not overlap") {
     DotPlot plot = crowded(1);
     plot.series = {""};
     for (const double most : {0.5, 9.0, 80.0, 100.0, 1200.0, 25000.0}) {
@@ -108,7 +108,7 @@ TEST_CASE("dot plot: the numbers of both scales have room between them") {
     }
 }
 
-TEST_CASE("dot plot: a value stands farther right than a smaller one, by its scale") {
+TEST_CASE("dot plot: a larger value is farther right on its scale") {
     DotPlot plot = crowded(1);
     plot.series = {""};
     plot.rows[0].dots = {
@@ -124,7 +124,7 @@ TEST_CASE("dot plot: a value stands farther right than a smaller one, by its sca
     CHECK(x[3] > x[2]);
 }
 
-TEST_CASE("dot plot: a value of 0 stands at the left end of a logarithmic scale") {
+TEST_CASE("dot plot: a value of 0 is at the left end of a logarithmic scale") {
     DotPlot plot = crowded(1);
     plot.log = true;
     plot.least = 0.1;
@@ -136,7 +136,7 @@ TEST_CASE("dot plot: a value of 0 stands at the left end of a logarithmic scale"
     CHECK(first == (*++at)[1]);
 }
 
-TEST_CASE("dot plot: a band has a sign in the legend, and plots stand in rows of the picture") {
+TEST_CASE("dot plot: a band has an entry in the legend, and plots are in rows") {
     DotPlot plot = crowded(2);
     CHECK(count(drawn(plot), "class=\"limit\"") == 0);
     plot.band = 2;

@@ -37,21 +37,21 @@ TEST_CASE("color: luminance is 0 for black, 1 for white, and 0.2126 for red") {
     CHECK(std::abs(luminance({128, 128, 128}) - 0.2159) < half_a_digit);
 }
 
-TEST_CASE("color: the scale for areas gets lighter all the way, from dark to light") {
+TEST_CASE("color: the scale for areas gets steadily lighter") {
     CHECK(least_rise(lagoon, 1, colors) >= 0);
     CHECK(least_rise(lagoon, 1, fine) > -one_unit);
     CHECK(luminance(lagoon.at(0)) < 0.07);
     CHECK(luminance(lagoon.at(1)) > 0.8);
 }
 
-TEST_CASE("color: the scale for lines gets darker all the way, from middle to dark") {
+TEST_CASE("color: the scale for lines gets steadily darker") {
     CHECK(least_rise(ember, -1, colors) >= 0);
     CHECK(least_rise(ember, -1, fine) > -one_unit);
     CHECK(luminance(ember.at(0)) > 0.5);
     CHECK(luminance(ember.at(1)) < 0.05);
 }
 
-TEST_CASE("color: the scale for differences is blue, white in its middle, and orange") {
+TEST_CASE("color: the scale for differences goes from blue over white to orange") {
     CHECK(balance.at(0.5) == Color{0xff, 0xff, 0xff});
     const Color low = balance.at(0), high = balance.at(1);
     CHECK(low.blue > low.red);
@@ -65,7 +65,7 @@ TEST_CASE("color: the scale for differences is blue, white in its middle, and or
     }
 }
 
-TEST_CASE("color: grey steps between the grades of a scale are wide enough to be told apart") {
+TEST_CASE("color: grey steps between the grades of a scale can be distinguished") {
     constexpr double least = 0.01;  // of luminance, at the dark end
     for (int i = 0; i < 8; ++i) {
         CHECK(luminance(lagoon.at((i + 1) / 8.0)) - luminance(lagoon.at(i / 8.0)) > least);
@@ -75,14 +75,14 @@ TEST_CASE("color: grey steps between the grades of a scale are wide enough to be
     }
 }
 
-TEST_CASE("color: a scale is held beyond its ends, and for what is no number") {
+TEST_CASE("color: a scale is clamped at its ends, and for NaN") {
     CHECK(lagoon.at(-1) == lagoon.at(0));
     CHECK(lagoon.at(2) == lagoon.at(1));
     CHECK(lagoon.at(std::numeric_limits<double>::quiet_NaN()) == lagoon.at(0));
     CHECK(lagoon.at(1) == Color{0xff, 0xf3, 0x77});
 }
 
-TEST_CASE("color: hex and blend") {
+TEST_CASE("color: hexadecimal text and blending are right") {
     CHECK(hex({30, 144, 255}) == "#1e90ff");
     CHECK(blend({200, 0, 10}, {100, 100, 10}, 0.25) == Color{125, 75, 10});
 }

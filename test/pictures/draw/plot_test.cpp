@@ -41,7 +41,7 @@ TEST_CASE("plot: an extent grows around discs and points") {
     CHECK(e.height() == 7.5);
 }
 
-TEST_CASE("plot: it fills its width or its height, y goes up, and metres are the same both ways") {
+TEST_CASE("plot: fills its width or height, y points up, and both axes have one scale") {
     const Plot wide(extent({0, 0}, {20, 10}), {16, 50}, {.width = 1000, .height = 900});
     CHECK(near(wide.scale, 50));
     CHECK((near(wide.width, 1000) && near(wide.height, 500)));
@@ -51,7 +51,7 @@ TEST_CASE("plot: it fills its width or its height, y goes up, and metres are the
     CHECK((near(tall.width, 450) && near(tall.height, 900)));
 }
 
-TEST_CASE("plot: of a narrow or a low extent it shows more, with the extent in the middle") {
+TEST_CASE("plot: a narrow or low extent is centred, with space around it") {
     const Plot low(extent({0, 0}, {100, 1}), {0, 0},
                    {.width = 1000, .height = 800, .least_height = 200});
     CHECK((near(low.height, 200) && near(low.low.y, -9.5) && near(low.high.y, 10.5)));
@@ -61,7 +61,7 @@ TEST_CASE("plot: of a narrow or a low extent it shows more, with the extent in t
     CHECK((near(narrow.width, 400) && near(narrow.at({0.5, 50}).x, 200)));
 }
 
-TEST_CASE("plot: a single point makes a plot, too") {
+TEST_CASE("plot: a single point gives a plot") {
     Extent e;
     e.include({3, 4});
     const Plot plot(e, {0, 0}, {.width = 1000, .height = 800});
@@ -93,21 +93,21 @@ TEST_CASE("plot: ticks are multiples of a round step inside the range, and not t
     }
 }
 
-TEST_CASE("plot: lengths carry the unit that suits them") {
+TEST_CASE("plot: lengths have a suitable unit") {
     CHECK(length_text(2000) == "2 km");
     CHECK(length_text(5) == "5 m");
     CHECK(length_text(0.2) == "20 cm");
     CHECK(length_text(0.005) == "5 mm");
 }
 
-TEST_CASE("legend: the scale bar is as long as it says") {
+TEST_CASE("legend: the scale bar has the length that it states") {
     const Plot plot(extent({0, 0}, {130, 60}), {0, 0}, {.width = 1000, .height = 800});
     const LegendItem bar = scale_bar(plot);
     CHECK(bar.text == "20 m");
     CHECK(near(bar.width, 20 * 1000 / 130.0));
 }
 
-TEST_CASE("legend: it is as high as its rows, and one row if there is room") {
+TEST_CASE("legend: has the height of its rows, and one row if there is room") {
     Legend legend;
     CHECK(legend.height(500) == 0);
     for (int i = 0; i < 6; ++i) legend.add({.text = "about 60 px", .draw = {}});
@@ -116,7 +116,7 @@ TEST_CASE("legend: it is as high as its rows, and one row if there is room") {
     CHECK(legend.height(10) == 6 * 20);
 }
 
-TEST_CASE("legend: captions break between parts, and a long part between words") {
+TEST_CASE("legend: captions are broken between parts, and a long part between words") {
     const std::string dot = " \xc2\xb7 ";
     CHECK(wrapped({"one", "two"}, 1000, 12) == std::vector<std::string>{"one" + dot + "two"});
     CHECK(wrapped({"one", "two"}, 30, 12) == std::vector<std::string>{"one", "two"});
@@ -124,7 +124,7 @@ TEST_CASE("legend: captions break between parts, and a long part between words")
     CHECK(wrapped({"indivisible"}, 30, 12) == std::vector<std::string>{"indivisible"});
 }
 
-TEST_CASE("label: places are tried right, left, above, below, and none is given twice") {
+TEST_CASE("label: positions are tried right, left, above, below; each is used once") {
     LabelPlaces places({0, 0, 200, 200});
     std::vector<Box> taken;
     for (int i = 0; i < 20; ++i) {
@@ -142,7 +142,7 @@ TEST_CASE("label: places are tried right, left, above, below, and none is given 
     CHECK(taken.size() < 20);
 }
 
-TEST_CASE("label: it keeps off the border, what is in the way, and lines where it can") {
+TEST_CASE("label: avoids the border, obstacles and, if possible, lines") {
     LabelPlaces places({0, 0, 400, 100});
     CHECK(places.place({395, 50}, 5, 30, 12)->right < 395);
     places.keep_free({104, 40, 140, 60});

@@ -20,14 +20,14 @@ TEST_CASE("svg: numbers have at most two decimals, no needless zeros and no minu
     CHECK(svg_number(0.996) == "1");
 }
 
-TEST_CASE("svg: what is not finite or too large is still a number") {
+TEST_CASE("svg: infinite and very large values give valid numbers") {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     CHECK(svg_number(infinity) == "1000000000");
     CHECK(svg_number(-infinity) == "-1000000000");
     CHECK(svg_number(std::numeric_limits<double>::quiet_NaN()) == "0");
 }
 
-TEST_CASE("svg: markup is escaped, and what XML cannot hold becomes U+FFFD") {
+TEST_CASE("svg: markup is escaped, and characters that XML cannot contain become U+FFFD") {
     const std::string bad = "\xef\xbf\xbd";
     CHECK(xml_text("a<b>&\"'") == "a&lt;b&gt;&amp;&quot;&#39;");
     CHECK(xml_text("R\xc3\xb6hre \xe6\x9c\xba \xf0\x9f\xa4\x96") ==
@@ -49,20 +49,20 @@ TEST_CASE("svg: a text is shortened by characters, not by bytes") {
     CHECK(shortened("\xc3\xa4\xc3\xb6\xc3\xbc", 2) == "\xc3\xa4\xe2\x80\xa6");
 }
 
-TEST_CASE("svg: a longer text is wider, and an unknown character is as wide as any") {
+TEST_CASE("svg: a longer text is wider, and an unknown character has the usual width") {
     CHECK(text_width("ii", 10) < text_width("mm", 10));
     CHECK(text_width("abc", 20) == 2 * text_width("abc", 10));
     CHECK(text_width("\xe6\x9c\xba", 10) >= 10);
 }
 
-TEST_CASE("svg: a path is its commands") {
+TEST_CASE("svg: a path has the given commands") {
     SvgPath path;
     CHECK(path.empty());
     path.move(1, 2.004).horizontal(3).vertical(-4).line(0.5, 0.25).close();
     CHECK(path.text() == "M1 2H3V-4L0.5 0.25Z");
 }
 
-TEST_CASE("svg: a document is well-formed whatever names stand in it, and closes what is open") {
+TEST_CASE("svg: a document with any names is well-formed, and closes open elements") {
     Svg svg(100, 50.5);
     svg.open("g", {{"id", "a\"b<c>&"}, {"opacity", 0.5}, {"fill", Color{255, 0, 16}}});
     svg.title("</title>&");
@@ -76,7 +76,7 @@ TEST_CASE("svg: a document is well-formed whatever names stand in it, and closes
     CHECK(text.find("&lt;/title&gt;&amp;") != std::string::npos);
 }
 
-TEST_CASE("svg: the check for well-formed XML sees what is not") {
+TEST_CASE("svg: the check for well-formed XML finds errors") {
     CHECK(test::xml_fault("<a><b></a></b>") != "");
     CHECK(test::xml_fault("<a>") != "");
     CHECK(test::xml_fault("<a/><b/>") != "");

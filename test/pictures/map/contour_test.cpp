@@ -66,7 +66,7 @@ double length(const std::vector<ContourLine>& lines) {
 
 }  // namespace
 
-TEST_CASE("contour: in free space it is the circle of the model's reach, counter-clockwise") {
+TEST_CASE("contour: in free space it is a circle at the model's reach, counter-clockwise") {
     const Scene scene;
     const Radio weak{.power = {-30}};
     const Transmitter t{.model = Friis{}, .radio = weak, .antenna = {1, -2, 1}, .scene = &scene};
@@ -85,7 +85,7 @@ TEST_CASE("contour: in free space it is the circle of the model's reach, counter
     CHECK(std::abs(area(lines[0]) / (std::numbers::pi * reach * reach) - 1) < of_smoothing);
 }
 
-TEST_CASE("contour: around a hole it goes clockwise") {
+TEST_CASE("contour: around a hole it is clockwise") {
     const auto lines = contours(mask([](Vec3 p) { return radius_of(p) < 8 && radius_of(p) > 4; }),
                                 sensitivity, {0.15});
     REQUIRE(lines.size() == 2);
@@ -93,7 +93,7 @@ TEST_CASE("contour: around a hole it goes clockwise") {
     CHECK(area(lines[0]) + area(lines[1]) > 0);
 }
 
-TEST_CASE("contour: a comb that is finer than the smoothing leaves no teeth") {
+TEST_CASE("contour: a comb finer than the smoothing leaves no teeth") {
     const auto comb = [](double tooth) {
         return mask([=](Vec3 p) {
             const bool in_tooth = std::fmod(p.y + 20, 3 * tooth) < tooth;
@@ -109,7 +109,7 @@ TEST_CASE("contour: a comb that is finer than the smoothing leaves no teeth") {
     for (const Vec3 p : edge[0].points) CHECK(std::abs(p.x) < 2 * smoothing.value);
 }
 
-TEST_CASE("contour: a straight edge stays in its place") {
+TEST_CASE("contour: a straight edge stays in place") {
     for (const double at : {-3.0, 0.0, 0.05, 7.5}) {
         const auto lines = contours(mask([=](Vec3 p) { return p.x < at; }), sensitivity, {0.3});
         REQUIRE(lines.size() == 1);
@@ -118,7 +118,7 @@ TEST_CASE("contour: a straight edge stays in its place") {
     }
 }
 
-TEST_CASE("contour: an island that is too small to be seen is left out") {
+TEST_CASE("contour: an island too small to be seen is omitted") {
     const auto island = [](double radius) {
         return contours(mask([=](Vec3 p) { return radius_of(p) < radius; }), sensitivity, {0.3});
     };
@@ -126,7 +126,7 @@ TEST_CASE("contour: an island that is too small to be seen is left out") {
     CHECK(island(1).size() == 1);
 }
 
-TEST_CASE("contour: it goes on to the edge of the map and beyond") {
+TEST_CASE("contour: continues to the edge of the map") {
     const auto lines = contours(mask([](Vec3 p) { return p.y < 0; }), sensitivity, {0.3});
     REQUIRE(lines.size() == 1);
     const auto [first, last] = std::minmax({lines[0].points.front().x, lines[0].points.back().x});
@@ -136,12 +136,12 @@ TEST_CASE("contour: it goes on to the edge of the map and beyond") {
     CHECK(lines[0].points.front().x > lines[0].points.back().x);
 }
 
-TEST_CASE("contour: a map that is above or below everywhere has none") {
+TEST_CASE("contour: a map that is above or below everywhere has no contour") {
     CHECK(contours(map_of([](Vec3) { return -10.0; }), sensitivity, {0.3}).empty());
     CHECK(contours(map_of([](Vec3) { return -90.0; }), sensitivity, {0.3}).empty());
 }
 
-TEST_CASE("contour: lines never meet themselves, whatever the map is") {
+TEST_CASE("contour: lines never cross themselves, for any map") {
     test::Draw draw(5);
     for (int n = 0; n < 20; ++n) {
         CoverageMap map{.columns = 1 + draw.below(40), .rows = 1 + draw.below(40)};
@@ -156,7 +156,7 @@ TEST_CASE("contour: lines never meet themselves, whatever the map is") {
     }
 }
 
-TEST_CASE("contour: smoothing is more than nothing") {
+TEST_CASE("contour: smoothing must be above 0") {
     CHECK_THROWS_AS(contours(mask([](Vec3) { return true; }), sensitivity, {0}),
                     std::invalid_argument);
 }

@@ -48,7 +48,7 @@ constexpr NodeId first{0};
 
 }  // namespace
 
-TEST_CASE("coverage: a cell has the level that the medium gives a robot there, walls and all") {
+TEST_CASE("coverage: a cell has the medium's level for a robot there, including walls") {
     const Scenario alone = office("");
     Built built(alone);
     const Transmitter a = transmitter(built.network, first, start_of_run);
@@ -75,7 +75,7 @@ TEST_CASE("coverage: a cell has the level that the medium gives a robot there, w
     CHECK(walled > 10);
 }
 
-TEST_CASE("coverage: about as many cells as asked for, nearly square, over the whole rectangle") {
+TEST_CASE("coverage: the cells are nearly square, about as many as requested, over the rectangle") {
     const Scene scene;
     const Transmitter t{.model = Friis{}, .scene = &scene};
     for (const int cells : {1, 2, 100, 4999}) {
@@ -95,7 +95,8 @@ TEST_CASE("coverage: about as many cells as asked for, nearly square, over the w
     CHECK(square.rows == 100);
 }
 
-TEST_CASE("coverage: row 0 is the bottom row, and cells are as high as the transmitter's antenna") {
+TEST_CASE(
+    "coverage: row 0 is at the bottom, and cells are at the height of the transmitter's antenna") {
     const Scene scene;
     const Transmitter t{.model = Friis{}, .antenna = {1, 1, 2.5}, .scene = &scene};
     const CoverageMap map = coverage(t, {0, 0}, {10, 10}, 100);
@@ -104,7 +105,7 @@ TEST_CASE("coverage: row 0 is the bottom row, and cells are as high as the trans
     CHECK(map.at(0, 0) > map.at(9, 0));
 }
 
-TEST_CASE("coverage: shadowing is off, whatever sigma is") {
+TEST_CASE("coverage: is computed without shadowing, for any sigma") {
     const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0 m\", \"0 m\"]\n";
     const Scenario shadowed =
         field("[propagation]\nmodel = \"log_distance\"\nsigma = \"8 dB\"\n" + robot);
@@ -124,14 +125,14 @@ TEST_CASE("coverage: shadowing is off, whatever sigma is") {
     CHECK(random.as<Friis>() == nullptr);
 }
 
-TEST_CASE("coverage: a sigma of a model that is not chosen is no shadowing") {
+TEST_CASE("coverage: sigma of a model that is not chosen has no effect") {
     Built built(
         field("[propagation]\nmodel = \"friis\"\nsigma = \"8 dB\"\n[[robot]]\nname = \"A\"\nat = "
               "[\"0 m\", \"0 m\"]\n"));
     CHECK_FALSE(built.network.medium().stations().model(first).is_random());
 }
 
-TEST_CASE("coverage: a robot's own model and radio rule, also of one of many") {
+TEST_CASE("coverage: uses the robot's own model and radio") {
     const Scenario s = field(
         "[[robot]]\nname = \"a\"\ncount = 3\nplace = { area = [[\"0 m\", \"0 m\"], [\"9 m\", \"9 "
         "m\"]] }\n[[robot]]\nname = \"d\"\ncount = 2\nradio = { power = \"1 mW\" }\n"
@@ -146,7 +147,7 @@ TEST_CASE("coverage: a robot's own model and radio rule, also of one of many") {
     }
 }
 
-TEST_CASE("coverage: an empty rectangle and an absurd number of cells are the caller's fault") {
+TEST_CASE("coverage: an empty rectangle, or an absurd number of cells, is refused") {
     const Scene scene;
     const Transmitter t{.model = Friis{}, .scene = &scene};
     CHECK_THROWS_AS(coverage(t, {0, 0}, {0, 1}, 10), std::invalid_argument);

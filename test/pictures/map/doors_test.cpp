@@ -30,7 +30,7 @@ std::size_t count(const std::string& text, const std::string& what) {
 
 }  // namespace
 
-TEST_CASE("picture: a door is a wall while it is closed, and a dashed outline while it is open") {
+TEST_CASE("picture: a closed door is drawn as a wall, an open door as a dashed outline") {
     test::TemporaryFolder folder;
     folder.write("m.pgm", "P2 6 2 255\n255 255 0 150 255 255\n255 255 255 150 255 255\n");
     folder.write("m.yaml", "image: m.pgm\nresolution: 1\norigin: [0, 0, 0]\n");
@@ -64,7 +64,7 @@ TEST_CASE("picture: a door is a wall while it is closed, and a dashed outline wh
     }
 }
 
-TEST_CASE("picture, scene: stairs are on both of their storeys, up from the foot") {
+TEST_CASE("picture, scene: stairs are drawn on both of their storeys, upwards from the foot") {
     const Scenario scenario = load_scenario(ROVERNET_EXAMPLES "/storeys/storeys.toml", {});
     for (const int storey : {1, 2}) {
         PictureOptions options;
@@ -80,7 +80,7 @@ TEST_CASE("picture, scene: stairs are on both of their storeys, up from the foot
     CHECK(stairs_of(flat, Storeys()).empty());
 }
 
-TEST_CASE("scene: doors are listed with their times and whether they are closed") {
+TEST_CASE("scene: doors are listed with their times and states") {
     const Scenario scenario = load_scenario(ROVERNET_EXAMPLES "/emulate/door.toml", {});
     const Network network(network_settings(scenario));
     const auto is_closed = [&](int s) {

@@ -68,7 +68,7 @@ struct Files {
 
 }  // namespace
 
-TEST_CASE("picture: robots of a movement file are drawn, with no [[robot]] or with some beside") {
+TEST_CASE("picture: robots of a movement file are drawn, with and without [[robot]]") {
     Files files;
     CHECK(circles(draw_svg(load_scenario(files.nodes, {}), {.at = start_of_run + 2s})) == 2);
     for (const int own : {0, 1, 7}) {
@@ -91,14 +91,14 @@ TEST_CASE("picture: robots of a movement file are drawn, with no [[robot]] or wi
     }
 }
 
-TEST_CASE("picture: the coverage of a movement file's robot is that of its radio, here") {
+TEST_CASE("picture: the coverage of a movement file's robot is that of its radio at this time") {
     Files files;
     const std::string svg = draw_svg(files.beside(1), {.coverage = "n1", .cells = 400});
     CHECK(has(svg, "coverage of n1: level for a radio like its own"));
     CHECK(has(svg, "sensitivity"));
 }
 
-TEST_CASE("picture: vehicles that have not departed or have left are counted and not drawn") {
+TEST_CASE("picture: vehicles that are not present are counted and not drawn") {
     Files files;
     const Scenario s = load_scenario(files.vehicles, {});
     const std::string before = draw_svg(s, {.at = start_of_run + 500ms});
@@ -113,7 +113,7 @@ TEST_CASE("picture: vehicles that have not departed or have left are counted and
     CHECK_FALSE(has(after, ">early</text>"));
 }
 
-TEST_CASE("picture: the coverage of who is off or not there is said to be what it would be") {
+TEST_CASE("picture: the coverage of an absent robot is marked as hypothetical") {
     Files files;
     const Scenario vehicles = load_scenario(files.vehicles, {});
     const PictureOptions late{.at = start_of_run + 1s, .coverage = "late", .cells = 400};
@@ -127,7 +127,7 @@ TEST_CASE("picture: the coverage of who is off or not there is said to be what i
     CHECK(has(draw_svg(s, {.coverage = "own0", .cells = 400}), "coverage of own0: level"));
 }
 
-TEST_CASE("picture: a time after the end of the run is said to be one") {
+TEST_CASE("picture: a time after the end of the run is marked as such") {
     Files files;
     const Scenario s = load_scenario(
         files.folder.write("e.toml", "[scenario]\nduration = \"5 s\"\n" + robots(1)), {});
@@ -135,7 +135,7 @@ TEST_CASE("picture: a time after the end of the run is said to be one") {
     CHECK_FALSE(has(draw_svg(s, {.at = start_of_run + 5s}), "after the end"));
 }
 
-TEST_CASE("picture: trails have their robots' colours, which tell them apart") {
+TEST_CASE("picture: trails have the colours of their robots") {
     Files files;
     const std::string text = "[movement]\nfile = \"moves.tcl\"\n";
     std::string moves;

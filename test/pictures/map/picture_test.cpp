@@ -127,20 +127,20 @@ struct EmptyPath {
 
 }  // namespace
 
-TEST_CASE("picture: the whole rescue is well-formed, and the same bytes twice") {
+TEST_CASE("picture: the picture of the rescue is well-formed, with equal bytes twice") {
     const std::string svg = draw_svg(rescue(), everything);
     CHECK(test::xml_fault(svg) == "");
     CHECK(svg == draw_svg(rescue(), everything));
 }
 
-TEST_CASE("picture: the caption says the scenario, the time and the model with its parameters") {
+TEST_CASE("picture: the caption names the scenario, the time and the model with its parameters") {
     const std::string svg = draw_svg(rescue(), {.at = start_of_run + 1500ms});
     CHECK(has(svg, ">rescue</text>"));
     CHECK(has(svg, "t = 1.5 s"));
     CHECK(has(svg, "raytrace_2007: coefficient 20, wall_factor 0.3"));
 }
 
-TEST_CASE("picture: the caption names the models that robots have, each once") {
+TEST_CASE("picture: the caption names each robot's model once") {
     const std::string disc = "propagation = { model = \"disc\", range = \"5 m\" }\n";
     const std::string all = draw_svg(scenario(robot("a", 0, 0, disc) + robot("b", 9, 0, disc)),
                                      {.coverage = "a", .cells = 9});
@@ -160,7 +160,7 @@ TEST_CASE("picture: names are escaped, in labels and in the title") {
     CHECK(has(svg, ">&lt;&amp;&gt;</text>"));
 }
 
-TEST_CASE("picture: every robot has a circle inside the frame, off the map, too") {
+TEST_CASE("picture: every robot has a circle inside the frame, also off the map") {
     const std::string svg =
         draw_svg(scenario("[scene]\nmap = \"map.yaml\"\n" + robot("in", 24, 12) +
                               robot("west", -30, 5) + robot("north", 10, 60),
@@ -180,7 +180,7 @@ TEST_CASE("picture: every robot has a circle inside the frame, off the map, too"
     }
 }
 
-TEST_CASE("picture: a robot is to scale where it is large enough") {
+TEST_CASE("picture: a robot is drawn to scale if it is large enough") {
     const std::string svg =
         draw_svg(scenario(robot("big", 0, 0, "radius = \"2 m\"\n") + robot("b", 20, 0)), {});
     // 22.2 m from rim to rim, and 3 % of that on each side.
@@ -190,7 +190,7 @@ TEST_CASE("picture: a robot is to scale where it is large enough") {
     CHECK(std::abs(number(circle_of(svg, "b"), "r") - 0.2 * scale) < rounding);
 }
 
-TEST_CASE("picture: the tick of a robot shows where it goes, and north is up") {
+TEST_CASE("picture: the tick of a robot shows its direction, and north is up") {
     const auto walker = [](const char* to) {
         return robot("n", 0, 0,
                      fmt::format("move = {{ model = \"waypoints\", path = [[{}]] }}\n", to));
@@ -212,7 +212,7 @@ TEST_CASE("picture: the tick of a robot shows where it goes, and north is up") {
     }
 }
 
-TEST_CASE("picture: two-way links are solid, one-way links dashed with a head at the receiver") {
+TEST_CASE("picture: two-way links are solid, one-way links dashed with an arrow at the receiver") {
     const std::string both = robot("a", 0, 0) + robot("b", 50, 0);
     const std::string svg = draw_svg(scenario(both), {.links = true});
     CHECK(has(svg, "link margin"));
@@ -233,7 +233,7 @@ TEST_CASE("picture: two-way links are solid, one-way links dashed with a head at
     CHECK(has(none, "switched off"));
 }
 
-TEST_CASE("picture: coverage brings a heat map, a bar, and a contour for each level") {
+TEST_CASE("picture: coverage has a heat map, a colour bar, and a contour for each level") {
     const auto text = robot("A", 0, 0, "radio = { range_db = \"-60 dBm\" }\n") + robot("B", 90, 9);
     const std::string svg = draw_svg(scenario(text), {.coverage = "A", .cells = 500});
     CHECK(has(svg, "data:image/png;base64,"));
@@ -246,7 +246,7 @@ TEST_CASE("picture: coverage brings a heat map, a bar, and a contour for each le
     CHECK_FALSE(has(other, "stroke-dasharray=\"7 4\""));
 }
 
-TEST_CASE("picture: the heat map is lightest where the robot is, and stands upright") {
+TEST_CASE("picture: the heat map is lightest at the robot, and not upside down") {
     // Heard a few metres away only, so that B is in the upper right corner.
     const std::string svg =
         draw_svg(scenario("[radio]\npower = \"-30 dBm\"\n" + robot("A", 0, 0) + robot("B", 40, 30)),
@@ -270,7 +270,7 @@ TEST_CASE("picture: the heat map is lightest where the robot is, and stands upri
     CHECK(std::abs(number(frame, "y") + (best_row + 0.5) * cell_y - number(b, "cy")) < cell_y);
 }
 
-TEST_CASE("picture: the coverage of a shadowed model is said to be the median") {
+TEST_CASE("picture: the coverage of a shadowed model is labelled as the median") {
     const auto text = [](const char* sigma) {
         return fmt::format("[propagation]\nmodel = \"log_distance\"\nsigma = \"{}\"\n", sigma) +
                robot("A", 0, 0);
@@ -280,7 +280,7 @@ TEST_CASE("picture: the coverage of a shadowed model is said to be the median") 
     CHECK_FALSE(has(draw_svg(scenario(text("0 dB")), options), "median"));
 }
 
-TEST_CASE("picture: shadowing is named with its sigma beside the model, and not at sigma 0") {
+TEST_CASE("picture: shadowing is named with its sigma beside the model, except for sigma 0") {
     const auto svg = [](const char* model, const char* sigma) {
         return draw_svg(scenario(fmt::format("[propagation]\nmodel = \"friis\"\n[shadowing]\n"
                                              "model = \"{}\"\nsigma = \"{}\"\n",
@@ -296,7 +296,7 @@ TEST_CASE("picture: shadowing is named with its sigma beside the model, and not 
     }
 }
 
-TEST_CASE("picture: trails remember corners and where a robot was at equal times") {
+TEST_CASE("picture: trails keep corners and positions at equal time steps") {
     Network network;
     const auto trails = std::make_shared<Trails>();
     network.add_sink(trails);
@@ -315,13 +315,13 @@ TEST_CASE("picture: trails remember corners and where a robot was at equal times
     CHECK(trails->ways(node, start_of_run + 40s) == Ways{{{0, 0}, {10, 0}, {10, 5}}, {{90, 5}}});
 }
 
-TEST_CASE("picture: trails are drawn if asked for") {
+TEST_CASE("picture: trails are drawn on request") {
     CHECK(has(draw_svg(rescue(), {.at = start_of_run + 30s, .trails = true}),
               "colour, a dot every 10 s"));
     CHECK_FALSE(has(draw_svg(rescue(), {.at = start_of_run + 30s}), "trail"));
 }
 
-TEST_CASE("picture: each material has a look and a line in the legend, if there are several") {
+TEST_CASE("picture: several materials have different patterns, with a line in the legend") {
     OccupancyGrid grid = test::drawn_map({"##..", "..##"});
     for (std::size_t i = 0; i < grid.cells.size(); ++i) {
         grid.cell_materials.push_back(static_cast<std::uint8_t>(i / 4));
@@ -361,7 +361,7 @@ TEST_CASE("picture: walls are one path, and unknown cells are light grey") {
     CHECK(has(svg, "fill=\"#e2e2e2\""));
 }
 
-TEST_CASE("picture: rectangles too small to be seen are thinned out, and none is lost") {
+TEST_CASE("picture: tiny rectangles are merged, and none is lost") {
     test::Draw draw(3);
     OccupancyGrid grid = test::random_map(draw, 1500, 1500, 30);
     grid.cell_width = grid.cell_height = 0.01;
@@ -377,7 +377,7 @@ TEST_CASE("picture: rectangles too small to be seen are thinned out, and none is
     CHECK(count(text, "Z") <= 120'000);  // 300 x 300 tiles of half a pixel, and the long walls
 }
 
-TEST_CASE("picture: it is as wide as asked for, or less for a tall world, and never much higher") {
+TEST_CASE("picture: has the requested width, or less for a tall world, and a limited height") {
     const auto size = [](double dx, double dy) {
         const std::string svg = draw_svg(scenario(robot("a", 0, 0) + robot("b", dx, dy)), {});
         return std::pair(number(svg, "width"), number(svg, "height"));
@@ -434,7 +434,7 @@ TEST_CASE("picture: of several storeys one is drawn, with its walls, robots, lin
                          doctest::Contains("one storey"), std::invalid_argument);
 }
 
-TEST_CASE("picture: the coverage of another storey is that through the ceiling") {
+TEST_CASE("picture: the coverage on another storey includes the ceiling") {
     Scenario s =
         scenario(robot("A", 1.5, 0.5) +
                  "[propagation]\nmodel = \"multi_wall\"\n[radio]\nantenna_height = \"1 m\"\n");
@@ -462,7 +462,7 @@ TEST_CASE("picture: the coverage of another storey is that through the ceiling")
     CHECK(below - expected == doctest::Approx(12 + spread));
 }
 
-TEST_CASE("picture: the coverage for another robot's radio is at its antenna, with its gain") {
+TEST_CASE("picture: the coverage for another robot's radio uses its antenna's height and gain") {
     const std::string access_point =
         "[propagation]\nmodel = \"friis\"\n[[robot]]\nname = \"AP\"\nat = [\"0 m\", \"0 m\"]\n"
         "radio = { antenna_height = \"5 m\" }\n";
@@ -491,7 +491,7 @@ TEST_CASE("picture: the coverage for another robot's radio is at its antenna, wi
     CHECK_THROWS_WITH_AS(drawn(low, "rovr"), doctest::Contains("\"rover\""), std::invalid_argument);
 }
 
-TEST_CASE("picture: an unknown robot and options out of range are the caller's fault") {
+TEST_CASE("picture: an unknown robot and options out of range are errors of the caller") {
     const Scenario s = scenario(robot("alpha", 0, 0) + robot("beta", 5, 0));
     CHECK_THROWS_WITH_AS(draw_svg(s, {.coverage = "alpa"}), doctest::Contains("\"alpha\""),
                          std::invalid_argument);
@@ -500,14 +500,14 @@ TEST_CASE("picture: an unknown robot and options out of range are the caller's f
     CHECK_THROWS_AS(draw_svg(s, {.at = start_of_run - 1s}), std::invalid_argument);
 }
 
-TEST_CASE("picture: links among too many robots are refused, not drawn for hours") {
+TEST_CASE("picture: links among too many robots are refused") {
     const Scenario s = scenario(
         "[[robot]]\nname = \"r\"\ncount = 5001\n"
         "place = { area = [[\"0 m\", \"0 m\"], [\"9 m\", \"9 m\"]] }\n");
     CHECK_THROWS_WITH_AS(draw_svg(s, {.links = true}), doctest::Contains("at most 5000"), RunError);
 }
 
-TEST_CASE("picture: the width changes how many pixels there are, and nothing in the picture") {
+TEST_CASE("picture: the width changes only the number of pixels") {
     const auto body = [](const std::string& svg) { return svg.substr(svg.find("viewBox")); };
     const std::string usual = draw_svg(rescue(), {.axes = true});
     const std::string large = draw_svg(rescue(), {.axes = true, .width = 3000});
@@ -516,7 +516,7 @@ TEST_CASE("picture: the width changes how many pixels there are, and nothing in 
     CHECK(std::abs(number(large, "height") - 2.5 * number(usual, "height")) < rounding);
 }
 
-TEST_CASE("picture: a larger font leaves fewer points for all else in the same width") {
+TEST_CASE("picture: a larger font leaves less room for the rest at the same width") {
     const std::string svg = draw_svg(rescue(), {.width = 600, .font_size = 24});
     CHECK(number(svg, "width") == 600);
     CHECK(has(svg, "viewBox=\"0 0 600 "));
@@ -527,7 +527,7 @@ TEST_CASE("picture: a larger font leaves fewer points for all else in the same w
     CHECK_THROWS_AS(draw_svg(rescue(), {.font_size = 100}), std::invalid_argument);
 }
 
-TEST_CASE("picture: ticks of the axes stand at their metres") {
+TEST_CASE("picture: ticks of the axes are at their coordinates") {
     const std::string svg =
         draw_svg(scenario(robot("a", 10, 0) + robot("b", 40, 20)), {.axes = true});
     CHECK(has(svg, "x [m]"));
@@ -547,14 +547,14 @@ TEST_CASE("picture: ticks of the axes stand at their metres") {
           2 * rounding);
 }
 
-TEST_CASE("picture: names that find no room are counted in the legend") {
+TEST_CASE("picture: names without room are counted in the legend") {
     std::string crowd;
     for (int i = 0; i < 40; ++i) crowd += robot(fmt::format("robot number {}", i), 1 + 1e-3 * i, 1);
     CHECK(has(draw_svg(scenario(crowd + robot("far", 500, 1)), {}), "no room for"));
     CHECK_FALSE(has(draw_svg(rescue(), {}), "no room for"));
 }
 
-TEST_CASE("picture: a PDF is the same bytes each time, and a pixel of the picture is a point") {
+TEST_CASE("picture: a PDF has equal bytes each time, and a pixel is a point") {
     const std::string svg = draw_svg(rescue(), {.width = 600});
     std::string pdf;
     try {

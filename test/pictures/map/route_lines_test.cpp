@@ -69,7 +69,7 @@ bool has(const std::string& text, const std::string& word) {
 
 }  // namespace
 
-TEST_CASE("a route is an arrow for each hop, with its age") {
+TEST_CASE("route lines: a route is drawn as an arrow for each hop, with its age") {
     const std::string svg = drawn(5s, true, false);
     const auto paths = in_group(svg, "route", "path");
     CHECK(paths.size() == 4 * 3);  // a white line, a line and a head
@@ -82,7 +82,7 @@ TEST_CASE("a route is an arrow for each hop, with its age") {
     CHECK(std::ranges::none_of(paths, is_dashed));
 }
 
-TEST_CASE("a hop to a robot that does not hear is dashed, and the way breaks off there") {
+TEST_CASE("route lines: a hop that is not heard is dashed, and ends the route") {
     const std::string svg = drawn(6950ms, true, false);  // before anybody has noticed
     CHECK(has(svg, "breaks off at n2: n3 is off"));
     const auto paths = in_group(svg, "route", "path");
@@ -92,7 +92,7 @@ TEST_CASE("a hop to a robot that does not hear is dashed, and the way breaks off
     CHECK(has(svg, "the route breaks off here"));
 }
 
-TEST_CASE("a search is a ring around each robot that sent the last request") {
+TEST_CASE("route lines: a search is a ring around each robot that sent the last request") {
     const std::string early = drawn(500ms, false, true);
     CHECK(in_group(early, "search", "circle").empty());
     CHECK(has(early, "no request so far"));
@@ -105,7 +105,7 @@ TEST_CASE("a search is a ring around each robot that sent the last request") {
     CHECK(has(svg, "sent the last request"));
 }
 
-TEST_CASE("an unknown end of a route is an error") {
+TEST_CASE("route lines: an unknown end of a route is an error") {
     PictureOptions options{.route = PictureOptions::Route{"n0", "n9"}};
     CHECK_THROWS_AS(draw_svg(row(), options), std::invalid_argument);
 }

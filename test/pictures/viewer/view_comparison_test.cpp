@@ -43,7 +43,7 @@ test::ViewReader written(const ViewComparison& made) {
 
 }  // namespace
 
-TEST_CASE("view of a comparison: messages are found by origin and number, in both files") {
+TEST_CASE("view of a comparison: messages are matched by origin and number in both files") {
     const test::ViewReader view = written(comparison());
     constexpr double nobody = 4'294'967'295;
     CHECK(view.numbers("compare.messages") == std::vector<double>{1, nobody, nobody});
@@ -51,7 +51,7 @@ TEST_CASE("view of a comparison: messages are found by origin and number, in bot
     CHECK(view.numbers("compare.second") == std::vector<double>{nobody, 0, 2});
 }
 
-TEST_CASE("view of a comparison: a row for each change, and the counts of all") {
+TEST_CASE("view of a comparison: has a row for each change, and the total counts") {
     const test::ViewReader view = written(comparison());
     CHECK(view.numbers("compare.time") == std::vector<double>{2e9, 3e9, 4e9});
     CHECK(view.numbers("compare.robot") == std::vector<double>{1, 2, 1});
@@ -65,7 +65,7 @@ TEST_CASE("view of a comparison: a row for each change, and the counts of all") 
     CHECK(test::ViewReader::integer(told, "same") == 4);
 }
 
-TEST_CASE("view of a comparison: the first difference, with the end of a trace as null") {
+TEST_CASE("view of a comparison: has the first difference, with null for the end of a trace") {
     const test::ViewReader view = written(comparison());
     const Table& first = *view.head().find("compare")->table()->find("first")->table();
     CHECK(*first.find("field")->string() == "time");

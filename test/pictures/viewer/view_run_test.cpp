@@ -133,7 +133,7 @@ constexpr std::array examples{"rescue/rescue.toml", "storeys/storeys.toml", "det
 
 }  // namespace
 
-TEST_CASE("view of a run: frames and outcomes of receptions are those of the records") {
+TEST_CASE("view of a run: frames and outcomes of receptions equal the records") {
     for (const char* example : examples) {
         CAPTURE(example);
         const Recorded run(example);
@@ -149,7 +149,7 @@ TEST_CASE("view of a run: frames and outcomes of receptions are those of the rec
     }
 }
 
-TEST_CASE("view of a run: robots are where their legs are at any time") {
+TEST_CASE("view of a run: positions of robots follow from their legs at any time") {
     for (const char* example : examples) {
         CAPTURE(example);
         const Recorded run(example);
@@ -177,7 +177,7 @@ TEST_CASE("view of a run: robots are where their legs are at any time") {
     }
 }
 
-TEST_CASE("view of a run: sums of the density are the receptions, by outcome") {
+TEST_CASE("view of a run: sums of the density equal the receptions, by outcome") {
     const Recorded run("detour/detour.toml");
     const test::ViewReader view(view_of_trace(run.trace(), {}).bytes);
     std::map<double, double> expected;
@@ -230,7 +230,7 @@ std::map<std::string, std::vector<Series>> series_of(const test::ViewReader& vie
 
 }  // namespace
 
-TEST_CASE("view of a run: series end at the metrics, and sum up to the counts") {
+TEST_CASE("view of a run: series end at the metrics, and add up to the counts") {
     for (const char* example : {"rescue/rescue.toml", "detour/detour.toml", "patrol/patrol.toml"}) {
         CAPTURE(example);
         const Recorded run(example, {"trace.links=true"});
@@ -259,7 +259,7 @@ TEST_CASE("view of a run: series end at the metrics, and sum up to the counts") 
     }
 }
 
-TEST_CASE("view of a run: series of the channel and of the topology are those of the records") {
+TEST_CASE("view of a run: series of channel and topology equal the records") {
     const Recorded run("patrol/patrol.toml", {"trace.links=true"});
     const test::ViewReader view(view_of_trace(run.trace(), {}).bytes);
     auto series = series_of(view);
@@ -295,7 +295,7 @@ TEST_CASE("view of a run: series of the channel and of the topology are those of
               .count("Neighbours of a robot mean") == 0);
 }
 
-TEST_CASE("view of a run: less of it, as the choice says") {
+TEST_CASE("view of a run: the choice limits the content") {
     const Recorded run("rescue/rescue.toml");
     const auto all = frames_of(run.trace());
     ViewChoice choice;
@@ -321,7 +321,7 @@ TEST_CASE("view of a run: less of it, as the choice says") {
           test::ViewReader(view_of_trace(run.trace(), {}).bytes).numbers("legs.x"));
 }
 
-TEST_CASE("view of a run: map with storeys, doors and stairs") {
+TEST_CASE("view of a run: has a map with storeys, doors and stairs") {
     const Recorded run("storeys/storeys.toml");
     const test::ViewReader view(view_of_trace(run.trace(), {}).bytes);
     const Table& map = *view.head().find("map")->table();
@@ -332,7 +332,7 @@ TEST_CASE("view of a run: map with storeys, doors and stairs") {
     CHECK(view.numbers("walls.x").size() == 4 * storeys.size());
 }
 
-TEST_CASE("view of a run: what cannot be viewed is an error that says why") {
+TEST_CASE("view of a run: an unsuitable input is an error that says why") {
     const test::TemporaryFolder folder;
     CHECK(error_of(folder.write("a.mcap", "no trace")).find("a.mcap") != std::string::npos);
     CHECK(error_of(folder.path("missing.mcap")).find("missing.mcap") != std::string::npos);

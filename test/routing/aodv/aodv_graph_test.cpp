@@ -82,7 +82,7 @@ struct Run {
 }  // namespace
 
 // A RERR with flag N (6.12) tells that a repaired route is longer; the model leaves it out.
-TEST_CASE("aodv on graphs: packets before and after a break, as the model of the rules counts") {
+TEST_CASE("aodv on graphs: packet counts equal the model of the rules, also after a break") {
     const Aodv rings{}, repair{.local_repair = true}, flat{.rings = false};
     struct Case {
         const char* name;

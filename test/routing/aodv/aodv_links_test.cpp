@@ -61,7 +61,8 @@ void learn_for_long(AodvNode& n, std::uint32_t to, std::uint32_t over, std::uint
 
 }  // namespace
 
-TEST_CASE("aodv 6.2: a message takes the next hop of its route, whose own entry ends meanwhile") {
+TEST_CASE(
+    "aodv 6.2: a message uses its route also if the entry for the next hop itself has expired") {
     AodvNode n;
     learn_for_long(n, 5, 1);
     learn_for_long(n, 6, 2);
@@ -72,7 +73,7 @@ TEST_CASE("aodv 6.2: a message takes the next hop of its route, whose own entry 
     CHECK(n.data()[0].next_hop == NodeId{1});
 }
 
-TEST_CASE("aodv 6.2: under ns2 a message lengthens the life of the route to its destination only") {
+TEST_CASE("aodv 6.2: with profile ns2, a message extends only the route to its destination") {
     AodvNode n({.profile = AodvProfile::ns2});
     n.learn(1, 1, 4, 0);
     n.learn(5, 1, 10, 3);
@@ -86,7 +87,7 @@ TEST_CASE("aodv 6.2: under ns2 a message lengthens the life of the route to its 
     CHECK_FALSE(n.route(2));
 }
 
-TEST_CASE("aodv 6.2: a message to the node itself lengthens the way back to its source") {
+TEST_CASE("aodv 6.2: a message for the node itself extends the route back to its source") {
     AodvNode n;
     n.hear(2, request(7, 9), 3);
     n.link.time += 2500ms;
@@ -97,14 +98,14 @@ TEST_CASE("aodv 6.2: a message to the node itself lengthens the way back to its 
     CHECK(n.route(7)->until == n.link.time + 3s);
 }
 
-TEST_CASE("aodv 6.2: a message does not shorten the life of its route") {
+TEST_CASE("aodv 6.2: a message does not shorten the lifetime of its route") {
     AodvNode n;
     learn_for_long(n, 5, 1);
     n.send(5);
     CHECK(n.route(5)->until == start + 60s);
 }
 
-TEST_CASE("aodv 6.2: messages that waited lengthen the life of their route, too") {
+TEST_CASE("aodv 6.2: messages that waited also extend the lifetime of their route") {
     AodvNode n;
     n.send(5);
     n.hear(1, aodv::Reply{.hops = 1,
@@ -126,7 +127,7 @@ TEST_CASE("aodv 6.2: a packet does not travel beyond its TTL") {
     CHECK(n.data()[0].hops == 3);
 }
 
-TEST_CASE("aodv 6.9: HELLOs only while the node's routes carry messages") {
+TEST_CASE("aodv 6.9: HELLOs are sent only while the node's routes carry messages") {
     Hellos n;
     n.hear(2, request(7, 9), 3);  // a route, which nobody uses
     n.run(start + 4s);
@@ -155,7 +156,7 @@ TEST_CASE("aodv 6.9: HELLOs only while the node's routes carry messages") {
     CHECK(hellos(n).size() == 3);
 }
 
-TEST_CASE("aodv 6.9: the destination of messages sends HELLOs, too, in both profiles") {
+TEST_CASE("aodv 6.9: the destination of messages also sends HELLOs, in both profiles") {
     for (const AodvProfile profile : {AodvProfile::rfc, AodvProfile::ns2}) {
         Hellos n({.profile = profile});
         n.forward(7, 2, 0);
@@ -164,7 +165,7 @@ TEST_CASE("aodv 6.9: the destination of messages sends HELLOs, too, in both prof
     }
 }
 
-TEST_CASE("aodv 6.9: no HELLO if a request was broadcast within the interval") {
+TEST_CASE("aodv 6.9: no HELLO is sent if a request was broadcast within the interval") {
     Hellos n;
     n.learn(6, 2, 1);
     n.send(6);
@@ -176,8 +177,7 @@ TEST_CASE("aodv 6.9: no HELLO if a request was broadcast within the interval") {
     CHECK(hellos(n).size() == 1);
 }
 
-TEST_CASE(
-    "aodv 6.9: no HELLO if a request was passed on; a node that passes a reply on sends some") {
+TEST_CASE("aodv 6.9: forwarding a request replaces a HELLO; forwarding a reply starts HELLOs") {
     Hellos n;
     n.run(start + 400ms);
     n.pass_reply(7, 2, 5, 1);
@@ -187,7 +187,7 @@ TEST_CASE(
     CHECK(hellos(n).size() == 1);
 }
 
-TEST_CASE("aodv 6.9: a HELLO makes a route with its number, for two intervals at least") {
+TEST_CASE("aodv 6.9: a HELLO gives a route with its number, for at least two intervals") {
     Hellos n({.active_route_timeout = 1s});
     hear_hello(n, 4, 77);
     REQUIRE(n.route(4));
@@ -200,7 +200,7 @@ TEST_CASE("aodv 6.9: a HELLO makes a route with its number, for two intervals at
     CHECK(n.sent<aodv::Reply>().empty());  // it goes no further
 }
 
-TEST_CASE("aodv 6.9: a neighbour is lost that was silent for two intervals after a HELLO") {
+TEST_CASE("aodv 6.9: a neighbour silent for two intervals after a HELLO is lost") {
     Hellos n;
     learn_for_long(n, 5, 1);
     n.run(start + 8s);
@@ -230,7 +230,7 @@ TEST_CASE("aodv 6.9: a neighbour is lost that was silent for two intervals after
     }
 }
 
-TEST_CASE("aodv 6.9, 6.13: a node that is off sends no HELLO, and none in its silence") {
+TEST_CASE("aodv 6.9, 6.13: a node that is off, or silent after a restart, sends no HELLO") {
     Hellos n;
     n.learn(5, 1, 10);
     n.send(5);
@@ -249,7 +249,7 @@ TEST_CASE("aodv 6.9, 6.13: a node that is off sends no HELLO, and none in its si
     CHECK_FALSE(hellos(n).empty());  // the timer goes on
 }
 
-TEST_CASE("aodv 6.11: the number of a route that a neighbour asks for in vain is kept on") {
+TEST_CASE("aodv 6.11: the number of a route requested in vain is kept") {
     AodvNode n;
     n.learn(5, 1, 20);
     n.link.time = start + 17s;  // broken at 3 s with number 21, to be deleted at 18 s
@@ -262,7 +262,7 @@ TEST_CASE("aodv 6.11: the number of a route that a neighbour asks for in vain is
     CHECK_FALSE(n.route(5));
 }
 
-TEST_CASE("aodv 6.11: several users of lost routes get one report, by broadcast") {
+TEST_CASE("aodv 6.11: several users of lost routes get one RERR by broadcast") {
     AodvNode n;
     n.pass_reply(7, 2, 5, 1);
     n.pass_reply(8, 3, 6, 1, 30);
@@ -276,7 +276,7 @@ TEST_CASE("aodv 6.11: several users of lost routes get one report, by broadcast"
     CHECK(error.lost.size() == 3);  // 1, 5, 6
 }
 
-TEST_CASE("aodv 6.11: a report is passed on to the users of the routes that it ends") {
+TEST_CASE("aodv 6.11: a RERR is forwarded to the users of the routes that it ends") {
     AodvNode n;
     n.pass_reply(7, 2, 5, 1);
     n.learn(6, 1, 4);  // used by node 0 alone
@@ -293,7 +293,7 @@ TEST_CASE("aodv 6.11: a report is passed on to the users of the routes that it e
     CHECK(n.route(5)->until == n.link.time + 15s);
 }
 
-TEST_CASE("aodv 6.11, ns2: reports go to everyone, and wait for the jitter if passed on") {
+TEST_CASE("aodv 6.11, ns2: RERRs are broadcast, and forwarded after the jitter") {
     AodvNode n({.profile = AodvProfile::ns2, .local_repair = false});
     n.pass_reply(7, 2, 5, 1);
     n.learn(6, 1, 4);
@@ -331,8 +331,7 @@ TEST_CASE("aodv 6.11: only valid routes over the broken link end, each once") {
     CHECK(n.route(6)->is_valid);
 }
 
-TEST_CASE(
-    "aodv A14: a report with the number that is known ends the route, and raises the number") {
+TEST_CASE("aodv A14: a RERR with the known number ends the route and increments the number") {
     AodvNode n;
     n.learn(5, 1, 20);
     n.hear(1, aodv::Error{.lost = {{NodeId{5}, 20}}});
@@ -340,7 +339,7 @@ TEST_CASE(
     CHECK(n.route(5)->number == std::optional<std::uint32_t>(21));
 }
 
-TEST_CASE("aodv 6.11: users of a route stay known as long as no report has left") {
+TEST_CASE("aodv 6.11: users of a route stay known until a RERR is sent") {
     AodvNode n;
     n.pass_reply(7, 2, 5, 1);
     for (int i = 0; i < 10; ++i) n.forward(8, 3, 9);  // ten reports in this second
@@ -353,7 +352,7 @@ TEST_CASE("aodv 6.11: users of a route stay known as long as no report has left"
     CHECK(n.sent<aodv::Error>()[10].first.next_hop == everyone);  // to 2 and 3
 }
 
-TEST_CASE("aodv 6.11: a report lists 255 destinations at most, in the order of their keys") {
+TEST_CASE("aodv 6.11: a RERR lists at most 255 destinations, in the order of their keys") {
     AodvNode n({}, 400);
     for (std::uint32_t i = 0; i < 400; ++i) n.link.keys.push_back(1000 - i);
     n.pass_reply(7, 2, 10, 1);
@@ -369,7 +368,7 @@ TEST_CASE("aodv 6.11: a report lists 255 destinations at most, in the order of t
 }
 
 TEST_CASE(
-    "aodv 6.12: a second packet waits for the repair, and own ones for a search of their own") {
+    "aodv 6.12: a second packet waits for the repair, and own packets for a separate search") {
     AodvNode n({.local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     n.forward(7, 2, 5);
@@ -387,7 +386,7 @@ TEST_CASE(
     CHECK(n.data().back().next_hop == NodeId{3});
 }
 
-TEST_CASE("aodv 6.12: repairs begin in the order of their packets, and other routes are not told") {
+TEST_CASE("aodv 6.12: repairs begin in the order of packets, and other routes are not reported") {
     AodvNode n({.local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     n.pass_reply(7, 2, 6, 1);
@@ -408,7 +407,7 @@ TEST_CASE("aodv 6.12: repairs begin in the order of their packets, and other rou
     CHECK(n.sent<aodv::Error>()[0].second.lost[0].destination == NodeId{8});
 }
 
-TEST_CASE("aodv 6.12: half the hops to the source + 2 are searched, if that is more") {
+TEST_CASE("aodv 6.12: the TTL of a repair is at least half the hops to the source + 2") {
     AodvNode n({.local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     const MessageId id = n.link.message_from(NodeId{7}, NodeId{5});
@@ -419,7 +418,7 @@ TEST_CASE("aodv 6.12: half the hops to the source + 2 are searched, if that is m
     CHECK(n.sent<aodv::Request>().back().first.ttl == 12 / 2 + 2);
 }
 
-TEST_CASE("aodv 6.12: a repair waits for its TTL only, also if that is the network's diameter") {
+TEST_CASE("aodv 6.12: a repair waits only for its TTL, also if that is the network's diameter") {
     AodvNode n({.net_diameter = 3, .local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     n.forward(7, 2, 5);
@@ -431,7 +430,7 @@ TEST_CASE("aodv 6.12: a repair waits for its TTL only, also if that is the netwo
     CHECK(n.link.drops.size() == 1);
 }
 
-TEST_CASE("aodv 6.12: a repaired route that is as short is not reported") {
+TEST_CASE("aodv 6.12: a repaired route of equal length is not reported") {
     AodvNode n({.local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     n.forward(7, 2, 5);
@@ -441,7 +440,7 @@ TEST_CASE("aodv 6.12: a repaired route that is as short is not reported") {
     CHECK(n.sent<aodv::Error>().empty());
 }
 
-TEST_CASE("aodv 6.12: no repair of a route that has another next hop by now") {
+TEST_CASE("aodv 6.12: a route that has a new next hop meanwhile is not repaired") {
     AodvNode n({.local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     n.forward(7, 2, 5);
@@ -454,7 +453,7 @@ TEST_CASE("aodv 6.12: no repair of a route that has another next hop by now") {
     CHECK(n.link.drops.size() == 1);
 }
 
-TEST_CASE("aodv 6.12: far from the destination nothing is repaired; nor are own messages") {
+TEST_CASE("aodv 6.12: routes far from the destination, and for own messages, are not repaired") {
     AodvNode n({.local_repair = true});
     n.hear(2, request(7, 5), 3);
     n.hear(1, aodv::Reply{.hops = 10,
@@ -471,7 +470,7 @@ TEST_CASE("aodv 6.12: far from the destination nothing is repaired; nor are own 
     CHECK(n.link.drops.size() == 2);
 }
 
-TEST_CASE("aodv 6.12: a report of a repaired route is passed on, and changes no route") {
+TEST_CASE("aodv 6.12: a RERR of a repaired route is forwarded, and changes no route") {
     AodvNode n;
     n.pass_reply(7, 2, 5, 1);
     n.hear(1, aodv::Error{.is_repaired = true, .lost = {{NodeId{5}, 30}}});
@@ -501,7 +500,7 @@ TEST_CASE("aodv 6.8: the blacklist lasts for the searches of the whole network; 
     CHECK(answers({.profile = AodvProfile::ns2}, 0ms));
 }
 
-TEST_CASE("aodv 6.13: numbers of broken routes are kept for as long as a route may live") {
+TEST_CASE("aodv 6.13: numbers of broken routes are kept as long as any route may last") {
     const auto delete_period = [](Aodv aodv) { return AodvRules::of(aodv).delete_period; };
     CHECK(delete_period({}) == 15s);
     CHECK(delete_period({.profile = AodvProfile::ns2}) == 50s);
@@ -512,14 +511,14 @@ TEST_CASE("aodv 6.13: numbers of broken routes are kept for as long as a route m
     CHECK(AodvRules::of({.my_route_timeout = 100s}).silence == 103s);
 }
 
-TEST_CASE("aodv 6.13: a node that is switched on for the first time is not silent") {
+TEST_CASE("aodv 6.13: a node switched on for the first time is not silent") {
     AodvNode n;
     n.router.on_switched(n.link, NodeId{0}, true);
     n.send(5);
     CHECK(n.sent<aodv::Request>().size() == 1);
 }
 
-TEST_CASE("aodv 6.13: a packet for another node makes the silence longer, and is reported") {
+TEST_CASE("aodv 6.13: a packet for another node extends the silence, and is reported") {
     AodvNode n;
     n.router.on_switched(n.link, NodeId{0}, false);
     n.router.on_switched(n.link, NodeId{0}, true);
@@ -535,7 +534,7 @@ TEST_CASE("aodv 6.13: a packet for another node makes the silence longer, and is
     CHECK(n.sent<aodv::Request>().size() == 1);
 }
 
-TEST_CASE("aodv 6.13: packets that wait end as a node is switched off, and its timers with them") {
+TEST_CASE("aodv 6.13: switching a node off drops its waiting packets and cancels its timers") {
     AodvNode n;
     n.send(5);
     n.send(5);
@@ -548,7 +547,7 @@ TEST_CASE("aodv 6.13: packets that wait end as a node is switched off, and its t
     CHECK(n.link.messages.size() == 1);  // the request, in the queue
 }
 
-TEST_CASE("aodv: a broadcast goes one hop, and ends with a reason if it does not leave") {
+TEST_CASE("aodv: a broadcast goes one hop, and is dropped with a reason if it is not sent") {
     AodvNode n;
     const MessageId id = n.link.message_from(NodeId{0});
     CHECK(n.router.initial_ttl(n.link.message(id)) == 1);
@@ -565,7 +564,7 @@ TEST_CASE("aodv: a broadcast goes one hop, and ends with a reason if it does not
     CHECK(got[0].fate == Fate::arrived);
 }
 
-TEST_CASE("aodv: a message that does not leave ends with a reason; control packets just end") {
+TEST_CASE("aodv: a message that is not sent is dropped with a reason; control packets just end") {
     for (const SendResult result : {SendResult::queue_full, SendResult::off}) {
         AodvNode n;
         n.learn(5, 1, 4);

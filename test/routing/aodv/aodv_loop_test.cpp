@@ -194,7 +194,7 @@ void check(const Findings& found, bool ways = true) {
 
 }  // namespace
 
-TEST_CASE("aodv: no loop at any event in 2,000 random graphs") {
+TEST_CASE("aodv: 2,000 random graphs have no loop after any event") {
     const Findings found = findings(2000, {.rules = short_lived()});
     check(found);
     CHECK(found.valid > 500'000);
@@ -205,7 +205,7 @@ TEST_CASE("aodv: no loop at any event in 2,000 random graphs") {
 
 // A frame that arrived without its sender's notice is repaired though it travels on, so that its
 // two copies have two ways: here there are none.
-TEST_CASE("aodv: local repair and the profile of ns-2 are free of loops, too") {
+TEST_CASE("aodv: local repair and profile ns2 are also free of loops") {
     const std::vector<Aodv> variants{{.local_repair = true},
                                      {.profile = AodvProfile::ns2},
                                      {.gratuitous = true},
@@ -219,7 +219,7 @@ TEST_CASE("aodv: local repair and the profile of ns-2 are free of loops, too") {
     check(findings(100, {.rules = short_lived({.local_repair = true})}, 1 << 30), false);
 }
 
-TEST_CASE("aodv: routes that live long are free of loops, as numbers are kept as long") {
+TEST_CASE("aodv: long-lived routes are free of loops, because numbers are kept as long") {
     Aodv aodv{.active_route_timeout = 500ms, .my_route_timeout = 20s, .node_traversal_time = 20ms};
     AodvRules rules = AodvRules::of(aodv);
     check(findings(250, {.rules = rules}));
@@ -235,7 +235,7 @@ TEST_CASE("aodv: sequence numbers wrap around") {
     CHECK(found.delivered > found.sent / 3);
 }
 
-TEST_CASE("aodv: without the rules that keep it free of loops, loops are found") {
+TEST_CASE("aodv: without the rules against loops, loops are found") {
     AodvRules falling = short_lived(), forgetful = short_lived(), loud = short_lived();
     falling.numbers_may_fall = true;
     forgetful.delete_period = {};

@@ -121,7 +121,7 @@ TEST_CASE("aodv: a node that takes no part has no effect") {
     }
 }
 
-TEST_CASE("aodv: every message is delivered or dropped with a reason, once, and all are let go") {
+TEST_CASE("aodv: every message is delivered or dropped with a reason once, and all are released") {
     for (Aodv aodv : variants) {
         for (const bool hellos : {false, true}) {
             if (hellos) aodv.hello = 500ms;

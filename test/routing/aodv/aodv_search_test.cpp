@@ -50,7 +50,7 @@ aodv::Reply reply(std::uint32_t to, std::uint32_t number, std::uint32_t originat
 
 }  // namespace
 
-TEST_CASE("aodv 6.4: no request goes beyond the diameter of the network") {
+TEST_CASE("aodv 6.4: no request goes beyond the network's diameter") {
     using Ttls = std::vector<int>;
     CHECK(ttls({.net_diameter = 1}) == Ttls{1, 1, 1});
     CHECK(ttls({.net_diameter = 2}) == Ttls{1, 2, 2, 2});
@@ -62,7 +62,7 @@ TEST_CASE("aodv 6.4: no request goes beyond the diameter of the network") {
     CHECK(ttls({.rings = false}) == Ttls{35, 35, 35});
 }
 
-TEST_CASE("aodv 6.4: a far destination that was lost is sought in the whole network") {
+TEST_CASE("aodv 6.4: a lost distant destination is searched in the whole network") {
     AodvNode n;
     n.learn(5, 1, 10, 4);
     n.learn(6, 1, 10, 5);
@@ -73,7 +73,7 @@ TEST_CASE("aodv 6.4: a far destination that was lost is sought in the whole netw
     CHECK(n.sent<aodv::Request>().back().first.ttl == 35);  // 8 is above the threshold
 }
 
-TEST_CASE("aodv 6.3: waits that double have an end, whatever the keys") {
+TEST_CASE("aodv 6.3: doubling waits are limited, for any keys") {
     AodvNode n({.node_traversal_time = 10000s, .net_diameter = 255, .rreq_retries = 100});
     n.send(5);
     n.run(start + 30s);
@@ -85,7 +85,7 @@ TEST_CASE("aodv 6.3: waits that double have an end, whatever the keys") {
     CHECK_THROWS_AS(AodvRules::of({.my_route_timeout = 10001s}), std::invalid_argument);
 }
 
-TEST_CASE("aodv 6.3: a search ends if no message waits for it any more") {
+TEST_CASE("aodv 6.3: a search ends if no message waits for it") {
     AodvNode n({.rreq_retries = 100, .buffer = 1});
     n.send(5);
     n.send(6);  // the message to 5 has to leave
@@ -100,7 +100,7 @@ TEST_CASE("aodv 6.3: a search ends if no message waits for it any more") {
     CHECK(n.link.timers.empty());
 }
 
-TEST_CASE("aodv 6.3: requests above ten a second leave later, and their messages do not hang") {
+TEST_CASE("aodv 6.3: requests above ten a second are sent later, and their messages continue") {
     AodvNode n({.rings = false}, 40);
     for (std::uint32_t to = 10; to < 35; ++to) n.send(to);
     n.run(start + 999ms);
@@ -116,7 +116,7 @@ TEST_CASE("aodv 6.3: requests above ten a second leave later, and their messages
     for (std::size_t i = 10; i < times.size(); ++i) CHECK(times[i] - times[i - 10] >= 1s);
 }
 
-TEST_CASE("aodv 6.3, ns2: a reply before any request of the search does not count as its time") {
+TEST_CASE("aodv 6.3, ns2: a reply before the search's first request is not measured") {
     AodvNode n({.profile = AodvProfile::ns2}, 40);
     n.link.time += 100s;
     for (std::uint32_t to = 10; to < 21; ++to) n.send(to);
@@ -130,7 +130,7 @@ TEST_CASE("aodv 6.3, ns2: a reply before any request of the search does not coun
     CHECK(asked_for(n, 20) == 2);
 }
 
-TEST_CASE("aodv 6.3, ns2: a search that took no time is no measure") {
+TEST_CASE("aodv 6.3, ns2: a search of duration 0 is not measured") {
     AodvNode n({.profile = AodvProfile::ns2});
     n.send(5);
     n.hear(1, reply(5, 4, 0));
@@ -140,7 +140,7 @@ TEST_CASE("aodv 6.3, ns2: a search that took no time is no measure") {
     CHECK(asked_for(n, 5) == 3);
 }
 
-TEST_CASE("aodv 6.3, ns2: waits follow the time of earlier searches, for each hop") {
+TEST_CASE("aodv 6.3, ns2: waits follow the measured time per hop of earlier searches") {
     AodvNode n({.profile = AodvProfile::ns2});
     n.send(5);
     n.link.time += 800ms;
@@ -153,7 +153,8 @@ TEST_CASE("aodv 6.3, ns2: waits follow the time of earlier searches, for each ho
     CHECK(asked_for(n, 5) == 3);
 }
 
-TEST_CASE("aodv 6.3, ns2: 10 s without searches follow the last one; the next packet is searched") {
+TEST_CASE(
+    "aodv 6.3, ns2: after a failed search none is made for 10 s, then a waiting packet gets one") {
     AodvNode n({.profile = AodvProfile::ns2});
     n.send(5);
     while (n.link.drops.empty()) n.wait();
@@ -187,7 +188,7 @@ TEST_CASE("aodv 6.1: own numbers and numbers of destinations wrap around") {
     CHECK(n.route(7)->number == std::optional<std::uint32_t>(0));
 }
 
-TEST_CASE("aodv 6.2: a route from a reply lives for the reply's time, and is not shortened") {
+TEST_CASE("aodv 6.2: a route from a reply has the reply's lifetime, and is not shortened") {
     AodvNode n;
     n.learn(5, 1, 10);
     CHECK(n.route(5)->until == start + 3s);
@@ -222,7 +223,7 @@ TEST_CASE("aodv 6.5: a neighbour that is heard has a route for 3 s, which is not
     CHECK(n.route(2)->since == start + 10s);
 }
 
-TEST_CASE("aodv 6.2: a neighbour whose number is not known takes any number") {
+TEST_CASE("aodv 6.2: a neighbour with an unknown number accepts any number") {
     AodvNode n;
     n.forward(7, 2, 9);
     n.hear(2, request(7, 9), 3);
@@ -236,7 +237,7 @@ TEST_CASE("aodv 6.2: a neighbour whose number is not known takes any number") {
     CHECK(n.route(2)->number == std::optional<std::uint32_t>(0x80000000));
 }
 
-TEST_CASE("aodv 6.5: the reverse route lives for 2 NET_TRAVERSAL_TIME less its hops") {
+TEST_CASE("aodv 6.5: the reverse route lasts for 2 NET_TRAVERSAL_TIME minus its hops") {
     AodvNode n;
     n.hear(2, request(7, 9), 3);
     CHECK(n.route(7)->until == start + 5600ms - 6 * 40ms);
@@ -246,7 +247,7 @@ TEST_CASE("aodv 6.5: the reverse route lives for 2 NET_TRAVERSAL_TIME less its h
     CHECK(n.route(8)->until == start + 40ms);  // not in the past
 }
 
-TEST_CASE("aodv 6.5: a request is passed on with the number that it came with, if that is newer") {
+TEST_CASE("aodv 6.5: a request is forwarded with the number that it came with, if that is newer") {
     AodvNode n;
     n.learn(5, 1, 20);
     aodv::Request asked = request(7, 5);
@@ -256,7 +257,7 @@ TEST_CASE("aodv 6.5: a request is passed on with the number that it came with, i
     CHECK(n.route(5)->number == std::optional<std::uint32_t>(20));  // and not adopted
 }
 
-TEST_CASE("aodv 6.5: ids of requests count by originator, for 5.6 s") {
+TEST_CASE("aodv 6.5: ids of requests count for each originator, for 5.6 s") {
     AodvNode n;
     CHECK(n.hear(2, request(7, 5, 1)) == Fate::waiting);
     CHECK(n.hear(2, request(8, 5, 1)) == Fate::waiting);
@@ -266,7 +267,7 @@ TEST_CASE("aodv 6.5: ids of requests count by originator, for 5.6 s") {
     CHECK(n.hear(2, request(7, 5, 1, 9)) == Fate::waiting);
 }
 
-TEST_CASE("aodv 6.6.2: who answers for another is told of broken links, by both next hops") {
+TEST_CASE("aodv 6.6.2: a node that answered for the destination reports breaks to both next hops") {
     AodvNode n;
     n.learn(5, 1, 20, 3);
     CHECK(n.hear(2, request(7, 5), 3) == Fate::arrived);
@@ -282,7 +283,7 @@ TEST_CASE("aodv 6.6.2: who answers for another is told of broken links, by both 
     }
 }
 
-TEST_CASE("aodv 6.6.2: no answer with a number that is not known") {
+TEST_CASE("aodv 6.6.2: a node does not answer with an unknown number") {
     AodvNode n;
     n.hear(5, request(8, 9));  // 5 is a neighbour of unknown number
     CHECK(n.route(5)->is_valid);
@@ -290,7 +291,7 @@ TEST_CASE("aodv 6.6.2: no answer with a number that is not known") {
     CHECK(n.sent<aodv::Reply>().empty());
 }
 
-TEST_CASE("aodv 6.6.2: an answer has the time that is left") {
+TEST_CASE("aodv 6.6.2: an answer has the remaining lifetime") {
     AodvNode n;
     n.learn(5, 1, 20);
     n.link.time += 1s;
@@ -299,7 +300,7 @@ TEST_CASE("aodv 6.6.2: an answer has the time that is left") {
     CHECK(n.link.message(n.sent<aodv::Reply>().back().first.message).size == 48);
 }
 
-TEST_CASE("aodv 6.6.2: the time of an answer is in whole ms, not more than is left") {
+TEST_CASE("aodv 6.6.2: the lifetime in an answer is rounded down to whole ms") {
     AodvNode n;
     n.learn(5, 1, 20);
     n.link.time += 1500us;
@@ -314,7 +315,7 @@ TEST_CASE("aodv 6.7: a reply does not travel beyond its TTL") {
     CHECK(n.sent<aodv::Reply>().empty());
 }
 
-TEST_CASE("aodv 6.3: a search that is due earlier than the others is not late") {
+TEST_CASE("aodv 6.3: a search that is due before the others is served in time") {
     AodvNode n;
     n.send(5);
     n.run(start + 2s);  // waits until 4.72 s
@@ -323,7 +324,7 @@ TEST_CASE("aodv 6.3: a search that is due earlier than the others is not late") 
     CHECK(asked_for(n, 6) == 2);
 }
 
-TEST_CASE("aodv 6.6.3: flag G tells the destination the way back; flag D asks the destination") {
+TEST_CASE("aodv 6.6.3: flag G tells the destination the route back; flag D asks the destination") {
     AodvNode n;
     n.learn(5, 1, 20, 3);
     aodv::Request asked = request(7, 5);
@@ -347,7 +348,7 @@ TEST_CASE("aodv 6.6.3: flag G tells the destination the way back; flag D asks th
     CHECK(bytes[1] == 0x38);  // G, D, U
 }
 
-TEST_CASE("aodv 6.7: a reply that is passed on makes users on four routes, and refreshes one") {
+TEST_CASE("aodv 6.7: a forwarded reply adds users to four routes, and extends one") {
     AodvNode n;
     n.hear(2, request(7, 5), 3);
     n.link.time += 4s;
@@ -371,7 +372,7 @@ TEST_CASE("aodv 6.7: a reply that is passed on makes users on four routes, and r
     }
 }
 
-TEST_CASE("aodv A16: a reply's neighbour ends the search for it, and so does a HELLO") {
+TEST_CASE("aodv A16: a reply or HELLO of a neighbour ends the search for this neighbour") {
     AodvNode n({.hello = 1s});
     n.send(3);
     n.send(4);
@@ -384,14 +385,14 @@ TEST_CASE("aodv A16: a reply's neighbour ends the search for it, and so does a H
     CHECK(n.link.drops.empty());
 }
 
-TEST_CASE("aodv A16: a neighbour that passes a request on ends the search for it") {
+TEST_CASE("aodv A16: a request forwarded by a neighbour ends the search for this neighbour") {
     AodvNode n;
     n.send(3);
     n.hear(3, request(8, 9), 2);
     CHECK(n.data().size() == 1);
 }
 
-TEST_CASE("aodv A16: a search that waits for its turn ends with a route, too") {
+TEST_CASE("aodv A16: a search that waits for its turn also ends with a route") {
     AodvNode n({}, 40);
     for (std::uint32_t to = 10; to < 21; ++to) n.send(to);
     n.learn(20, 1, 4);
@@ -400,7 +401,7 @@ TEST_CASE("aodv A16: a search that waits for its turn ends with a route, too") {
     CHECK(asked_for(n, 20) == 0);
 }
 
-TEST_CASE("aodv, ns2: messages that waited leave 10 ms apart; by the RFC together") {
+TEST_CASE("aodv, ns2: messages that waited are sent 10 ms apart; with the RFC together") {
     for (const Duration apart : {0ms, 10ms}) {
         AodvNode n({.profile = apart > 0ms ? AodvProfile::ns2 : AodvProfile::rfc});
         for (int i = 0; i < 3; ++i) n.send(5);
@@ -415,7 +416,7 @@ TEST_CASE("aodv, ns2: messages that waited leave 10 ms apart; by the RFC togethe
     }
 }
 
-TEST_CASE("aodv: without lifetimes nothing works, and everything ends") {
+TEST_CASE("aodv: with all lifetimes 0 nothing works, and every run ends") {
     AodvNode n({.active_route_timeout = Duration{0}, .my_route_timeout = Duration{0}});
     n.send(5);
     n.learn(5, 1, 10);

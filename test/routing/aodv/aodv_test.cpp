@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 using test::AodvNode;
 using test::request;
 
-TEST_CASE("aodv 5: packets have the RFC's bytes, and are read back") {
+TEST_CASE("aodv 5: packets have the bytes of the RFC, and are read back") {
     aodv::Request asked = request(1, 2, 0x01020304, 7);
     const std::string bytes = aodv::to_bytes(asked);
     CHECK(bytes == std::string("\1\x08\0\0\1\2\3\4\0\0\0\2\0\0\0\0\0\0\0\1\0\0\0\7", 24));
@@ -41,7 +41,9 @@ TEST_CASE("aodv 5: packets have the RFC's bytes, and are read back") {
     CHECK(there == std::string("\2\0\0\5\x0a\0\0\4\0\0\0\5\x0a\0\0\6\0\0\x17\x70", 20));
 }
 
-TEST_CASE("aodv 6.1: the own number rises before a request, and takes the asked one for a reply") {
+TEST_CASE(
+    "aodv 6.1: the own number is incremented for a request, and at least the asked one in a "
+    "reply") {
     AodvNode n;
     n.send(5);
     CHECK(n.sent<aodv::Request>().back().second.originator_number == 1);
@@ -55,8 +57,7 @@ TEST_CASE("aodv 6.1: the own number rises before a request, and takes the asked 
     CHECK(n.sent<aodv::Reply>().back().second.number == 40);
 }
 
-TEST_CASE(
-    "aodv 6.2: a route is taken if it is newer, or equally new and shorter, or if none is valid") {
+TEST_CASE("aodv 6.2: a route is accepted if newer, equally new and shorter, or if none is valid") {
     AodvNode n;
     n.learn(5, 1, 10, 3);
     CHECK(n.route(5)->hops == 4);
@@ -78,7 +79,7 @@ TEST_CASE(
     CHECK(n.route(5)->is_valid);
 }
 
-TEST_CASE("aodv 6.2: a message lengthens the lives of four routes") {
+TEST_CASE("aodv 6.2: a message extends the lifetimes of four routes") {
     AodvNode n;
     n.learn(5, 1, 10, 3);
     n.hear(2, request(7, 9), 3);
@@ -90,7 +91,8 @@ TEST_CASE("aodv 6.2: a message lengthens the lives of four routes") {
     }
 }
 
-TEST_CASE("aodv 6.3, 6.4: rings of 1, 3, 5, 7 hops, then the network three times, then no route") {
+TEST_CASE(
+    "aodv 6.3, 6.4: rings have 1, 3, 5, 7 hops, then three times the network, then no route") {
     AodvNode n;
     n.send(5);
     std::vector<int> ttls{n.sent<aodv::Request>().back().first.ttl};
@@ -108,7 +110,7 @@ TEST_CASE("aodv 6.3, 6.4: rings of 1, 3, 5, 7 hops, then the network three times
     CHECK(n.sent<aodv::Request>().back().second.originator_number == 7);
 }
 
-TEST_CASE("aodv 6.4: a lost destination is sought at its last hops + 2") {
+TEST_CASE("aodv 6.4: a lost destination is searched at its last hops + 2") {
     AodvNode n;
     n.learn(5, 1, 10, 2);
     n.link.time += 4s;
@@ -117,7 +119,7 @@ TEST_CASE("aodv 6.4: a lost destination is sought at its last hops + 2") {
     CHECK(n.sent<aodv::Request>().back().second.number == std::optional<std::uint32_t>(11));
 }
 
-TEST_CASE("aodv 6.3: at most ten requests a second") {
+TEST_CASE("aodv 6.3: a node sends at most ten requests a second") {
     AodvNode n({}, 40);
     for (std::uint32_t to = 1; to <= 15; ++to) n.send(to);
     CHECK(n.sent<aodv::Request>().size() == 10);
@@ -148,7 +150,7 @@ TEST_CASE("aodv 6.5: a request is forwarded once, with the larger number, and no
     CHECK(n.link.sent.back().at == n.link.time + 1us + 5ms);  // delayed at random
 }
 
-TEST_CASE("aodv 6.1: a request older than what is known of its originator is discarded") {
+TEST_CASE("aodv 6.1: a request older than the known number of its originator is discarded") {
     AodvNode n;
     n.learn(7, 1, 20, 3);
     n.link.time += 4s;
@@ -174,7 +176,7 @@ TEST_CASE("aodv 6.6.2: a node answers with a valid route that is new enough, unl
     CHECK(reply.lifetime == 3s);
 }
 
-TEST_CASE("aodv 6.7: a reply goes back along the reverse route, and only if it was taken") {
+TEST_CASE("aodv 6.7: a reply is forwarded along the reverse route, only if it was accepted") {
     AodvNode n;
     n.hear(2, request(7, 5), 3);
     const aodv::Reply reply{
@@ -189,7 +191,7 @@ TEST_CASE("aodv 6.7: a reply goes back along the reverse route, and only if it w
     CHECK(n.sent<aodv::Reply>().size() == 1);
 }
 
-TEST_CASE("aodv 6.8: requests of a neighbour to which a reply failed are ignored for 5.6 s") {
+TEST_CASE("aodv 6.8: requests of a neighbour that a reply did not reach are ignored for 5.6 s") {
     AodvNode n;
     n.hear(2, request(7, 0), 3);
     n.link.go();
@@ -202,7 +204,7 @@ TEST_CASE("aodv 6.8: requests of a neighbour to which a reply failed are ignored
     CHECK(n.link.sent.size() == 2);
 }
 
-TEST_CASE("aodv 6.11: a broken link is reported to those who used it, and to nobody else") {
+TEST_CASE("aodv 6.11: a broken link is reported only to the users of the routes") {
     AodvNode n;
     n.hear(2, request(7, 5), 3);
     n.hear(1,
@@ -240,7 +242,7 @@ TEST_CASE("aodv 6.11: a message without a route is reported to the neighbour tha
     CHECK(n.sent<aodv::Error>().size() == 10);  // at most ten a second
 }
 
-TEST_CASE("aodv A14: a report never lowers a number, and counts only from the next hop") {
+TEST_CASE("aodv A14: a RERR never decreases a number, and counts only from the next hop") {
     AodvNode n;
     n.learn(5, 1, 20, 3);
     const auto report = [&](std::uint32_t from, std::uint32_t number) {
@@ -283,7 +285,7 @@ TEST_CASE("aodv A16: a route ends the search for it, however it was learnt") {
     CHECK(n.sent<aodv::Request>().size() == asked);
 }
 
-TEST_CASE("aodv 6.12: a node near the destination seeks a new way, and reports if it finds none") {
+TEST_CASE("aodv 6.12: a node near the destination searches a new route, and reports a failure") {
     AodvNode n({.local_repair = true});
     n.hear(2, request(7, 5), 3);
     n.hear(1,
@@ -330,7 +332,7 @@ TEST_CASE("aodv 6.13: a node that was switched on again is silent for 15 s") {
     CHECK(n.sent<aodv::Request>().size() == 1);
 }
 
-TEST_CASE("aodv: at most 64 messages wait, for 30 s each, and the oldest leaves first") {
+TEST_CASE("aodv: at most 64 messages wait, for 30 s each, and the oldest is dropped first") {
     AodvNode n({.rreq_retries = 10});
     for (int i = 0; i < 66; ++i) n.send(5);
     REQUIRE(n.link.drops.size() == 2);

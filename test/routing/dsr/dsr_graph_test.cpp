@@ -84,7 +84,7 @@ struct Run {
 
 }  // namespace
 
-TEST_CASE("dsr on graphs: requests, replies and errors before and after a break") {
+TEST_CASE("dsr on graphs: counts of requests, replies and errors are right, also after a break") {
     struct Case {
         const char* name;
         std::size_t nodes;
@@ -206,7 +206,7 @@ void run_graph(std::uint32_t seed, const Dsr& dsr, double unnoticed, Findings& f
 
 }  // namespace
 
-TEST_CASE("dsr on random graphs: routes visit no node twice, and every message has one end") {
+TEST_CASE("dsr on random graphs: routes visit no node twice, and every message ends once") {
     for (const DsrProfile profile : {DsrProfile::rfc, DsrProfile::ns2}) {
         CAPTURE(static_cast<int>(profile));
         Findings exact, found;

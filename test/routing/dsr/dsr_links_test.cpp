@@ -19,7 +19,8 @@ using test::Path;
 using test::path;
 using test::values;
 
-TEST_CASE("dsr 8.3.4: a broken link is told to the source, and the message goes another way") {
+TEST_CASE(
+    "dsr 8.3.4: a broken link is reported to the source, and the message takes another route") {
     DsrNode n;
     n.learn(path({7, 3, 0, 4, 5}));
     n.learn(path({0, 4, 5}));
@@ -107,7 +108,7 @@ TEST_CASE("dsr 8.3.6: a message is salvaged at most 15 times, and never with sal
     }
 }
 
-TEST_CASE("dsr: a source whose first link breaks takes another route, or searches one") {
+TEST_CASE("dsr: a source whose first link breaks uses another route, or searches one") {
     DsrNode n;
     n.learn(path({0, 4, 5}));
     n.learn(path({0, 1, 2, 5}));
@@ -123,7 +124,7 @@ TEST_CASE("dsr: a source whose first link breaks takes another route, or searche
     CHECK(n.data().back().next_hop == NodeId{3});
 }
 
-TEST_CASE("dsr 8.3.5: whoever hears an error forgets the link, and passes the error on") {
+TEST_CASE("dsr 8.3.5: a node that receives an error forgets the link, and forwards the error") {
     for (const std::uint32_t next : {0U, 9U}) {  // on the way, and overheard
         DsrNode n;
         n.learn(path({0, 4, 5, 6}));
@@ -136,7 +137,7 @@ TEST_CASE("dsr 8.3.5: whoever hears an error forgets the link, and passes the er
     }
 }
 
-TEST_CASE("dsr 3.4.4: the last error goes with the next request beyond the neighbours, for 1 s") {
+TEST_CASE("dsr 3.4.4: the last error is in the next request beyond the neighbours, for 1 s") {
     for (const Duration age : {0ms, 1500ms}) {
         DsrNode n;
         n.learn(path({0, 4, 5}));
@@ -160,7 +161,8 @@ TEST_CASE("dsr 3.4.4: the last error goes with the next request beyond the neigh
     CHECK(n.sent(dsr::request_kind).back().second.error.value().unreachable == NodeId{5});
 }
 
-TEST_CASE("dsr 3.4.3: who overhears a message that is to pass it later tells a shorter route") {
+TEST_CASE(
+    "dsr 3.4.3: a node that overhears a message that will pass it later sends a shorter route") {
     DsrNode n;
     n.learn(path({7, 3, 2, 0, 5}));
     for (int i = 0; i < 2; ++i) {
@@ -198,7 +200,7 @@ TEST_CASE(
     CHECK(n.route(9) == Nodes{6, 9});
 }
 
-TEST_CASE("dsr: a reply whose next hop is gone is not sent another way, over the dead link") {
+TEST_CASE("dsr: a reply whose next hop is gone is not sent over the broken link again") {
     DsrNode n;
     n.learn(path({0, 1, 7}));
     n.reply(path({7, 2, 0, 6, 8}), path({8, 6, 0, 2, 7}), 1);
@@ -208,7 +210,8 @@ TEST_CASE("dsr: a reply whose next hop is gone is not sent another way, over the
     CHECK(values(n.sent(dsr::error_kind).back().second.route.value()) == Nodes{0, 6, 8});
 }
 
-TEST_CASE("dsr, profile ns2: a message that cannot go on waits where it is, and asks neighbours") {
+TEST_CASE(
+    "dsr, profile ns2: a message without a next hop waits at the node, which asks neighbours") {
     DsrNode n({.profile = DsrProfile::ns2});
     n.learn(path({7, 3, 0, 4, 5}));
     n.send(5, 7);
@@ -229,7 +232,7 @@ TEST_CASE("dsr, profile ns2: a message that cannot go on waits where it is, and 
     CHECK(n.router.header(n.data().back()).salvage == 0);
 }
 
-TEST_CASE("dsr, profile ns2: the first three messages along a route are read, for shortening") {
+TEST_CASE("dsr, profile ns2: the first three messages along a route can be read, for shortening") {
     DsrNode n({.profile = DsrProfile::ns2});
     n.learn(path({7, 3, 2, 0, 5}));
     for (int i = 0; i < 5; ++i) {

@@ -19,7 +19,7 @@ using test::Path;
 using test::path;
 using test::values;
 
-TEST_CASE("dsr 6: packets have the RFC's bytes, and are read back") {
+TEST_CASE("dsr 6: packets have the bytes of the RFC, and are read back") {
     const auto message = [](const dsr::Packet& packet, std::uint32_t from, std::uint32_t to) {
         return Message{.origin = NodeId{from}, .to = NodeId{to}, .payload = dsr::to_bytes(packet)};
     };
@@ -59,7 +59,7 @@ TEST_CASE("dsr 6: packets have the RFC's bytes, and are read back") {
     CHECK(air.substr(4, 7) == std::string("\2\x0d\0\x0a\0\0\5", 7));
 }
 
-TEST_CASE("dsr 6.7, 8.3.6: the header of a message has its route, salvage count, segments left") {
+TEST_CASE("dsr 6.7, 8.3.6: the header of a message has route, salvage count and segments left") {
     const dsr::Path way = path({4, 5, 6, 9});
     CHECK(dsr::message_header(way, 0, 0) ==
           std::string("\x11\0\0\x0c\x60\x0a\0\2\0\0\0\5\0\0\0\6", 16));
@@ -76,7 +76,7 @@ TEST_CASE("dsr 6.7, 8.3.6: the header of a message has its route, salvage count,
     CHECK(salvaged.size() == dsr::fixed_header + dsr::route_option(3));
 }
 
-TEST_CASE("dsr: packets in traces, as ns-2 writes them") {
+TEST_CASE("dsr: packets in traces have the format of ns-2") {
     const auto text = [](const dsr::Packet& packet, std::uint32_t from, std::uint32_t to,
                          PacketStyle style = PacketStyle::brackets) {
         std::string said;
@@ -95,7 +95,7 @@ TEST_CASE("dsr: packets in traces, as ns-2 writes them") {
                2, 0) == "3 [0 0] [0 0 0 0->0] [1 1 0 2->3]");
 }
 
-TEST_CASE("dsr 4.1: 30 own and 64 other routes, the shortest one wins, a broken link ends them") {
+TEST_CASE("dsr 4.1: the cache keeps 30 own and 64 other routes; the shortest is used") {
     dsr::Cache cache;
     using enum dsr::Cache::Origin;
     for (std::uint32_t i = 100; i < 140; ++i) cache.add(path({0, i, i + 100}), own, {});
@@ -117,7 +117,7 @@ TEST_CASE("dsr 4.1: 30 own and 64 other routes, the shortest one wins, a broken 
     CHECK(values(cache.find(NodeId{139}).value()) == Nodes{0, 139});
 }
 
-TEST_CASE("dsr 8.1.3, 8.1.5: a message has its whole route, and the same bytes on each hop") {
+TEST_CASE("dsr 8.1.3, 8.1.5: a message carries its whole route, and the same bytes on each hop") {
     DsrNode n;
     n.learn(path({0, 1, 2, 3}));
     n.send(3);
@@ -145,7 +145,8 @@ TEST_CASE("dsr 8.1.3, 8.1.5: a message has its whole route, and the same bytes o
     CHECK(n.data().back().bytes == 28);  // a route without addresses
 }
 
-TEST_CASE("dsr 8.2.1: a request to the neighbours, then at most 16, ever rarer, then no route") {
+TEST_CASE(
+    "dsr 8.2.1: the first request goes to the neighbours, then 16 follow at growing intervals") {
     DsrNode n;
     n.send(5);
     std::vector<int> ttls{n.sent(dsr::request_kind).back().first.ttl};
@@ -176,7 +177,7 @@ TEST_CASE("dsr 8.2.1: a request to the neighbours, then at most 16, ever rarer, 
     CHECK(n.sent(dsr::request_kind).back().first.ttl == 1);
 }
 
-TEST_CASE("dsr 8.2.2: the target answers each copy along its way back, and remembers that way") {
+TEST_CASE("dsr 8.2.2: the target answers each copy along its path, and stores that path") {
     DsrNode n;
     CHECK(n.request(path({7, 3}), 0) == Fate::arrived);
     CHECK(n.request(path({7, 4, 2}), 0) == Fate::arrived);
@@ -193,7 +194,7 @@ TEST_CASE("dsr 8.2.2: the target answers each copy along its way back, and remem
     CHECK(n.route(7) == Nodes{3, 7});
 }
 
-TEST_CASE("dsr 8.2.2: a request is passed on once, with the own address, within its hop limit") {
+TEST_CASE("dsr 8.2.2: a request is forwarded once, with the own address, within its hop limit") {
     DsrNode n;
     CHECK(n.request(path({7, 3}), 5) == Fate::waiting);
     const auto [frame, packet] = n.sent(dsr::request_kind).back();
@@ -214,7 +215,7 @@ TEST_CASE("dsr 8.2.2: a request is passed on once, with the own address, within 
     CHECK(n.sent(dsr::request_kind).size() == 4);
 }
 
-TEST_CASE("dsr 8.2.3: a node answers with a route that it knows, unless a node comes twice") {
+TEST_CASE("dsr 8.2.3: a node answers with a known route, unless a node would occur twice") {
     DsrNode n;
     n.learn(path({0, 1, 2, 5}));
     CHECK(n.request(path({7, 2}), 5) == Fate::waiting);  // 2 would come twice
@@ -227,7 +228,7 @@ TEST_CASE("dsr 8.2.3: a node answers with a route that it knows, unless a node c
     CHECK(n.request(path({7, 4}), 5, 2) == Fate::duplicate);  // one answer to each request
 }
 
-TEST_CASE("dsr 8.2.6: a reply ends the search and its waits; nodes on the way learn both ends") {
+TEST_CASE("dsr 8.2.6: a reply ends the search and its waits; nodes on the path learn both ends") {
     DsrNode n;
     n.send(5);
     n.send(5);
@@ -247,7 +248,7 @@ TEST_CASE("dsr 8.2.6: a reply ends the search and its waits; nodes on the way le
     CHECK(n.route(7) == Nodes{2, 7});
 }
 
-TEST_CASE("dsr: a route has sixteen nodes at most; messages beyond end without a route") {
+TEST_CASE("dsr: a route has at most sixteen nodes; messages beyond end without a route") {
     DsrNode n;
     const Path fourteen = path({20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33});
     Path fifteen = fourteen;
@@ -268,7 +269,7 @@ TEST_CASE("dsr: a route has sixteen nodes at most; messages beyond end without a
           "dsr: 1 pair of robots lost messages, as a route has at most 16 robots");
 }
 
-TEST_CASE("dsr 4.2: at most 64 messages wait, for 30 s each, and the oldest leaves first") {
+TEST_CASE("dsr 4.2: at most 64 messages wait, for 30 s each, and the oldest is dropped first") {
     DsrNode n;
     for (int i = 0; i < 66; ++i) n.send(5);
     REQUIRE(n.link.drops.size() == 2);
@@ -278,7 +279,7 @@ TEST_CASE("dsr 4.2: at most 64 messages wait, for 30 s each, and the oldest leav
     CHECK(n.link.drops.back().reason == DropReason::timeout);
 }
 
-TEST_CASE("dsr: a node that was switched off begins without routes, but goes on with its numbers") {
+TEST_CASE("dsr: a node that was off starts without routes, but continues its numbers") {
     DsrNode n;
     n.learn(path({0, 4, 5}));
     n.send(6);

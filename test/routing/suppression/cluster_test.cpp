@@ -84,7 +84,7 @@ constexpr Time settled = start_of_run + 60s;
 
 }  // namespace
 
-TEST_CASE("cluster: a node alone is a head, and joins the head with the lowest key below its own") {
+TEST_CASE("cluster: a lone node is a head, and joins a head with a lower key") {
     Member node;
     CHECK(node.relays());  // no cluster yet
     CHECK(node.tells() == NodeId{5});
@@ -101,7 +101,7 @@ TEST_CASE("cluster: a node alone is a head, and joins the head with the lowest k
     CHECK(node.tells() == NodeId{3});
 }
 
-TEST_CASE("cluster: a member forwards while it hears a node of another cluster, a gateway") {
+TEST_CASE("cluster: a member that hears a node of another cluster is a gateway and forwards") {
     Member node;
     node.hear(1, 1);
     node.hear(4, 1);
@@ -113,7 +113,7 @@ TEST_CASE("cluster: a member forwards while it hears a node of another cluster, 
     CHECK(!node.relays());
 }
 
-TEST_CASE("cluster: neighbours that were silent for three periods are forgotten") {
+TEST_CASE("cluster: neighbours silent for three periods are forgotten") {
     Member node;
     node.hear(1, 1);
     node.link.time += 1s;
@@ -149,7 +149,7 @@ TEST_CASE("cluster: HELLOs are 0.75 to 1.25 periods apart, and a node that is of
     CHECK(node.tells() == NodeId{5});
 }
 
-TEST_CASE("cluster: a copy that is forwarded waits for the delay, another one arrives") {
+TEST_CASE("cluster: a forwarded copy waits for the delay, any other copy is only delivered") {
     for (const bool is_gateway : {true, false}) {
         Member node;
         node.hear(1, 1);
@@ -180,7 +180,7 @@ TEST_CASE("cluster: a threshold and a period of 0 are refused") {
                     std::invalid_argument);
 }
 
-TEST_CASE("cluster on graphs: heads are those of the definition, and all that is connected hears") {
+TEST_CASE("cluster on graphs: heads follow the definition, and all connected nodes are reached") {
     for (const int k : {1, 3, 5, 7, 9}) {
         double saved = 0;
         constexpr int maps = 5;

@@ -53,7 +53,8 @@ double counted(const std::vector<Vec3>& centres) {
 
 }  // namespace
 
-TEST_CASE("disc cover: nobody near leaves all, a disc on the same spot leaves nothing") {
+TEST_CASE(
+    "disc cover: without neighbours all is uncovered, with a disc at the same place nothing") {
     CHECK(uncovered({}) == 1);
     CHECK(uncovered({{2, 0, 0}, {0, -3, 0}}) == 1);
     CHECK(uncovered({{0.5, 0, 0}, {0, 0, 0}}) == 0);
@@ -75,7 +76,7 @@ TEST_CASE("disc cover: opposite discs that only touch leave the disc without two
     CHECK(std::abs(uncovered({{1, 0, 0}, {-1, 0, 0}}) - (2 * outside_lens(1) - 1)) < rounding);
 }
 
-TEST_CASE("disc cover: three discs at the distance r, a third of a turn apart, leave nothing") {
+TEST_CASE("disc cover: three discs at distance r, a third of a turn apart, leave nothing") {
     const Vec3 a{1, 0, 0}, b{-0.5, std::sqrt(0.75), 0}, c{-0.5, -std::sqrt(0.75), 0};
     CHECK(uncovered({a, b, c}) < rounding);
     // Two of them share a lens of centres sqrt(3) apart, which lies in the disc.
@@ -83,13 +84,13 @@ TEST_CASE("disc cover: three discs at the distance r, a third of a turn apart, l
     CHECK(std::abs(uncovered({a, b}) - (1 - 2 * lens + shared)) < rounding);
 }
 
-TEST_CASE("disc cover: equal discs count once, and the unit and heights do not matter") {
+TEST_CASE("disc cover: equal discs count once, and unit and heights have no effect") {
     const std::vector<Vec3> two{{0.6, 0.2, 0}, {-0.3, 0.9, 0}};
     CHECK(uncovered({two[0], two[1], two[0]}) == uncovered(two));
     CHECK(std::abs(uncovered({{300, 100, 7}, {-150, 450, -9}}, 500) - uncovered(two)) < rounding);
 }
 
-TEST_CASE("disc cover: random discs leave the share of points that is counted") {
+TEST_CASE("disc cover: random discs leave the share that counting points gives") {
     // A border of length up to 2 pi (k + 1) crosses cells of 1/400: their half area, spread evenly.
     constexpr double grain = 2e-3;
     std::uint64_t index = 0;

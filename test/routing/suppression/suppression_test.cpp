@@ -48,7 +48,7 @@ struct Hearer {
 
 }  // namespace
 
-TEST_CASE("suppression, counter: the C-th copy that is heard before the send time suppresses") {
+TEST_CASE("suppression, counter: the C-th copy heard before the send time suppresses") {
     for (const int c : {2, 3, 4}) {
         Hearer node({.threshold = c});
         for (int copies = 1; copies < c; ++copies) {
@@ -63,7 +63,7 @@ TEST_CASE("suppression, counter: the C-th copy that is heard before the send tim
     }
 }
 
-TEST_CASE("suppression, counter: with C = 1 no copy is forwarded, and the message has arrived") {
+TEST_CASE("suppression, counter: with C = 1 no copy is forwarded, but the message is delivered") {
     Hearer node({.threshold = 1});
     const Reception first = node.hear();
     CHECK(first.fate == Fate::arrived);
@@ -71,7 +71,7 @@ TEST_CASE("suppression, counter: with C = 1 no copy is forwarded, and the messag
     CHECK(node.link.sent.empty());
 }
 
-TEST_CASE("suppression: copies after the send time change nothing, and are not handed up again") {
+TEST_CASE("suppression: copies after the send time have no effect, and are not delivered again") {
     for (const Scheme scheme : {Scheme::counter, Scheme::distance, Scheme::location}) {
         Hearer node({.scheme = scheme, .range = Meters{100}});
         CHECK(node.hear().delivered);
@@ -89,7 +89,7 @@ TEST_CASE("suppression: copies after the send time change nothing, and are not h
     }
 }
 
-TEST_CASE("suppression: a handle that the link layer uses again is not mistaken for the own copy") {
+TEST_CASE("suppression: a reused handle of the link layer is not confused with the own copy") {
     Hearer node({.threshold = 2});
     node.hear();
     node.link.sent[0].queued.frame.sender = NodeId{7};  // sent, and the slot is another frame's
@@ -124,7 +124,7 @@ TEST_CASE("suppression, probability: the delay does not depend on the draw again
     CHECK(node.link.sent[0].at == start_of_run + 1us + 60ms);
 }
 
-TEST_CASE("suppression, distance: the first or a later sender nearer than D suppresses") {
+TEST_CASE("suppression, distance: a first or later sender nearer than D suppresses") {
     const Suppression within_50{.scheme = Scheme::distance, .threshold = 50};
     Hearer first(within_50);
     CHECK(first.hear({30, 39, 0}).fate == Fate::arrived);  // 49.2 m
@@ -140,7 +140,7 @@ TEST_CASE("suppression, distance: the first or a later sender nearer than D supp
     CHECK(later.link.sent.size() == 1);
 }
 
-TEST_CASE("suppression, location: less than A of the disc, left by all senders, suppresses") {
+TEST_CASE("suppression, location: an uncovered share of the disc below A suppresses") {
     const auto run = [](double a) {
         Hearer node({.scheme = Scheme::location, .threshold = a, .range = Meters{100}});
         std::string sends;
@@ -157,7 +157,7 @@ TEST_CASE("suppression, location: less than A of the disc, left by all senders, 
     CHECK(run(0.610) == "nn");
 }
 
-TEST_CASE("suppression: a TTL that is used up arrives and ends, also when a copy has more left") {
+TEST_CASE("suppression: a copy with no TTL left is delivered only, also if a later copy has more") {
     Hearer node({});
     const Reception first = node.hear({}, 1);
     CHECK(first.fate == Fate::ttl);
@@ -166,7 +166,7 @@ TEST_CASE("suppression: a TTL that is used up arrives and ends, also when a copy
     CHECK(node.link.sent.empty());
 }
 
-TEST_CASE("suppression: the source does not forward, and is not handed its message") {
+TEST_CASE("suppression: the source does not forward or deliver its own message") {
     test::FakeLinkLayer link(2);
     SuppressionRouter router(Suppression{.ttl = 7});
     const MessageId message = link.message_from({0});
@@ -264,7 +264,7 @@ struct Expected {
 
 }  // namespace
 
-TEST_CASE("suppression on graphs: P = 1, C above all degrees + 1, D = 0 and A = 0 are flooding") {
+TEST_CASE("suppression on graphs: P = 1, C above all degrees + 1, D = 0 and A = 0 equal flooding") {
     for (const int k : {3, 5, 8}) {
         const UnitDisc net = map_of(k, 5);
         REQUIRE(net.reachable() > 5);
@@ -280,7 +280,7 @@ TEST_CASE("suppression on graphs: P = 1, C above all degrees + 1, D = 0 and A = 
     }
 }
 
-TEST_CASE("suppression on graphs: P = 0, C = 1 and A = 1 stay with the source's neighbours") {
+TEST_CASE("suppression on graphs: P = 0, C = 1 and A = 1 reach only the source's neighbours") {
     const UnitDisc net = map_of(5, 5);
     const double reachable = static_cast<double>(net.reachable());
     const Outcome once{static_cast<double>(net.neighbours()[net.source].size()) / reachable, 1};
@@ -302,7 +302,7 @@ TEST_CASE("suppression on graphs: the probability P saves 1 - P of the rebroadca
     }
 }
 
-TEST_CASE("suppression on graphs: reach and savings of Ni et al.'s schemes on maps of 1 to 11") {
+TEST_CASE("suppression on graphs: reach and savings equal Ni et al. on maps of 1 to 11") {
     struct Row {
         Suppression settings;
         std::vector<Expected> on;  ///< maps of 1, 3, 5, 7, 9, 11 units

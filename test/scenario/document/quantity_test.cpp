@@ -35,7 +35,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("quantity: every unit is its factor of the base unit") {
+TEST_CASE("quantity: every unit has its factor of the base unit") {
     struct Case {
         const char* text;
         Dimension dimension;
@@ -78,7 +78,7 @@ TEST_CASE("quantity: every unit is its factor of the base unit") {
     }
 }
 
-TEST_CASE("quantity: blanks around number and unit, a plus sign and exponents do not matter") {
+TEST_CASE("quantity: blanks around number and unit, a plus sign and exponents are accepted") {
     CHECK(read(" 5m ", Dimension::length) == 5);
     CHECK(read("+5 m", Dimension::length) == 5);
     CHECK(read("5\tm", Dimension::length) == 5);
@@ -132,7 +132,7 @@ TEST_CASE("quantity: kilometres an hour are rounded once") {
     CHECK(wrong == 0);
 }
 
-TEST_CASE("quantity: a power too small for a number has no level") {
+TEST_CASE("quantity: a power too small for a double has no level and is refused") {
     CHECK(contains(error_of("1e-322 uW", Dimension::power), "which has no level"));
 }
 
@@ -152,20 +152,20 @@ TEST_CASE("quantity: a bare number of an option is in SI units, a power in watts
     CHECK(contains(error_of(from_option(0), Dimension::power), "which has no level"));
 }
 
-TEST_CASE("quantity: a unit that is misspelt gets a suggestion") {
+TEST_CASE("quantity: a misspelt unit gets a suggestion") {
     CHECK(contains(error_of("2.4 ghz", Dimension::frequency), "did you mean \"GHz\"?"));
     CHECK(contains(error_of("5 DBM", Dimension::power), "did you mean \"dBm\"?"));
     CHECK(contains(error_of("11 Mbps", Dimension::bit_rate), "did you mean \"Mb/s\"?"));
     CHECK(contains(error_of("15,5 dBm", Dimension::power), "decimal point"));
 }
 
-TEST_CASE("quantity: decibels over a watt are told as another unit, with the same power in dBm") {
+TEST_CASE("quantity: dBW is refused, with the same power in dBm as a suggestion") {
     const std::string error = error_of("-15 dBW", Dimension::power);
     CHECK(contains(error, "found the unit \"dBW\""));
     CHECK(contains(error, "another unit: -15 dBW is \"15 dBm\""));
 }
 
-TEST_CASE("quantity: what is no finite number is an error") {
+TEST_CASE("quantity: a value that is not a finite number is an error") {
     for (const char* text : {"", "m", "nan m", "inf m", "-inf m", "1e999 m", "1e308 km", "five m",
                              "5 m m", "5 5 m", "- 5 m", "0x10 m"}) {
         CAPTURE(text);

@@ -80,7 +80,7 @@ TEST_CASE("toml: an error has the line and column of the mistake") {
     CHECK(place_of_error("a = 1\nb = \"\xff\"") == "f.toml:2:5");
 }
 
-TEST_CASE("toml: a file that is missing or a directory is named, with what to do") {
+TEST_CASE("toml: a missing file or a directory is an error that says what to do") {
     const TemporaryFolder folder;
     CHECK(contains(error_of_file(folder.path("no.toml")), "no such file"));
     CHECK(error_of_file(folder.path("no.toml")).starts_with(folder.path("no.toml") + ": "));
@@ -114,7 +114,7 @@ TEST_CASE("set_option: the value is TOML, or else the text itself") {
     CHECK(after_option("", "a=2007-01-01") == "a = \"2007-01-01\"\n");
 }
 
-TEST_CASE("set_option: a mistake quotes the option") {
+TEST_CASE("set_option: an error quotes the option") {
     const std::string text = "a = 1\n[[robot]]\nname = \"Anna\"\n";
     for (const char* option : {"radio.power", "=5", "", "a..b=1", ".a=1", "a.=1", "a.b=1",
                                "robot.7.radius=1", "robot.Ana.radius=1"}) {

@@ -82,7 +82,7 @@ TEST_CASE("stage scanner: a laser has Stage's defaults, 180 samples over 180 deg
     CHECK(laser.name.empty());
 }
 
-TEST_CASE("stage scanner: what a laser says counts, in the units of the world") {
+TEST_CASE("stage scanner: keys of a laser are read in the units of the world") {
     const Read world = read(
         "unit_length \"cm\" unit_angle \"radians\"\n"
         "define sick laser ( samples 91 range_max 1250 range_min 3 fov 3 color \"blue\" )\n"
@@ -102,7 +102,7 @@ TEST_CASE("stage scanner: what a laser says counts, in the units of the world") 
     CHECK(one.finder.to.value == 0);
 }
 
-TEST_CASE("stage scanner: what stands between a laser and its robot moves it") {
+TEST_CASE("stage scanner: models between a laser and its robot move the laser") {
     const Read world = carrying("model ( pose [0.2 0 0 90] laser ( pose [0.1 0 0 45] ) )");
     CHECK(near(world.only().at.x, 0.2));
     CHECK(near(world.only().at.y, 0.1));
@@ -131,7 +131,7 @@ TEST_CASE("stage scanner: a ranger of Stage 4 with one sensor is a fan") {
     CHECK(near(two.finder.to, 0.05));
 }
 
-TEST_CASE("stage scanner: a ranger of several sensors is a ring of one beam each") {
+TEST_CASE("stage scanner: a ranger of several sensors is a ring with one beam each") {
     const Read world = read(
         "define eye sensor ( range [0 2] )\n"
         "position ( name \"a\" wifi ( model \"friis\" ) ranger ( pose [-0.1 0 0 180]\n"
@@ -186,7 +186,7 @@ TEST_CASE("stage scanner: a ranger of Stage 2 is a ring of sonars") {
     REQUIRE(views.notices.size() == 1);
 }
 
-TEST_CASE("stage scanner: a robot has all that it carries, in their order, and no other's") {
+TEST_CASE("stage scanner: a robot has all its own scanners in order, and no others") {
     const Read world = read(
         "define bot position ( wifi ( model \"friis\" ) ranger ( ) )\n"
         "laser ( )\n"
@@ -210,7 +210,7 @@ TEST_CASE("stage scanner: a robot has all that it carries, in their order, and n
     CHECK(world.notices.back() == "a.world: ignored: laser (1)");
 }
 
-TEST_CASE("stage scanner: values that make no sense are errors at their place") {
+TEST_CASE("stage scanner: invalid values are errors with a position") {
     CHECK(mistake("\nlaser ( samples 0 )") ==
           "3: samples: found 0; expected a whole number from 1 to 10,000; such as samples 181");
     CHECK(mistake("laser ( samples 2.5 )").starts_with("2: samples: found 2.5"));
@@ -226,7 +226,7 @@ TEST_CASE("stage scanner: values that make no sense are errors at their place") 
     CHECK(mistake("ranger ( scount 1 spose[0] 3 )").starts_with("2: spose[0]: found a single"));
 }
 
-TEST_CASE("stage scanner: the scan of a scenario over the world replaces that of the world") {
+TEST_CASE("stage scanner: the scan of a scenario replaces the world's") {
     const TemporaryFolder folder;
     folder.write("a.world",
                  "position ( name \"a\" pose [1 1 0] wifi ( model \"friis\" ) ranger ( scount 1 "
@@ -246,7 +246,7 @@ scan = { beams = 3 }
     CHECK(scenario.robots[1].scan[0].finder.beams == 180);
 }
 
-TEST_CASE("stage scanner: the robots of the worlds that came with Stage have their lasers") {
+TEST_CASE("stage scanner: robots of the worlds that came with Stage have their lasers") {
     const char* folder = std::getenv("ROVERNET_WORLDS");
     if (!folder) {
         MESSAGE("skipped: ROVERNET_WORLDS is not set");

@@ -169,13 +169,13 @@ TEST_CASE("stage world: a position with a wifi is a robot with its pose, size an
     CHECK(world.document.find("scenario") == nullptr);
 }
 
-TEST_CASE("stage world: only what the world gives is in the document") {
+TEST_CASE("stage world: the document contains only values that the world gives") {
     const Read world = read(robot_with + "model \"friis\" ) )\n");
     CHECK(world.radio(0).entries.empty());
     CHECK(world.propagation(0).entries.size() == 1);
 }
 
-TEST_CASE("stage world: each of the five models has its name and its parameters") {
+TEST_CASE("stage world: each of the five models has its name and parameters") {
     struct Row {
         std::string stage, model, key, expected;
     };
@@ -227,7 +227,7 @@ TEST_CASE("stage world: freq is the frequency, and frequency too if it stands al
           "5200 MHz");
 }
 
-TEST_CASE("stage world: success rates count the draws from 0 to 100 that pass") {
+TEST_CASE("stage world: success rates equal the share of draws from 0 to 100 that pass") {
     const auto rate = [](const std::string& given) {
         const Read world = read(robot_with + "model \"friis\" link_success_rate " + given + " ) )");
         return std::get<double>(world.radio(0).find("success_rate")->data);
@@ -255,7 +255,7 @@ TEST_CASE("stage world: the last random_seed is the scenario's, quit_time its du
     CHECK(mistake(robot_with + "random_seed -1 ) )").starts_with("1:58: random_seed: found -1;"));
 }
 
-TEST_CASE("stage world: Stage 4's tuples, units and radians") {
+TEST_CASE("stage world: Stage 4's tuples, units and radians are read") {
     const Read world = read(
         "unit_length \"cm\" unit_angle \"radians\"\n"
         "position ( name \"a\" pose [100 200 30 3.141592653589793] size [30 20 50]\n"
@@ -268,7 +268,7 @@ TEST_CASE("stage world: Stage 4's tuples, units and radians") {
     CHECK(world.notices[0] == "a.world:2: z is left out, as in the 2007 radio, for: a");
 }
 
-TEST_CASE("stage world: a robot carried by another or by a model is where that puts it") {
+TEST_CASE("stage world: a robot carried by another model has the combined position") {
     const Read world = read(
         "model ( pose [10 0 90] position ( name \"a\" pose [2 0 0]\n"
         "  wifi ( model \"friis\" )\n"
@@ -286,7 +286,7 @@ TEST_CASE("stage world: a robot carried by another or by a model is where that p
     CHECK(world.notices[0] == "a.world:1: only the first wifi counts of: a");
 }
 
-TEST_CASE("stage world: the wifi of a carried robot is not its carrier's") {
+TEST_CASE("stage world: the wifi of a carried robot does not belong to its carrier") {
     const Read world = read(
         "position ( name \"truck\" pose [5 0 180]\n"
         "  position ( name \"a\" pose [1 0 0] wifi ( model \"friis\" ) ) )\n");
@@ -333,7 +333,7 @@ TEST_CASE("stage world: robots without a wifi have the scenario's radio, with on
     CHECK(over.robots[1].radio.sensitivity.value == -75);
 }
 
-TEST_CASE("stage world: a world without robots is a scene, and no scenario to run") {
+TEST_CASE("stage world: a world without robots is a scene, but not a scenario") {
     const TemporaryFolder folder;
     const std::string world = folder.write("plan.world", "model ( size [4 2 1] )\n");
     const Scenario scene = load_scenario(world, {.needs_robots = false});
@@ -345,20 +345,20 @@ TEST_CASE("stage world: a world without robots is a scene, and no scenario to ru
         InputError);
 }
 
-TEST_CASE("stage world: a robot whose macro is missing is a robot by its wifi") {
+TEST_CASE("stage world: a model whose macro is missing is a robot if it has a wifi") {
     const Read world = read("pioneer ( name \"a\" cargo ( wifi ( model \"friis\" ) ) )\n");
     REQUIRE(world.robots().size() == 1);
     CHECK(value(world.propagation(0), "model") == "friis");
     CHECK(world.notices.back() == "a.world: ignored: cargo (1)");
 }
 
-TEST_CASE("stage world: a wifi anywhere below a position is its own") {
+TEST_CASE("stage world: a wifi at any depth below a position belongs to it") {
     const Read world = read("position ( name \"a\" ranger ( model ( wifi ( power 3 ) ) ) )\n");
     REQUIRE(world.robots().size() == 1);
     CHECK(value(world.radio(0), "power") == "3 mW");
 }
 
-TEST_CASE("stage world: the document reads as a scenario") {
+TEST_CASE("stage world: the document is read as a scenario") {
     const Read world = read(
         "quit_time 20\n" + robot_with +
         "ip \"1.2\" netmask \"255.0.0.0\" mac \"m\" essid \"net\" model \"raytrace\" plc 28\n"
@@ -387,7 +387,7 @@ TEST_CASE("stage world: the document reads as a scenario") {
     CHECK(scenario.robots[1].radio.power.value == Radio{}.power.value);
 }
 
-TEST_CASE("stage world: every value has its place in the world") {
+TEST_CASE("stage world: every value has its position in the world file") {
     const Read world =
         read("position\n(\n pose [1 2 3]\n wifi (\n  model \"friis\"\n  power 30\n )\n)");
     CHECK(world.robots()[0].where.line == 1);
@@ -403,7 +403,7 @@ TEST_CASE("stage world: every value has its place in the world") {
     CHECK(world.radio(0).find("power")->where.column == 3);
 }
 
-TEST_CASE("stage world: names are generated for robots without a name that nobody has") {
+TEST_CASE("stage world: robots without a name get unused names") {
     const Read world = read(
         "define bot position ( wifi ( model \"friis\" ) )\n"
         "bot ( )\nbot ( name \"robot2\" )\nbot ( )\nbot ( )\n");
@@ -416,7 +416,7 @@ TEST_CASE("stage world: names are generated for robots without a name that nobod
           "a.world:2: names are generated for robots without a name: robot0, robot2_, robot3");
 }
 
-TEST_CASE("stage world: a second robot of a name gets one of its own, with a notice") {
+TEST_CASE("stage world: a second robot of a name gets a new name, with a notice") {
     const Read world = read(
         "define bot position ( wifi ( model \"friis\" ) )\n"
         "bot ( name \"a\" )\nbot ( name \"a_\" )\nmodel ( name \"a\" )\n"
@@ -430,7 +430,7 @@ TEST_CASE("stage world: a second robot of a name gets one of its own, with a not
           "a.world:5: new names are generated for robots whose name is already in use: a__, a___");
 }
 
-TEST_CASE("stage world: an address that two robots have is a notice that names both") {
+TEST_CASE("stage world: an address of two robots gives a notice that names both") {
     const Read world = read(
         "define bot position ( wifi ( model \"friis\" ) )\n"
         "bot ( name \"a\" wifi ( ip \"1.2\" mac \"x\" ) )\n");
@@ -442,7 +442,7 @@ TEST_CASE("stage world: an address that two robots have is a notice that names b
     CHECK(twice.notices[0] == "a.world:2: ip \"1.2\" of b is also that of a, at a.world:1:42");
 }
 
-TEST_CASE("stage world: what is no robot and no wall is said in one line") {
+TEST_CASE("stage world: models that are neither robots nor walls are listed in one line") {
     const Read world = read(
         "window ( )\nmodel ( laser ( ) )\n"
         "position ( name \"a\" laser ( ) ranger ( sensor ( ) ) wifi ( model \"friis\" ) )\n"
@@ -456,7 +456,7 @@ TEST_CASE("stage world: what is no robot and no wall is said in one line") {
     CHECK(world.notices[3] == "a.world: ignored: laser (1), window (1)");
 }
 
-TEST_CASE("stage world: an unknown key of a wifi is a notice each; a model's are none") {
+TEST_CASE("stage world: each unknown key of a wifi gives a notice; a model's keys give none") {
     const Read world =
         read(robot_with + "model \"friis\" size [0 0]\nrange3 -35\nsensitivty -80\nwatts 2 ) )\n");
     REQUIRE(world.notices.size() == 2);
@@ -467,7 +467,7 @@ TEST_CASE("stage world: an unknown key of a wifi is a notice each; a model's are
           "mean \"sensitivity\"?");
 }
 
-TEST_CASE("stage world: values of the wrong kind are errors at their place") {
+TEST_CASE("stage world: values of a wrong type are errors with a position") {
     CHECK(mistake(robot_with + "ip 5 ) )") ==
           "1:58: ip: found a number; expected a text in quotes; write ip \"...\"");
     CHECK(mistake(robot_with + "power \"30\" ) )") ==
@@ -478,7 +478,7 @@ TEST_CASE("stage world: values of the wrong kind are errors at their place") {
     CHECK(mistake("quit_time \"1\"\n").starts_with("1:1: quit_time: found a text"));
 }
 
-TEST_CASE("stage world: a world in the thesis's style is read as it stands") {
+TEST_CASE("stage world: a world in the style of the thesis is read unchanged") {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder.path("lib"));
     folder.write("lib/robots.inc",
@@ -546,7 +546,7 @@ TEST_CASE("stage world: the worlds that came with Stage load") {
                                    "also that of robot1") != std::string::npos);
 }
 
-TEST_CASE("stage world: a world whose bitmap never existed says so, and loads with another") {
+TEST_CASE("stage world: a world with a missing bitmap is refused, and loads with a replacement") {
     const auto folder = stage_worlds();
     if (!folder) return;
     WorldOptions options = with_includes(*folder);
@@ -569,7 +569,7 @@ TEST_CASE("stage world: a world whose bitmap never existed says so, and loads wi
     CHECK(read.notices[0].find("a wifi has no key \"range3\"") != std::string::npos);
 }
 
-TEST_CASE("stage world: levels of the worlds that came with Stage are the published ones") {
+TEST_CASE("stage world: levels of the worlds that came with Stage equal the published ones") {
     const auto folder = stage_worlds();
     if (!folder) return;
     struct Row {

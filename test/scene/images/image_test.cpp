@@ -98,7 +98,7 @@ TEST_CASE("PNG: the transparent gray becomes alpha 0") {
     CHECK(image.samples == Samples{9, 0, 10, 255});
 }
 
-TEST_CASE("PNG: an interlaced picture is the same picture") {
+TEST_CASE("PNG: an interlaced image gives the same pixels") {
     PngPicture picture{.width = 9, .height = 11, .rows = {}};
     for (int row = 0; row < 11; ++row) {
         picture.rows.emplace_back();
@@ -111,7 +111,7 @@ TEST_CASE("PNG: an interlaced picture is the same picture") {
     CHECK(plain.samples[98] == 98);
 }
 
-TEST_CASE("PNG: cut anywhere it is an error, never a crash") {
+TEST_CASE("PNG: a file cut anywhere is an error, without a crash") {
     PngPicture picture{.width = 40, .height = 40, .rows = {}};
     for (int row = 0; row < 40; ++row) {
         picture.rows.emplace_back();
@@ -124,7 +124,7 @@ TEST_CASE("PNG: cut anywhere it is an error, never a crash") {
     CHECK(contains(picture_error(bytes.substr(0, 200)), "truncated PNG"));
 }
 
-TEST_CASE("PNG: a changed byte is an error or another picture, never a crash") {
+TEST_CASE("PNG: a changed byte is an error or gives another image, without a crash") {
     const std::string bytes = png_bytes(
         {.width = 8, .height = 2, .rows = {{1, 2, 3, 4, 5, 6, 7, 8}, {8, 7, 6, 5, 4, 3, 2, 1}}});
     for (std::size_t i = 0; i < bytes.size(); ++i) {
@@ -160,7 +160,7 @@ TEST_CASE("PGM: plain and raw give the same samples") {
           Samples{0, 1, 2, 253, 254, 255});
 }
 
-TEST_CASE("PGM: comments may stand between any two numbers of the header") {
+TEST_CASE("PGM: comments are accepted between any two numbers of the header") {
     const Image image =
         read_bytes("P5 # made by map_saver\n#\n2# wide\n 1\n# 9\n255\n" + bytes_of({'#', 7}));
     CHECK(image.width == 2);
@@ -177,7 +177,7 @@ TEST_CASE("PGM: any maxval is stretched to 255 and rounded to nearest") {
     CHECK(read_bytes("P5 1 1 256\n" + bytes_of({0x01, 0x00})).samples == Samples{255});
 }
 
-TEST_CASE("PGM: what is wrong is said") {
+TEST_CASE("PGM: errors say what is wrong") {
     CHECK(contains(picture_error("P5 2 2 255\nabc"), "truncated PGM"));
     CHECK(contains(picture_error("P2 2 2 255\n1 2 3"), "truncated PGM"));
     CHECK(contains(picture_error("P5 2"), "truncated PGM"));
@@ -195,7 +195,7 @@ TEST_CASE("PGM: what is wrong is said") {
     CHECK(contains(picture_error("P5 99999999999999999999 1 255\n"), "number above"));
 }
 
-TEST_CASE("images: a missing file, a folder and other kinds of file are told apart") {
+TEST_CASE("images: a missing file, a folder and other kinds of file have different errors") {
     const TemporaryFolder folder;
     const auto fails = [](const std::string& path, const std::string& part) {
         try {
@@ -214,7 +214,7 @@ TEST_CASE("images: a missing file, a folder and other kinds of file are told apa
     CHECK(fails(folder.write("page.png", "<html></html>"), "expected a PNG, JPEG, BMP, GIF or"));
 }
 
-TEST_CASE("images: their names, in any case of letters") {
+TEST_CASE("images: file names are recognised in upper and lower case") {
     for (const char* name : {"a.png", "maps/b.JPG", "c.jpeg", "d.bmp", "e.Gif", "f.ppm", "g.pbm"})
         CHECK_MESSAGE(is_image_name(name), name);
     for (const char* name : {"a.yaml", "png", "b.png.toml", ""}) CHECK_FALSE(is_image_name(name));

@@ -11,7 +11,7 @@
 namespace png_test {
 using namespace rovernet;
 
-TEST_CASE("png: what is written reads back, for every number of channels") {
+TEST_CASE("png: a written image is read back, for every number of channels") {
     for (int channels = 1; channels <= 4; ++channels) {
         Image image{7, 5, channels, {}};
         for (int i = 0; i < 7 * 5 * channels; ++i) {
@@ -27,12 +27,12 @@ TEST_CASE("png: what is written reads back, for every number of channels") {
     }
 }
 
-TEST_CASE("png: the same picture gives the same bytes") {
+TEST_CASE("png: equal images give equal bytes") {
     const Image image{2, 1, 3, {1, 2, 3, 4, 5, 6}};
     CHECK(to_png(image) == to_png(image));
 }
 
-TEST_CASE("png: samples that do not fit the sizes are the caller's fault") {
+TEST_CASE("png: a wrong number of samples is an error of the caller") {
     CHECK_THROWS_AS(to_png({2, 2, 1, {0, 0, 0}}), std::invalid_argument);
     CHECK_THROWS_AS(to_png({0, 0, 1, {}}), std::invalid_argument);
     CHECK_THROWS_AS(to_png({1, 1, 5, {0, 0, 0, 0, 0}}), std::invalid_argument);

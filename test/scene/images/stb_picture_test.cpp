@@ -70,7 +70,7 @@ TEST_CASE("JPEG: colours are within 1 of those of another decoder") {
     CHECK(std::abs(image.rgb_sum(15, 7) - 3 * white) <= 3);
 }
 
-TEST_CASE("BMP: rows from the bottom or from the top, in 24 bits and with palettes") {
+TEST_CASE("BMP: rows in both orders, 24 bits and palettes are read") {
     const std::string red_then_blue = "\0\0\377\377\0\0\0\0"s, gray = "\5\5\5\6\6\6\0\0"s;
     const Samples expected{255, 0, 0, 0, 0, 255, 5, 5, 5, 6, 6, 6};
     CHECK(read_bytes(bmp_header(2, 2, 24) + gray + red_then_blue).samples == expected);
@@ -82,7 +82,7 @@ TEST_CASE("BMP: rows from the bottom or from the top, in 24 bits and with palett
     CHECK(read_bytes(bmp_header(2, 1, 8, palette) + "\1\0\0\0"s).samples == levels);
 }
 
-TEST_CASE("GIF: its first frame; alpha is a channel only if a pixel is transparent") {
+TEST_CASE("GIF: the first frame is read; alpha is a channel only if a pixel is transparent") {
     const Image opaque = read_bytes(test::opaque_gif());
     CHECK(opaque.channels == 3);
     CHECK(opaque.samples ==
@@ -94,7 +94,7 @@ TEST_CASE("GIF: its first frame; alpha is a channel only if a pixel is transpare
     CHECK(clear.rgb_sum(2, 0) == 270);
 }
 
-TEST_CASE("JPEG, BMP, GIF: cut anywhere it is an error that says so, never a picture with walls") {
+TEST_CASE("JPEG, BMP, GIF: a file cut anywhere is an error, never an image with walls") {
     for (const std::string& bytes : all_kinds()) {
         CHECK(error_of(bytes) == "");
         for (std::size_t size = 6; size < bytes.size(); ++size) {
@@ -107,7 +107,7 @@ TEST_CASE("JPEG, BMP, GIF: cut anywhere it is an error that says so, never a pic
     }
 }
 
-TEST_CASE("JPEG, BMP, GIF: a changed byte is an error or another picture, never a crash") {
+TEST_CASE("JPEG, BMP, GIF: a changed byte is an error or gives another image, without a crash") {
     for (const std::string& bytes : all_kinds()) {
         for (std::size_t i = 3; i < bytes.size(); ++i) {
             for (const int flip : {0x01, 0x41, 0x80}) {
@@ -132,13 +132,13 @@ TEST_CASE("JPEG, BMP, GIF: a thousand million pixels are refused from the header
     CHECK(contains(error_of(bmp_header(0, 0, 24)), "at least one pixel"));
 }
 
-TEST_CASE("BMP: a kind that the library does not read is said to be one") {
+TEST_CASE("BMP: an unsupported kind is an error that says so") {
     const std::string packed = bmp_header(4, 1, 8, std::string(8, '\0'), 1) + "\4\1\0\1"s;
     CHECK(contains(error_of(packed), "a kind of BMP that is not read (BMP RLE)"));
     CHECK(contains(error_of(packed), "save it as PNG"));
 }
 
-TEST_CASE("maps: a picture is the same map in each kind of file") {
+TEST_CASE("maps: an image is the same map in each file format") {
     const TemporaryFolder folder;
     folder.write("room.jpg", test::gray_jpeg());
     std::string row = "P2 16 8 255 ";

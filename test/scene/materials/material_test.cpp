@@ -12,7 +12,7 @@ constexpr double usual = 100;  // [dB/m] of the propagation model
 
 }  // namespace
 
-TEST_CASE("material: one without a loss of its own follows the model") {
+TEST_CASE("material: a material without a loss follows the model") {
     const Material plain;
     CHECK(plain.follows_model());
     const WallRate rate = wall_rate(plain, 2450_MHz, usual);
@@ -20,7 +20,7 @@ TEST_CASE("material: one without a loss of its own follows the model") {
     CHECK(rate.per_metre == usual);
 }
 
-TEST_CASE("material: a loss of its own takes the place of the model's, even if it is nothing") {
+TEST_CASE("material: its own loss replaces the model's, even if it is 0") {
     const WallRate crossing = wall_rate({.per_crossing = 3_dB}, 2450_MHz, usual);
     CHECK(crossing.per_crossing == 3);
     CHECK(crossing.per_metre == 0);
@@ -36,7 +36,7 @@ TEST_CASE("material: a loss of its own takes the place of the model's, even if i
     CHECK(glassless.per_metre == 0);
 }
 
-TEST_CASE("material: a slab costs its loss at the signal's frequency for each crossing") {
+TEST_CASE("material: a slab has its loss at the signal's frequency for each crossing") {
     const Material glass{.slab = ItuMaterial::glass, .thickness = 0.006_m};
     for (const Hertz f : {2450_MHz, 5200_MHz}) {
         const WallRate rate = wall_rate(glass, f, usual);

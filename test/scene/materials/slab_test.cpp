@@ -29,7 +29,7 @@ double loss_db(math::Complex field, double decay = 0) {
 
 }  // namespace
 
-TEST_CASE("slab: losses and the phase of the transmitted field are those of the table") {
+TEST_CASE("slab: losses and phase of the transmitted field equal the table") {
     const test::Vectors vectors("slab_transmission.csv");
     int compared = 0;
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -57,7 +57,7 @@ TEST_CASE("slab: losses and the phase of the transmitted field are those of the 
     CHECK(compared > 150);
 }
 
-TEST_CASE("slab: without thickness it is not there; it gives no more power than it gets") {
+TEST_CASE("slab: thickness 0 has no effect; the power never increases") {
     for (const auto material : {ItuMaterial::concrete, ItuMaterial::glass, ItuMaterial::metal}) {
         const Slab slab(material, 2450_MHz);
         for (double cosine = 0.01; cosine <= 1; cosine += 0.01) {

@@ -130,7 +130,7 @@ TEST_CASE("stage walls: only the first channel of a pixel decides, alpha does no
     CHECK(drawn(world.grid("model ( bitmap \"m.png\" size [4 1] )\n")) == "#..#");
 }
 
-TEST_CASE("stage walls: a palette picture is seen by its colours") {
+TEST_CASE("stage walls: a palette image is read by its colours") {
     World world;
     test::PngPicture picture{.width = 3, .rows = {}};
     picture.color_type = PNG_COLOR_TYPE_PALETTE;
@@ -140,7 +140,7 @@ TEST_CASE("stage walls: a palette picture is seen by its colours") {
     CHECK(drawn(world.grid("model ( bitmap \"m.png\" size [3 1] )\n")) == "#.#");
 }
 
-TEST_CASE("stage walls: pose and origin move and turn the walls") {
+TEST_CASE("stage walls: pose and origin move and rotate the walls") {
     World world;
     world.draw("m.pgm", {"##"});
     const OccupancyGrid turned =
@@ -154,7 +154,7 @@ TEST_CASE("stage walls: pose and origin move and turn the walls") {
     CHECK(near(corners(shifted).opposite, {8, 20, 0}));
 }
 
-TEST_CASE("stage walls: unit_length and unit_angle count") {
+TEST_CASE("stage walls: unit_length and unit_angle are used") {
     World world;
     const OccupancyGrid box = world.grid(
         "unit_length \"mm\" unit_angle \"radians\"\nmodel ( size [4000 2000] pose [10000 0 "
@@ -175,7 +175,7 @@ TEST_CASE("stage walls: a model without bitmap and outline is a box, solid from 
     CHECK(std::abs(Scene(walls.grids[0]).wall_length({0, 5, 0}, {10, 5, 0}) - 2) < rounding);
 }
 
-TEST_CASE("stage walls: parts of a wall are walls, in its frame; robots and sensors are none") {
+TEST_CASE("stage walls: parts of a wall are walls in its frame; robots and sensors are not walls") {
     World world;
     const StageWalls walls = world.walls(
         "define room model ( size [2 2] )\n"
@@ -193,7 +193,7 @@ TEST_CASE("stage walls: parts of a wall are walls, in its frame; robots and sens
     CHECK(std::abs(walls.grids[2].yaw - 135 * pi_ / 180) < rounding);
 }
 
-TEST_CASE("stage walls: what a laser passes is no wall, but its parts may be") {
+TEST_CASE("stage walls: a model that a laser passes is not a wall, but its parts may be") {
     World world;
     CHECK(world.walls("model ( laser_return 0 )\nmodel ( ranger_return -1 )\n").grids.empty());
     CHECK(world.walls("model ( ranger_return -0.5 )\nmodel ( laser_return -1 )\n").grids.empty());
@@ -318,7 +318,7 @@ TEST_CASE("stage walls: one material for each colour of the walls") {
                                         "256"));
 }
 
-TEST_CASE("stage walls: a missing bitmap names the places tried; lenient it is a notice") {
+TEST_CASE("stage walls: a missing bitmap lists the paths tried; with --lenient it is a notice") {
     World world;
     const std::string text = "model (\n bitmap \"bits/m.pgm\" size [1 1] )\n";
     const std::string places =
@@ -335,7 +335,7 @@ TEST_CASE("stage walls: a missing bitmap names the places tried; lenient it is a
                                   places);
 }
 
-TEST_CASE("stage walls: a bitmap may be given another name, by its whole name or its last part") {
+TEST_CASE("stage walls: a bitmap may be replaced, by its whole name or its last part") {
     World world;
     world.draw("new.pgm", {"#.#"});
     for (const std::string old : {"bits/old.pgm", "old.pgm"}) {
@@ -346,7 +346,7 @@ TEST_CASE("stage walls: a bitmap may be given another name, by its whole name or
     CHECK(world.mistake("model ( bitmap \"old.pgm\" )\n") != "");
 }
 
-TEST_CASE("stage walls: many models may show one bitmap, each in its own size") {
+TEST_CASE("stage walls: many models may use one bitmap, each in its own size") {
     World world;
     world.draw("m.pgm", {".#.#", "...."});
     const StageWalls walls = world.walls(
@@ -360,7 +360,7 @@ TEST_CASE("stage walls: many models may show one bitmap, each in its own size") 
     CHECK(walls.grids[1].origin == Vec3{7, -1, 0});
 }
 
-TEST_CASE("stage walls: a bitmap without walls is a notice; a damaged one is an error") {
+TEST_CASE("stage walls: a bitmap without walls gives a notice; a damaged one is an error") {
     World world;
     world.draw("white.pgm", {".-"});
     const StageWalls walls = world.walls("model ( bitmap \"white.pgm\" )\n");
@@ -372,7 +372,7 @@ TEST_CASE("stage walls: a bitmap without walls is a notice; a damaged one is an 
     CHECK_THROWS_AS(world.walls("model ( bitmap \"bad.pgm\" )\n"), InputError);
 }
 
-TEST_CASE("stage walls: values of the wrong kind are errors at their place") {
+TEST_CASE("stage walls: values of a wrong type are errors with a position") {
     const World world;
     CHECK(world.mistake("model ( laser_return \"yes\" )\n") ==
           "1:9: laser_return: found a text; expected one number; write laser_return 1");
@@ -394,14 +394,14 @@ TEST_CASE("stage walls: values of the wrong kind are errors at their place") {
     CHECK(world.walls("model ( size [0 5] )\n").grids.empty());
 }
 
-TEST_CASE("stage walls: work without bounds is an error") {
+TEST_CASE("stage walls: unlimited work is an error") {
     const World world;
     CHECK(contains(world.mistake("model ( size [5000 5000] block ( points 3 point[0] [0 0] "
                                  "point[1] [1 0] point[2] [0 1] ) )\n"),
                    "the walls have more than 256 million pixels and cells"));
 }
 
-TEST_CASE("stage walls: the pictures that came with Stage have the published occupied pixels") {
+TEST_CASE("stage walls: images that came with Stage have the published occupied pixels") {
     const auto folder = stage_worlds();
     if (!folder) return;
     struct Row {
@@ -423,7 +423,7 @@ TEST_CASE("stage walls: the pictures that came with Stage have the published occ
     }
 }
 
-TEST_CASE("stage walls: wall lengths in the worlds that came with Stage are the exact ones") {
+TEST_CASE("stage walls: wall lengths in the worlds that came with Stage are exact") {
     const auto folder = stage_worlds();
     if (!folder) return;
     constexpr double half_a_digit = 0.5000001e-6;  // [m] the published lengths have six decimals

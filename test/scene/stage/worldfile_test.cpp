@@ -65,7 +65,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("worldfile: keys, texts, tuples and nested models keep their order and their place") {
+TEST_CASE("worldfile: keys, texts, tuples and nested models keep their order and position") {
     const WorldFile world = read(
         "# a comment\n"
         "size [16 -.5 +3.]\tname \"a b\" # two on a line\r\n"
@@ -137,7 +137,7 @@ TEST_CASE("worldfile: a macro's use is its entity with the properties and childr
     CHECK(world.notices.empty());
 }
 
-TEST_CASE("worldfile: of two macros of one name the first counts, with a notice") {
+TEST_CASE("worldfile: of two macros with one name the first counts, with a notice") {
     const WorldFile world = read(
         "define m model ( a 1 )\n"
         "define m position ( a 2 )\n"
@@ -148,7 +148,7 @@ TEST_CASE("worldfile: of two macros of one name the first counts, with a notice"
     CHECK(contains(world.notices[0], "a.world:2: macro \"m\" is defined a second time; the first"));
 }
 
-TEST_CASE("worldfile: a type that Stage does not know is a notice, once, with the nearest") {
+TEST_CASE("worldfile: a type unknown to Stage gives one notice, with the nearest type") {
     const WorldFile world = read(
         "define commbot position ( size [1 1] )\n"
         "commbott ( )\ncommbott ( )\nrover ( wifi() )\nplan ( bitmap \"a.png\" )\n");
@@ -164,7 +164,7 @@ TEST_CASE("worldfile: a type that Stage does not know is a notice, once, with th
     CHECK(world_role(world.root.children[3]) == WorldRole::wall);
 }
 
-TEST_CASE("worldfile: of a run of digits, signs and points the number at the front counts") {
+TEST_CASE("worldfile: of a sequence of digits, signs and points the number at the front counts") {
     const WorldFile world = read("position ( pose [3.75.2 -1-2 +.5. 0] size [4 5.-] a 6.0.0.1 )\n");
     const WorldPose pose = world_pose(world.root.children[0], "pose", {});
     CHECK(pose.at.x == 3.75);
@@ -177,7 +177,7 @@ TEST_CASE("worldfile: of a run of digits, signs and points the number at the fro
         "a.world:1: \"3.75.2\" is read as 3.75, as in Stage; what follows counts nothing"));
 }
 
-TEST_CASE("worldfile: a tuple may go on over lines, with comments between") {
+TEST_CASE("worldfile: a tuple may continue over several lines, with comments") {
     const WorldFile world = read("position ( pose [ 1\r\n 2 # two\n\n 3\n] name \"a\" )\n");
     const WorldPose pose = world_pose(world.root.children[0], "pose", {});
     CHECK(pose.at.x == 1);
@@ -186,7 +186,7 @@ TEST_CASE("worldfile: a tuple may go on over lines, with comments between") {
     CHECK(world.root.children[0].find("name")->where.line == 5);
 }
 
-TEST_CASE("worldfile: a syntax error names line, column, what was found and what to write") {
+TEST_CASE("worldfile: a syntax error has line, column, what was found and what to write") {
     CHECK(mistake("size [16 16]\n power 1e-3\n") ==
           "2:8: found \"1e-3\"; expected a number without an exponent; write 0.001");
     CHECK(mistake("power 2.5E2\n") ==
@@ -256,7 +256,7 @@ TEST_CASE("worldfile: a define without its parts is an error") {
     CHECK(mistake("define a model ( define b model ( ) )\n").starts_with("1:"));
 }
 
-TEST_CASE("worldfile: includes are looked for beside the world, on the path, then in STAGEPATH") {
+TEST_CASE("worldfile: includes are searched beside the world, on the path, then in STAGEPATH") {
     const TemporaryFolder folder;
     for (const std::string sub : {"world", "first", "second"}) {
         std::filesystem::create_directory(folder.path(sub));
@@ -275,7 +275,7 @@ TEST_CASE("worldfile: includes are looked for beside the world, on the path, the
     CHECK(value(read_worldfile(path, options).root, "where") == "beside");
 }
 
-TEST_CASE("worldfile: a missing include names every place tried; lenient it is a notice") {
+TEST_CASE("worldfile: a missing include lists all paths tried; with --lenient it is a notice") {
     const TemporaryFolder folder;
     const std::string path = folder.write("a.world", "a 1\ninclude \"inc/m.inc\"\nb 2\n");
     WorldOptions options{.search_path = {folder.path("lib")}};
@@ -299,7 +299,7 @@ TEST_CASE("worldfile: a missing include names every place tried; lenient it is a
           path + ":2: include \"inc/m.inc\" is missing and left out; tried " + places);
 }
 
-TEST_CASE("worldfile: macros and defines of an include count from there on, and errors name it") {
+TEST_CASE("worldfile: macros and defines of an include apply from there on, and errors name it") {
     const TemporaryFolder folder;
     folder.write("m.inc", "define m model ( a 1 )\n");
     const std::string path =
@@ -326,7 +326,7 @@ TEST_CASE("worldfile: an include must be last on its line and name a file") {
     CHECK(mistake("include \"\"\n").starts_with("1:9: found the text \"\"; expected the name"));
 }
 
-TEST_CASE("worldfile: what would never end is an error") {
+TEST_CASE("worldfile: endless includes and macros are errors") {
     CHECK(contains(mistake("include \"a.world\"\n"), "1:9: "));
     CHECK(contains(mistake("include \"a.world\"\n"), "includes itself"));
     const std::string deep = "is more than 64 deep in others";
@@ -349,7 +349,7 @@ TEST_CASE("worldfile: what would never end is an error") {
     CHECK(contains(mistake(many), "more than 1000000 words, values and lines"));
 }
 
-TEST_CASE("worldfile: includes nest 16 deep, and not deeper") {
+TEST_CASE("worldfile: includes nest at most 16 deep") {
     const TemporaryFolder folder;
     const auto write = [&](int depth) {
         for (int i = 0; i < depth; ++i) {
@@ -363,7 +363,7 @@ TEST_CASE("worldfile: includes nest 16 deep, and not deeper") {
     CHECK_THROWS_AS(read_worldfile(folder.path("0"), {}), InputError);
 }
 
-TEST_CASE("worldfile: a file that is none is an error") {
+TEST_CASE("worldfile: a path that is not a file is an error") {
     const TemporaryFolder folder;
     const auto message = [](const std::string& path) -> std::string {
         try {
@@ -384,7 +384,7 @@ TEST_CASE("worldfile: a file that is none is an error") {
     CHECK(read_worldfile(folder.write("empty.world", ""), {}).root.children.empty());
 }
 
-TEST_CASE("worldfile: poses of Stage 2 and of Stage 4 are told apart by their length") {
+TEST_CASE("worldfile: poses of Stage 2 and Stage 4 are distinguished by their length") {
     const WorldFile world = read(
         "model ( pose [1 2 90] size [3 4] )\n"
         "model ( pose [1 2 5 90] size [3 4 6] )\n"
@@ -406,7 +406,7 @@ TEST_CASE("worldfile: poses of Stage 2 and of Stage 4 are told apart by their le
     CHECK(world_size(models[3], units).x == 0.4);
 }
 
-TEST_CASE("worldfile: lengths in cm and mm are those in metres, to the last bit") {
+TEST_CASE("worldfile: lengths in cm and mm equal those in metres, to the last bit") {
     const WorldUnits cm = world_units(read("unit_length \"cm\"\n"));
     const WorldUnits mm = world_units(read("unit_length \"mm\"\n"));
     CHECK(cm.metres(3730) == 37.3);
@@ -420,7 +420,7 @@ TEST_CASE("worldfile: lengths in cm and mm are those in metres, to the last bit"
     CHECK(wrong == 0);
 }
 
-TEST_CASE("worldfile: unit_length and unit_angle count, in lengths and angles") {
+TEST_CASE("worldfile: unit_length and unit_angle apply to lengths and angles") {
     const WorldFile world = read(
         "unit_length \"cm\"\nunit_angle \"radians\"\nmodel ( pose [100 250 1.5] size [20 40] )\n");
     const WorldUnits units = world_units(world);
@@ -437,7 +437,7 @@ TEST_CASE("worldfile: unit_length and unit_angle count, in lengths and angles") 
                          doctest::Contains("did you mean \"degrees\"?"), InputError);
 }
 
-TEST_CASE("worldfile: a pose or size that is none is an error at its place") {
+TEST_CASE("worldfile: an invalid pose or size is an error with its position") {
     const auto refused = [](const std::string& body) -> std::string {
         const WorldFile world = read("model (\n " + body + " )\n");
         try {
@@ -461,7 +461,7 @@ TEST_CASE("worldfile: a pose or size that is none is an error at its place") {
     CHECK(refused("size [5 1.5 0.5 0]") == "");  // the first ones count, as in Stage
 }
 
-TEST_CASE("worldfile: poses compose: turn, then move") {
+TEST_CASE("worldfile: poses are composed by rotation, then translation") {
     const WorldPose outer{{10, 20, 0}, 90};
     const WorldPose inner{{3, 4, 1}, 45};
     const WorldPose both = outer * inner;

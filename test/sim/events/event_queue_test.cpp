@@ -193,7 +193,7 @@ bool serves(EventQueue& queue, std::vector<EventKey> keys) {
 
 }  // namespace
 
-TEST_CASE("event queue: agrees with the heap and with a sorted set, whatever the times") {
+TEST_CASE("event queue: agrees with the heap and with a sorted set, for any times") {
     for (const Named& distribution : distributions()) {
         CAPTURE(distribution.name);
         Trio(distribution, 1).drive(30, 20);
@@ -202,7 +202,7 @@ TEST_CASE("event queue: agrees with the heap and with a sorted set, whatever the
     }
 }
 
-TEST_CASE("event queue: 200 000 keys at one time are served by priority, then as they came") {
+TEST_CASE("event queue: 200 000 keys at one time are served by priority, then in order") {
     EventQueue queue;
     std::vector<EventKey> keys;
     for (std::uint64_t i = 0; i < 200'000; ++i) {
@@ -212,7 +212,7 @@ TEST_CASE("event queue: 200 000 keys at one time are served by priority, then as
     CHECK(serves(queue, keys));
 }
 
-TEST_CASE("event queue: keys at the time being served, without end, leave the order as it is") {
+TEST_CASE("event queue: endless keys at the current time keep the order") {
     EventQueue queue;
     std::uint64_t pushed = 0;
     for (; pushed < 5000; ++pushed) queue.push(key_at(5, pushed));
@@ -224,7 +224,7 @@ TEST_CASE("event queue: keys at the time being served, without end, leave the or
     CHECK(queue.size() == 5000);
 }
 
-TEST_CASE("event queue: many keys may come before the one that was looked at") {
+TEST_CASE("event queue: many keys may be added before the key that was peeked") {
     constexpr std::int64_t far = 1'000'000'000'000;
     Dice dice(1);
     EventQueue queue;
@@ -243,7 +243,7 @@ TEST_CASE("event queue: many keys may come before the one that was looked at") {
     CHECK(serves(queue, keys));
 }
 
-TEST_CASE("event queue: around a lone key before a crowd, new keys find their place") {
+TEST_CASE("event queue: new keys around a lone key before a crowd are in order") {
     constexpr std::int64_t lone = std::int64_t{1} << 40;
     constexpr std::int64_t crowd = lone + (1 << 20);
     EventQueue queue;
@@ -261,7 +261,7 @@ TEST_CASE("event queue: around a lone key before a crowd, new keys find their pl
     CHECK(serves(queue, keys));
 }
 
-TEST_CASE("event queue: a filter may refuse all, the nearest, or the farthest") {
+TEST_CASE("event queue: a filter may refuse all keys, the nearest, or the farthest") {
     const auto filled = [] {
         EventQueue queue;
         for (std::uint64_t i = 0; i < 10'000; ++i) queue.push(key_at(std::int64_t(i) * 1000, i));
@@ -286,7 +286,7 @@ TEST_CASE("event queue: a filter may refuse all, the nearest, or the farthest") 
     CHECK(serves(near, {key_at(1000, 1), key_at(2000, 2), key_at(9'000'000, 20'000)}));
 }
 
-TEST_CASE("event queue: a copy is a queue of its own") {
+TEST_CASE("event queue: a copy is independent") {
     EventQueue queue;
     std::vector<EventKey> keys;
     for (std::uint64_t i = 0; i < 5'000; ++i) {
@@ -298,7 +298,7 @@ TEST_CASE("event queue: a copy is a queue of its own") {
     CHECK(serves(copy, keys));
 }
 
-TEST_CASE("event line: takes keys that come nearly in order, and serves them in order") {
+TEST_CASE("event line: keys in nearly ascending order are served in order") {
     Dice dice(9);
     EventLine line;
     std::set<EventKey> taken;
@@ -332,7 +332,7 @@ TEST_CASE("event line: takes keys that come nearly in order, and serves them in 
     CHECK(before_the_last > 100);
 }
 
-TEST_CASE("event line: takes groups whose keys come in any order, and serves them in order") {
+TEST_CASE("event line: groups of keys in any order are served in order") {
     Dice dice(10);
     EventLine line;
     std::uint64_t sequence = 0;

@@ -128,7 +128,7 @@ std::vector<int> served(Scheduler<int>& queue) {
 
 }  // namespace
 
-TEST_CASE("event key: holds the largest of everything, and moves in time only") {
+TEST_CASE("event key: holds the largest values, and only its time changes") {
     static_assert(sizeof(EventKey) == 16);
     constexpr std::uint64_t last_sequence = (std::uint64_t{1} << 36) - 1;
     constexpr std::uint32_t last_slot = (1U << 24) - 1;
@@ -142,7 +142,7 @@ TEST_CASE("event key: holds the largest of everything, and moves in time only") 
     CHECK(EventKey(at(-1), Priority::user, 9, 9) < EventKey(at(0), Priority::frame_end, 0, 0));
 }
 
-TEST_CASE("scheduler: agrees with a sorted map on any mix, with and without ties") {
+TEST_CASE("scheduler: agrees with a sorted map for any mix, with and without ties") {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         drive(seed, 3, 10);
         drive(seed, 5, 300);
@@ -150,7 +150,7 @@ TEST_CASE("scheduler: agrees with a sorted map on any mix, with and without ties
     }
 }
 
-TEST_CASE("scheduler: serves equals in the order of scheduling") {
+TEST_CASE("scheduler: serves equal keys in the order of scheduling") {
     Scheduler<int> queue;
     std::vector<int> expected;
     for (int i = 0; i < 1000; ++i) {
@@ -170,7 +170,7 @@ TEST_CASE("scheduler: at one time frame ends, then timers, then frame starts, th
     CHECK(served(queue) == std::vector{0, 1, 2, 3, 4});
 }
 
-TEST_CASE("scheduler: an event may be scheduled at the time that is being served") {
+TEST_CASE("scheduler: an event may be scheduled at the current time") {
     Scheduler<int> queue;
     queue.schedule(at(10), Priority::timer, 1);
     queue.schedule(at(10), Priority::user, 3);
@@ -234,7 +234,7 @@ TEST_CASE("scheduler: payloads may be owners, and are released when popped or ca
     CHECK(*movable_only.pop().payload == 7);
 }
 
-TEST_CASE("scheduler: too many events end the run with a sentence, and leave the queue whole") {
+TEST_CASE("scheduler: too many events end the run with an error, and keep the queue intact") {
     Scheduler<int> narrow({.pending = 2});
     const auto first = narrow.schedule(at(1), Priority::timer, 1);
     narrow.schedule(at(2), Priority::timer, 2);
@@ -253,7 +253,7 @@ TEST_CASE("scheduler: too many events end the run with a sentence, and leave the
     CHECK(served(brief) == std::vector{1});
 }
 
-TEST_CASE("scheduler: nothing is allocated once warm, however many are cancelled") {
+TEST_CASE("scheduler: in steady state nothing is allocated, however many events are cancelled") {
     Scheduler<std::array<int, 12>> queue;
     Dice dice(1);
     const auto soon = [&] { return Duration{static_cast<std::int64_t>(dice(1000))}; };
@@ -279,7 +279,7 @@ TEST_CASE("scheduler: nothing is allocated once warm, however many are cancelled
     CHECK(test::allocations() == before);
 }
 
-TEST_CASE("scheduler: nothing is allocated once warm, however many are served") {
+TEST_CASE("scheduler: in steady state nothing is allocated, however many events are served") {
     Scheduler<int> queue;
     Dice dice(2);
     const auto serve = [&](int events) {
@@ -298,7 +298,7 @@ TEST_CASE("scheduler: nothing is allocated once warm, however many are served") 
     CHECK(test::allocations() == before);
 }
 
-TEST_CASE("scheduler: far timers that are always put off do not pile up") {
+TEST_CASE("scheduler: distant timers that are postponed again and again do not accumulate") {
     Scheduler<int> queue;
     queue.schedule(at(0), Priority::user, 0);  // stays on top, so that no dead key comes up
     auto timer = queue.schedule(start_of_run + 1h, Priority::timer, 1);
@@ -396,7 +396,7 @@ class ToyRadio {
 
 }  // namespace
 
-TEST_CASE("scheduler: one event per frame serves in the order of one event per reception") {
+TEST_CASE("scheduler: one event per frame gives the order of one event per reception") {
     const auto one_each = ToyRadio(false).run();
     const auto one_per_frame = ToyRadio(true).run();
     CHECK(one_each.size() > 10'000);

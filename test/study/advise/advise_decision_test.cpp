@@ -59,7 +59,7 @@ constexpr int distributions = 6;
 
 }  // namespace
 
-TEST_CASE("decision: verdicts by Student's looks are those of the vectors decide_looks") {
+TEST_CASE("decision: verdicts by Student's t equal the vectors decide_looks") {
     const test::Vectors values("decide_looks_series.csv"), expected("decide_looks.csv");
     for (std::size_t row = 0; row < expected.size(); ++row) {
         const std::string name = expected.text(row, "series");
@@ -74,7 +74,7 @@ TEST_CASE("decision: verdicts by Student's looks are those of the vectors decide
     }
 }
 
-TEST_CASE("decision: Student's interval is looked at after 10, 20, 40 pairs, not between") {
+TEST_CASE("decision: Student's interval is tested only after 10, 20, 40 pairs") {
     CandidateDecision decision({.tolerance = 1, .bounds = delay, .family = 1, .most = 100});
     for (int i = 0; i < 15; ++i) {
         decision.add(i % 2 == 0 ? 0.01 : -0.01, 0);
@@ -83,7 +83,7 @@ TEST_CASE("decision: Student's interval is looked at after 10, 20, 40 pairs, not
     CHECK(decision.decided_at() == 10U);
 }
 
-TEST_CASE("decision: for the mean it is the test of the vectors decide_betting") {
+TEST_CASE("decision: for the mean it equals the test of the vectors decide_betting") {
     const test::Vectors all("decide_series.csv"), expected("decide_betting.csv");
     for (std::size_t row = 0; row < expected.size(); ++row) {
         const std::string name = expected.text(row, "series");
@@ -98,7 +98,7 @@ TEST_CASE("decision: for the mean it is the test of the vectors decide_betting")
     }
 }
 
-TEST_CASE("decision: runs that differ by much to both sides are alike in the mean alone") {
+TEST_CASE("decision: differences of both signs that cancel are equal only in the mean") {
     const DecisionRule rule{.tolerance = 0.1, .bounds = share};
     DecisionRule of_runs = rule;
     of_runs.criterion = ErrorCriterion::run;
@@ -112,7 +112,7 @@ TEST_CASE("decision: runs that differ by much to both sides are alike in the mea
     CHECK(*run.decided_at() < *mean.decided_at());
 }
 
-TEST_CASE("decision: for runs `outside` needs 1 / alpha, as it can be false on one side alone") {
+TEST_CASE("decision: for runs, `outside` needs only 1 / alpha, because one side can be false") {
     // |D| = 1/2 against a tolerance of 1/4: the wealth "above" grows by the stakes of the formula.
     const DecisionRule rule{
         .criterion = ErrorCriterion::run, .tolerance = 0.25, .bounds = share, .family = 3};
@@ -135,7 +135,7 @@ TEST_CASE("decision: for runs `outside` needs 1 / alpha, as it can be false on o
     CHECK(decision.decided_at() == expected);
 }
 
-TEST_CASE("decision: the first verdict counts, whatever comes after") {
+TEST_CASE("decision: the first verdict is final") {
     CandidateDecision decision({.tolerance = 0.1, .bounds = share});
     for (int i = 0; i < 200; ++i) add(decision, 0.01);
     REQUIRE(decision.verdict() == Equivalence::within);
@@ -153,7 +153,7 @@ TEST_CASE("decision: values beyond the metric's bounds count as the bound") {
     CHECK(decision.verdict() == Equivalence::within);
 }
 
-TEST_CASE("decision: what is undecided tells how many replications would decide") {
+TEST_CASE("decision: an undecided comparison predicts the number of replications") {
     CandidateDecision decision({.tolerance = 0.02, .bounds = share, .family = 7});
     CHECK_FALSE(decision.needed());
     for (int i = 0; i < 100; ++i) add(decision, 0);
@@ -163,7 +163,7 @@ TEST_CASE("decision: what is undecided tells how many replications would decide"
     CHECK_FALSE(decision.needed());
 }
 
-TEST_CASE("decision: a larger tolerance that decides is told, and decides; else there is none") {
+TEST_CASE("decision: a larger tolerance that decides is printed, and decides; otherwise none") {
     const DecisionRule rule{.tolerance = 0.05, .bounds = share, .family = 3};
     CandidateDecision near(rule), few(rule), student({.tolerance = 1, .bounds = delay, .most = 40});
     for (int i = 0; i < 200; ++i) add(near, i % 2 == 0 ? 0.15 : -0.05);
@@ -247,7 +247,7 @@ TEST_CASE("ladder: the choice is the cheapest candidate within the tolerance") {
     CHECK_FALSE(ladder.wants(3));
 }
 
-TEST_CASE("ladder: an undecided candidate below the cheapest sufficient one is waited for") {
+TEST_CASE("ladder: an undecided candidate cheaper than the sufficient one is still tested") {
     Ladder ladder(3, {.tolerance = 0.1, .bounds = share, .family = 3});
     for (int r = 0; r < 300; ++r) {
         add(ladder, 0, r % 2 == 0 ? 0.6 : -0.4);  // the tolerance itself

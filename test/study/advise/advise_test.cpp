@@ -137,7 +137,7 @@ TEST_CASE("advise: on an open field the reference is the exact two_ray with sinr
     CHECK(c.family() == 4 * 3 - 1);
 }
 
-TEST_CASE("advise: a disc is judged with the most detailed reception that takes it") {
+TEST_CASE("advise: a disc is judged with the most detailed compatible reception") {
     const AdviceCandidates c =
         candidates_of(talkers + "[propagation]\nrange = \"20 m\"\n", as_given);
     REQUIRE(c.path_losses.front().name == "disc");
@@ -150,8 +150,7 @@ TEST_CASE("advise: a disc is judged with the most detailed reception that takes 
     CHECK(c.exclude().size() == 1);
 }
 
-TEST_CASE(
-    "advise: on a map the reference is the most detailed model, candidates are those before") {
+TEST_CASE("advise: on a map the reference is the most detailed model, the others are candidates") {
     const AdviceCandidates c =
         candidates_for(std::string(ROVERNET_EXAMPLES) + "/rescue/rescue.toml", {}, as_given);
     CHECK(c.on_map);
@@ -166,7 +165,7 @@ TEST_CASE(
     CHECK(c.path_losses.size() > 5);
 }
 
-TEST_CASE("advise: forms of rays that are no more detailed in either respect are cheaper") {
+TEST_CASE("advise: simpler forms of rays are cheaper candidates") {
     const auto forms_below = [](const std::string& order, const std::string& diffraction) {
         const AdviceCandidates c =
             candidates_for(std::string(ROVERNET_EXAMPLES) + "/rescue/rescue.toml", {},
@@ -188,7 +187,7 @@ TEST_CASE("advise: forms of rays that are no more detailed in either respect are
     CHECK(forms_below("1", "none") == Names{"rays"});
 }
 
-TEST_CASE("advise: candidates can be asked for by the names that are printed") {
+TEST_CASE("advise: candidates can be selected by their printed names") {
     const auto candidates = [](std::vector<std::string> models) {
         return names_of(
             candidates_for(std::string(ROVERNET_EXAMPLES) + "/rescue/rescue.toml", {},
@@ -203,7 +202,7 @@ TEST_CASE("advise: candidates can be asked for by the names that are printed") {
                       doctest::Contains("did you mean \"rays order=2 diffraction=utd\"?"));
 }
 
-TEST_CASE("advise: the reference and the candidates are what the options say") {
+TEST_CASE("advise: options select the reference and the candidates") {
     CandidateQuestion question = as_given;
     question.models = {"friis", "multi_wall"};
     question.reference = {"propagation.model=log_distance", "propagation.exponent=3",
@@ -216,7 +215,7 @@ TEST_CASE("advise: the reference and the candidates are what the options say") {
     CHECK(names_of(c.receptions) == std::vector<std::string>{"threshold", "collision"});
 }
 
-TEST_CASE("advise: mistakes about the reference and the candidates are told at their options") {
+TEST_CASE("advise: errors about reference and candidates are reported at their options") {
     const auto reference = [](const std::string& text) {
         return error_of({.models = {}, .reference = {text}, .as_given = true});
     };
@@ -235,7 +234,7 @@ TEST_CASE("advise: mistakes about the reference and the candidates are told at t
               .starts_with("--models fris: unknown propagation model \"fris\""));
 }
 
-TEST_CASE("advise: a candidate leaves shadowing to that of the scenario") {
+TEST_CASE("advise: a candidate uses the scenario's shadowing") {
     const AdviceCandidates c =
         candidates_of(talkers + "[shadowing]\nmodel = \"link\"\nsigma = \"6 dB\"\n",
                       {.models = {"log_distance"}, .reference = {}, .as_given = false});
@@ -243,7 +242,7 @@ TEST_CASE("advise: a candidate leaves shadowing to that of the scenario") {
     CHECK(plain_text(*c.path_losses.front().table.find("sigma")) == "0 dB");
 }
 
-TEST_CASE("advise: fitted to a model whose form it can take, a candidate is that model") {
+TEST_CASE("advise: a candidate fitted to a model of its own form equals that model") {
     CandidateQuestion question{
         .models = {"friis", "multi_wall"},
         .reference = {"propagation.model=log_distance", "propagation.exponent=3",
@@ -256,7 +255,7 @@ TEST_CASE("advise: fitted to a model whose form it can take, a candidate is that
     CHECK(c.path_losses[0].fitted.empty());
 }
 
-TEST_CASE("advise: a simulated study finds the model that equals the reference, and no other") {
+TEST_CASE("advise: a simulated study selects the model that equals the reference") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", talkers);
     const AdviceCandidates c =
@@ -299,7 +298,7 @@ TEST_CASE("advise: a simulated study finds the model that equals the reference, 
     CHECK(advice_charts(advice).size() == 2);
 }
 
-TEST_CASE("advise: the choice is the cheapest of both, judged together") {
+TEST_CASE("advise: the choice is the cheapest of both kinds, judged together") {
     // `a` is wrong by 0.5, `b` by 0.01, and the reception `some` by 0.01: together by 0.02.
     MadeUp study([](std::size_t p, std::size_t r, std::uint32_t) {
         return 0.9 - (p == 0 ? 0.5 : p == 1 ? 0.01 : 0) - (r == 0 ? 0.01 : 0);
@@ -315,7 +314,7 @@ TEST_CASE("advise: the choice is the cheapest of both, judged together") {
     CHECK(study.made[0] == 0);  // a + some: nobody asked
 }
 
-TEST_CASE("advise: two errors that are small alone may be too large together") {
+TEST_CASE("advise: two small errors may together be too large") {
     MadeUp study([](std::size_t p, std::size_t r, std::uint32_t) {
         return 0.9 - (p == 0 ? 0.6 : p == 1 ? 0.15 : 0) - (r == 0 ? 0.15 : 0);
     });
@@ -325,7 +324,7 @@ TEST_CASE("advise: two errors that are small alone may be too large together") {
     CHECK(advice.chosen()->name == "b + all");
 }
 
-TEST_CASE("advise: where nothing cheaper is sufficient the reference is the advice") {
+TEST_CASE("advise: without a sufficient cheaper model the reference is advised") {
     MadeUp study(
         [](std::size_t p, std::size_t r, std::uint32_t) { return p == 2 && r == 1 ? 0.9 : 0.4; });
     const Advice advice = study.advice(rule_of(0.2));
@@ -335,7 +334,7 @@ TEST_CASE("advise: where nothing cheaper is sufficient the reference is the advi
     CHECK(advice_text(advice).starts_with("Take the reference, top + all:"));
 }
 
-TEST_CASE("advise: what is undecided at the end counts as insufficient, and is told") {
+TEST_CASE("advise: an undecided candidate counts as insufficient, and is named") {
     // The tolerance itself, with much noise: 150 replications do not tell.
     MadeUp study([](std::size_t p, std::size_t, std::uint32_t r) {
         return p == 0 ? (r % 2 == 0 ? 1.0 : 0.4) : 0.5;
@@ -350,8 +349,7 @@ TEST_CASE("advise: what is undecided at the end counts as insufficient, and is t
                                  "+ all") != std::string::npos);
 }
 
-TEST_CASE(
-    "advise: a candidate stops with its verdict, and what is more detailed than the choice stops") {
+TEST_CASE("advise: a candidate stops at its verdict, and candidates beyond the choice stop") {
     // `a` is the reference at once; `b` is noisy, and never decided.
     MadeUp study([](std::size_t p, std::size_t, std::uint32_t r) {
         return p == 1 ? (r % 2 == 0 ? 1.0 : 0.0) : 0.5;
@@ -365,7 +363,7 @@ TEST_CASE(
     CHECK(advice.replications == study.made[5]);
 }
 
-TEST_CASE("advise: what a store has already changes nothing") {
+TEST_CASE("advise: existing runs in the store do not change the advice") {
     const auto metric = [](std::size_t p, std::size_t r, std::uint32_t i) {
         const double noise = 0.1 * static_cast<double>((i * 7 + p * 3 + r) % 10) / 10;
         return 0.5 + noise + (p == 0 ? 0.3 : 0);
@@ -382,7 +380,7 @@ TEST_CASE("advise: what a store has already changes nothing") {
     CHECK(a.chosen()->name == b.chosen()->name);
 }
 
-TEST_CASE("advise: a candidate near the tolerance does not take all replications") {
+TEST_CASE("advise: a candidate near the tolerance does not use all replications") {
     // `a` is 0.2 away on average, which is the tolerance; `b` is the reference.
     MadeUp study([](std::size_t p, std::size_t, std::uint32_t r) {
         return p == 0 ? (r % 2 == 0 ? 0.5 : 0.9) : 0.5;
@@ -397,7 +395,7 @@ TEST_CASE("advise: a candidate near the tolerance does not take all replications
     CHECK_FALSE(advice.stopped);
 }
 
-TEST_CASE("advise: what was stopped is an interim verdict that says what is open") {
+TEST_CASE("advise: after a stop the verdict is preliminary, and names open candidates") {
     const auto metric = [](std::size_t p, std::size_t, std::uint32_t r) {
         return p == 0 ? (r % 2 == 0 ? 0.5 : 1.0) : p == 1 ? 0.0 : 0.5;
     };
@@ -414,7 +412,7 @@ TEST_CASE("advise: what was stopped is an interim verdict that says what is open
     CHECK(advice_text(advice).find("would decide") != std::string::npos);
 }
 
-TEST_CASE("advise: stopped before anything ran, it says that nothing is known yet") {
+TEST_CASE("advise: stopped before any run, it says that nothing is known") {
     MadeUp study([](std::size_t, std::size_t, std::uint32_t) { return 0.5; });
     study.most_blocks = 0;
     const Advice advice = study.advice(rule_of(0.2));
@@ -424,7 +422,7 @@ TEST_CASE("advise: stopped before anything ran, it says that nothing is known ye
     CHECK(advice_text(advice).find("tolerance") == std::string::npos);
 }
 
-TEST_CASE("advise: blocks grow by a quarter, from 10 to the most") {
+TEST_CASE("advise: blocks grow by a quarter, from 10 to the limit") {
     CHECK(next_block(0, 4000) == 10);
     CHECK(next_block(10, 4000) == 20);
     CHECK(next_block(80, 4000) == 100);

@@ -54,7 +54,7 @@ struct Compared {
 
 }  // namespace
 
-TEST_CASE("costs of models: each has one, and its share of a run's CPU time") {
+TEST_CASE("costs of models: each has a cost, and its share of a run's CPU time") {
     const Compared c("");
     for (const ComparedModel& model : c.comparison.models) {
         REQUIRE(model.cost);
@@ -73,7 +73,7 @@ TEST_CASE("costs of models: each has one, and its share of a run's CPU time") {
     CHECK(chart.series[0].points[0].x == 1e6 * c.comparison.models[0].cost->median_s);
 }
 
-TEST_CASE("costs of models: where nobody sends there are none, and runs' CPU time is shown") {
+TEST_CASE("costs of models: without frames there are none, and CPU time of runs is shown") {
     const Compared c("off = [\"0 s\"]");
     for (const ComparedModel& model : c.comparison.models) CHECK_FALSE(model.cost);
     CHECK(c.comparison.cost_text.empty());

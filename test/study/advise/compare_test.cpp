@@ -94,7 +94,7 @@ TEST_CASE("compare: differences are paired, errors are distances to the most det
     CHECK(std::abs(*c.pairs[0].ratio - (0.04 + 0.12) / 0.04) < 1e-9);
 }
 
-TEST_CASE("compare: a mean is of all replications of its model, a pair of those that both have") {
+TEST_CASE("compare: a mean is over all replications, a difference over common ones") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), {"disc", "friis", "itu_indoor"},
                              {{0.2, {}, 0.6, 0.9}, {1.0, 1.0, 0.8}, {0.1, 0.2, 0.3, 0.5}});
@@ -117,7 +117,7 @@ TEST_CASE("compare: a mean is of all replications of its model, a pair of those 
                          doctest::Contains("did you mean \"disc\"?"), std::invalid_argument);
 }
 
-TEST_CASE("compare: models without a replication in common have means and no difference") {
+TEST_CASE("compare: models without a common replication have means and no difference") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("n.db"), {"disc", "friis"}, {{{}, 1.0}, {0.5, {}}});
     const Comparison c = compare_models(store, "reach", "");
@@ -139,7 +139,7 @@ TEST_CASE("compare: one replication gives means, wide intervals and no differenc
     CHECK(c.models[0].error == 0.5);
 }
 
-TEST_CASE("compare: its charts show each model's value and its error against its cost") {
+TEST_CASE("compare: charts show each model's value, and its error against its cost") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), {"disc", "friis"}, {{0.2, 0.4}, {1.0, 1.0}});
     const auto charts = comparison_charts(compare_models(store, "reach", ""));
@@ -152,7 +152,7 @@ TEST_CASE("compare: its charts show each model's value and its error against its
     CHECK(charts[1].series[0].points[1].y == 0);
 }
 
-TEST_CASE("compare: common random numbers halve the variance of every difference, in the rescue") {
+TEST_CASE("compare: in the rescue, common random numbers halve the variance of differences") {
     const TemporaryFolder folder;
     const Array models = {"disc", "friis", "itu_indoor", "log_distance", "raytrace_2007"};
     Study study(ROVERNET_EXAMPLES "/rescue/study.toml", {.set = {"study.replications=100"}},
@@ -176,7 +176,7 @@ TEST_CASE("compare: common random numbers halve the variance of every difference
     CHECK(compared == 3);
 }
 
-TEST_CASE("compare: with a margin, each model is within it, outside, or not decided") {
+TEST_CASE("compare: with a margin, each model is within it, outside, or undecided") {
     const TemporaryFolder folder;
     std::vector<std::vector<std::optional<double>>> values(4);
     for (int r = 0; r < 400; ++r) {
@@ -198,7 +198,7 @@ TEST_CASE("compare: with a margin, each model is within it, outside, or not deci
     CHECK_FALSE(compare_models(store, "reach", "friis").models[0].equivalence);
 }
 
-TEST_CASE("compare: intervals of several metrics hold together") {
+TEST_CASE("compare: intervals of several metrics are simultaneously valid") {
     const TemporaryFolder folder;
     const Store store =
         made_of_protocols(folder.path("s.db"), {"flood", "aodv", "other"},

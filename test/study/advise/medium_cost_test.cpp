@@ -50,7 +50,7 @@ every = "100 ms"
 
 }  // namespace
 
-TEST_CASE("medium cost: the record's questions, asked again, have the run's answers") {
+TEST_CASE("medium cost: a replayed record gives the results of the run") {
     for (const char* more : {"[propagation]\nmodel = \"disc\"\nrange = \"90 m\"\n",
                              "[propagation]\nmodel = \"log_distance\"\nsigma = \"4 dB\"\n",
                              "[propagation]\nmodel = \"friis\"\n[access]\nmodel = \"csma\"\n",
@@ -75,7 +75,7 @@ TEST_CASE("medium cost: the record's questions, asked again, have the run's answ
     }
 }
 
-TEST_CASE("medium cost: a model that finds more receivers is asked the same questions") {
+TEST_CASE("medium cost: a model that finds more receivers gets the same record") {
     const Scenario near = walkers("[propagation]\nmodel = \"disc\"\nrange = \"50 m\"\n");
     const Scenario far = walkers("[propagation]\nmodel = \"disc\"\nrange = \"1 km\"\n");
     const MediumRecord record = record_medium(near, go_on);
@@ -86,7 +86,7 @@ TEST_CASE("medium cost: a model that finds more receivers is asked the same ques
     CHECK(few.receivers > 0);
 }
 
-TEST_CASE("medium cost: every model has a median between its extremes, all of one record") {
+TEST_CASE("medium cost: every model has a median between its extremes") {
     const std::vector<Scenario> scenarios = {
         walkers("[propagation]\nmodel = \"disc\"\nrange = \"90 m\"\n"),
         walkers("[propagation]\nmodel = \"friis\"\n")};
@@ -104,7 +104,7 @@ TEST_CASE("medium cost: every model has a median between its extremes, all of on
     }
 }
 
-TEST_CASE("medium cost: where nobody sends, or the user stops it, there is none") {
+TEST_CASE("medium cost: without frames, or after a stop, there is no cost") {
     Scenario silent = walkers("");
     silent.traffic.clear();
     const MediumRecord none = record_medium(silent, go_on);

@@ -52,7 +52,7 @@ constexpr double rounding = 1e-12;  // of a mean of three numbers below 100
 
 }  // namespace
 
-TEST_CASE("study chart: numbers on x are lines, and other keys are averaged over") {
+TEST_CASE("study chart: numeric x values give lines, and other keys are averaged") {
     const TemporaryFolder folder;
     const Store store =
         made(folder.path("s.db"), "robot.r.count", {10, 20}, "routing.ttl", {1, 2, 3});
@@ -70,7 +70,7 @@ TEST_CASE("study chart: numbers on x are lines, and other keys are averaged over
     CHECK(*chart.series[0].points[1].low < chart.series[0].points[1].y);
 }
 
-TEST_CASE("study chart: a series for each value of the key that it is drawn by") {
+TEST_CASE("study chart: each value of the `by` key has a series") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), "radio.power", {"5 dBm", "10 dBm"},
                              "propagation.model", {"disc", "friis"});
@@ -121,7 +121,7 @@ TEST_CASE("study chart: a cdf has a point per replication, a heat map a row per 
     CHECK(std::abs(map.series[1].points[2].y - 12.1) < rounding);
 }
 
-TEST_CASE("study chart: it may show the points that meet a condition, and says so") {
+TEST_CASE("study chart: a condition selects points, and is in the note") {
     const TemporaryFolder folder;
     const Store store =
         made(folder.path("s.db"), "robot.r.count", {10, 20}, "routing.ttl", {1, 2, 3});
@@ -136,7 +136,7 @@ TEST_CASE("study chart: it may show the points that meet a condition, and says s
                          std::invalid_argument);
 }
 
-TEST_CASE("study chart: a question that it cannot answer is an error that says what it can") {
+TEST_CASE("study chart: an impossible request is an error that says what is possible") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), "a.count", {10}, "b.count", {1});
     using Error = std::invalid_argument;
@@ -188,7 +188,7 @@ TEST_CASE("study chart: rows of a file are marks beside the curves that they nam
     fails("", "no line of column names");
 }
 
-TEST_CASE("study chart: a quotient of metrics is taken run by run") {
+TEST_CASE("study chart: a quotient of metrics is computed run by run") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), "robot.r.count", {10, 20}, "routing.ttl", {1, 2});
     const std::string quotient = "latency_mean_s/latency_mean_s";

@@ -102,7 +102,7 @@ std::string levels_of_a_law(double floor) {
 
 }  // namespace
 
-TEST_CASE("calibration: a model finds the parameters of its own kind again") {
+TEST_CASE("calibration: a model recovers the parameters of its own kind") {
     const Scenario scenario = scenario_from(
         wanderers + "[propagation]\nmodel = \"log_distance\"\nexponent = 3.2\nexcess = \"4 dB\"\n");
     const KnownLinks known =
@@ -131,7 +131,7 @@ TEST_CASE("calibration: a model finds the parameters of its own kind again") {
     CHECK(std::abs(at_range - budget) < 1);
 }
 
-TEST_CASE("calibration: the fitted parameters, put into the scenario, predict what the fit says") {
+TEST_CASE("calibration: fitted parameters in the scenario give the predicted losses") {
     const Scenario scenario = scenario_from(wanderers + "[propagation]\nmodel = \"two_ray\"\n");
     Calibration calibration = calibrate_to_model(scenario, "", {});
     CHECK(calibration.reference == "two_ray");
@@ -161,7 +161,7 @@ at = ["0 m", "90 m"]
     CHECK(std::string(known.group_name) == "sender");
 }
 
-TEST_CASE("calibration: a sample that grew is that of its size, and no link is asked for twice") {
+TEST_CASE("calibration: a grown sample equals one of its size, and computes no link twice") {
     const Scenario scenario = scenario_from(wanderers + "[[robot]]\nname = \"still\"\ncount = 2\n" +
                                             "at = [\"9 m\", \"9 m\"]\n");
     int asked = 0;
@@ -184,7 +184,7 @@ TEST_CASE("calibration: a sample that grew is that of its size, and no link is a
     CHECK(asked_growing <= 2 * asked);
 }
 
-TEST_CASE("calibration: rays leave it to multi_wall where the robots of a sample drive") {
+TEST_CASE("calibration: robots of a sample move by multi_wall instead of rays") {
     // B drives off when it hears A, through a wall that takes so much by multi_wall.
     const auto links_with = [](const std::string& heavy_wall) {
         Scenario scenario = scenario_from(R"([scenario]
@@ -218,7 +218,7 @@ every = "1 s"
     CHECK(links_with("1 dB") > 10);
 }
 
-TEST_CASE("calibration: of a loss far beyond the budget only that is kept") {
+TEST_CASE("calibration: of a loss far beyond the budget only a lower bound is used") {
     KnownLinks known;
     for (const double loss : {99.0, 120.0, 120.5}) {
         KnownLink& link = known.links.emplace_back();
@@ -233,7 +233,7 @@ TEST_CASE("calibration: of a loss far beyond the budget only that is kept") {
     CHECK(kept.links[2].unseen);
 }
 
-TEST_CASE("calibration: losses that no radio overcomes do not bend a fit") {
+TEST_CASE("calibration: losses that no radio overcomes do not distort a fit") {
     // A law of exponent 3, and behind a rock, of far links, hundreds of decibels more.
     KnownLinks known;
     known.scene = std::make_shared<const Scene>();
@@ -261,7 +261,7 @@ TEST_CASE("calibration: losses that no radio overcomes do not bend a fit") {
     CHECK(kept.se_by_group > 0);
 }
 
-TEST_CASE("calibration: a jackknife's standard errors are near those by groups") {
+TEST_CASE("calibration: standard errors of the jackknife are near those by groups") {
     KnownLinks known;
     known.scene = std::make_shared<const Scene>();
     known.groups = 40;
@@ -286,7 +286,7 @@ TEST_CASE("calibration: a jackknife's standard errors are near those by groups")
     CHECK(std::abs(by_jackknife / by_group - 1) < 0.15);
 }
 
-TEST_CASE("calibration: with links unseen, too, no wall gains") {
+TEST_CASE("calibration: with unseen links, wall losses are not negative") {
     // Links through a light wall lose less than others of their length.
     KnownLinks known;
     OccupancyGrid map = test::drawn_map(std::vector<std::string>(10, "#........."), 0.05);
@@ -308,7 +308,7 @@ TEST_CASE("calibration: with links unseen, too, no wall gains") {
     CHECK(value(model(models, "multi_wall"), "light_wall") == 0);
 }
 
-TEST_CASE("calibration: a model that draws is asked for equal links of each replication") {
+TEST_CASE("calibration: a model with random draws gets the links of each replication") {
     const Scenario scenario = scenario_from(
         "[[robot]]\nname = \"a\"\nat = [\"0 m\", \"0 m\"]\n"
         "[[robot]]\nname = \"b\"\nat = [\"9 m\", \"0 m\"]\n");
@@ -317,7 +317,7 @@ TEST_CASE("calibration: a model that draws is asked for equal links of each repl
     CHECK(sample_links(scenario, LogDistance{.sigma = Db{0}}, size).links.size() == 1);
 }
 
-TEST_CASE("calibration: levels that were not seen count by the Tobit model") {
+TEST_CASE("calibration: unseen levels count by the Tobit model") {
     const test::TemporaryFolder folder;
     const Scenario scenario = scenario_from(wanderers);
     const auto fitted = [&](double floor) {
@@ -334,7 +334,7 @@ TEST_CASE("calibration: levels that were not seen count by the Tobit model") {
     CHECK(model(some, "friis").parameters.at(0).key == "power");
 }
 
-TEST_CASE("calibration: each transmitter has a gain of its own, and models fit better for it") {
+TEST_CASE("calibration: each transmitter has its own gain, which improves the fit") {
     const test::TemporaryFolder folder;
     const Scenario scenario = scenario_from(wanderers);
     const auto write = [&](const std::string& name, double first, double floor) {
@@ -391,7 +391,7 @@ TEST_CASE("calibration: each transmitter has a gain of its own, and models fit b
     CHECK(fault(walk).ends_with("are from and to exchanged?"));
 }
 
-TEST_CASE("calibration: a fit that describes nothing is refused, with the reason") {
+TEST_CASE("calibration: a useless fit is refused with the reason") {
     const auto fit_of = [](const char* name, double rmse, double power) {
         CalibratedModel out;
         out.model = name;
@@ -437,8 +437,7 @@ TEST_CASE("calibration: a fit that describes nothing is refused, with the reason
         CHECK((each.failure.empty() || !each.is_fitted()));
 }
 
-TEST_CASE(
-    "levels: one level is the square root of two nearer the truth than two are to each other") {
+TEST_CASE("levels: the error of one level is the repeatability over the square root of two") {
     KnownLinks first, second;
     constexpr int places = 4000;
     for (int i = 0; i < places; ++i) {
@@ -457,7 +456,7 @@ TEST_CASE(
     CHECK(std::abs(repeatability(first, second).one_level() - 3) < 0.1);
 }
 
-TEST_CASE("calibration: what walls take in rays is found, and where there is none it stays") {
+TEST_CASE("calibration: losses of walls in rays are found, and unchanged without walls") {
     const std::string among_walls = R"([scenario]
 duration = "100 s"
 [[robot]]
@@ -504,7 +503,7 @@ move = { model = "random_waypoint", area = [["1 m", "1 m"], ["29 m", "19 m"]] }
     for (const FittedParameter& p : nothing.parameters) CHECK(!p.determined);
 }
 
-TEST_CASE("levels: what is wrong with a file is told with its place") {
+TEST_CASE("levels: an error in a file has its position") {
     const auto has = [](const std::string& text, const std::string& words) {
         CAPTURE(text);
         return text.find(words) != std::string::npos;
@@ -520,7 +519,7 @@ TEST_CASE("levels: what is wrong with a file is told with its place") {
     CHECK(has(error_of(""), "empty"));
 }
 
-TEST_CASE("calibration: a measured flat and a laboratory, by their maps") {
+TEST_CASE("calibration: a measured flat and a laboratory are fitted on their maps") {
     const char* folder = std::getenv("ROVERNET_FIELD");
     if (!folder) {
         MESSAGE("skipped: ROVERNET_FIELD is not set");

@@ -23,7 +23,7 @@ Scenario open_field(const std::string& keys = "") {
 
 }  // namespace
 
-TEST_CASE("free parameters: fields tell which a fit may change, from which base, and their sign") {
+TEST_CASE("free parameters: fields state which a fit may change, from which base, and the sign") {
     std::string all;
     for_each_model([&]<class Model>() {
         for (const FreeParameter& p : free_parameters(Model::name)) {
@@ -47,7 +47,7 @@ TEST_CASE("free parameters: fields tell which a fit may change, from which base,
     CHECK(key_determined(LogDistance::name, Fit::Way::spread) == "sigma");
 }
 
-TEST_CASE("free parameters: a value is set as it is, and one out of range is refused") {
+TEST_CASE("free parameters: a value is set unchanged, and one out of range is refused") {
     const Scenario scenario = open_field("[propagation]\nmodel = \"friis\"\nexponent = 3.0\n");
     const Propagation fitted = model_with(scenario, LogDistance::name, {{"exponent", 0.1 + 0.2}});
     CHECK(fitted.as<LogDistance>()->exponent == 0.1 + 0.2);

@@ -47,7 +47,7 @@ robot = [
 
 }  // namespace
 
-TEST_CASE("locate: without shadowing robots are found where they are, also by a model of walls") {
+TEST_CASE("locate: without shadowing positions are exact, also with walls") {
     for (const char* model : {"", "propagation.model=multi_wall"}) {
         const Located located =
             locate_robots(hall("", model), corners, {start_of_run}, {.sigma = Db{4}});
@@ -57,7 +57,7 @@ TEST_CASE("locate: without shadowing robots are found where they are, also by a 
     }
 }
 
-TEST_CASE("locate: each time has the doors as they are then") {
+TEST_CASE("locate: each time uses the doors of that time") {
     const TemporaryFolder folder;
     const Scenario scenario = load_scenario(folder.write("door.toml", R"([scenario]
 name = "door"
@@ -99,7 +99,7 @@ at = ["21 m", "15 m"]
     for (const Fix& fix : all.fixes) CHECK(*fix.error() <= 2e-3);
 }
 
-TEST_CASE("locate, fit, probe: disc has no levels, and is refused") {
+TEST_CASE("locate, fit, probe: disc has no levels and is refused") {
     const Propagation model = Disc{.range = 20_m};
     const auto fault = [](const auto& call) {
         try {
@@ -127,7 +127,7 @@ TEST_CASE("locate, fit, probe: disc has no levels, and is refused") {
           }).find("\"disc\" has no levels") == 0);
 }
 
-TEST_CASE("locate: under shadowing the error is about as large as the bound") {
+TEST_CASE("locate: with shadowing the error is about as large as the bound") {
     const Scenario shadowed = hall("shadowing = { model = \"link\", sigma = \"2 dB\" }");
     const Located located = locate_robots(shadowed, corners, {start_of_run}, {});
     CHECK(located.sigma == Db{2});
@@ -138,7 +138,7 @@ TEST_CASE("locate: under shadowing the error is about as large as the bound") {
     CHECK(std::abs(errors->rms / errors->bound - 1) <= 0.1);
 }
 
-TEST_CASE("locate: measured levels tell places, whether or not these are known") {
+TEST_CASE("locate: measured levels give positions, with and without known true positions") {
     const TemporaryFolder folder;
     const Scenario scenario = hall("");
     // Levels at (3, 4): exponent 2 is 20 dB a decade.
@@ -164,7 +164,7 @@ TEST_CASE("locate: measured levels tell places, whether or not these are known")
     CHECK(std::abs(known.fixes[0].bound->value - unknown.fixes[0].bound->value) < 0.01);
 }
 
-TEST_CASE("locate: what cannot be located is told, and why") {
+TEST_CASE("locate: positions that cannot be located are counted, with the reason") {
     const Scenario scenario = hall("");
     const auto fault = [&](const std::vector<std::string>& anchors,
                            const LocateQuestion& question) {

@@ -49,7 +49,7 @@ std::vector<AnchorLoss> measured(const LocatorSettings& s, const std::vector<Vec
 
 }  // namespace
 
-TEST_CASE("locator: the bound is that of the closed form, with the power known or not") {
+TEST_CASE("locator: the bound equals its closed form, with known and unknown power") {
     const Vectors vectors("rssi_crlb.csv");
     std::size_t checked = 0;
     for (std::size_t row = 0; row < vectors.size(); ++row) {
@@ -71,7 +71,7 @@ TEST_CASE("locator: the bound is that of the closed form, with the power known o
     CHECK(checked == 128);
 }
 
-TEST_CASE("locator: on top of an anchor, which tells no direction, the others bound the place") {
+TEST_CASE("locator: on top of an anchor, the other anchors bound the position") {
     const LocatorSettings settings = in_square(2);
     const auto anchors = anchors_of("square10");
     for (const double off : {0.0, 1e-9, 1e-3}) {
@@ -87,7 +87,7 @@ TEST_CASE("locator: on top of an anchor, which tells no direction, the others bo
     CHECK_FALSE(Locator(settings).bound({anchors.data(), 1}, anchors[0], Db{4}));
 }
 
-TEST_CASE("locator: anchors on one line tell no place on it, and two none with an unknown power") {
+TEST_CASE("locator: anchors on one line give no bound; two anchors none with unknown power") {
     CHECK_FALSE(Locator(in_square(2)).bound(anchors_of("collinear10"), {7, 0}, Db{4}));
     LocatorSettings unknown = in_square(2);
     unknown.knows_power = false;
@@ -96,7 +96,7 @@ TEST_CASE("locator: anchors on one line tell no place on it, and two none with a
     CHECK_FALSE(Locator(unknown).bound(two, {5, 5}, Db{4}));
 }
 
-TEST_CASE("locator: exact levels give the place to a millimetre") {
+TEST_CASE("locator: exact levels give the position to a millimetre") {
     const auto anchors = anchors_of("square10");
     for (const bool known : {true, false}) {
         LocatorSettings settings = in_square(3);

@@ -86,19 +86,19 @@ const Vec3 left{0.25, 1.75}, right{1.75, 1.75}, far_right{4.75, 1.75};
 
 }  // namespace
 
-TEST_CASE("perturbations: on an open field, or where no model sees walls, only places change") {
+TEST_CASE("perturbations: on an open field, or with models without walls, only positions change") {
     const std::vector<std::string> places{"1 cm", "1 um"};
     CHECK(names(perturbations(Scenario{})) == places);
     CHECK(names(perturbations(in_hall({Material{}}, 0, table_of(Friis{})))) == places);
 }
 
-TEST_CASE("perturbations: a robot with a model of its own that sees walls counts") {
+TEST_CASE("perturbations: a robot with its own model that uses walls counts") {
     Scenario scenario = in_hall({Material{}}, 0, table_of(Friis{}));
     scenario.robots.emplace_back().propagation = table_of(Raytrace2007{});
     CHECK(perturbations(scenario).size() > 2);
 }
 
-TEST_CASE("perturbations: split cells change no loss, joined ones thicken walls") {
+TEST_CASE("perturbations: split cells change no loss, joined cells thicken walls") {
     const Scenario scenario = in_hall({Material{}}, 0, table_of(Raytrace2007{.wall_factor = 0.1}));
     const auto all = perturbations(scenario);
     const double given =
@@ -115,7 +115,7 @@ TEST_CASE("perturbations: an outlined wall keeps its outer cells") {
     CHECK(named(all, "walls filled").nothing == "no wall is hollow");
 }
 
-TEST_CASE("perturbations: robots keep to the walls as they were given") {
+TEST_CASE("perturbations: robots keep to the original walls") {
     const Scenario scenario = in_hall({Material{}}, 0, table_of(Raytrace2007{}));
     const auto all = perturbations(scenario);
     const auto scene = named(all, "resolution x0.5").settings().scene;
@@ -123,7 +123,7 @@ TEST_CASE("perturbations: robots keep to the walls as they were given") {
     CHECK(scene->occupied({1.75, 1.75}));
 }
 
-TEST_CASE("perturbations: a crossing takes 3 dB more or less, whatever gives its loss") {
+TEST_CASE("perturbations: a crossing has 3 dB more or less, whatever gives its loss") {
     struct Kind {
         const char* what;
         Material material;
@@ -147,14 +147,14 @@ TEST_CASE("perturbations: a crossing takes 3 dB more or less, whatever gives its
     }
 }
 
-TEST_CASE("perturbations: no wall takes less than nothing") {
+TEST_CASE("perturbations: no wall has a negative loss") {
     const Material paper{.name = "paper", .per_crossing = Db{1}};
     const Scenario scenario = in_hall({Material{}, paper}, 1, table_of(MultiWall{}));
     const double free = loss(MultiWall{}, Scene{}, left, right);
     CHECK(near(loss(named(perturbations(scenario), "paper -3 dB"), left, right), free, rounding));
 }
 
-TEST_CASE("perturbations: walls that follow the model change by its own numbers") {
+TEST_CASE("perturbations: walls without a material change by the model's parameters") {
     for (const PropagationTable& model :
          {table_of(MultiWall{}), table_of(Raytrace2007{.wall_factor = 0.1})}) {
         CAPTURE(model.make().name());
@@ -166,13 +166,13 @@ TEST_CASE("perturbations: walls that follow the model change by its own numbers"
     }
 }
 
-TEST_CASE("perturbations: a model without a number for walls says so") {
+TEST_CASE("perturbations: a model without a parameter for walls is reported") {
     const Scenario scenario =
         in_hall({Material{}}, 0, table_of(ItuSiteGeneral{.los = LineOfSight::map}));
     CHECK_FALSE(named(perturbations(scenario), "walls +3 dB").nothing.empty());
 }
 
-TEST_CASE("perturbations: more than eight materials change at once") {
+TEST_CASE("perturbations: more than eight materials change together") {
     std::vector<Material> materials{Material{}};
     OccupancyGrid map = drawn_map({"#.#.#.#.#.#.#.#.#."});
     for (int i = 0; i < map.columns; ++i) {
@@ -188,7 +188,7 @@ TEST_CASE("perturbations: more than eight materials change at once") {
     CHECK(near(loss(named(all, "all materials +3 dB"), a, b), given + 27, rounding));
 }
 
-TEST_CASE("displaced: each antenna is off by its distance, the same way in every batch") {
+TEST_CASE("displaced: each antenna is displaced by the distance, equally in every batch") {
     const Displaced model{Friis{}, Meters{0.01}};
     const Vec3 at{3, 4};
     for (std::uint64_t key = 0; key < 100; ++key) {
@@ -202,7 +202,7 @@ TEST_CASE("displaced: each antenna is off by its distance, the same way in every
     }
 }
 
-TEST_CASE("displaced: keys use all four ways about equally") {
+TEST_CASE("displaced: keys use all four directions about equally") {
     const Displaced model{Friis{}, Meters{1}};
     int east = 0, north = 0;
     constexpr int n = 4000;

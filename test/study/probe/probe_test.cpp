@@ -60,7 +60,7 @@ std::vector<std::string> rows_of(int rows, const std::string& row) {
 
 }  // namespace
 
-TEST_CASE("probe: in free space a centimetre changes what its slope says, and nothing flips") {
+TEST_CASE("probe: in free space a centimetre changes the loss by its slope, and no link flips") {
     const Probe found = probe(scenario_from(two_robots(50, "")), {});
     CHECK(found.model == "friis");
     CHECK(found.links == 1);
@@ -74,7 +74,7 @@ TEST_CASE("probe: in free space a centimetre changes what its slope says, and no
     CHECK(found.whole_run);
 }
 
-TEST_CASE("probe: at the rim of a disc a micrometre decides, which is a cliff and comes first") {
+TEST_CASE("probe: at the rim of a disc a micrometre decides, which is listed first as a cliff") {
     const Probe found = probe(scenario_from(two_robots(10, disc)), {});
     REQUIRE(found.effects.size() == 2);
     const LinkEffect& first = found.effects.front();
@@ -126,7 +126,7 @@ TEST_CASE("probe: a link along the face of a wall is a cliff") {
     CHECK(near(first.change(), 50, 0.1));  // it passes a metre of the wall
 }
 
-TEST_CASE("probe: effects come cliffs first, then flips, then by their size") {
+TEST_CASE("probe: effects are sorted by cliffs, then flips, then size") {
     const Scenario scenario = with_walls(60, rows_of(20, "#.###.###."), walls);
     const Probe found = probe(scenario, {.events = 0});
     const auto group = [](const LinkEffect& e) { return e.is_cliff() ? 0 : e.flips() ? 1 : 2; };
@@ -160,7 +160,7 @@ TEST_CASE("probe: a thicker drawing loses the link and its messages") {
     CHECK(named(found, "walls -3 dB").gained == 0);
 }
 
-TEST_CASE("probe: a run of more events than it may have is compared up to their time") {
+TEST_CASE("probe: a run with too many events is compared up to a stated time") {
     Scenario scenario = scenario_from(two_robots(50, ""));
     scenario.traffic.front().every = std::chrono::milliseconds{1};
     const Probe found = probe(scenario, {.events = 1});
@@ -168,7 +168,7 @@ TEST_CASE("probe: a run of more events than it may have is compared up to their 
     CHECK(found.until < start_of_run + std::chrono::seconds{5});
 }
 
-TEST_CASE("probe: it samples the replication that the scenario asks for") {
+TEST_CASE("probe: samples the replication of the scenario") {
     const std::string area = R"([scenario]
 duration = "5 s"
 [[robot]]
@@ -185,14 +185,14 @@ place = { area = [["0 m", "0 m"], ["50 m", "50 m"]] }
     CHECK(named(found, "1 cm").worst != named(other, "1 cm").worst);
 }
 
-TEST_CASE("probe: robots that are out of reach are an error that says so") {
+TEST_CASE("probe: robots out of range are an error") {
     CHECK_THROWS_WITH_AS(
         probe(scenario_from(two_robots(50, "[propagation]\nmodel = \"disc\"\nrange = \"1 m\"\n")),
               {}),
         doctest::Contains("no two robots come within reach of disc"), InputError);
 }
 
-TEST_CASE("probe: it tells shares that grow to 1") {
+TEST_CASE("probe: reports progress from 0 to 1") {
     double last = 0;
     probe(scenario_from(two_robots(50, "")), {}, [&](double share) {
         CHECK(share >= last);

@@ -33,7 +33,7 @@ bool near(double a, double b, double within) { return std::abs(a - b) <= within;
 
 }  // namespace
 
-TEST_CASE("bounded mean: one value leaves what the average gambler cannot refute") {
+TEST_CASE("bounded mean: one value leaves the means that the average gambler cannot reject") {
     // He stakes half: (1 + x / m) / 2 = 40 at m = x / 79.
     for (const double x : {0.0, 0.25, 0.5, 1.0}) {
         const auto mean = bounded_mean(std::vector{x}, share, 0.95);
@@ -42,7 +42,7 @@ TEST_CASE("bounded mean: one value leaves what the average gambler cannot refute
     }
 }
 
-TEST_CASE("bounded mean: the wealth after three values, by hand") {
+TEST_CASE("bounded mean: the wealth after three values equals a manual computation") {
     // Jeffreys' prior has the moments 1/2, 3/8 and 5/16. With r = x / m - 1 of each value, W =
     // 1 + (r1 + r2 + r3) / 2 + 3/8 (r1 r2 + r1 r3 + r2 r3) + 5/16 r1 r2 r3.
     const std::vector<double> values = {0.5, 0.75, 1.0};
@@ -67,7 +67,7 @@ TEST_CASE("bounded mean: n times 1 leaves Jeffreys' mixture of (1 - f + f / m)^n
     }
 }
 
-TEST_CASE("bounded mean: the interval of equal values has a width, less the more there are") {
+TEST_CASE("bounded mean: the interval of equal values has a width, which falls with n") {
     double width = 1;
     for (const std::size_t n : {1U, 2U, 5U, 30U, 1000U}) {
         for (const double x : {0.0, 0.3, 1.0}) {
@@ -82,7 +82,7 @@ TEST_CASE("bounded mean: the interval of equal values has a width, less the more
     }
 }
 
-TEST_CASE("bounded mean: the sequence narrows with every value and never widens") {
+TEST_CASE("bounded mean: the interval narrows with every value and never widens") {
     const auto values = uniforms(60);
     BoundedMean before{0, 1};
     for (std::size_t n = 1; n <= values.size(); ++n) {
@@ -109,14 +109,14 @@ TEST_CASE("bounded mean: mirrored values have the mirrored interval, scaled ones
     CHECK(near(difference.high, 2 * plain.high - 1, 2 * bisection));
 }
 
-TEST_CASE("bounded mean: more confidence is a wider interval") {
+TEST_CASE("bounded mean: more confidence gives a wider interval") {
     const auto values = uniforms(20);
     const auto narrow = bounded_mean(values, share, 0.9), wide = bounded_mean(values, share, 0.99);
     CHECK(wide.low < narrow.low);
     CHECK(wide.high > narrow.high);
 }
 
-TEST_CASE("bounded mean: values that drift leave no mean, but an interval that holds theirs") {
+TEST_CASE("bounded mean: values with a drift give an interval that contains their mean") {
     std::vector<double> values(200, 0.0);
     values.insert(values.end(), 200, 1.0);
     const auto mean = bounded_mean(values, share, 0.95);
@@ -125,7 +125,7 @@ TEST_CASE("bounded mean: values that drift leave no mean, but an interval that h
     CHECK(mean.low < mean.high);
 }
 
-TEST_CASE("bounded mean: the forecast is the number after which values like these are enough") {
+TEST_CASE("bounded mean: the forecast is the sufficient number of such values") {
     for (const double wanted : {0.1, 0.05, 0.02}) {
         const auto needed = bounded_mean_replications(ones(5), share, wanted, 0.95);
         REQUIRE(needed);
@@ -147,7 +147,7 @@ TEST_CASE("bounded mean: the forecast is the number after which values like thes
     CHECK(!bounded_mean_replications(values, share, 1e-7, 0.95));
 }
 
-TEST_CASE("bounded mean: arguments that make no sense are refused") {
+TEST_CASE("bounded mean: invalid arguments are refused") {
     CHECK_THROWS_AS(bounded_mean({}, share, 0.95), std::invalid_argument);
     CHECK_THROWS_AS(bounded_mean(ones(2), {0.0, std::nullopt}, 0.95), std::invalid_argument);
     CHECK_THROWS_AS(bounded_mean(ones(2), share, 1), std::invalid_argument);

@@ -62,7 +62,7 @@ PairedComparison comparison(double mean, double half_width, double p) {
 
 }  // namespace
 
-TEST_CASE("comparison: means, deviations, half-widths and p are those of R (vectors paired_t)") {
+TEST_CASE("comparison: means, deviations, half-widths and p equal R (vectors paired_t)") {
     const test::Vectors vectors("paired_t.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         CAPTURE(vectors.text(i, "case"));
@@ -93,13 +93,13 @@ TEST_CASE("comparison: Student's ten patients slept 1.58 h more on the other dru
           "one of 1.23 is found in 80 % of such studies");
 }
 
-TEST_CASE("comparison: fewer than two pairs are none") {
+TEST_CASE("comparison: fewer than two pairs give no comparison") {
     CHECK(!compare_pairs({}, {}));
     CHECK(!compare_pairs(std::array{1.0}, std::array{2.0}));
     CHECK(compare_pairs(std::array{1.0, 2.0}, std::array{2.0, 4.0}));
 }
 
-TEST_CASE("comparison: exchanging a and b changes the sign and nothing else") {
+TEST_CASE("comparison: exchanging a and b changes only the sign") {
     const Pairs pairs(12, 1, 0.5);
     const auto forth = compare_pairs(pairs.a, pairs.b), back = compare_pairs(pairs.b, pairs.a);
     CHECK(forth->difference.mean == -back->difference.mean);
@@ -110,7 +110,7 @@ TEST_CASE("comparison: exchanging a and b changes the sign and nothing else") {
     CHECK(forth->detectable == back->detectable);
 }
 
-TEST_CASE("comparison: p is at most the level exactly when the interval leaves 0 out") {
+TEST_CASE("comparison: p is at most the level exactly when the interval excludes 0") {
     int found = 0;
     for (std::uint32_t study = 0; study < 300; ++study) {
         const Pairs pairs(8, study, 1);
@@ -126,8 +126,7 @@ TEST_CASE("comparison: p is at most the level exactly when the interval leaves 0
     CHECK(found < 1500);
 }
 
-TEST_CASE(
-    "comparison: an interval of a family is that of one comparison at a level divided by it") {
+TEST_CASE("comparison: an interval of a family is that of one comparison at a divided level") {
     const Pairs pairs(8, 1, 1);
     const auto together = compare_pairs(pairs.a, pairs.b, {}, 0.95, 5);
     const auto alone = compare_pairs(pairs.a, pairs.b, {}, 0.99);
@@ -137,7 +136,7 @@ TEST_CASE(
     CHECK(together->confidence == 0.95);
 }
 
-TEST_CASE("comparison: equal differences are certain if not 0, and none if 0") {
+TEST_CASE("comparison: equal differences are certain if not 0, and no evidence if 0") {
     const std::array a{1.0, 2.0, 4.0}, less{0.5, 1.5, 3.5}, constant{3.0, 3.0, 3.0};
     const auto apart = compare_pairs(a, less);
     CHECK(apart->difference.mean == 0.5);
@@ -202,7 +201,7 @@ TEST_CASE("comparison: without a difference, p is uniform") {
     for (const int count : counts) CHECK(std::abs(count - 200) < 4 * std::sqrt(200 * 0.9));
 }
 
-TEST_CASE("comparison: what is not pairs of numbers is refused") {
+TEST_CASE("comparison: input that is not pairs of numbers is refused") {
     const std::array two{1.0, 2.0}, bad{1.0, not_a_number};
     CHECK_THROWS_WITH_AS(compare_pairs(two, std::array{1.0}),
                          "compare_pairs: needs pairs, got 2 and 1 values", std::invalid_argument);
@@ -214,14 +213,14 @@ TEST_CASE("comparison: what is not pairs of numbers is refused") {
                          std::invalid_argument);
 }
 
-TEST_CASE("sentence: a difference that is found") {
+TEST_CASE("sentence: states a significant difference") {
     CHECK(comparison_text("friis", "disc", comparison(0.2131, 0.0332, 1e-5)) ==
           "friis is 0.213 above disc (95 % 0.180 to 0.246, n = 30, p < 0.001, by Student's t)");
     CHECK(comparison_text("friis", "disc", comparison(-0.2131, 0.0332, 0.05)) ==
           "friis is 0.213 below disc (95 % 0.180 to 0.246, n = 30, p = 0.050, by Student's t)");
 }
 
-TEST_CASE("sentence: no detectable difference, and which one would have been") {
+TEST_CASE("sentence: states that no difference is detectable, and the detectable size") {
     PairedComparison c = comparison(0.0021, 0.0119, 0.0501);
     CHECK(comparison_text("friis", "disc", c) ==
           "no detectable difference between friis and disc (0.002, 95 % -0.010 to 0.014, n = 30, "
@@ -236,7 +235,7 @@ TEST_CASE("sentence: no detectable difference, and which one would have been") {
           "at n = 30");
 }
 
-TEST_CASE("sentence: replications that all say the same") {
+TEST_CASE("sentence: states that all replications agree") {
     const std::array a{1.0, 2.0, 4.0}, less{0.9, 1.9, 3.9}, equal{1.0, 2.0, 4.0};
     CHECK(comparison_text("a", "b", *compare_pairs(a, equal)) ==
           "a and b are equal in each of 3 replications");
@@ -250,7 +249,7 @@ TEST_CASE("sentence: replications that all say the same") {
               .starts_with("a is 0.1 above b (95 % 0.1 to 0.1, n = 3, p < 0.001, by Student's t)"));
 }
 
-TEST_CASE("sentence: the half-width has two digits, and never are there decimals of nothing") {
+TEST_CASE("sentence: the half-width has two digits, without unnecessary decimals") {
     const auto found = [](double mean, double half_width) {
         return comparison_text("a", "b", comparison(mean, half_width, 0));
     };
@@ -268,7 +267,7 @@ TEST_CASE("sentence: a number that rounds to 0 has no sign") {
               .starts_with("no detectable difference between a and b (0.00, 95 % -0.50 to 0.50,"));
 }
 
-TEST_CASE("sentence: whether one is as good as another") {
+TEST_CASE("sentence: states whether two models are equivalent") {
     PairedComparison c = comparison(0.01, 0.02, 0.5);
     EquivalenceVerdict verdict;
     verdict.method = IntervalMethod::betting;
@@ -293,7 +292,8 @@ TEST_CASE("sentence: whether one is as good as another") {
           "by betting); about 800 replications would decide, if they are as these are");
 }
 
-TEST_CASE("comparison: 54 of 60 replications one way and none the other are a difference") {
+TEST_CASE(
+    "comparison: 54 of 60 replications in one direction and none in the other are significant") {
     // Paired t: p = 1e-7 or so. The mean of differences from -1 to 1 is not told from 0: a loss of
     // everything in one run of 20 would outweigh it, and 60 runs may miss that.
     std::vector<double> a(60, 0.9), b(60, 0.9);
@@ -319,7 +319,7 @@ TEST_CASE("comparison: 54 of 60 replications one way and none the other are a di
     CHECK(sequence->high - sequence->low > 1.1 * (larger->high - larger->low));
 }
 
-TEST_CASE("comparison: the sign test is the binomial one, shared by the family, not by betting") {
+TEST_CASE("comparison: the sign test is binomial, adjusted for the family, and not by betting") {
     const std::array a{1.0, 0.0, 1.0, 0.5, 1.0, 1.0, 0.7}, b{0.0, 1.0, 0.0, 0.5, 0.5, 0.5, 0.0};
     // 5 above, 1 below, 1 equal: 2 (1 + 6) / 64.
     CHECK(is_close(*compare_pairs(a, b, share)->sign_p, 14.0 / 64, rounding));
@@ -328,7 +328,7 @@ TEST_CASE("comparison: the sign test is the binomial one, shared by the family, 
     CHECK(compare_pairs(a, a, share)->sign_p == 1.0);
 }
 
-TEST_CASE("comparison: by STaR-Bets p is at most the level exactly when 0 is left out") {
+TEST_CASE("comparison: by STaR-Bets p is at most the level exactly when 0 is excluded") {
     int found = 0, studies = 0;
     for (std::uint32_t study = 0; study < 100; ++study) {
         Pairs pairs(60, study, 1.2);
@@ -346,7 +346,7 @@ TEST_CASE("comparison: by STaR-Bets p is at most the level exactly when 0 is lef
     CHECK(found < studies - 20);
 }
 
-TEST_CASE("comparison: of the detectable size by STaR-Bets, about 80 % of studies are found") {
+TEST_CASE("comparison: by STaR-Bets about 80 % of studies find the detectable difference") {
     constexpr int studies = 300;
     for (const double deviation : {0.05, 0.2, 0.4}) {
         const auto study = [&](std::uint32_t number, double mean) {

@@ -25,7 +25,7 @@ double level_of(const test::Vectors& vectors, std::size_t i) {
 
 }  // namespace
 
-TEST_CASE("distributions: critical values of t against 20 digits (vectors detectable_shift)") {
+TEST_CASE("distributions: critical values of t agree to 20 digits (vectors detectable_shift)") {
     const test::Vectors vectors("detectable_shift.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         CAPTURE(i);
@@ -34,7 +34,7 @@ TEST_CASE("distributions: critical values of t against 20 digits (vectors detect
     }
 }
 
-TEST_CASE("distributions: shifts of power 0.8 against 20 digits (vectors detectable_shift)") {
+TEST_CASE("distributions: shifts of power 0.8 agree to 20 digits (vectors detectable_shift)") {
     const test::Vectors vectors("detectable_shift.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         CAPTURE(i);
@@ -50,17 +50,17 @@ TEST_CASE("distributions: half a deviation is found with 80 % power by 34 pairs,
     CHECK(*t_shift(33, 0.05, 0.8) / std::sqrt(34) < 0.5);
 }
 
-TEST_CASE("distributions: a power just above the level needs hardly a shift") {
+TEST_CASE("distributions: a power slightly above the level needs hardly any shift") {
     CHECK(*t_shift(9, 0.05, 0.05 + 1e-9) < 1e-3);  // the power grows with the square of it
 }
 
-TEST_CASE("distributions: no shift where t is heavier-tailed than can be computed") {
+TEST_CASE("distributions: there is no shift where t is too heavy-tailed to compute") {
     CHECK(t_shift(1, 6.5e-5, 0.8));
     CHECK(!t_shift(1, 6.3e-5, 0.8));
     CHECK(!t_shift(1, 1e-300, 0.8));
 }
 
-TEST_CASE("distributions: t is exceeded as the closed forms of 1 and 2 degrees say") {
+TEST_CASE("distributions: tail probabilities of t equal the closed forms of 1 and 2 degrees") {
     for (const double t : {0.0, 0.01, 1.0, 3.0, 250.0}) {
         // arctan of 1/t keeps the digits of a small tail
         const double one = t == 0 ? 1 : 2 / std::numbers::pi * std::atan(1 / t);

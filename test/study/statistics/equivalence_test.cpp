@@ -56,7 +56,7 @@ EquivalenceVerdict by_betting(std::span<const double> values, double tolerance,
 
 }  // namespace
 
-TEST_CASE("equivalence: the four wealths are those of the vectors decide_betting") {
+TEST_CASE("equivalence: the four wealths equal the vectors decide_betting") {
     const test::Vectors all("decide_series.csv"), expected("decide_betting.csv");
     const char* const names[] = {"not_above", "not_below", "above", "below"};
     for (std::size_t row = 0; row < expected.size(); ++row) {
@@ -77,7 +77,7 @@ TEST_CASE("equivalence: the four wealths are those of the vectors decide_betting
     }
 }
 
-TEST_CASE("equivalence: verdicts and their replications are those of the vectors decide_betting") {
+TEST_CASE("equivalence: verdicts and their replications equal the vectors decide_betting") {
     const test::Vectors all("decide_series.csv"), expected("decide_betting.csv");
     for (std::size_t row = 0; row < expected.size(); ++row) {
         const std::string name = expected.text(row, "series");
@@ -95,7 +95,7 @@ TEST_CASE("equivalence: verdicts and their replications are those of the vectors
     }
 }
 
-TEST_CASE("equivalence: the wealth after three differences, by hand") {
+TEST_CASE("equivalence: the wealth after three differences equals a manual computation") {
     // Margin 1/2, differences 1/2, 0, 0; the bet against "D >= 1/2": s = -1, m = 1/2.
     // 1: mean 0, var 1/4: lambda = (1/2) / (1/4 + 1/4) = 1, cut at 0.9 / 1.5 = 0.6; W = 1.
     // 2: mean 1/4, var (1/4 + 1/16) / 2 = 5/32: (1/4) / (5/32 + 1/16) = 8/7, cut; W = 1.3.
@@ -107,7 +107,7 @@ TEST_CASE("equivalence: the wealth after three differences, by hand") {
     CHECK(test.log_wealth(EquivalenceTest::above) == 0);
 }
 
-TEST_CASE("equivalence: a verdict falls when it is due, whatever comes after") {
+TEST_CASE("equivalence: a verdict is given when it is due, whatever follows") {
     const std::vector<double> none(600, 0.0);
     auto then_far = none;
     for (std::size_t i = 300; i < 600; ++i) then_far[i] = 1;
@@ -117,7 +117,7 @@ TEST_CASE("equivalence: a verdict falls when it is due, whatever comes after") {
     CHECK(result.decided_at == 288U);
 }
 
-TEST_CASE("equivalence: a first verdict stays, though the other would be reached later") {
+TEST_CASE("equivalence: a first verdict is final") {
     EquivalenceTest test(0.5, 0.05, 1);
     for (int i = 0; i < 30; ++i) test.add(1);
     CHECK(test.verdict() == Equivalence::outside);
@@ -128,7 +128,7 @@ TEST_CASE("equivalence: a first verdict stays, though the other would be reached
     CHECK(test.verdict() == Equivalence::outside);
 }
 
-TEST_CASE("equivalence: what is undecided tells how many replications would decide") {
+TEST_CASE("equivalence: an undecided test predicts the number of replications") {
     const std::vector<double> few(100, 0.0);
     const auto result = by_betting(few, margin);
     CHECK(result.verdict == Equivalence::undecided);
@@ -167,7 +167,7 @@ TEST_CASE("equivalence: at the margin itself at most 5 % of studies have a false
     }
 }
 
-TEST_CASE("equivalence: at a fixed n by STaR-Bets, unless t is asked for") {
+TEST_CASE("equivalence: at a fixed n STaR-Bets are used, unless t is requested") {
     const auto values = normals(150, 0, 0.02, 5);
     const auto fixed = equivalence_of(values, 0.05, share);
     CHECK(fixed.verdict == Equivalence::within);
@@ -185,7 +185,7 @@ TEST_CASE("equivalence: at a fixed n by STaR-Bets, unless t is asked for") {
     CHECK(equivalence_of(normals(200, -0.3, 0.1, 6), 0.05, share).verdict == Equivalence::outside);
 }
 
-TEST_CASE("equivalence: by STaR-Bets what is undecided tells how many would decide") {
+TEST_CASE("equivalence: by STaR-Bets an undecided test predicts the number of replications") {
     const std::vector<double> none(60, 0.0);
     const auto open = equivalence_of(none, 0.05, share);
     CHECK(open.verdict == Equivalence::undecided);
@@ -197,7 +197,7 @@ TEST_CASE("equivalence: by STaR-Bets what is undecided tells how many would deci
           Equivalence::undecided);
 }
 
-TEST_CASE("equivalence: without bounds by Student's t, at one look") {
+TEST_CASE("equivalence: without bounds Student's t is used, once") {
     const auto near = equivalence_of(normals(40, 0, 0.1, 1), 0.25, delay);
     CHECK(near.verdict == Equivalence::within);
     CHECK(near.method == IntervalMethod::t);
@@ -208,7 +208,7 @@ TEST_CASE("equivalence: without bounds by Student's t, at one look") {
     CHECK(open.needed.value_or(11) > 10);
 }
 
-TEST_CASE("equivalence: by t, the level is shared among the models that are judged") {
+TEST_CASE("equivalence: by t, the level is divided among the judged models") {
     // Mean 0, s = 1, n = 4: one-sided t of 3 degrees at 5 % is 2.3534, at 2.5 % 3.1824.
     const std::vector<double> values = {-1, 1, -0.7071067811865476, 0.7071067811865476};
     CHECK(equivalence_of(values, 1.19, delay, 0.05, 1).verdict == Equivalence::within);
@@ -217,7 +217,7 @@ TEST_CASE("equivalence: by t, the level is shared among the models that are judg
     CHECK(equivalence_of(values, 1.58, delay, 0.05, 2).verdict == Equivalence::undecided);
 }
 
-TEST_CASE("equivalence: by t, equal differences decide nothing") {
+TEST_CASE("equivalence: by t, equal differences give no verdict") {
     const auto result = equivalence_of(std::vector<double>(10, 0.0), 0.25, delay);
     CHECK(result.verdict == Equivalence::undecided);
     CHECK(!result.needed);

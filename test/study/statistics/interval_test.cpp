@@ -19,7 +19,7 @@ constexpr Bounds delay{0.0, std::nullopt};
 
 }  // namespace
 
-TEST_CASE("metric bounds: shares lie from 0 to 1, also those of one flow, and times from 0") {
+TEST_CASE("metric bounds: shares are in 0 to 1, also those of one flow, and times from 0") {
     CHECK(bounds_of("delivery_ratio") == share);
     CHECK(bounds_of("delivery_ratio.a") == share);
     CHECK(bounds_of("reach") == share);
@@ -30,7 +30,7 @@ TEST_CASE("metric bounds: shares lie from 0 to 1, also those of one flow, and ti
     CHECK(difference_bounds(delay) == Bounds{});
 }
 
-TEST_CASE("interval: values with two bounds have STaR-Bets, others Student's t") {
+TEST_CASE("interval: values with two bounds use STaR-Bets, others Student's t") {
     const std::vector<double> values = {0.2, 0.4, 0.5};
     CHECK(interval_of(values, share)->method == IntervalMethod::star);
     CHECK(interval_of(values, share, 0.95, IntervalMethod::betting)->method ==
@@ -42,7 +42,7 @@ TEST_CASE("interval: values with two bounds have STaR-Bets, others Student's t")
     CHECK(interval_of(std::vector{0.9, 1.1}, share)->method == IntervalMethod::t);
 }
 
-TEST_CASE("interval: of a ratio that was 1 in every replication it reaches below 1") {
+TEST_CASE("interval: of a ratio that was 1 in every replication extends below 1") {
     const std::vector<double> ones(30, 1.0);
     const auto fixed = interval_of(ones, share);
     CHECK(std::abs(fixed->low - 0.8828) < 5e-5);  // as docs/methods/intervals.md says
@@ -52,7 +52,7 @@ TEST_CASE("interval: of a ratio that was 1 in every replication it reaches below
     CHECK(betting->high == 1);
 }
 
-TEST_CASE("interval: one value of a ratio has a wide one, one time has none") {
+TEST_CASE("interval: one value of a ratio has a wide interval, one time has none") {
     CHECK(interval_of(std::vector{1.0}, share)->half_width() > 0.45);
     CHECK(!interval_of(std::vector{1.0}, delay));
     CHECK(!interval_of({}, share));
@@ -63,7 +63,7 @@ TEST_CASE("interval: by t, equal values have none") {
     CHECK(!interval_of(std::vector<double>(30, 1.0), share, 0.95, IntervalMethod::t));
 }
 
-TEST_CASE("interval: by t it is cut where the metric ends") {
+TEST_CASE("interval: by t it is clipped at the metric's bounds") {
     const std::vector<double> values = {0.0, 0.0, 0.0, 3.0};
     const auto summary = summary_of(values);
     const auto interval = interval_of(values, delay);
@@ -73,7 +73,7 @@ TEST_CASE("interval: by t it is cut where the metric ends") {
     CHECK(interval_of(values, difference_bounds(delay))->low < 0);
 }
 
-TEST_CASE("interval: values that are too skewed for t are said to be so, normal ones are not") {
+TEST_CASE("interval: values too skewed for t are marked, normal values are not") {
     std::vector<double> rare(30, 0.1);
     rare[7] = 9;
     CHECK(too_skewed_for_t(rare));
@@ -90,7 +90,7 @@ TEST_CASE("interval: values that are too skewed for t are said to be so, normal 
     CHECK(!too_skewed_for_t(one_in_five));
 }
 
-TEST_CASE("interval: how many replications it needs is told by its own method") {
+TEST_CASE("interval: the needed replications are estimated by its own method") {
     const std::vector<double> values = {0.5, 0.6, 0.7, 0.6};
     CHECK(replications_for_width(values, delay, 0.05) ==
           replications_needed(*summary_of(values), 0.05));

@@ -75,7 +75,7 @@ TEST_CASE("MSER-5: a step is deleted to the last observation") {
     }
 }
 
-TEST_CASE("MSER-5: a batch that the transient touches is deleted whole") {
+TEST_CASE("MSER-5: a batch that the transient touches is deleted entirely") {
     for (const std::size_t transient : {36U, 38U, 40U}) {
         CHECK(mser5(step(200, transient, 3)).observations == 40);
     }
@@ -87,7 +87,7 @@ TEST_CASE("MSER-5: a minimum at the border of the first half is not conclusive")
     CHECK(mser5(fading(205, 1, 1e3, 1e3)) == Truncation{.observations = 100, .conclusive = false});
 }
 
-TEST_CASE("MSER-5: a change after the middle is not seen") {
+TEST_CASE("MSER-5: a change after the middle is not detected") {
     CHECK(mser5(step(200, 150, 3)) == Truncation{.observations = 0, .conclusive = true});
 }
 
@@ -97,7 +97,7 @@ TEST_CASE("MSER-5: fewer than 50 observations give 0, not conclusive") {
     CHECK(mser5(step(50, 20, 3)) == Truncation{.observations = 20, .conclusive = true});
 }
 
-TEST_CASE("MSER-5: up to four observations at the end, which make no batch, have no say") {
+TEST_CASE("MSER-5: up to four observations at the end have no effect") {
     for (std::size_t extra = 0; extra < 5; ++extra) {
         std::vector<double> series = fading(200, 2, 10, 15);
         const Truncation whole = mser5(series);
@@ -106,14 +106,14 @@ TEST_CASE("MSER-5: up to four observations at the end, which make no batch, have
     }
 }
 
-TEST_CASE("MSER-5: a steady series, whatever its level, loses nothing") {
+TEST_CASE("MSER-5: a steady series of any level loses nothing") {
     for (const double level : {0.0, 0.1, 1e9 / 3}) {
         CHECK(mser5(std::vector<double>(1000, level)) ==
               Truncation{.observations = 0, .conclusive = true});
     }
 }
 
-TEST_CASE("MSER-5: the rule evaluated by brute force gives the same, on 300 noisy series") {
+TEST_CASE("MSER-5: equals an evaluation by brute force on 300 noisy series") {
     int conclusive = 0, deleting = 0;
     for (std::uint32_t series = 0; series < 300; ++series) {
         CAPTURE(series);
@@ -141,7 +141,7 @@ TEST_CASE("MSER-5: an offset of 1e9 changes nothing") {
     }
 }
 
-TEST_CASE("MSER-5: what remains of 200 biased series is nearer to the truth than the whole") {
+TEST_CASE("MSER-5: the rest of 200 biased series is nearer to the truth than the whole") {
     const auto mean_from = [](const std::vector<double>& values, std::size_t first) {
         double sum = 0;
         for (std::size_t i = first; i < values.size(); ++i) sum += values[i];

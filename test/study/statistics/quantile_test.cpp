@@ -79,7 +79,7 @@ double covered(std::size_t n, double p, double confidence) {
 
 TEST_CASE("quantile: without values there is none") { CHECK(!quantile_of({}, 0.5)); }
 
-TEST_CASE("quantile: the value is the ceil(p n)-th smallest, in whatever order they come") {
+TEST_CASE("quantile: the value is the ceil(p n)-th smallest, in any order") {
     CHECK(quantile_of(std::array{7.0}, 0.01)->value == 7);
     CHECK(quantile_of(std::array{7.0}, 0.99)->value == 7);
     CHECK(quantile_of(std::array{3.0, 1.0, 2.0}, 0.5)->value == 2);
@@ -110,7 +110,7 @@ TEST_CASE("quantile: an interval for the median needs 6 values at 95 %, for the 
     CHECK(quantile_of(ranks(72), 0.05)->interval->low == 1);
 }
 
-TEST_CASE("quantile: ranks and coverage are those found by adding up all probabilities") {
+TEST_CASE("quantile: ranks and coverage equal sums of all probabilities") {
     for (const std::size_t n : {1U, 2U, 6U, 17U, 30U, 101U, 200U}) {
         for (const double p : {0.05, 0.25, 0.5, 0.9, 0.95}) {
             for (const double confidence : {0.5, 0.9, 0.95, 0.99}) {
@@ -131,7 +131,7 @@ TEST_CASE("quantile: ranks and coverage are those found by adding up all probabi
     }
 }
 
-TEST_CASE("quantile: of 10,000 studies as many cover the truth as the coverage says, and enough") {
+TEST_CASE("quantile: in 10,000 studies the coverage is the stated one") {
     struct Study {
         std::size_t n;
         double p, confidence;
@@ -148,7 +148,7 @@ TEST_CASE("quantile: of 10,000 studies as many cover the truth as the coverage s
     }
 }
 
-TEST_CASE("quantile: numbers that are none are refused") {
+TEST_CASE("quantile: invalid numbers are refused") {
     const std::array values{1.0, 2.0};
     for (const double bad : {0.0, 1.0, -0.5, 50.0, not_a_number}) {
         CHECK_THROWS_AS(quantile_of(values, bad), std::invalid_argument);

@@ -71,7 +71,7 @@ double best_wealth(const std::vector<double>& values, double m, double level) {
 
 }  // namespace
 
-TEST_CASE("STaR-Bets: of one value they are Markov's inequality, within a cell") {
+TEST_CASE("STaR-Bets: for one value they equal Markov's inequality, within a cell") {
     // 1 refutes m if 1 / m reaches 40, so up to m = 1/40; cells of 1/128 begin at 0.0234.
     CHECK(star_refutes(std::vector{1.0}, 0.0249, 0.025));
     CHECK(!star_refutes(std::vector{1.0}, 0.0251, 0.025));
@@ -81,7 +81,7 @@ TEST_CASE("STaR-Bets: of one value they are Markov's inequality, within a cell")
     CHECK(mean.high == 1);
 }
 
-TEST_CASE("STaR-Bets: refutations are those of the equations in the header") {
+TEST_CASE("STaR-Bets: rejections equal the equations in the header") {
     int refuted = 0, kept = 0;
     for (std::uint32_t study = 0; study < 200; ++study) {
         const auto values = normals(5 + study % 60, 0.6, 0.25, study);
@@ -96,8 +96,7 @@ TEST_CASE("STaR-Bets: refutations are those of the equations in the header") {
     CHECK(kept > 50);
 }
 
-TEST_CASE(
-    "STaR-Bets: every cell's end below the interval is refuted, its lower end is not passed") {
+TEST_CASE("STaR-Bets: every cell below the interval is rejected, and no other") {
     const auto values = normals(64, 0.4, 0.2, 1);
     const auto mean = star_mean(values, share, 0.95);
     for (int cell = 1; cell <= 128; ++cell) {
@@ -139,7 +138,7 @@ TEST_CASE("STaR-Bets: more confidence is wider, more values are narrower, and th
     CHECK(mean.high >= 0.5);
 }
 
-TEST_CASE("STaR-Bets: bad arguments are refused") {
+TEST_CASE("STaR-Bets: invalid arguments are refused") {
     CHECK_THROWS_AS(star_mean({}, share, 0.95), std::invalid_argument);
     CHECK_THROWS_AS(star_mean(std::vector{0.5}, share, 1), std::invalid_argument);
     CHECK_THROWS_AS(star_mean(std::vector{0.5}, {0.0, std::nullopt}, 0.95), std::invalid_argument);

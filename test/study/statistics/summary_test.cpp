@@ -60,7 +60,7 @@ Summary ten(double mean, double variance) {
 
 TEST_CASE("summary: without values there is none") { CHECK(!summary_of({})); }
 
-TEST_CASE("summary: one value is its mean, without a deviation, an interval or a forecast") {
+TEST_CASE("summary: one value is its mean, without deviation, interval or forecast") {
     const auto summary = summary_of(std::array{-2.5});
     REQUIRE(summary);
     CHECK(*summary ==
@@ -69,7 +69,7 @@ TEST_CASE("summary: one value is its mean, without a deviation, an interval or a
     CHECK(!replications_needed(*summary, 1));
 }
 
-TEST_CASE("summary: of equal values the deviation and the half-width are exactly 0") {
+TEST_CASE("summary: for equal values deviation and half-width are exactly 0") {
     for (const double value : {0.0, 0.1, -1e9 / 3, 1e150, 1e-150}) {
         for (const std::size_t n : {2U, 3U, 7U, 1000U}) {
             const auto summary = summary_of(std::vector<double>(n, value));
@@ -84,7 +84,7 @@ TEST_CASE("summary: of equal values the deviation and the half-width are exactly
     }
 }
 
-TEST_CASE("summary: means, deviations and half-widths are those of R (vectors paired_t)") {
+TEST_CASE("summary: means, deviations and half-widths equal R (vectors paired_t)") {
     const test::Vectors vectors("paired_t.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         CAPTURE(vectors.text(i, "case"));
@@ -96,7 +96,8 @@ TEST_CASE("summary: means, deviations and half-widths are those of R (vectors pa
     }
 }
 
-TEST_CASE("summary: NIST's certified deviations, though the mean is up to 1e8 times as large") {
+TEST_CASE(
+    "summary: deviations equal NIST's certified values, with means up to 1e8 times as large") {
     // Statistical Reference Datasets, univariate: NumAcc1, NumAcc3, NumAcc4. The decimals 0.1 and
     // 0.3 themselves are rounded, to 1e-10 beside 1e6 and to 1e-9 beside 1e7.
     struct Certified {
@@ -114,7 +115,7 @@ TEST_CASE("summary: NIST's certified deviations, though the mean is up to 1e8 ti
     }
 }
 
-TEST_CASE("summary: an offset of 1e9 adds to mean and extremes and costs no digit elsewhere") {
+TEST_CASE("summary: an offset of 1e9 only shifts mean and extremes, without loss of digits") {
     std::vector<double> plain, shifted;
     for (std::size_t i = 0; i < 999; ++i) {  // multiples of 2^-10, which stay exact beside 1e9
         const auto steps = below({.purpose = Purpose::order, .index = i}, 4096);
@@ -128,7 +129,7 @@ TEST_CASE("summary: an offset of 1e9 adds to mean and extremes and costs no digi
     CHECK(is_close(a->mean + 1e9, b->mean, 1e-16));
 }
 
-TEST_CASE("summary: an outlier in front costs no digit either") {
+TEST_CASE("summary: a leading outlier costs no digit") {
     std::vector<double> values{1e9};
     for (int i = 0; i < 4; ++i) {
         values.push_back(1);
@@ -151,11 +152,11 @@ TEST_CASE("summary: a value that is not finite is refused") {
     CHECK_THROWS_WITH(summary_of(std::array{infinity}), "summary: values must be finite, got inf");
 }
 
-TEST_CASE("half-width: the bank of Law's book, 2.03 +- 0.32 min at 90 %") {
+TEST_CASE("half-width: equals the bank of Law's book, 2.03 +- 0.32 min at 90 %") {
     CHECK(is_close(*half_width(ten(2.03, 0.31), 0.90), 0.32, hundredth / 0.32));
 }
 
-TEST_CASE("half-width: a confidence that is none is refused") {
+TEST_CASE("half-width: an invalid confidence is refused") {
     for (const double bad : {0.0, 1.0, 95.0, -0.1, not_a_number}) {
         CHECK_THROWS_AS(half_width(ten(1, 1), bad), std::invalid_argument);
         CHECK_THROWS_AS(replications_needed(ten(1, 1), 1, bad), std::invalid_argument);
@@ -173,11 +174,11 @@ TEST_CASE("half-width: the 95 % interval covers the truth in 94 to 96 % of 10,00
     CHECK(std::abs(covered(5, 0.5) - 5000) < 250);  // 5 standard deviations
 }
 
-TEST_CASE("replications needed: 16 in the bank of Law's book for 0.25 min at 90 %") {
+TEST_CASE("replications needed: equals the bank of Law's book, 16 for 0.25 min at 90 %") {
     CHECK(replications_needed(ten(2.03, 0.31), 0.25, 0.90) == 16);
 }
 
-TEST_CASE("replications needed: the first number that is enough, of all tried in turn") {
+TEST_CASE("replications needed: is the first sufficient number of all numbers") {
     for (const double wanted : {3.0, 0.7, 0.5, 0.2, 0.1, 0.07}) {
         const auto enough = [&](std::size_t n) {
             Summary more = ten(0, 1);
@@ -190,7 +191,7 @@ TEST_CASE("replications needed: the first number that is enough, of all tried in
     }
 }
 
-TEST_CASE("replications needed: those that there are, if they are enough, and up to 10^9") {
+TEST_CASE("replications needed: is at least the existing number, and at most 10^9") {
     const double reached = *half_width(ten(0, 1));
     CHECK(replications_needed(ten(0, 1), reached) == 10);
     CHECK(replications_needed(ten(0, 1), std::nextafter(reached, 0)) == 11);

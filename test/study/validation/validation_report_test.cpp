@@ -57,11 +57,11 @@ std::size_t count(const std::string& text, const std::string& word) {
 
 }  // namespace
 
-TEST_CASE("validation: the front has what nothing beats, from the cheapest to the most exact") {
+TEST_CASE("validation: the Pareto front goes from the cheapest to the most exact method") {
     CHECK(pareto_front(small_panel().points) == std::vector<std::size_t>{1, 3});
 }
 
-TEST_CASE("validation: on the front is only what its parts or intervals tell from all cheaper") {
+TEST_CASE("validation: the front contains only methods significantly better than cheaper ones") {
     const auto front_of = [](double spread, std::size_t parts) {
         ValidationPanel panel{.error_label = "error [dB]"};
         for (int i = 0; i < 3; ++i) {
@@ -88,7 +88,7 @@ TEST_CASE("validation: on the front is only what its parts or intervals tell fro
                 "surely nearer the truth") == 1);
 }
 
-TEST_CASE("validation: a promise is kept up to its limit, and one that is not breaks the whole") {
+TEST_CASE("validation: a limit includes its value, and one exceeded limit fails the whole") {
     Validation validation = small_validation();
     CHECK(validation.kept());
     validation.promises.push_back({"on the limit", "", 0, 0, 1});
@@ -98,7 +98,7 @@ TEST_CASE("validation: a promise is kept up to its limit, and one that is not br
     CHECK(count(validation_page(validation), "| broken one | 1 | 2 ns | 2.5 ns | NO |") == 1);
 }
 
-TEST_CASE("validation: the picture joins what was fitted, and shows errors of 0 at its edge") {
+TEST_CASE("validation: the picture joins fitted methods, and shows errors of 0 at its edge") {
     const std::string svg = validation_svg(small_validation().charts[0]);
     CHECK(count(svg, "class=\"guide\"") == 2);  // cheap, on both scales
     for (const char* name : {">cheap</text>", ">slow &amp; poor</text>", ">exact</text>"})
@@ -109,7 +109,7 @@ TEST_CASE("validation: the picture joins what was fitted, and shows errors of 0 
     CHECK(svg.find(">slow &amp; poor</text>") < svg.find(">exact</text>"));
 }
 
-TEST_CASE("validation: a panel in which nothing is wrong is a sentence, no empty picture") {
+TEST_CASE("validation: a panel without errors is a sentence, not an empty picture") {
     Validation validation = small_validation();
     ValidationPanel right = small_panel();
     right.title = "hall";
@@ -121,7 +121,7 @@ TEST_CASE("validation: a panel in which nothing is wrong is a sentence, no empty
     CHECK(count(page, "**hall**") == 1);  // its numbers are there
 }
 
-TEST_CASE("validation: a winner is named where its parts tell it apart, and not elsewhere") {
+TEST_CASE("validation: a best method is named only if it is significantly better") {
     const auto all = [](const ValidationPoint&) { return true; };
     const auto words = [](double error) { return std::to_string(error).substr(0, 4) + " dB"; };
     const auto panel_of = [](std::size_t n) {
@@ -164,7 +164,7 @@ TEST_CASE("validation: the page needs no other file") {
     CHECK(count(html, "kept one") == 1);
 }
 
-TEST_CASE("validation: the numbers of a chart are a table with one line a point") {
+TEST_CASE("validation: numbers of a chart are a table with one line per point") {
     const std::string csv = validation_csv(small_validation().charts[0]);
     CHECK(count(csv, "\n") == 5);
     CHECK(csv.starts_with("panel,method,series,cost_ns,"));

@@ -61,33 +61,33 @@ std::size_t joined_cells(const OccupancyGrid& map) {
 
 }  // namespace
 
-TEST_CASE("validation: closed forms are met to the digits that are promised") {
+TEST_CASE("validation: closed forms are met to the claimed digits") {
     Promises promises;
     check_closed_forms(promises);
     check_kept(promises);
 }
 
-TEST_CASE("validation: walls, doors and floors are counted as promised") {
+TEST_CASE("validation: walls, doors and floors are counted correctly") {
     Promises promises;
     check_counts(promises);
     CHECK(promises.size() == 2);
     check_kept(promises);
 }
 
-TEST_CASE("validation: what brute force gives as well is met as promised") {
+TEST_CASE("validation: results equal brute force within the claimed limits") {
     Promises promises;
     check_by_brute_force(promises);
     check_kept(promises);
 }
 
-TEST_CASE("validation: cells and accesses are as theory says") {
+TEST_CASE("validation: saturated cells and access times agree with theory") {
     Promises promises;
     check_access(promises);
     CHECK(promises.size() == 3);
     check_kept(promises);
 }
 
-TEST_CASE("validation: robots are where closed forms have them") {
+TEST_CASE("validation: positions of robots agree with closed forms") {
     Promises promises;
     check_motion(promises);
     CHECK(promises.size() == 4);
@@ -97,7 +97,7 @@ TEST_CASE("validation: robots are where closed forms have them") {
     CHECK(promises[1].worst > 1e-4);
 }
 
-TEST_CASE("validation: lengths of walls are exact, and every naive way is off") {
+TEST_CASE("validation: lengths of walls are exact, and every naive method has errors") {
     Promises promises;
     const ValidationChart chart = wall_length_chart(few, promises);
     check_kept(promises);
@@ -113,7 +113,7 @@ TEST_CASE("validation: lengths of walls are exact, and every naive way is off") 
     CHECK(point_of(panel, "DDA 50 cm").error > point_of(panel, "DDA 5 cm").error);
 }
 
-TEST_CASE("validation: link changes are found ahead as promised, and steps miss some") {
+TEST_CASE("validation: predicted link changes are within the limits, and fixed steps miss some") {
     Promises promises;
     const ValidationChart chart = link_changes_chart(few, promises);
     check_kept(promises);
@@ -128,7 +128,7 @@ TEST_CASE("validation: link changes are found ahead as promised, and steps miss 
     }
 }
 
-TEST_CASE("validation: no decision flips without its logarithm, but by a table") {
+TEST_CASE("validation: decisions without logarithms are equal, except by a table") {
     Promises promises;
     const ValidationChart chart = decisions_chart(few, promises);
     check_kept(promises);
@@ -136,7 +136,7 @@ TEST_CASE("validation: no decision flips without its logarithm, but by a table")
     CHECK(point_of(chart.panels.front(), "table of 256, nearest").error > 0);
 }
 
-TEST_CASE("validation: errors are the same when they are measured again") {
+TEST_CASE("validation: errors are equal when measured again") {
     Promises promises;
     CHECK(errors_of(decisions_chart(few, promises)) == errors_of(decisions_chart(few, promises)));
     const auto runs = [] {
@@ -145,7 +145,7 @@ TEST_CASE("validation: errors are the same when they are measured again") {
     CHECK(runs() == runs());
 }
 
-TEST_CASE("naive walls: a raster along the walls gives the exact length") {
+TEST_CASE("naive walls: a raster parallel to the walls gives the exact length") {
     OccupancyGrid grid;
     grid.columns = grid.rows = 8;
     grid.cells.assign(64, Cell::free);
@@ -165,7 +165,7 @@ TEST_CASE("naive walls: a raster along the walls gives the exact length") {
     CHECK(std::abs(raster.bresenham({0.5, 1.5}, {7.5, 1.5}) - 7.0 * 2 / 8) < 1e-12);
 }
 
-TEST_CASE("drawn maps: all rooms, and all chambers of the cave, hang together") {
+TEST_CASE("drawn maps: all rooms, and all chambers of the cave, are connected") {
     const DrawnBuilding office = drawn_office();
     const OccupancyGrid rooms = drawn_map(office.width, office.depth, office_cell.value,
                                           [&](Vec3 p) { return office.is_wall(p); });

@@ -42,13 +42,13 @@ std::string first_difference(int tries, Draw draw) {
 
 }  // namespace
 
-TEST_CASE("two decimals: exact ties go to the even digit, as with printf") {
+TEST_CASE("two decimals: exact ties are rounded to the even digit, as by printf") {
     CHECK(fixed2(0.125) == "0.12");
     CHECK(fixed2(0.375) == "0.38");
     CHECK(fixed2(-0.625) == "-0.62");
 }
 
-TEST_CASE("two decimals: what only looks like a tie goes by its binary value") {
+TEST_CASE("two decimals: apparent ties are rounded by their binary value") {
     CHECK(fixed2(1.005) == "1.00");  // 1.00499999999999989...
     CHECK(fixed2(0.145) == "0.14");  // 0.14499999999999999...
     CHECK(fixed2(0.285) == "0.28");  // 0.284999999999999976; times 100 it rounds to the tie 28.5
@@ -56,7 +56,7 @@ TEST_CASE("two decimals: what only looks like a tie goes by its binary value") {
     CHECK(fixed2(1.115) == "1.11");
 }
 
-TEST_CASE("two decimals: signs, zeros, what is huge and what is no number, as with printf") {
+TEST_CASE("two decimals: signs, zeros, huge numbers and NaN are printed as by printf") {
     for (const double x :
          {0.0, -0.0, -0.001, 0.01, 99.995, 1e12, 3.9999e13, 4e13, 4.1e13, -1e15,
           1.7976931348623157e308, 5e-324, 2.2250738585072014e-308,
@@ -65,12 +65,12 @@ TEST_CASE("two decimals: signs, zeros, what is huge and what is no number, as wi
     }
 }
 
-TEST_CASE("two decimals: equal to printf for random doubles of every magnitude") {
+TEST_CASE("two decimals: equal printf for random doubles of every magnitude") {
     std::mt19937_64 draw(1);
     CHECK(first_difference(200'000, [&] { return std::bit_cast<double>(draw()); }) == "");
 }
 
-TEST_CASE("two decimals: equal to printf at and next to ties") {
+TEST_CASE("two decimals: equal printf at and next to ties") {
     std::mt19937_64 draw(2);
     const auto near_tie = [&] {
         const auto whole = static_cast<double>(draw() >> (13 + draw() % 50));
@@ -104,14 +104,14 @@ TEST_CASE("seconds with five decimals are rounded, ties to the even digit") {
     CHECK(written(write_seconds5, ns(999'995'001)) == "1.00000");
 }
 
-TEST_CASE("short seconds carry the decimals they need") {
+TEST_CASE("short seconds have the decimals that they need") {
     CHECK(written(write_seconds_short, ns(0)) == "0");
     CHECK(written(write_seconds_short, ns(10'000'000'000)) == "10");
     CHECK(written(write_seconds_short, ns(250'000'000)) == "0.25");
     CHECK(written(write_seconds_short, ns(1'001'536'667)) == "1.001536667");
 }
 
-TEST_CASE("hexadecimal numbers are lower case and bare") {
+TEST_CASE("hexadecimal numbers are lower case without prefix") {
     CHECK(written(write_hex, std::uint32_t{0}) == "0");
     CHECK(written(write_hex, std::uint32_t{0xABC}) == "abc");
     CHECK(written(write_hex, std::uint32_t{0xffffffff}) == "ffffffff");

@@ -80,7 +80,7 @@ const std::string on_to_2 =
 
 }  // namespace
 
-TEST_CASE("trace convert: old to new and back is the same bytes, for every trace of ours") {
+TEST_CASE("trace convert: old to new and back gives the same bytes, for all our traces") {
     for (unsigned seed = 0; seed < 5; ++seed) {
         const std::string text = written(Ns2Format::old_format, MacTrace::off, seed);
         const Made in_new = converted(text, TraceForm::ns2_new);
@@ -90,12 +90,12 @@ TEST_CASE("trace convert: old to new and back is the same bytes, for every trace
     }
 }
 
-TEST_CASE("trace convert: new to old is what the run writes in the old format") {
+TEST_CASE("trace convert: new to old gives what the run writes in the old format") {
     const Made made = converted(written(Ns2Format::new_format), TraceForm::ns2_old);
     CHECK(made.text == written(Ns2Format::old_format));
 }
 
-TEST_CASE("trace convert: old to new is what the run writes, but for places at 1 cm") {
+TEST_CASE("trace convert: old to new gives what the run writes, with positions to 1 cm") {
     const std::string expected = written(Ns2Format::new_format);
     const std::string made = converted(written(Ns2Format::old_format), TraceForm::ns2_new).text;
     std::istringstream a(expected), b(made);
@@ -113,7 +113,7 @@ TEST_CASE("trace convert: old to new is what the run writes, but for places at 1
     CHECK(at_1.find("-Nx 3.00 -Ny 3.00 -Nz 1.00") != at_1.npos);  // 1.5 s at 2 m/s
 }
 
-TEST_CASE("trace convert: frames of the MAC's own are left out with a word, not invented") {
+TEST_CASE("trace convert: control frames of the MAC are omitted with a notice") {
     const std::string text = written(Ns2Format::old_format, MacTrace::on);
     std::istringstream lines(text);
     std::string line, expected;
@@ -159,7 +159,7 @@ TEST_CASE("trace convert: payloads of constant bit rate and TCP have a form in e
           std::string::npos);
 }
 
-TEST_CASE("trace convert: a CSV has a row for each event, with as many cells as its head") {
+TEST_CASE("trace convert: a CSV has a row for each event, with as many cells as its header") {
     const std::string text =
         moves + "N -t 0.500000 -n 1 -e 99.5\n" + "v 1 eval {set sim_annotation {reachable 0 1}}\n" +
         sent_0 + got_1 + "D 3.541349000 _2_ MAC  RET 0 RTS 44 [14ee 3 2 0] \n" + "# a comment\n" +
@@ -184,7 +184,7 @@ TEST_CASE("trace convert: a CSV has a row for each event, with as many cells as 
     CHECK(rows[11].find("\"a,\"\"b\"") != std::string::npos);
 }
 
-TEST_CASE("trace cut: by time, robot and message, line by line") {
+TEST_CASE("trace cut: selects by time, robot and message, line by line") {
     const std::string other =
         "s 2.000000000 _1_ AGT  --- 1 message 64 [0 0 0 0] ------- [1:0 -1:0 3 0] \n";
     const std::string all = moves + sent_0 + got_1 + other;
@@ -199,7 +199,7 @@ TEST_CASE("trace cut: by time, robot and message, line by line") {
     CHECK(cut("# by hand\n" + dos, {}).text == all);
 }
 
-TEST_CASE("trace cut: what is cut by message has that message's deliveries") {
+TEST_CASE("trace cut: a selected message keeps its deliveries") {
     const TempFolder folder;
     write_file(folder / "in.tr", written(Ns2Format::old_format));
     const auto whole = ns2_stats(folder / "in.tr");
@@ -213,7 +213,7 @@ TEST_CASE("trace cut: what is cut by message has that message's deliveries") {
     CHECK(deliveries == whole.metrics.deliveries);
 }
 
-TEST_CASE("trace diff: a run in both formats is equal, whatever else the files hold") {
+TEST_CASE("trace diff: a run in both formats is equal, whatever else the files contain") {
     const std::string old_text = written(Ns2Format::old_format, MacTrace::on);
     const std::string new_text = written(Ns2Format::new_format, MacTrace::on);
     CHECK(difference(old_text, new_text).is_equal);
@@ -222,8 +222,7 @@ TEST_CASE("trace diff: a run in both formats is equal, whatever else the files h
     CHECK_FALSE(other.is_equal);
 }
 
-TEST_CASE(
-    "trace diff: the first field that differs, with the lines around it and all kinds counted") {
+TEST_CASE("trace diff: shows the first different field, the lines around it and all counts") {
     const std::string a = moves + sent_0 + got_1 + on_to_2;
     std::string b = a;
     b.replace(b.find("r 1.500000000"), 13, "r 1.500000001");
@@ -256,7 +255,7 @@ TEST_CASE(
     CHECK(changed("M 0.00000 1", "M 0.00000 2") == "robot");
 }
 
-TEST_CASE("trace diff: read up to the first difference, it is the same one") {
+TEST_CASE("trace diff: reading only up to the first difference gives the same one") {
     const std::string a = moves + sent_0 + got_1 + on_to_2;
     std::string b = a;
     b.replace(b.find("r 1.500000000"), 13, "r 1.500000001");
@@ -285,7 +284,7 @@ TEST_CASE("trace diff: the files of one run of ns-2 are equal in each format") {
     CHECK_FALSE(diff_ns2(in + "old_aodv_mac.tr", in + "old_dsr.tr", Duration{0}).is_equal);
 }
 
-TEST_CASE("trace follow: the tree of a message, with losses and who got nothing") {
+TEST_CASE("trace follow: shows the tree of a message, its losses and robots without a copy") {
     const TempFolder folder;
     write_file(folder / "run.tr", moves + "M 0.0 4 (0.00, 0.00, 0.00), (0.00, 0.00), 0.00\n" +
                                       sent_0 + got_1 + on_to_2);

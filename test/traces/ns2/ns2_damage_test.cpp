@@ -79,7 +79,7 @@ std::vector<std::string> damaged(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("damaged trace: every line is counted once, whatever it holds") {
+TEST_CASE("damaged trace: every line is counted once, whatever it contains") {
     for (const auto format : {Ns2Format::old_format, Ns2Format::new_format}) {
         const std::string text = sample(format);
         std::vector<std::string> all = truncated(text);
@@ -103,7 +103,7 @@ TEST_CASE("damaged trace: every line is counted once, whatever it holds") {
     }
 }
 
-TEST_CASE("damaged trace: a broken line costs that line only") {
+TEST_CASE("damaged trace: a broken line affects only itself") {
     for (const auto format : {Ns2Format::old_format, Ns2Format::new_format}) {
         const std::string text = sample(format);
         const TempFolder folder;

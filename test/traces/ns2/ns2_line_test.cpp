@@ -37,7 +37,7 @@ std::int64_t ns(Time t) { return t.time_since_epoch().count(); }
 
 }  // namespace
 
-TEST_CASE("ns-2 line: all fields of the old format") {
+TEST_CASE("ns-2 line: all fields of the old format are read") {
     const auto p = packet_of(
         "f 11.620993771 _6_ RTR  --- 3 cbr 532 [13a 6 5 800] ------- [5:0 3:1 29 4] [3] 1 0");
     CHECK(p.dialect == Ns2Dialect::old_format);
@@ -56,7 +56,7 @@ TEST_CASE("ns-2 line: all fields of the old format") {
     CHECK_FALSE(p.energy);
 }
 
-TEST_CASE("ns-2 line: all fields of the new format, in which a drop is a small d") {
+TEST_CASE("ns-2 line: all fields of the new format are read, in which a drop is d") {
     const auto p = packet_of(
         "d -t 1.500000000 -Hs 2 -Hd -2 -Ni 2 -Nx 10.25 -Ny 20.50 -Nz 0.00 -Ne 99.500000 -Nl IFQ "
         "-Nw ARP -Ma 13a -Md a -Ms b -Mt 800 -Is 5.0 -Id 3.1 -It tcp -Il 1040 -If 2 -Ii 7 -Iv 29 "
@@ -78,8 +78,7 @@ TEST_CASE("ns-2 line: all fields of the new format, in which a drop is a small d
     CHECK(p.payload == "-Pn tcp -Ps 4 -Pa 0 -Pf 1 -Po 0");
 }
 
-TEST_CASE(
-    "ns-2 line: in the tagged format + is a send, h a forward, and the addresses are swapped") {
+TEST_CASE("ns-2 line: in the tagged format + is a send, h a forward, and addresses are swapped") {
     const std::string rest =
         " 1.0012345678 -s 2 -d 3 -p AODV -k MAC -i 9 -N:loc {500.00 400.00 1.00} -N:en -1.000000 "
         "-M:dur 13a -M:s ffffffff -M:d 2 -M:t 800 -IP:s 0 -IP:sp 255 -IP:d -1 -IP:dp 255 -p AODV "
@@ -109,8 +108,7 @@ TEST_CASE(
     CHECK_FALSE(rts.ip);
 }
 
-TEST_CASE(
-    "ns-2 line: frames of the MAC's own have no network part, and an energy may stand behind") {
+TEST_CASE("ns-2 line: control frames of the MAC have no network part, and energy may follow") {
     for (const std::string energy : {"", "[energy 98.3 ei 1.3 es 0.0 et 0.1 er 0.2] "}) {
         const std::string line = "D 3.541349000 _2_ MAC  RET 0 RTS 44 [14ee 3 2 0] " + energy;
         const auto p = packet_of(line);
@@ -133,7 +131,7 @@ TEST_CASE(
     CHECK_FALSE(in_new.ip);
 }
 
-TEST_CASE("ns-2 line: ARP has no IP header, in no format") {
+TEST_CASE("ns-2 line: ARP has no IP header in any format") {
     const auto old_arp = packet_of(
         "r 11.184857138 _0_ MAC  --- 0 ARP 28 [0 ffffffff 3 806] ------- [REQUEST 3/3 "
         "0/0]");
@@ -154,14 +152,14 @@ TEST_CASE("ns-2 line: a line of the physical layer has no bracket, SMAC's has de
     CHECK(smac.ip->ttl == 32);
 }
 
-TEST_CASE("ns-2 line: addresses that Mac/Simple makes up are read as they stand") {
+TEST_CASE("ns-2 line: addresses invented by Mac/Simple are read unchanged") {
     const auto p = packet_of(
         "s -t 1.0 -Hs 0 -Hd 1 -Ni 0 -Nx 1.00 -Ny 1.00 -Nz 0.00 -Ne -1.000000 -Nl MAC -Nw --- -Ma "
         "0 -Md 1000000 -Ms ffff0008 -Mt 0 -Is 0.0 -Id 1.0 -It cbr -Il 512 -If 0 -Ii 0 -Iv 32 ");
     CHECK(p.mac == Ns2Mac{0, 0x1000000, 0xffff0008, 0});
 }
 
-TEST_CASE("ns-2 line: M, N and v lines, and our annotation") {
+TEST_CASE("ns-2 line: M, N and v lines, and our annotation, are read") {
     const Ns2Line m = parse_ns2_line("M 2.00000 3 (6.59, 418.73, 1.00), (67.99, 108.50), 14.52");
     REQUIRE(std::holds_alternative<Ns2Move>(m));
     CHECK(std::get<Ns2Move>(m).from == Vec3{6.59, 418.73, 1});
@@ -182,7 +180,7 @@ TEST_CASE("ns-2 line: M, N and v lines, and our annotation") {
     CHECK(is_skipped("v 0.8 link-down 2 1", Ns2Other::annotation));
 }
 
-TEST_CASE("ns-2 line: what begins with S is a statistic of DSR and no send") {
+TEST_CASE("ns-2 line: a line that begins with S is a statistic of DSR, not a send") {
     for (const char* line :
          {"Sconfig 0.00000 tap: on snoop: rts? on errs? on",
           "SFESTs 11.274295496 _5_ 0 [5 -> 3] 1(1) to 6 [5 |6 0 8 3 ]",
@@ -193,7 +191,7 @@ TEST_CASE("ns-2 line: what begins with S is a statistic of DSR and no send") {
     CHECK(is_refused("S 1.0 _1_ AGT  --- 0 cbr 512"));
 }
 
-TEST_CASE("ns-2 line: wired lines, nam lines and what ns prints are known by their kind") {
+TEST_CASE("ns-2 line: wired lines, nam lines and output of ns are recognised by kind") {
     for (const char* line :
          {"+ 0.1 1 2 cbr 1000 ------- 2 1.0 3.1 0 0", "- 0.108 1 2 cbr 1000 ------- 2 1.0 3.1 1 1",
           "r 0.80000000000000004 1 2 tcp 40 ------- 2 1.0 3.1 0 0",
@@ -215,7 +213,7 @@ TEST_CASE("ns-2 line: wired lines, nam lines and what ns prints are known by the
     CHECK(is_skipped("# nodes: 3", Ns2Other::comment));
 }
 
-TEST_CASE("ns-2 line: times have as many digits as each program prints") {
+TEST_CASE("ns-2 line: times have the number of digits of each program") {
     const auto time_of = [](const std::string& time) {
         const Ns2Line line = parse_ns2_line("N -t " + time + " -n 6 -e 1");
         REQUIRE(std::holds_alternative<Ns2Energy>(line));
@@ -232,7 +230,7 @@ TEST_CASE("ns-2 line: times have as many digits as each program prints") {
     }
 }
 
-TEST_CASE("ns-2 line: what is none of ns-2 is refused") {
+TEST_CASE("ns-2 line: any other line is refused") {
     for (const char* line :
          {"t 0.02105 /NodeList/0/DeviceList/0 DsssRate1Mbps",
           "r 0.0219142 DsssRate1Mbps /NodeList/1/DeviceList/0", "[scenario]", "name = \"A\"",

@@ -55,7 +55,7 @@ TEST_CASE("ns-2 motion: a robot rests before its first leg, goes to its goal, an
     CHECK(motion.legs(robot).back().heading == 0);
 }
 
-TEST_CASE("ns-2 motion: the place of the next line corrects a leg that it ends") {
+TEST_CASE("ns-2 motion: the position in the next line corrects a leg that it ends") {
     Ns2Motion motion;
     go(motion, 0s, {}, {100, 0}, 2.5);           // in truth at 2.503 m/s
     go(motion, 20s, {50.06, 0}, {50.06, 9}, 1);  // and turned here
@@ -64,7 +64,7 @@ TEST_CASE("ns-2 motion: the place of the next line corrects a leg that it ends")
     check_place(motion, 21s, {50.06, 1});
 }
 
-TEST_CASE("ns-2 motion: a leg that has ended is at its goal, whatever place comes next") {
+TEST_CASE("ns-2 motion: a completed leg ends at its goal, whatever position follows") {
     Ns2Motion motion;
     go(motion, 0s, {}, {10, 0}, 1);
     go(motion, 15s, {10, 0}, {10, 5}, 1);
@@ -74,7 +74,7 @@ TEST_CASE("ns-2 motion: a leg that has ended is at its goal, whatever place come
     check_place(motion, 31s, {70, 70});
 }
 
-TEST_CASE("ns-2 motion: places in packet lines refine the rounded speed of a leg") {
+TEST_CASE("ns-2 motion: positions in packet lines refine the rounded speed of a leg") {
     Ns2Motion motion;
     go(motion, 0s, {}, {100, 0}, 2.5);
     for (int i = 1; i <= 30; ++i) motion.is_at(robot, at(i * 1s), {2.503 * i, 0});
@@ -86,7 +86,7 @@ TEST_CASE("ns-2 motion: places in packet lines refine the rounded speed of a leg
     check_place(motion, 60500ms, {100, 0});
 }
 
-TEST_CASE("ns-2 motion: without M lines a robot goes straight from place to place") {
+TEST_CASE("ns-2 motion: without M lines a robot moves straight from position to position") {
     Ns2Motion motion;
     motion.is_at(robot, at(1s), {5, 5});
     motion.is_at(robot, at(10s), {5, 5});  // it rested until here
@@ -100,7 +100,7 @@ TEST_CASE("ns-2 motion: without M lines a robot goes straight from place to plac
     check_place(motion, 99s, {9, 7});
 }
 
-TEST_CASE("ns-2 motion: the legs come later one than the other, whatever the order of the lines") {
+TEST_CASE("ns-2 motion: legs are in order of time, in any order of lines") {
     Ns2Motion motion;
     motion.is_at(robot, at(1s), {});
     motion.is_at(robot, at(1s), {4, 0});

@@ -112,7 +112,7 @@ struct Recorded {
 
 }  // namespace
 
-TEST_CASE("reader: the metrics of a trace with MAC lines are those of its run, to the last digit") {
+TEST_CASE("reader: metrics of a trace with MAC lines equal those of its run, to the last digit") {
     for (const auto format : {Ns2Format::old_format, Ns2Format::new_format}) {
         for (unsigned seed = 0; seed < 20; ++seed) {
             const Recorded run(format, seed, 2 + static_cast<int>(seed) * 7, 2'000, MacTrace::on);
@@ -134,7 +134,7 @@ TEST_CASE("reader: the metrics of a trace with MAC lines are those of its run, t
     }
 }
 
-TEST_CASE("reader: without the MAC's lines all is read but what was lost on air") {
+TEST_CASE("reader: without MAC lines everything is read except losses on air") {
     for (const auto format : {Ns2Format::old_format, Ns2Format::new_format}) {
         for (unsigned seed = 0; seed < 5; ++seed) {
             const Recorded plain(format, seed, 20, 1'000);
@@ -152,7 +152,7 @@ TEST_CASE("reader: without the MAC's lines all is read but what was lost on air"
     }
 }
 
-TEST_CASE("reader: a trace that is read and written again is the same trace") {
+TEST_CASE("reader: a trace read and written again is unchanged") {
     const Recorded run(Ns2Format::old_format, 7, 30, 3'000);
     const TempFolder folder;
     write_file(folder / "run.tr", run.text);
@@ -172,7 +172,7 @@ TEST_CASE("reader: a trace that is read and written again is the same trace") {
     CHECK_FALSE(std::getline(copied, other));
 }
 
-TEST_CASE("reader: every field of a record is rebuilt") {
+TEST_CASE("reader: every field of a record is reconstructed") {
     const auto r = records_of(
         old_lines +
         "f 1.002000000 _1_ RTR  --- 0 message 64 [0 ffffffff 0 800] ------- [0:0 -1:0 2 0] \n"
@@ -215,7 +215,7 @@ TEST_CASE("reader: an annotation counts for the message that it names") {
     CHECK_FALSE(annotated("7"));
 }
 
-TEST_CASE("reader: robots move as their M lines say") {
+TEST_CASE("reader: robots move as in their M lines") {
     const auto r = records_of(old_lines);
     REQUIRE(r.moved.size() == 2);
     CHECK(r.legs.leg(NodeId{0}).end == never);
@@ -224,7 +224,7 @@ TEST_CASE("reader: robots move as their M lines say") {
     CHECK(r.legs.position(NodeId{1}, at(9'000'000'000)) == Vec3{3, 4, 1});
 }
 
-TEST_CASE("reader: both formats may meet in one file, ended in either way, or not at all") {
+TEST_CASE("reader: both formats may occur in one file, with any line ends") {
     CHECK(metrics_of(old_lines).deliveries == 1);
     CHECK(metrics_of(new_line).messages == 1);
     const std::string second = "s 2.0 _1_ AGT  --- 1 message 9 [0 0 0 0] ------- [1:0 -1:0 3 0]";
@@ -235,7 +235,7 @@ TEST_CASE("reader: both formats may meet in one file, ended in either way, or no
     CHECK(metrics_of("").messages == 0);
 }
 
-TEST_CASE("reader: what ns-2 writes and we do not is passed over") {
+TEST_CASE("reader: lines of ns-2 that we do not write are skipped") {
     const std::string foreign =
         "\n"
         "# a comment\n"
@@ -266,7 +266,7 @@ TEST_CASE("reader: what ns-2 writes and we do not is passed over") {
     CHECK(with.drops == without.drops);
 }
 
-TEST_CASE("reader: an energy model shifts the columns and nothing else") {
+TEST_CASE("reader: an energy model only shifts the columns") {
     std::string text = old_lines;
     const std::string energy = "[energy 98.312702 ei 1.328 es 0.000 et 0.116 er 0.243] ";
     for (std::size_t i = 0; (i = text.find("-------", i)) != text.npos; i += energy.size() + 7) {
@@ -275,7 +275,7 @@ TEST_CASE("reader: an energy model shifts the columns and nothing else") {
     CHECK(metrics_of(text) == metrics_of(old_lines));
 }
 
-TEST_CASE("reader: a broken line names its place, what was found and what was expected") {
+TEST_CASE("reader: a broken line has its position, what was found and what was expected") {
     const auto number_of_lines = "run.tr:8:";  // after the seven good ones
     const auto broken = [&](const std::string& line) { return error_of(old_lines + line + "\n"); };
     const std::string rest = " RTR  --- 0 message 64 [0 ffffffff 0 800] ------- [0:0 -1:0 3 0] ";
@@ -313,7 +313,7 @@ TEST_CASE("reader: a broken line names its place, what was found and what was ex
           "run.tr:8:1: found \"??\", expected a line of an ns-2 trace (s, r, f, D, d, M, ...)");
 }
 
-TEST_CASE("reader: what is no file, or no text, is an input error") {
+TEST_CASE("reader: a missing file, or one that is not text, is an input error") {
     const TempFolder folder;
     CHECK_THROWS_AS(trace_metrics(folder / "missing.tr"), InputError);
     CHECK_THROWS_AS(trace_metrics(folder / "."), InputError);
@@ -324,7 +324,7 @@ TEST_CASE("reader: what is no file, or no text, is an input error") {
     CHECK(error_of("# " + std::string(65'000, 'x') + "\n") == "");
 }
 
-TEST_CASE("reader: lines across the portions in which the file is read are whole") {
+TEST_CASE("reader: lines across block borders of the file are read correctly") {
     std::string text = old_lines;
     std::uint64_t messages = 1;
     for (; text.size() < 2'000'000; ++messages) {
@@ -334,7 +334,7 @@ TEST_CASE("reader: lines across the portions in which the file is read are whole
     CHECK(metrics_of(text).messages == messages);
 }
 
-TEST_CASE("reader: a damaged trace is read or refused, never more") {
+TEST_CASE("reader: a damaged trace is read or refused, without a crash") {
     std::mt19937 draw(5);
     const auto below = [&](std::size_t n) { return draw() % n; };
     int refused = 0;
@@ -358,7 +358,7 @@ TEST_CASE("reader: a damaged trace is read or refused, never more") {
     CHECK(refused < 400);
 }
 
-TEST_CASE("reader: a file without any line of ns-2 is no trace") {
+TEST_CASE("reader: a file without an ns-2 line is not a trace") {
     const TempFolder folder;
     write_file(folder / "run.tr", "# by hand\n[scenario]\nname = \"A\"\n");
     try {

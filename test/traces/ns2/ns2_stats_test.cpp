@@ -81,7 +81,8 @@ void check_against_awk(const std::string& path) {
 
 }  // namespace
 
-TEST_CASE("trace stats: a packet is its type and its id, and only its first delivery counts") {
+TEST_CASE(
+    "trace stats: a packet is identified by type and id, and only its first delivery counts") {
     const auto s = stats_of(sent("1.0", 0) + sent("1.0", 0, "exp") + got("1.5", 0) + got("1.6", 0) +
                             got("2.5", 0, "exp") + sent("3.0", 0, "ack") + got("3.1", 0, "ack") +
                             got("3.2", 9));
@@ -94,7 +95,7 @@ TEST_CASE("trace stats: a packet is its type and its id, and only its first deli
     CHECK(s.counts.refused == 0);
 }
 
-TEST_CASE("trace stats: jitter of a flow at a receiver, by hand, and throughput") {
+TEST_CASE("trace stats: jitter of a flow at a receiver, and throughput, equal manual values") {
     // Latencies 0.5, 0.6, 0.4 s: differences 0.1 and 0.2 s. One of 2 s is of another flow.
     const auto s =
         stats_of(sent("1", 0) + got("1.5", 0) + sent("2", 1) + got("2.6", 1) +
@@ -112,7 +113,7 @@ TEST_CASE("trace stats: jitter of a flow at a receiver, by hand, and throughput"
     CHECK_FALSE(stats_of(sent("1", 0)).throughput);
 }
 
-TEST_CASE("trace stats: packets of routing agents are load, forwarded ones too") {
+TEST_CASE("trace stats: packets of routing agents count as load, also forwarded ones") {
     const std::string request = " --- 0 AODV 48 [0 0 0 0] ------- [0:255 -1:255 30 0] [0x2] \n";
     const auto s = stats_of(sent("1", 0) + "s 1.0 _0_ RTR " + request + "f 1.1 _1_ RTR " + request +
                             "r 1.1 _1_ RTR " + request + "s 1.1 _1_ MAC " + request +
@@ -123,7 +124,7 @@ TEST_CASE("trace stats: packets of routing agents are load, forwarded ones too")
     CHECK(s.metrics.transmissions == 0);
 }
 
-TEST_CASE("trace stats: drops of messages by reason, and of all packets by layer") {
+TEST_CASE("trace stats: drops of messages are by reason, and of all packets by layer") {
     const auto s =
         stats_of(sent("1", 0) + "D 1.1 _0_ IFQ  ARP 0 cbr 120 [0 0 0 0] ------- [0:0 1:0 32 1] \n" +
                  "D 1.1 _0_ MAC  COL 0 RTS 44 [0 0 0 0] \n" +
@@ -170,7 +171,7 @@ TEST_CASE("trace stats: rows by robot, flow and second add up to the totals") {
     CHECK(stats_of(sent("7.5", 0), TraceRows::flow).rows[0].name == "cbr 0:0 -> 1:0");
 }
 
-TEST_CASE("trace stats: lines are events, skipped or refused, and nothing else") {
+TEST_CASE("trace stats: each line is an event, skipped or refused") {
     const auto s =
         stats_of("# by hand\n\n" + sent("1", 0) + "what is this\n" +
                  "+ 0.1 1 2 cbr 1000 ------- 2 1.0 3.1 0 0\nSFf 1.0 _1_ 3\n" + sent("2", 0));
@@ -191,7 +192,7 @@ TEST_CASE("trace stats: lines are events, skipped or refused, and nothing else")
     CHECK(stats_of(many).counts.refused_lines.size() == 10);
 }
 
-TEST_CASE("trace stats: hops are counted from what the routing agent put on air") {
+TEST_CASE("trace stats: hops are counted from the routing agent's first transmission") {
     const auto s =
         stats_of(sent("1", 0) + "s 1.1 _0_ RTR  --- 0 cbr 120 [0 0 0 0] ------- [0:0 1:0 30 5] \n" +
                  "r 1.2 _5_ RTR  --- 0 cbr 120 [13a 5 0 800] ------- [0:0 1:0 30 5] \n" +
@@ -214,7 +215,7 @@ TEST_CASE("trace stats: files of ns-2 have the counts that awk finds in their co
     }
 }
 
-TEST_CASE("trace stats: the files of one run of ns-2 are the same in each format") {
+TEST_CASE("trace stats: the files of one run of ns-2 are equal in each format") {
     const char* folder = std::getenv("ROVERNET_TRACES");
     if (!folder) {
         MESSAGE("skipped: ROVERNET_TRACES is not set");
@@ -243,7 +244,7 @@ TEST_CASE("trace stats: the files of one run of ns-2 are the same in each format
     CHECK_THROWS_AS(ns2_stats(in + "ns3_aodv_wifi_ascii.tr"), InputError);
 }
 
-TEST_CASE("stats: frames of S-MAC, whose bracket has signed addresses and no ethertype, count") {
+TEST_CASE("stats: frames of S-MAC, with signed addresses and no ethertype, count") {
     const TempFolder folder;
     write_file(
         folder / "smac.tr",
@@ -267,7 +268,7 @@ TEST_CASE("stats: frames of S-MAC, whose bracket has signed addresses and no eth
     CHECK(s.drops_by_layer.at({"MAC", "COL"}) == 1);
 }
 
-TEST_CASE("stats: M lines with the options of a script are a header, others are still refused") {
+TEST_CASE("stats: M lines with the options of a script are a header, others are refused") {
     const TempFolder folder;
     write_file(folder / "in.tr",
                "M 0.0 nn 3 x 600 y 300 rp AODV\n"
@@ -282,7 +283,7 @@ TEST_CASE("stats: M lines with the options of a script are a header, others are 
     CHECK(s.counts.refused == 2);
 }
 
-TEST_CASE("stats: a file without a line of a trace is refused, whatever its lines look like") {
+TEST_CASE("stats: a file without a trace line is refused, whatever its lines are") {
     const TempFolder folder;
     const std::vector<std::pair<std::string, std::string>> files = {
 

@@ -58,7 +58,7 @@ std::string without_first_lines(std::string text, int n) {
 
 }  // namespace
 
-TEST_CASE("ns-2 trace: movements, the same in both formats") {
+TEST_CASE("ns-2 trace: movements are equal in both formats") {
     const auto old_text = trace_of(Ns2Format::old_format, play);
     CHECK(
         old_text.starts_with("M 0.00000 0 (0.00, 1.00, 0.50), (0.00, 1.00), 0.00\n"
@@ -85,7 +85,7 @@ TEST_CASE("ns-2 trace: a repeated unicast is dropped by the MAC") {
     CHECK(trace_of(Ns2Format::old_format, repeat).find(" 1.5") == std::string::npos);
 }
 
-TEST_CASE("ns-2 trace: a frame that is lost on air has its size there, and no line without MAC") {
+TEST_CASE("ns-2 trace: a frame lost on air has its size there, and no line without MAC lines") {
     const auto lose = [](Stream& s) {
         s.place(Vec3{});
         s.place(Vec3{10, 0, 0});
@@ -103,7 +103,7 @@ TEST_CASE("ns-2 trace: a frame that is lost on air has its size there, and no li
     CHECK(trace_of(Ns2Format::old_format, lose).find("MAC") == std::string::npos);
 }
 
-TEST_CASE("ns-2 trace: the old format, line by line") {
+TEST_CASE("ns-2 trace: the old format equals ns-2, line by line") {
     CHECK(without_first_lines(trace_of(Ns2Format::old_format, play), 12) ==
           "v 10 eval {set sim_annotation {reachable 0 2}}\n"
           "s 10.000000000 _0_ AGT  --- 0 message 64 [0 0 0 0] ------- [0:0 -1:0 3 0] \n"
@@ -122,7 +122,7 @@ TEST_CASE("ns-2 trace: the old format, line by line") {
           "D 10.004000000 _11_ RTR  SLP 0 message 64 [0 ffffffff 1 800] ------- [0:0 -1:0 2 0] \n");
 }
 
-TEST_CASE("ns-2 trace: the new format, line by line") {
+TEST_CASE("ns-2 trace: the new format equals ns-2, line by line") {
     const auto text = without_first_lines(trace_of(Ns2Format::new_format, play), 12);
     CHECK(text.starts_with(
         "v 10 eval {set sim_annotation {reachable 0 2}}\n"
@@ -150,7 +150,7 @@ TEST_CASE("ns-2 trace: the new format, line by line") {
         "-Iv 2 \n"));
 }
 
-TEST_CASE("ns-2 trace: the new format shows where a moving robot is at the time of the line") {
+TEST_CASE("ns-2 trace: the new format has the position of a moving robot at the line's time") {
     const auto text = trace_of(Ns2Format::new_format, [](Stream& s) {
         s.place({.start = at(0),
                  .end = at(10'000'000'000),
@@ -162,7 +162,7 @@ TEST_CASE("ns-2 trace: the new format shows where a moving robot is at the time 
     CHECK(text.find("-Nx 2.50 -Ny 1.25 -Nz 0.62 ") != text.npos);
 }
 
-TEST_CASE("ns-2 trace: without knowledge of what can be reached there is no annotation") {
+TEST_CASE("ns-2 trace: without the number of reachable robots there is no annotation") {
     const auto text = trace_of(Ns2Format::old_format, [](Stream& s) {
         s.place(Vec3{});
         s.send(at(0), a, 1);
@@ -170,7 +170,7 @@ TEST_CASE("ns-2 trace: without knowledge of what can be reached there is no anno
     CHECK(text.find("v ") == text.npos);
 }
 
-TEST_CASE("ns-2 trace: a message lost at its own sender has not been heard from anybody") {
+TEST_CASE("ns-2 trace: a message lost at its own sender has no previous sender") {
     const auto text = trace_of(Ns2Format::old_format, [](Stream& s) {
         s.place(Vec3{});
         const auto m = s.send(at(0), a, 1);
@@ -207,7 +207,7 @@ void play_exchange(Stream& s) {
 
 }  // namespace
 
-TEST_CASE("ns-2 trace: the MAC's lines in the old format; durations to the nearest microsecond") {
+TEST_CASE("ns-2 trace: MAC lines in the old format have durations to the nearest microsecond") {
     const auto text = trace_of(Ns2Format::old_format, play_exchange, MacTrace::on);
     CHECK(without_first_lines(text, 14) ==
           "s 0.000000001 _0_ MAC  --- 0 RTS 44 [fa0 b 0 0] \n"
@@ -220,7 +220,7 @@ TEST_CASE("ns-2 trace: the MAC's lines in the old format; durations to the neare
           "r 0.000000006 _11_ AGT  --- 0 message 64 [13a b 0 800] ------- [0:0 -1:0 1 0] \n");
 }
 
-TEST_CASE("ns-2 trace: the MAC's lines in the new format, which does not name control frames") {
+TEST_CASE("ns-2 trace: MAC lines in the new format do not name control frames") {
     const auto text = trace_of(Ns2Format::new_format, play_exchange, MacTrace::on);
     const std::string place = " -Nx 0.00 -Ny 0.00 -Nz 0.00 -Ne -1.000000 -Nl MAC -Nw ";
     CHECK(without_first_lines(text, 14).starts_with(
@@ -233,7 +233,7 @@ TEST_CASE("ns-2 trace: the MAC's lines in the new format, which does not name co
         "\n"));
 }
 
-TEST_CASE("ns-2 trace: who does not ask for the MAC's lines does not hear of its frames") {
+TEST_CASE("ns-2 trace: without MAC lines the sink does not request their records") {
     const TempFolder folder;
     const KindMask of_mac = kind_of<AirSent>() | kind_of<ControlReceived>();
     CHECK((Ns2Trace(folder / "a.tr").kinds() & of_mac) == 0);
@@ -243,7 +243,7 @@ TEST_CASE("ns-2 trace: who does not ask for the MAC's lines does not hear of its
     CHECK(text.find("MAC") == text.npos);
 }
 
-TEST_CASE("ns-2 trace: a trace of more than the buffer is whole") {
+TEST_CASE("ns-2 trace: a trace longer than the buffer is complete") {
     const auto text = trace_of(Ns2Format::new_format, [](Stream& s) {
         s.place(Vec3{});
         for (int i = 0; i < 1000; ++i) s.send(at(i), a, 1);
@@ -252,7 +252,7 @@ TEST_CASE("ns-2 trace: a trace of more than the buffer is whole") {
     CHECK(text.find("-Ii 999 -Iv 1 \n") != text.npos);
 }
 
-TEST_CASE("ns-2 trace: the file has its name only once it is whole") {
+TEST_CASE("ns-2 trace: the file has its name only when complete") {
     const TempFolder folder;
     Ns2Trace trace(folder / "run.tr");
     CHECK_FALSE(folder.has("run.tr"));
@@ -262,7 +262,7 @@ TEST_CASE("ns-2 trace: the file has its name only once it is whole") {
     CHECK(folder.has("run.tr"));
 }
 
-TEST_CASE("ns-2 trace: an interrupted run leaves what was there before, and no half file") {
+TEST_CASE("ns-2 trace: an interrupted run leaves the old file, and no partial file") {
     const TempFolder folder;
     write_file(folder / "run.tr", "yesterday's\n");
     const auto interrupted = [&] {
@@ -276,7 +276,7 @@ TEST_CASE("ns-2 trace: an interrupted run leaves what was there before, and no h
     CHECK(folder.names() == std::vector<std::string>{"run.tr"});
 }
 
-TEST_CASE("ns-2 trace: a run that ends well without close() leaves its trace") {
+TEST_CASE("ns-2 trace: a run that ends normally without close() leaves its trace") {
     const TempFolder folder;
     {
         Stream stream;

@@ -75,7 +75,7 @@ std::optional<Toy> read(std::string_view bytes, unsigned format) {
 
 }  // namespace
 
-TEST_CASE("fields of a record: all types come back as they were written") {
+TEST_CASE("fields of a record: all types are read back as written") {
     const std::string bytes = written(toy);
     const auto back = read(bytes, 2);
     REQUIRE(back);
@@ -96,7 +96,7 @@ TEST_CASE("fields of a record: all types come back as they were written") {
     CHECK(back->added == 10);
 }
 
-TEST_CASE("fields of a record: a trace of an earlier format is without the later ones") {
+TEST_CASE("fields of a record: a trace of an earlier format lacks the later fields") {
     const std::string bytes = written(toy);  // `added`, a byte, is the last
     const auto back = read(std::string_view(bytes).substr(0, bytes.size() - 1), 1);
     REQUIRE(back);

@@ -374,7 +374,7 @@ void check(const Sample& sample, const Variant& variant) {
 
 }  // namespace
 
-TEST_CASE("damaged recorded trace: each record is read or lost with its chunk, and that is told") {
+TEST_CASE("damaged recorded trace: each record is read, or lost with its chunk and reported") {
     const Sample sample;
     for (const auto& make :
          {truncated, broken_chunks, misled, broken_indexes, broken_elsewhere, nonsense}) {
@@ -384,7 +384,7 @@ TEST_CASE("damaged recorded trace: each record is read or lost with its chunk, a
     }
 }
 
-TEST_CASE("recorded trace: behind each chunk, an index leads to each of its messages") {
+TEST_CASE("recorded trace: after each chunk an index has the position of each message") {
     const Sample s;
     std::size_t chunk = 0, messages = 0;
     std::string plain;
@@ -423,7 +423,7 @@ TEST_CASE("recorded trace: behind each chunk, an index leads to each of its mess
     CHECK(messages == 0);
 }
 
-TEST_CASE("damaged recorded trace: whatever it says of sizes, it takes no more than 256 MB") {
+TEST_CASE("damaged recorded trace: wrong sizes never need more than 256 MB") {
     if (test::has_address_sanitizer) {
         MESSAGE("memory is not measured: what is freed stays for a while");
         return;

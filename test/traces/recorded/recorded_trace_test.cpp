@@ -85,7 +85,7 @@ void render(const std::string& trace, const std::string& to, Ns2Format format, M
     text->close();
 }
 
-TEST_CASE("a recorded trace gives back the records of the run, in its order") {
+TEST_CASE("a recorded trace returns the records of the run in order") {
     for (unsigned seed = 1; seed <= 5; ++seed) {
         const Recorded recorded(2000, seed);
         std::vector<std::string> damage;
@@ -114,7 +114,7 @@ std::string said_of(std::size_t named, std::uint32_t last, const std::string& sc
     }
 }
 
-TEST_CASE("a recorded trace names all robots of its records, or says which one it does not") {
+TEST_CASE("a recorded trace has the names of all robots, or the missing robot is named") {
     CHECK(said_of(3, 2, "[scenario]\n") == "nothing");
     CHECK(said_of(3, 3, "[scenario]\n") == "record 2 is of robot 3; the trace names 3");
     // Robots may have been added later to a network that was made in code.
@@ -122,7 +122,7 @@ TEST_CASE("a recorded trace names all robots of its records, or says which one i
     CHECK(said_of(3, 4'000'000, "") == "record 2 is of robot 4000000; the trace names 3");
 }
 
-TEST_CASE("records of kinds that this version does not know are left out, which is told once") {
+TEST_CASE("record kinds of later versions are skipped, with one notice") {
     TempFolder folder;
     McapWriter file(folder / "t.mcap", "rovernet", "a later version");
     file.metadata("rovernet", {{"format", "1"}, {"scenario", ""}});
@@ -155,7 +155,7 @@ TEST_CASE("records of kinds that this version does not know are left out, which 
     }
 }
 
-TEST_CASE("a recorded trace keeps the header of a frame, with the record of that frame alone") {
+TEST_CASE("a recorded trace keeps the header of a frame with its record") {
     TempFolder folder;
     RecordedTrace trace(folder / "t.mcap", {.version = "1"});
     trace.begin(info(2));
@@ -183,7 +183,7 @@ TEST_CASE("a recorded trace keeps the header of a frame, with the record of that
     CHECK(reader.damage().empty());
 }
 
-TEST_CASE("a recorded trace keeps what the run was") {
+TEST_CASE("a recorded trace keeps scenario, seed and names of the run") {
     TempFolder folder;
     RecordedTrace trace(folder / "t.mcap",
                         {.version = "9.9 (abc)", .files = {{"map.yaml", "text/yaml", "image: x"}}});
@@ -203,14 +203,14 @@ TEST_CASE("a recorded trace keeps what the run was") {
     CHECK(run.files[0].content == "image: x");
 }
 
-TEST_CASE("the fingerprint of a recorded trace is that of the run") {
+TEST_CASE("the fingerprint of a recorded trace equals that of the run") {
     const Recorded recorded(3000);
     const auto again = std::make_shared<Fingerprint>();
     RecordedReader(recorded.path).read(Sink(again));
     CHECK(again->text() == recorded.fingerprint->text());
 }
 
-TEST_CASE("ns-2 text from a recorded trace is that of the run, byte by byte") {
+TEST_CASE("ns-2 text from a recorded trace equals that of the run, byte by byte") {
     const Recorded recorded(3000);
     render(recorded.path, recorded.folder / "old2.tr", Ns2Format::old_format, MacTrace::on);
     render(recorded.path, recorded.folder / "new2.tr", Ns2Format::new_format, MacTrace::off);
@@ -218,11 +218,11 @@ TEST_CASE("ns-2 text from a recorded trace is that of the run, byte by byte") {
     CHECK(content(recorded.folder / "new2.tr") == content(recorded.folder / "new.tr"));
 }
 
-TEST_CASE("the bytes of a recorded trace are the same each time") {
+TEST_CASE("the bytes of a recorded trace are equal each time") {
     CHECK(content(Recorded(5000).path) == content(Recorded(5000).path));
 }
 
-TEST_CASE("links are recorded only if they are asked for") {
+TEST_CASE("links are recorded only on request") {
     TempFolder folder;
     const RecordedTrace without(folder / "a", {.version = "1"});
     const RecordedTrace with(folder / "b", {.version = "1", .links = true});
@@ -231,7 +231,7 @@ TEST_CASE("links are recorded only if they are asked for") {
     CHECK((with.kinds() & (kind_reachable | kind_levels)) == 0);
 }
 
-TEST_CASE("a recorded trace without its end is read up to its last whole chunk") {
+TEST_CASE("an incomplete recorded trace is read up to its last complete chunk") {
     const Recorded recorded(5000);
     const std::string whole = content(recorded.path);
     std::vector<std::string> damage;
@@ -249,7 +249,7 @@ TEST_CASE("a recorded trace without its end is read up to its last whole chunk")
     CHECK(before < recorded.all->records.size());
 }
 
-TEST_CASE("a broken chunk costs the records of that chunk only") {
+TEST_CASE("a broken chunk affects only the records of that chunk") {
     const Recorded recorded(8000);
     std::string bytes = content(recorded.path);
     std::vector<std::uint64_t> chunks;
@@ -276,7 +276,7 @@ TEST_CASE("a broken chunk costs the records of that chunk only") {
     CHECK(std::equal(same.first, records.end(), all.end() - rest));
 }
 
-TEST_CASE("what is no recorded trace is refused with a word") {
+TEST_CASE("a file that is not a recorded trace is refused with the reason") {
     TempFolder folder;
     const auto refused = [&](const std::string& text) {
         write_file(folder / "x", text);

@@ -76,7 +76,7 @@ std::size_t for_each_row(bool screen, Check check) {
 
 }  // namespace
 
-TEST_CASE("knife edge: the loss is that of the Fresnel integrals (vectors knife_edge)") {
+TEST_CASE("knife edge: the loss equals that of the Fresnel integrals (vectors knife_edge)") {
     const Vectors vectors("knife_edge.csv");
     REQUIRE(vectors.size() == 28);
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -87,7 +87,7 @@ TEST_CASE("knife edge: the loss is that of the Fresnel integrals (vectors knife_
     }
 }
 
-TEST_CASE("knife edge: deep in the shadow the loss keeps its digits, at nu = 1e8 too (S18)") {
+TEST_CASE("knife edge: in deep shadow, at nu = 1e8, the loss keeps its digits (S18)") {
     for (const double nu : {1e4, 1e6, 1e8, 1e12, 1e100}) {
         CAPTURE(nu);
         CHECK(near(knife_edge_loss_db(nu), 20 * std::log10(pi * std::sqrt(2.0) * nu), 1e-9));
@@ -95,7 +95,7 @@ TEST_CASE("knife edge: deep in the shadow the loss keeps its digits, at nu = 1e8
     CHECK(std::isinf(knife_edge_loss_db(std::numeric_limits<double>::infinity())));
 }
 
-TEST_CASE("knife edge: both halves of the loss meet at the edge, at 6 dB") {
+TEST_CASE("knife edge: both halves of the formula agree at the edge, at 6 dB") {
     CHECK(near(knife_edge_loss_db(0), 20 * std::log10(2.0), 1e-12));
     CHECK(near(knife_edge_loss_db(-1e-9), knife_edge_loss_db(1e-9), 1e-7));
 }
@@ -113,7 +113,7 @@ TEST_CASE("knife edge: far below the line the approximation is 0, not a gain of 
     }
 }
 
-TEST_CASE("transition function: real and imaginary part are the vectors' (utd_transition)") {
+TEST_CASE("transition function: real and imaginary part equal the vectors (utd_transition)") {
     const Vectors vectors("utd_transition.csv");
     REQUIRE(vectors.size() == 22);
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -125,7 +125,7 @@ TEST_CASE("transition function: real and imaginary part are the vectors' (utd_tr
     CHECK(transition_function(0) == Complex{0});
 }
 
-TEST_CASE("wedge: the coefficient of a published example (screen, k = 10, L = 1)") {
+TEST_CASE("wedge: the coefficient equals a published example (screen, k = 10, L = 1)") {
     const WedgePath path{2, {90 * degree}, {45 * degree}};
     const Complex soft = wedge_coefficient(path, 10, 1_m, soft_faces);
     const Complex hard = wedge_coefficient(path, 10, 1_m, hard_faces);
@@ -159,7 +159,7 @@ TEST_CASE("wedge: around a right angle the field is within 0.05 dB of the series
     CHECK(rows == 70);
 }
 
-TEST_CASE("wedge: on the boundaries of shadow and reflection the field is finite and whole (S19)") {
+TEST_CASE("wedge: at shadow and reflection boundaries the field is finite and continuous (S19)") {
     const double k = 50;
     for (const double n : {1.3, 1.5, 2.0}) {
         const double incident = 0.4 * n * pi;
@@ -181,7 +181,7 @@ TEST_CASE("wedge: on the boundaries of shadow and reflection the field is finite
     }
 }
 
-TEST_CASE("wedge: a caller's own rays at a boundary give the same field, lit or not (S19)") {
+TEST_CASE("wedge: rays given by the caller at a boundary give the same field, lit or not (S19)") {
     const WedgePath path{1.5, {0.3 + pi}, {0.3}};
     LitBy lit = lit_by(path);
     for (const WedgeFaces& faces : {soft_faces, hard_faces}) {
@@ -202,7 +202,7 @@ TEST_CASE("wedge: a tenth of a degree from a boundary there is no peak of 36 dB 
     }
 }
 
-TEST_CASE("wedge: what is flat, and what lets all through, diffracts nothing") {
+TEST_CASE("wedge: a flat edge, or one that transmits everything, diffracts nothing") {
     for (const double phi : {0.2, 1.5, 3.0}) {
         const WedgePath flat{1, {phi}, {1.1}};
         CHECK(std::abs(wedge_coefficient(flat, 50, 3_m, soft_faces)) < 1e-15);
@@ -212,7 +212,7 @@ TEST_CASE("wedge: what is flat, and what lets all through, diffracts nothing") {
     CHECK(wedge_coefficient({1.5, {3}, {1}}, 50, 0_m, hard_faces) == Complex{0});
 }
 
-TEST_CASE("wedge: source and receiver can be exchanged, to the last bit, with lossy faces too") {
+TEST_CASE("wedge: source and receiver can be exchanged, to the last bit, also with lossy faces") {
     const auto reflection = [](Radians incidence) {  // of a dielectric half space, TE
         const double cosine = std::cos(incidence.value);
         const double root = std::sqrt(4 + cosine * cosine);
@@ -235,7 +235,7 @@ TEST_CASE("wedge: source and receiver can be exchanged, to the last bit, with lo
     }
 }
 
-TEST_CASE("wedge: where a face's reflection appears, its coefficient is that of the ray") {
+TEST_CASE("wedge: where a face's reflection appears, its coefficient equals that of the ray") {
     const WedgePath face_0{1.5, {140 * degree}, {40 * degree}};
     CHECK(near(face_incidence(face_0).face_0.value, 50 * degree, 1e-14));
     const WedgePath face_n{1.5, {230 * degree}, {130 * degree}};
@@ -245,7 +245,7 @@ TEST_CASE("wedge: where a face's reflection appears, its coefficient is that of 
     CHECK(near(face_incidence(behind).face_0.value, 70 * degree, 1e-14));
 }
 
-TEST_CASE("wedge: rays end where the angles say, the boundaries included") {
+TEST_CASE("wedge: rays end at the given angles, boundaries included") {
     const LitBy low = lit_by({1.5, {100 * degree}, {45 * degree}});
     CHECK((low.direct && low.face_0 && !low.face_n));
     const LitBy between = lit_by({1.5, {150 * degree}, {45 * degree}});

@@ -20,7 +20,7 @@ bool same_digits(double a, double b) { return near(a, b, 2e-14 * std::abs(b)); }
 
 }  // namespace
 
-TEST_CASE("fresnel: f and g have the digits of the complementary error function with 50 digits") {
+TEST_CASE("fresnel: f and g agree with the complementary error function of 50 digits") {
     struct Row {
         double t, f, g;
     };
@@ -48,7 +48,7 @@ TEST_CASE("fresnel: f and g have the digits of the complementary error function 
     }
 }
 
-TEST_CASE("fresnel: f and g fall smoothly from 1/2, across the border of their two formulas too") {
+TEST_CASE("fresnel: f and g decrease smoothly from 1/2, also where their formula changes") {
     CHECK(near(math::fresnel_tail(0).f, 0.5, 1e-15));
     CHECK(near(math::fresnel_tail(0).g, 0.5, 1e-15));
     math::FresnelTail before = math::fresnel_tail(0);
@@ -63,7 +63,7 @@ TEST_CASE("fresnel: f and g fall smoothly from 1/2, across the border of their t
     }
 }
 
-TEST_CASE("fresnel: C and S are the integrals of the cosine and the sine, summed step by step") {
+TEST_CASE("fresnel: C and S equal step-by-step integrals of cosine and sine") {
     // Simpson's rule with steps of 1e-3: its error to x = 4 is below 1e-10.
     const auto phase = [](double u) { return std::numbers::pi / 2 * u * u; };
     const double h = 1e-3;
@@ -78,7 +78,7 @@ TEST_CASE("fresnel: C and S are the integrals of the cosine and the sine, summed
     }
 }
 
-TEST_CASE("fresnel: C and S stay near 1/2 far off, where a power series has 1e27 (S17)") {
+TEST_CASE("fresnel: C and S stay near 1/2 for large x, where a power series has 1e27 (S17)") {
     struct Row {
         double x, c, s;
     };
