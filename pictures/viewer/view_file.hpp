@@ -56,7 +56,8 @@ class ViewFile {
     /// Adds a column of texts.
     void add_texts(const std::string& name, std::span<const std::string> texts);
 
-    /// Bytes of the file with all columns. @param head  head without the key `sections`, which is added
+    /// Bytes of the file with all columns. @param head  head without the key `sections`, which is
+    /// added
     std::string bytes(Table head) const;
 
   private:

@@ -321,10 +321,11 @@ void check_transmitters(const KnownLinks& known, const std::string& path) {
     std::set<std::tuple<double, double, double>> places;
     for (const KnownLink& link : known.links) places.emplace(link.from.x, link.from.y, link.from.z);
     if (places.size() >= fewest && places.size() <= most) return;
-    throw InputError({path, 0, 0},
-                     fmt::format("found {} transmitter position{}; expected {} to {} for gains that differ{}",
-                                 places.size(), places.size() == 1 ? "" : "s", fewest, most,
-                                 places.size() > most ? "; are from and to exchanged?" : "")));
+    throw InputError(
+        {path, 0, 0},
+        fmt::format("found {} transmitter position{}; expected {} to {} for gains that differ{}",
+                    places.size(), places.size() == 1 ? "" : "s", fewest, most,
+                    places.size() > most ? "; are from and to exchanged?" : ""));
 }
 
 }  // namespace
