@@ -172,7 +172,7 @@ TEST_CASE("unlikely: pixels of a material that are not walls give a notice") {
                  {"material \"x\" fits no pixel of m.png"});
     check_notice(
         on_map + robot + "[scene.materials]\nx = { color = \"red\", per_crossing = \"3 dB\" }\n",
-        {"material \"x\" has no grey"});
+        {"material \"x\" is not used, because it has no grey"});
     CHECK(notices_of(on_map + robot +
                      "[scene.materials]\nx = { grey = 100, per_crossing = \"3 dB\" }\n")
               .empty());

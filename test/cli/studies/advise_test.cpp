@@ -120,7 +120,7 @@ TEST_CASE("advise: at the end of the budget or at Ctrl-C, prints the preliminary
     const Ended nothing = command(advised.folder, strict({"--budget", "1us"}));
     CHECK(nothing.exit == 0);
     CHECK(nothing.out.find("Interim: nothing is known yet") != std::string::npos);
-    CHECK(nothing.err.find("the budget of 1us is spent") != std::string::npos);
+    CHECK(nothing.err.find("the budget of 1us is used up") != std::string::npos);
     CHECK(nothing.out.find("Take ") == std::string::npos);
     CHECK(nothing.out.find("[propagation]") == std::string::npos);
     CHECK(nothing.out.find("friis + sinr             undecided  -  -     -") != std::string::npos);
