@@ -4,6 +4,7 @@
 #include "cli/terminal/text_table.hpp"
 #include "cli/tools/tool_commands.hpp"
 #include "experiment/output.hpp"
+#include "study/validation/headline.hpp"
 #include "study/validation/validation.hpp"
 #include "study/validation/validation_report.hpp"
 
@@ -19,7 +20,9 @@ namespace {
 void write_report(const std::string& folder, const Validation& validation) {
     make_folder(folder);
     std::vector<OutputFile> files{{folder + "/report.html", validation_html(validation)},
-                                  {folder + "/accuracy.md", validation_page(validation)}};
+                                  {folder + "/accuracy.md", accuracy_page(validation)},
+                                  {folder + "/promises.md", promises_page(validation)},
+                                  {folder + "/headline.svg", headline_svg(validation)}};
     for (const ValidationChart& chart : validation.charts) {
         files.push_back({folder + "/" + chart.name + ".svg", validation_svg(chart)});
         files.push_back({folder + "/" + chart.name + ".csv", validation_csv(chart)});

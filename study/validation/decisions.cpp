@@ -226,7 +226,8 @@ ValidationChart decisions_chart(const ValidationSize& size, Promises& promises) 
             "True is the loss itself, by logarithms, against a budget of 90 dB at 2450 MHz: "
             "distances within 1 % of the range of friis; log_distance with 6 dB of shadowing, "
             "0.1 to 1.9 times its median range; two frames from anywhere within 300 m.",
-        .panels = {by_distance(size), by_pair(size), by_level(size)}};
+        .panels = {by_distance(size), by_pair(size), by_level(size)},
+        .for_contributors = true};
     for (const ValidationPanel& panel : chart.panels) {
         const ValidationPoint& ours = panel.points[1];
         promises.push_back({fmt::format("decisions flipped: {} {}", panel.title, ours.label), "", 0,

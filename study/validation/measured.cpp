@@ -187,8 +187,8 @@ std::string rays_sentence(const ValidationPanel& panel) {
                     two_digits(best.cost.median / walls.cost.median));
     if (best.series == with_defaults) return out + " Nothing of them was fitted but one constant.";
     return out + fmt::format(
-                     " With walls of concrete they are {:.2f} dB off, with what the fit "
-                     "finds that walls take {:.2f} dB.",
+                     " With walls of concrete they are {:.2f} dB off, with the wall loss "
+                     "that the fit estimates {:.2f} dB.",
                      point_of(panel, "rays", with_defaults).error, best.error);
 }
 

@@ -299,8 +299,7 @@ ScenePanels panels_of(const ValidationScene& scene, const Truth& truth, std::siz
                               nearest_sentence(out.delivery, off_in_a_run),
                               convergence_sentence(out.delivery, off_in_a_run),
                               reach_sentence(out.delivery)};
-    out.links_sentences = {truth_sentence(out.links, truth, links_wrong),
-                           nearest_sentence(out.links, links_wrong),
+    out.links_sentences = {nearest_sentence(out.links, links_wrong),
                            convergence_sentence(out.links, links_wrong)};
     return out;
 }
@@ -347,7 +346,8 @@ std::vector<ValidationChart> path_loss_charts(const ValidationSize& size,
                              .truth = truth};
     ValidationChart links{.name = "wrong_links",
                           .title = "How many links does a path loss model decide wrongly?",
-                          .truth = truth};
+                          .truth = truth,
+                          .continues = true};
     const auto append = [](ValidationChart& chart, ValidationPanel panel,
                            const std::vector<std::string>& sentences) {
         for (const std::string& sentence : sentences)

@@ -58,6 +58,8 @@ struct ValidationChart {
     std::string truth;  ///< sentence on the reference ("truth") and the number of cases
     std::vector<ValidationPanel> panels = {};
     std::vector<std::string> sentences = {};  ///< conclusions for users, with numbers
+    bool for_contributors = false;  ///< true: about the code; no user chooses a method by it
+    bool continues = false;         ///< true: another view of the chart before it
 };
 
 /// Claimed limit of an error of the program, and the largest error found in this run.

@@ -178,6 +178,19 @@ constexpr const char* introduction =
     "Errors are those of this build, the same on every machine. Costs are CPU times of one "
     "machine, all methods measured in turns: trust their order and their ratios.";
 
+/// Section of a page: sentences, picture, and links to the numbers.
+/// @param numbers  folder of the numbers, as seen from the page
+std::string chart_section(const ValidationChart& chart, const std::string& numbers) {
+    std::string out = fmt::format("{} {}\n\n", chart.continues ? "###" : "##", chart.title);
+    for (const std::string& sentence : chart.sentences) out += fmt::format("* {}\n", sentence);
+    const bool is_drawn = !std::all_of(chart.panels.begin(), chart.panels.end(), all_right);
+    if (is_drawn)
+        out += fmt::format("\n![{}](../pictures/accuracy-{}.svg)\n", chart.title, chart.name);
+    if (!chart.continues) out += fmt::format("\n{}{}", chart.truth, not_drawn(chart));
+    return out + fmt::format("{}Numbers: [{}.csv]({}{}.csv)\n\n", chart.continues ? "\n" : " ",
+                             chart.name, numbers, chart.name);
+}
+
 }  // namespace
 
 std::string validation_svg(const ValidationChart& chart) {
@@ -232,21 +245,29 @@ std::string validation_html(const Validation& validation) {
     return out + "</body></html>\n";
 }
 
-std::string validation_page(const Validation& validation) {
-    std::string out = fmt::format("# Accuracy against speed\n\n{}\n\n", introduction);
-    for (const ValidationChart& chart : validation.charts) {
-        out += fmt::format("## {}\n\n", chart.title);
-        for (const std::string& sentence : chart.sentences) out += fmt::format("* {}\n", sentence);
-        out += fmt::format("\n![{0}](../pictures/accuracy-{1}.svg)\n\n{2}{3}\n\n", chart.title,
-                           chart.name, chart.truth, not_drawn(chart));
-        for (const ValidationPanel& panel : chart.panels) {
-            if (!panel.title.empty()) out += fmt::format("**{}**\n\n", panel.title);
-            out += markdown_table(rows_of(panel)) + "\n";
-        }
-    }
-    out += "## What the code promises\n\n" + markdown_table(rows_of(validation.promises));
+std::string accuracy_page(const Validation& validation) {
+    std::string out = fmt::format(
+        "# Accuracy against speed\n\n{} `rovernet validate` makes this page and its "
+        "files. [Limits that the code promises](../inside/promises.md) have a page of "
+        "their own.\n\n",
+        introduction);
+    for (const ValidationChart& chart : validation.charts)
+        if (!chart.for_contributors) out += chart_section(chart, "accuracy/");
     for (const std::string& text : validation.left_out)
-        out += fmt::format("\nLeft out: {}.\n", text);
+        out += fmt::format("Left out: {}.\n\n", text);
+    out.pop_back();
+    return out;
+}
+
+std::string promises_page(const Validation& validation) {
+    std::string out =
+        "# What the code promises\n\nLimits of errors, checked by `rovernet validate`. A limit "
+        "that "
+        "is exceeded fails the command.\n\n";
+    out += markdown_table(rows_of(validation.promises)) + "\n";
+    for (const ValidationChart& chart : validation.charts)
+        if (chart.for_contributors) out += chart_section(chart, "../methods/accuracy/");
+    out.pop_back();
     return out;
 }
 

@@ -22,8 +22,12 @@ std::string validation_csv(const ValidationChart& chart);
 /// Self-contained HTML page of a validation, with sentences, pictures and tables.
 std::string validation_html(const Validation& validation);
 
-/// Text of the documentation page docs/methods/accuracy.md: sentences and tables, with links to the
-/// pictures. Costs are rounded to two digits.
-std::string validation_page(const Validation& validation);
+/// Text of the documentation page docs/methods/accuracy.md: sentences, with links to the pictures
+/// and to the numbers, of all charts that are not for contributors.
+std::string accuracy_page(const Validation& validation);
+
+/// Text of the documentation page docs/inside/promises.md: the checked error limits, and the charts
+/// for contributors.
+std::string promises_page(const Validation& validation);
 
 }  // namespace rovernet

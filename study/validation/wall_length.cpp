@@ -165,8 +165,8 @@ std::string naive_sentence(const ValidationPanel& panel) {
     });
     const ValidationPoint& best = *naive.point;
     return fmt::format(
-        "Of the naive ways {}. {} costs {:.2g} times the exact length and flips {:.2g} % of the "
-        "decisions.",
+        "Of the approximations {}. {} costs {:.2g} times as much as the exact length and flips "
+        "{:.2g} % of the decisions.",
         nearest_text(naive, [](double error) { return fmt::format("{:.2g} dB off (rms)", error); }),
         best.label, best.cost.median / exact.cost.median, detail_of(best, "flipped decisions [%]"));
 }
@@ -199,7 +199,8 @@ ValidationChart wall_length_chart(const ValidationSize& size, Promises& promises
                 "metre; a decision is whether {:g} dB bear the loss at 2450 MHz.",
                 links.size(), rate, budget),
             .panels = {panel},
-            .sentences = {naive_sentence(panel)}};
+            .sentences = {naive_sentence(panel)},
+            .for_contributors = true};
 }
 
 }  // namespace rovernet

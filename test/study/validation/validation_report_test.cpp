@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "study/validation/validation_report.hpp"
 
+#include "study/validation/headline.hpp"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -95,7 +98,7 @@ TEST_CASE("validation: a limit includes its value, and one exceeded limit fails 
     CHECK(validation.kept());
     validation.promises.push_back({"broken one", "ns", 2, 2.5, 1});
     CHECK(!validation.kept());
-    CHECK(count(validation_page(validation), "| broken one | 1 | 2 ns | 2.5 ns | NO |") == 1);
+    CHECK(count(promises_page(validation), "| broken one | 1 | 2 ns | 2.5 ns | NO |") == 1);
 }
 
 TEST_CASE("validation: the picture joins fitted methods, and shows errors of 0 at its edge") {
@@ -116,9 +119,9 @@ TEST_CASE("validation: a panel without errors is a sentence, not an empty pictur
     for (ValidationPoint& point : right.points) point.error = 0;
     validation.charts[0].panels.push_back(right);
     CHECK(count(validation_svg(validation.charts[0]), "class=\"panel\"") == 1);
-    const std::string page = validation_page(validation);
+    const std::string page = accuracy_page(validation);
     CHECK(count(page, "No picture of: hall; every error is 0.") == 1);
-    CHECK(count(page, "**hall**") == 1);  // its numbers are there
+    CHECK(count(page, "[small.csv](accuracy/small.csv)") == 1);  // its numbers are there
 }
 
 TEST_CASE("validation: a best method is named only if it is significantly better") {
@@ -153,6 +156,62 @@ TEST_CASE("validation: a best method is named only if it is significantly better
         nearest_to_truth(many, [](const ValidationPoint& p) { return p.label != "b"; });
     CHECK(nearest_text(without_b, words) == "a is nearest, 2.00 dB");
     CHECK(!nearest_to_truth(many, [](const ValidationPoint&) { return false; }).point);
+}
+
+TEST_CASE("validation: charts for contributors are on the page of the promises, and only there") {
+    Validation validation = small_validation();
+    validation.charts.push_back(validation.charts[0]);
+    validation.charts[1].name = "code";
+    validation.charts[1].title = "How?";
+    validation.charts[1].for_contributors = true;
+    const std::string accuracy = accuracy_page(validation), promises = promises_page(validation);
+    CHECK(count(accuracy, "## Which one?") == 1);
+    CHECK(count(accuracy, "## How?") == 0);
+    CHECK(count(promises, "## Which one?") == 0);
+    CHECK(count(promises, "## How?") == 1);
+    CHECK(count(promises, "](../methods/accuracy/code.csv)") == 1);
+}
+
+TEST_CASE(
+    "validation: another view of a chart is a part of its section, and repeats no reference") {
+    Validation validation = small_validation();
+    validation.charts.push_back(validation.charts[0]);
+    validation.charts[1].title = "And then?";
+    validation.charts[1].continues = true;
+    const std::string page = accuracy_page(validation);
+    CHECK(count(page, "\n### And then?\n") == 1);
+    CHECK(count(page, "True is `exact`.") == 1);
+}
+
+TEST_CASE("headline: models in the order of cost, the nearest that is no form of the reference") {
+    const auto point = [](const char* label, const char* series, double cost, double error) {
+        return ValidationPoint{.label = label,
+                               .series = series,
+                               .cost = {cost, cost, cost},
+                               .error = error,
+                               .details = {{"replications", 7}}};
+    };
+    Validation validation;
+    CHECK_THROWS_AS(headline_svg(validation), std::out_of_range);
+    validation.charts = {
+        {.name = "path_loss",
+         .title = "t",
+         .truth = "",
+         .panels = {
+             {.title = "office",
+              .points = {point("rays", "reference", 1000, 0), point("walls", "as given", 10, 0.2),
+                         point("walls", "fitted", 10, 0.04), point("friis", "as given", 1, 0.4),
+                         point("two_ray", "as given", 2, 0.4),
+                         point("rays, order 1", "the reference with fewer paths", 100, 0.01)}}}}};
+    const std::string svg = headline_svg(validation);
+    CHECK(count(svg,
+                ">In the office, walls errs by 0.04 once it is fitted (0.2 before), at 1/100 "
+                "of the cost of rays.</text>") == 1);
+    CHECK(svg.find(">friis</text>") < svg.find(">walls</text>"));
+    CHECK(svg.find(">walls</text>") < svg.find(">rays, order 1</text>"));
+    CHECK(count(svg, ">two_ray</text>") == 0);  // the errors of friis, for more
+    CHECK(count(svg, ">0.04</text>") == 1);
+    CHECK(count(svg, "Means of 7 runs") == 1);
 }
 
 TEST_CASE("validation: the page needs no other file") {
