@@ -21,3 +21,7 @@ install(FILES ${printed}/zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-com
 install(FILES ${printed}/fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d RENAME rovernet.fish
         COMPONENT command)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT command)
+# The pages that `rovernet help TOPIC` prints.
+install(DIRECTORY docs/guide docs/methods docs/formats docs/inside docs/pictures
+        DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT command
+        FILES_MATCHING PATTERN *.md PATTERN *.svg PATTERN *.png PATTERN *.csv)

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-/// Commands that need no scenario: models, loss, material, validate, bench, version.
+/// Commands that need no scenario: models, loss, material, validate, bench, help, version.
 namespace rovernet::cli {
 
 struct LossArguments {
@@ -44,6 +44,11 @@ struct ValidateArguments {
     bool quick = false;
 };
 void validate(const ValidateArguments& arguments);
+
+struct HelpArguments {
+    std::optional<std::string> topic;  ///< name of a page without its ending; none: list of pages
+};
+void help(const HelpArguments& arguments);
 
 /// Arguments of a command whose only option is --json.
 struct PrintArguments {

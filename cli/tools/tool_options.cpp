@@ -109,6 +109,13 @@ void add_validate(Command app) {
     validate.add_flag("--quick", a.quick, "use fewer samples: takes seconds instead of minutes");
 }
 
+void add_help(Command app) {
+    const auto [help, a] = add_command(app, "help", "Print a page of the documentation", cli::help);
+    help.add_examples(
+        {"rovernet help", "rovernet help first-run", "rovernet help scenario | less"});
+    help.add_option("TOPIC", a.topic, "name of a page; without it all pages are listed");
+}
+
 void add_version(Command app) {
     const auto [version, a] =
         add_command(app, "version", "Print the version and the build options of this program",
@@ -143,6 +150,7 @@ void add_tool_commands(Command app) {
     add_replay(app);
     add_view(app);
     add_bench(app);
+    add_help(app);
     add_version(app);
     add_completion(app);
 }

@@ -98,7 +98,7 @@ class Access {
     virtual void received(Air& /*air*/, NodeId /*node*/, const AirFrame& /*frame*/) {}
     /// Called when a frame has ended at `node` and was lost, although `node` could have decoded it
     /// without interference. Only called if listens().
-    /// @param locked  whether the receiver had locked onto the frame, see Reception::locked
+    /// The flag says whether the receiver had locked onto the frame, see Reception::locked.
     virtual void missed(Air& /*air*/, NodeId /*node*/, bool /*locked*/) {}
     /// Whether `frame` is a retransmission of a frame that `node` has already received. Called once
     /// for each received unicast, if listens(); it may update the node's state.
@@ -107,8 +107,8 @@ class Access {
     /// Size [bytes] of the header that the access model adds to a message.
     virtual std::uint32_t header() const { return 0; }
     /// Bit rate [bit/s] at which a frame is transmitted.
-    /// @param sender    bit rate of the sender's radio
-    /// @param receiver  bit rate of the receiver's radio for a unicast, otherwise the sender's
+    /// The last rate is that of the receiver's radio for a unicast, otherwise the sender's.
+    /// @param sender  bit rate of the sender's radio
     virtual BitRate rate(const AirFrame& /*frame*/, BitRate sender, BitRate /*receiver*/) const {
         return sender;
     }
