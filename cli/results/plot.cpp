@@ -54,6 +54,13 @@ void plot(const PlotArguments& a) {
     if (a.out.ends_with(".gp") && a.y.size() > 1) {
         throw std::invalid_argument("-y: expected one metric for a gnuplot script");
     }
+    if (!a.y_titles.empty() && a.y_titles.size() != a.y.size()) {
+        throw std::invalid_argument(
+            fmt::format("--y-title: given {} title{} for {} metric{}; expected one title for each "
+                        "metric of -y, in their order",
+                        a.y_titles.size(), a.y_titles.size() == 1 ? "" : "s", a.y.size(),
+                        a.y.size() == 1 ? "" : "s"));
+    }
     const Store store = Store::open(a.store);
     ChartQuestion question{.kind = kind_of(a.kind),
                            .x = a.x,
@@ -69,7 +76,9 @@ void plot(const PlotArguments& a) {
     std::vector<Chart> charts;
     for (const std::string& metric : a.y) {
         question.y = metric;
-        charts.push_back(study_chart(store, question));
+        Chart& chart = charts.emplace_back(study_chart(store, question));
+        if (a.x_title) chart.x_label = *a.x_title;
+        if (!a.y_titles.empty()) chart.y_label = a.y_titles[charts.size() - 1];
     }
     if (is_picture_name(a.out)) {
         write_picture(a.out, chart_svg(charts, layout_of(a)));

@@ -23,6 +23,8 @@ void results(const ResultsArguments& arguments);
 struct PlotArguments {
     std::string store, x, by, kind, beside, out;
     std::vector<std::string> y, where;
+    std::optional<std::string> x_title;
+    std::vector<std::string> y_titles;  ///< one for each chart; empty: the names of the metrics
     std::optional<double> confidence, quantile, width;
     std::optional<std::string> interval;
     bool log_x = false, log_y = false, common = false;

@@ -102,6 +102,13 @@ void add_plot(Command app) {
     plot.add_option("--quantile", p.quantile,
                     "compute this quantile instead of the mean, such as 0.9")
         .range(0.0001, 0.9999);
+    plot.add_option(
+        "--x-title", p.x_title,
+        "title of the x axis, such as 'robots on a square kilometre' (default: the key)");
+    plot.add_option("--y-title", p.y_titles,
+                    "title of the y axis (default: the metric); for several metrics as often as "
+                    "there are metrics")
+        .one_word();
     plot.add_flag("--log-x", p.log_x, "a logarithmic axis");
     plot.add_flag("--log-y", p.log_y, "a logarithmic axis");
     plot.add_option("--width", p.width,

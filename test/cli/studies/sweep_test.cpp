@@ -358,6 +358,31 @@ TEST_CASE("sweep: failed runs give exit code 4, and are listed with their comman
     CHECK(failures.out.find("--replication 1\n") != std::string::npos);
 }
 
+TEST_CASE("plot: axes have the titles that are asked for, one for each metric") {
+    const Place place;
+    command(place.folder, {"sweep", place.file});
+    const std::string picture = place.folder.path("p.svg");
+    const std::vector<std::string> asked = {
+        "plot", place.store(), "-x", "range", "-y", "delivery_ratio,deliveries", "-o", picture};
+    const auto drawn = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), asked.begin(), asked.end());
+        const Ended ended = command(place.folder, more);
+        if (ended.exit != 0) return ended.err;
+        std::ifstream file(picture);
+        return std::string(std::istreambuf_iterator<char>(file), {});
+    };
+    const std::string own = drawn({"--x-title", "range of a radio [m]", "--y-title",
+                                   "delivered, in all", "--y-title", "messages"});
+    CHECK(own.find(">range of a radio [m]<") != std::string::npos);
+    CHECK(own.find(">delivered, in all<") != std::string::npos);
+    CHECK(own.find(">messages<") != std::string::npos);
+    CHECK(own.find(">delivery_ratio") == std::string::npos);
+    CHECK(drawn({}).find(">delivery_ratio") != std::string::npos);
+    CHECK(drawn({"--y-title", "a"})
+              .find("given 1 title for 2 metrics; expected one title for each") !=
+          std::string::npos);
+}
+
 TEST_CASE("results: an unfinished study is marked, and a failed run is counted in its row") {
     const Place place;
     const std::string plan = "study.replications=3";
