@@ -20,7 +20,7 @@ void link(const LinkArguments& arguments);
 struct LinksArguments : FileArguments {
     std::string at = "0 s";
     std::optional<std::string> robot;
-    bool history = false;
+    bool history = false, places = false;
     bool json = false;
 };
 void links(const LinksArguments& arguments);
@@ -41,13 +41,19 @@ void scene(const SceneArguments& arguments);
 
 struct WhereArguments : FileArguments {
     std::vector<std::string> at;
-    bool json = false;
+    std::optional<std::string> robot;
+    std::vector<std::string> to;    ///< robots of which a link to one is enough; empty: not asked
+    std::vector<std::string> over;  ///< robots over which the link may go, too
+    bool csv = false, json = false;
 };
 void where(const WhereArguments& arguments);
 
 struct DrawArguments : FileArguments {
     std::string at = "0 s";
-    std::optional<std::string> coverage, receiver;
+    std::vector<std::string> coverage;   ///< robots whose coverage is drawn; empty: no coverage
+    std::vector<std::string> margin_to;  ///< robots to which trails show the link margin
+    std::vector<std::string> over;       ///< robots over which these links may go
+    std::optional<std::string> receiver;
     std::vector<std::string> route;  ///< source and destination of the drawn route; empty: no route
     bool search = false;
     bool links = false;

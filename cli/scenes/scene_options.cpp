@@ -21,13 +21,16 @@ void add_links(Command app) {
         app, "links", "List the robots that each robot's radio hears, with signal levels",
         cli::links);
     links.add_examples({"rovernet links examples/rescue/rescue.toml --robot A",
-                        "rovernet links examples/rescue/rescue.toml --history"});
+                        "rovernet links examples/rescue/rescue.toml --history --places"});
     add_file(links, a, any_file);
     links.add_option("--at", a.at, "simulated time, such as 12.5s").shows_default();
     links.add_option("--robot", a.robot, "of this robot only");
     Option history =
         links.add_flag("--history", a.history, "print all link changes of the run, as CSV");
-    links.add_flag("--json", a.json, "print the result as one JSON document").excludes(history);
+    history.excludes(links.option("--at"));
+    links.add_flag("--places", a.places, "print the positions of both robots at each change")
+        .needs(history);
+    links.add_flag("--json", a.json, "print the result as one JSON document");
 }
 
 void add_routes(Command app) {
@@ -55,12 +58,25 @@ void add_scene(Command app) {
 }
 
 void add_where(Command app) {
-    const auto [where, a] =
-        add_command(app, "where", "Print the position of every robot", cli::where);
-    where.add_examples({"rovernet where examples/rescue/rescue.toml --at 10s,31.25s"});
+    const auto [where, a] = add_command(
+        app, "where", "Print where every robot is, or where one has no link", cli::where);
+    where.add_examples({"rovernet where examples/rescue/rescue.toml --at 10s,31.25s",
+                        "rovernet where examples/patrol/patrol.toml --robot guard --to desk"});
     add_file(where, a, any_file);
-    where.add_option("--at", a.at, "simulated times, such as 10s,31.25s").delimiter(',').required();
+    Option at = where.add_option("--at", a.at, "simulated times, such as 10s,31.25s");
+    at.delimiter(',');
+    Option robot = where.add_option("--robot", a.robot,
+                                    "print this robot only; without --at: at each leg of its path");
+    Option to = where.add_option(
+        "--to", a.to,
+        "print where the robot has no link to any of these, such as ap1,ap2: time, place, share");
+    to.delimiter(',').needs(robot).excludes(at);
+    where.add_option("--over", a.over, "accept a link over these robots, too: the relays of a mesh")
+        .delimiter(',')
+        .needs(to);
+    Option csv = where.add_flag("--csv", a.csv, "print a line for each gap, as CSV").needs(to);
     add_json(where, a.json);
+    where.option("--json").excludes(csv);
 }
 
 void add_draw(Command app) {
@@ -69,15 +85,19 @@ void add_draw(Command app) {
     draw.add_examples({"rovernet draw examples/rescue/rescue.toml --links --at 10s -o rescue.svg",
                        "rovernet draw examples/rescue/rescue.toml --coverage A -o coverage.svg",
                        "rovernet draw examples/rescue/rescue.toml --coverage A --for B -o b.svg",
+                       "rovernet draw examples/patrol/patrol.toml --trails --margin-to desk --at "
+                       "40s -o gaps.svg",
                        "rovernet draw examples/detour/detour.toml --routes west,east --search --at "
                        "20s -o route.svg"});
     add_file(draw, a, any_file);
     draw.add_option("--at", a.at, "simulated time, such as 12.5s").shows_default();
-    Option coverage = draw.add_option("--coverage", a.coverage,
-                                      "transmitting robot; draw its received power over the map");
+    Option coverage = draw.add_option(
+        "--coverage", a.coverage,
+        "transmitting robot, or the best of A,B; draw the received power over the map");
+    coverage.delimiter(',');
     draw.add_option("--for", a.receiver,
                     "robot whose radio and antenna height are used for reception (default: those "
-                    "of the transmitting robot)")
+                    "of the first robot of --coverage)")
         .needs(coverage);
     draw.add_flag("--links", a.links, "draw the links between the robots");
     draw.add_option("--routes", a.route,
@@ -86,7 +106,14 @@ void add_draw(Command app) {
     draw.add_flag("--search", a.search,
                   "draw the robots that sent the last route request: of robot A in --routes, or of "
                   "any robot");
-    draw.add_flag("--trails", a.trails, "draw the paths of the robots so far");
+    Option trails = draw.add_flag("--trails", a.trails, "draw the paths of the robots so far");
+    Option margin_to = draw.add_option("--margin-to", a.margin_to,
+                                       "colour trails by the margin of the link to a robot, or to "
+                                       "the best of A,B, and mark the gaps");
+    margin_to.delimiter(',').needs(trails);
+    draw.add_option("--over", a.over, "accept a link over these robots, too: the relays of a mesh")
+        .delimiter(',')
+        .needs(margin_to);
     draw.add_option("--storey", a.storey, "storey to draw; the lowest is 1").shows_default();
     draw.add_flag("--axes", a.axes, "draw axes in metres");
     draw.add_option("--width", a.width,

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include "cli/scenes/presence_text.hpp"
 #include "cli/scenes/scene_commands.hpp"
 #include "cli/terminal/diagnostics.hpp"
 #include "cli/terminal/picture_output.hpp"
 #include "cli/terminal/playing.hpp"
 #include "cli/terminal/stop.hpp"
 #include "cli/terminal/waiting.hpp"
-#include "experiment/reports/link_table.hpp"
 #include "experiment/reports/loss_table.hpp"
 #include "experiment/reports/network_at.hpp"
 #include "experiment/reports/route_report.hpp"
@@ -21,37 +21,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <unistd.h>
 #include <utility>
 
 namespace rovernet::cli {
 namespace {
-
-/// Words for a robot that is not there, or off: ", not departed".
-std::string presence_text(std::string_view presence) {
-    if (presence == name_of(Presence::on)) return "";
-    std::string text = fmt::format(", {}", presence);
-    std::replace(text.begin(), text.end(), '_', ' ');
-    return text;
-}
-
-void print_links(const LinkTable& table) {
-    const Device& d = table.device;
-    fmt::print("{}  ip {}  mac {}  essid \"{}\"  {:g} MHz  {}{}\n", d.robot, d.ip, d.mac, d.essid,
-               d.frequency.value / 1e6, name_of(d.mode), d.encryption ? "  encrypted" : "");
-    if (table.rows.empty()) fmt::print("  hears nobody\n");
-    for (const LinkTable::Row& row : table.rows) {
-        const Device& n = row.neighbour;
-        fmt::print(
-            "  hears {:<12} ip {:<15} mac {}  essid \"{}\"  {:g} MHz  {}{}  quality {:3}  {}\n",
-            n.robot, n.ip, n.mac, n.essid, n.frequency.value / 1e6, name_of(n.mode),
-            n.encryption ? "  encrypted" : "", row.quality,
-            row.range ? fmt::format("{:.2f} m, within its range of {:.6g} m", row.distance->value,
-                                    row.range->value)
-                      : fmt::format("level {:.2f} dBm  noise {:.2f} dBm", row.level.value,
-                                    row.noise.value));
-    }
-}
 
 bool is_map(const std::string& file) {
     const auto ending = std::filesystem::path(file).extension();
@@ -234,27 +207,6 @@ Time time_within(const Scenario& scenario, const std::string& text) {
         fmt::format("expected a time of the run, which ends at {:.9g} s", seconds(end)));
 }
 
-void links(const LinksArguments& a) {
-    const Scenario scenario = scenario_of(a);
-    if (a.history) {
-        Playing playing(a.file, start_of_run + scenario.scenario.duration);
-        // The lines themselves show how far it is if they go to the terminal.
-        const TellTime tell = isatty(STDOUT_FILENO) != 0 ? TellTime{} : playing.tell();
-        write_link_history(
-            scenario, [](std::string_view line) { fmt::print("{}", line); }, tell);
-        return;
-    }
-    const Time at = time_in(scenario, a.at);
-    const auto network = played(a.file, scenario, at);
-    if (!a.json) return for_each_link_table(*network, a.robot, print_links);
-    fmt::print("{{\n  \"time_s\": {},\n  \"robots\": [", to_json_line(seconds(at)));
-    const char* between = "\n";
-    for_each_link_table(*network, a.robot, [&](const LinkTable& table) {
-        fmt::print("{}{}", std::exchange(between, ",\n"), to_json_line(link_table_document(table)));
-    });
-    fmt::print("\n  ]\n}}\n");
-}
-
 void scene(const SceneArguments& a) {
     Table report;
     if (is_map(a.file)) {
@@ -276,45 +228,6 @@ void scene(const SceneArguments& a) {
     if (report.find("robots")) print_robots(report);
 }
 
-void where(const WhereArguments& a) {
-    const Scenario scenario = scenario_of(a);
-    std::vector<Time> times;
-    for (const std::string& text : a.at) times.push_back(time_in(scenario, text));
-    const auto all = [&] {
-        Playing playing(a.file, *std::max_element(times.begin(), times.end()));
-        return whereabouts(scenario, times, playing.tell());
-    }();
-    Array list;
-    for (const Whereabouts& now : all) {
-        Array robots;
-        for (const auto& [name, p, v, heading, presence] : now.robots) {
-            Table robot;
-            robot.set("name", name);
-            robot.set("x_m", p.x);
-            robot.set("y_m", p.y);
-            robot.set("z_m", p.z);
-            robot.set("vx", v.x);
-            robot.set("vy", v.y);
-            robot.set("heading_rad", heading);
-            robot.set("presence", name_of(presence));
-            robots.emplace_back(std::move(robot));
-            if (a.json) continue;
-            fmt::print(
-                "{:>12.6f} s  {:<12} at ({:.6f}, {:.6f}, {:.6f}) m, {:.6f} m/s, heading "
-                "{:.6f} rad{}\n",
-                seconds(now.time), name, p.x, p.y, p.z, distance(v, {}), heading,
-                presence_text(name_of(presence)));
-        }
-        Table at;
-        at.set("t_s", seconds(now.time));
-        at.set("robots", std::move(robots));
-        list.emplace_back(std::move(at));
-    }
-    Table document;
-    document.set("times", std::move(list));
-    if (a.json) fmt::print("{}", to_json(document));
-}
-
 void draw(const DrawArguments& a) {
     check_picture_name(a.out);
     const bool shows_routing = !a.route.empty() || a.search;
@@ -329,6 +242,8 @@ void draw(const DrawArguments& a) {
         .search = a.search,
         .links = a.links,
         .trails = a.trails,
+        .margin_to = a.margin_to,
+        .over = a.over,
         .storey = a.storey,
         .axes = a.axes,
         .width = a.width,

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/reports/link_table.hpp"
 
-#include "experiment/build.hpp"
-#include "experiment/reports/network_at.hpp"
 #include "experiment/reports/range_of_model.hpp"
 #include "experiment/run.hpp"
-#include "files/csv_field.hpp"
 #include "models/medium/medium.hpp"
 
 #include <fmt/format.h>
 
-#include <memory>
 #include <set>
 
 namespace rovernet {
@@ -71,31 +67,6 @@ Table device_document(const Device& device) {
     table.set("encryption", device.encryption);
     return table;
 }
-
-/// Writes link records as lines.
-struct History {
-    const Network* network;
-    std::function<void(std::string_view)> write;
-
-    KindMask kinds() const { return kind_links; }
-    void on(const Record& record, const RecordContext&) {
-        if (const auto* up = std::get_if<LinkUp>(&record)) add(up->time, up->from, up->to, "up");
-        if (const auto* down = std::get_if<LinkDown>(&record)) {
-            add(down->time, down->from, down->to, "down");
-        }
-    }
-
-  private:
-    void add(Time t, NodeId from, NodeId to, std::string_view event) {
-        const std::int64_t ns = t.time_since_epoch().count();
-        write(fmt::format("{}.{:09},{},{},{}\n", ns / 1'000'000'000, ns % 1'000'000'000,
-                          csv_field(network->name(from)), csv_field(network->name(to)), event));
-    }
-};
-
-}  // namespace
-
-namespace {
 
 std::vector<Device> devices(const std::vector<const Radio*>& radios,
                             const std::vector<std::string>& names) {
@@ -177,16 +148,6 @@ Table link_table_document(const LinkTable& table) {
     }
     robot.set("links", std::move(links));
     return robot;
-}
-
-void write_link_history(const Scenario& scenario,
-                        const std::function<void(std::string_view)>& write, const TellTime& tell) {
-    const Scenario played = without_idle_traffic(scenario);
-    Network network(network_settings(played));
-    populate(network, played);
-    write("time_s,from,to,event\n");
-    network.add_sink(std::make_shared<History>(History{&network, write}));
-    play_until(network, start_of_run + played.scenario.duration, tell);
 }
 
 }  // namespace rovernet

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/playing.hpp"
 #include "network/network.hpp"
 #include "scenario/document/value.hpp"
 #include "scenario/scenario.hpp"
@@ -9,7 +8,6 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace rovernet {
@@ -54,11 +52,5 @@ void for_each_link_table(const Network& network, const std::optional<std::string
 
 /// Link table as a document: {"robot", ..., "links": [...]}.
 Table link_table_document(const LinkTable& table);
-
-/// Runs the scenario and writes every time at which a link comes up or goes down, as CSV with the
-/// columns time_s,from,to,event.
-void write_link_history(const Scenario& scenario,
-                        const std::function<void(std::string_view)>& write,
-                        const TellTime& tell = {});
 
 }  // namespace rovernet

@@ -16,10 +16,10 @@
 namespace rovernet {
 namespace {
 
-Whereabouts everybody(const Network& network) {
+Whereabouts whereabouts_now(const Network& network, std::optional<NodeId> only) {
     Whereabouts now{network.now(), {}};
-    for (std::uint32_t i = 0; i < network.size(); ++i) {
-        const NodeId node{i};
+    for (NodeId node{0}; node.index() < network.size(); ++node.value) {
+        if (only && node != *only) continue;
         const Leg& leg = network.legs().leg(node);
         const bool moves = now.time < leg.end;
         RobotState robot = network.robot(node);
@@ -57,6 +57,7 @@ struct Recorder {
 }  // namespace
 
 std::vector<Whereabouts> whereabouts(const Scenario& scenario, const std::vector<Time>& times,
+                                     const std::optional<std::string>& robot,
                                      const TellTime& tell) {
     std::vector<std::size_t> order(times.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -65,10 +66,11 @@ std::vector<Whereabouts> whereabouts(const Scenario& scenario, const std::vector
     const Scenario played = without_idle_traffic(scenario);
     Network network(network_settings(played));
     populate(network, played);
+    const auto only = robot ? std::optional(robot_named(network, *robot)) : std::nullopt;
     std::vector<Whereabouts> all(times.size());
     for (const std::size_t i : order) {
         play_until(network, times[i], tell);
-        all[i] = everybody(network);
+        all[i] = whereabouts_now(network, only);
     }
     return all;
 }

@@ -8,6 +8,7 @@
 #include "scenario/scenario.hpp"
 #include "sim/time.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,9 +27,11 @@ struct Whereabouts {
     std::vector<Row> robots;
 };
 
-/// Runs the scenario and returns the positions of all robots at each of the `times`, in the order
-/// of `times`.
+/// Runs the scenario and returns the positions of all robots, or only of `robot` if it is given, at
+/// each of the `times`, in the order of `times`.
+/// @throws std::invalid_argument for an unknown robot
 std::vector<Whereabouts> whereabouts(const Scenario& scenario, const std::vector<Time>& times,
+                                     const std::optional<std::string>& robot = {},
                                      const TellTime& tell = {});
 
 /// Runs the scenario and returns the pieces of movement (legs) of every robot.

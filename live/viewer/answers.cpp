@@ -159,7 +159,7 @@ Table ViewerAnswers::svg(const JsonElement& question) const {
         .links = has_member(question, "links") && member(question, "links").truth(),
         .trails = has_member(question, "trails") && member(question, "trails").truth(),
         .storey = 1 + static_cast<int>(member(question, "storey").whole_number(0, storeys))};
-    if (has_member(question, "coverage")) options.coverage = name_of(robot(question, "coverage"));
+    if (has_member(question, "coverage")) options.coverage = {name_of(robot(question, "coverage"))};
     Table answer;
     answer.set("svg", draw_svg(scenario_, options));
     return answer;

@@ -105,4 +105,14 @@ CoverageMap coverage(const Transmitter& transmitter, Vec3 low, Vec3 high, int ce
     return map;
 }
 
+CoverageMap coverage(std::span<const Transmitter> transmitters, Vec3 low, Vec3 high, int cells) {
+    CoverageMap best = coverage(transmitters.front(), low, high, cells);
+    for (const Transmitter& each : transmitters.subspan(1)) {
+        const CoverageMap other = coverage(each, low, high, cells);
+        for (std::size_t i = 0; i < best.dbm.size(); ++i)
+            best.dbm[i] = std::max(best.dbm[i], other.dbm[i]);
+    }
+    return best;
+}
+
 }  // namespace rovernet

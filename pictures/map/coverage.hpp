@@ -72,5 +72,7 @@ inline constexpr int most_coverage_cells = 4'000'000;
 /// @param cells  approximate number of cells, which are nearly square
 /// @throws std::invalid_argument for an empty rectangle, or cells outside 1 to most_coverage_cells
 CoverageMap coverage(const Transmitter& transmitter, Vec3 low, Vec3 high, int cells);
+/// Level of the best transmitter at each place. @param transmitters  at least one
+CoverageMap coverage(std::span<const Transmitter> transmitters, Vec3 low, Vec3 high, int cells);
 
 }  // namespace rovernet

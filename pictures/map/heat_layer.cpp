@@ -7,9 +7,11 @@
 #include "scene/images/png.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -89,9 +91,14 @@ void define_gradient(Svg& svg) {
 
 }  // namespace
 
-HeatLayer::HeatLayer(const Transmitter& transmitter, const Plot& plot, int cells)
-    : map_(coverage(transmitter, plot.low, plot.high, cells)), range_(range_of(transmitter.model)) {
-    const std::vector<ContourLevel> levels = contour_levels(transmitter);
+HeatLayer::HeatLayer(std::span<const Transmitter> transmitters, const Plot& plot, int cells)
+    : map_(coverage(transmitters, plot.low, plot.high, cells)) {
+    std::set<double> ranges;
+    for (const Transmitter& each : transmitters) {
+        if (const auto range = range_of(each.model)) ranges.insert(range->value);
+    }
+    ranges_.assign(ranges.begin(), ranges.end());
+    const std::vector<ContourLevel> levels = contour_levels(transmitters.front());
     std::tie(low_, high_) = color_range(map_, levels);
     for (const ContourLevel& each : levels)
         lines_.push_back({each.level, each.meaning, !lines_.empty()});
@@ -152,8 +159,8 @@ void HeatLayer::draw_bar(Svg& svg, PicturePoint corner, double height) const {
 
 void HeatLayer::append_to(Legend& legend) const {
     for (const auto& line : lines_) {
-        legend.add({range_ ? fmt::format("range of {:.6g} m", range_->value)
-                           : fmt::format("{:.6g} dBm, {}", line.level.value, line.meaning),
+        legend.add({has_levels() ? fmt::format("{:.6g} dBm, {}", line.level.value, line.meaning)
+                                 : fmt::format("range of {:.6g} m", fmt::join(ranges_, " m or ")),
                     26, [dashed = line.dashed](Svg& svg, PicturePoint p) {
                         SvgPath path;
                         path.move(p.x, p.y).horizontal(p.x + 26);

@@ -7,19 +7,21 @@
 #include "pictures/map/contour.hpp"
 #include "pictures/map/coverage.hpp"
 
-#include <optional>
+#include <span>
 #include <vector>
 
 namespace rovernet {
 
-/// Coverage of one robot's transmitter in a picture: received levels as colours, a colour bar, and
-/// contours at the receivers' sensitivity and at the level RadioLabels::range_db [dBm], if it is
-/// set.
+/// Coverage of robots' transmitters in a picture: at each place the level of the best transmitter
+/// as a colour, a colour bar, and contours at the receivers' sensitivity and at the level
+/// RadioLabels::range_db [dBm], if it is set.
 class HeatLayer {
   public:
     /// Computes the coverage of the plot area.
-    /// @param cells  approximate number of cells of the heat map
-    HeatLayer(const Transmitter& transmitter, const Plot& plot, int cells);
+    /// @param transmitters  at least one, all for the same receivers; all with the model disc, or
+    ///                      none
+    /// @param cells         approximate number of cells of the heat map
+    HeatLayer(std::span<const Transmitter> transmitters, const Plot& plot, int cells);
 
     void draw_levels(Svg& svg, const Plot& plot) const;
     void draw_contours(Svg& svg, const Plot& plot) const;
@@ -27,7 +29,7 @@ class HeatLayer {
     void draw_bar(Svg& svg, PicturePoint corner, double height) const;
     void append_to(Legend& legend) const;
     /// Whether the propagation model gives levels; the model disc gives only a range.
-    bool has_levels() const { return !range_; }
+    bool has_levels() const { return ranges_.empty(); }
 
     static constexpr double bar_width = 62;  ///< width of the colour bar with its numbers [px]
 
@@ -40,8 +42,8 @@ class HeatLayer {
     };
 
     CoverageMap map_;
-    std::optional<Meters> range_;
-    double low_ = 0, high_ = 1;  // ends of the colour scale [dBm]
+    std::vector<double> ranges_;  // ranges of the model disc [m], ascending; empty: levels
+    double low_ = 0, high_ = 1;   // ends of the colour scale [dBm]
     std::vector<Line> lines_;
 };
 

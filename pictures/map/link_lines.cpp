@@ -6,6 +6,7 @@
 #include "models/medium/medium.hpp"
 #include "pictures/draw/arrow_head.hpp"
 #include "pictures/map/link_grades.hpp"
+#include "pictures/map/link_stroke.hpp"
 
 #include <fmt/format.h>
 
@@ -17,26 +18,6 @@ namespace rovernet {
 namespace {
 
 constexpr std::size_t many = 500;  // lines, from which on they fill the picture
-
-void stroke(Svg& svg, const std::string& data, std::size_t grade, bool dashed, bool seam) {
-    const auto& look = link_grades[grade];
-    svg.add("path", {{"d", data},
-                     {"fill", "none"},
-                     {"stroke", seam ? Color{0xff, 0xff, 0xff} : ember.at(look.shade)},
-                     {"stroke-width", look.width + (seam ? 1.6 : 0)},
-                     {"stroke-dasharray", dashed && !seam ? "7 4" : "none"}});
-}
-
-LegendItem sample(std::string text, std::size_t grade, bool dashed) {
-    return {std::move(text), 30, [grade, dashed](Svg& svg, PicturePoint p) {
-                SvgPath path, head;
-                path.move(p.x, p.y).horizontal(p.x + 30);
-                stroke(svg, path.text(), grade, dashed, false);
-                if (!dashed) return;
-                append_arrow_head(head, p, {p.x + 34, p.y}, 2, link_grades[grade].width);
-                svg.add("path", {{"d", head.text()}, {"fill", ember.at(link_grades[grade].shade)}});
-            }};
-}
 
 }  // namespace
 
@@ -71,8 +52,10 @@ void LinkLines::draw(Svg& svg, const RobotMarks& robots, bool on_colors) const {
     for (std::size_t i = 0; i < link_grades.size(); ++i) {
         for (const bool both_ways : {false, true}) {
             if (paths[i][both_ways].empty()) continue;
-            if (seams) stroke(svg, paths[i][both_ways].text(), i, !both_ways, true);
-            stroke(svg, paths[i][both_ways].text(), i, !both_ways, false);
+            if (seams)
+                draw_link_stroke(svg, paths[i][both_ways].text(),
+                                 {.grade = i, .dashed = !both_ways, .seam = true});
+            draw_link_stroke(svg, paths[i][both_ways].text(), {.grade = i, .dashed = !both_ways});
         }
         if (heads[i].empty()) continue;
         svg.add("path", {{"d", heads[i].text()},
@@ -99,15 +82,15 @@ void LinkLines::append_to(Legend& legend) const {
     for (std::size_t i = 0; i < link_grades.size(); ++i) {
         if (!used[i]) continue;
         if (!has_margins_) {
-            if (first) legend.add(sample("link", i, false));
+            if (first) legend.add(link_sample("link", {i}));
             first = false;
             continue;
         }
-        legend.add(sample(fmt::format("{}{}", first ? "link margin " : "", link_grades[i].text), i,
-                          false));
+        legend.add(link_sample(
+            fmt::format("{}{}", first ? "link margin " : "", link_grades[i].text), {i}));
         first = false;
     }
-    if (one_way) legend.add(sample("one way only", *one_way, true));
+    if (one_way) legend.add(link_sample("one way only", {.grade = *one_way, .dashed = true}));
     if (to_other_storeys_ == 0) return;
     legend.add({fmt::format("{} link{} to other storeys", to_other_storeys_,
                             to_other_storeys_ == 1 ? "" : "s"),

@@ -11,6 +11,7 @@
 #include "pictures/map/link_lines.hpp"
 #include "pictures/map/map_axes.hpp"
 #include "pictures/map/map_layer.hpp"
+#include "pictures/map/margin_survey.hpp"
 #include "pictures/map/picture_caption.hpp"
 #include "pictures/map/robot_marks.hpp"
 #include "pictures/map/route_lines.hpp"
@@ -23,6 +24,8 @@
 #include <cmath>
 #include <memory>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace rovernet {
 namespace {
@@ -87,11 +90,16 @@ class Painter {
     void check_storey() const;
     Extent extent() const;
     Plot plot() const;
-    /// Distance from the robot whose coverage is drawn up to which an open field is shown [m].
-    double shown_reach(const Extent& robots) const;
+    void check_levels() const;
+    /// Distance from a robot whose coverage is drawn up to which an open field is shown [m].
+    double shown_reach(const Transmitter& transmitter, const Extent& robots) const;
+    /// Whether the coverage of the robot is drawn.
+    bool is_source(NodeId node) const {
+        return std::find(sources_.begin(), sources_.end(), node) != sources_.end();
+    }
     /// Room for the colour bar beside the plot [px]; 0 if there is none.
     double bar_room() const {
-        const bool has_levels = transmitter_ && !range_of(transmitter_->model);
+        const bool has_levels = !transmitters_.empty() && !range_of(transmitters_.front().model);
         return has_levels ? part_gap + HeatLayer::bar_width : 0;
     }
     Legend legend(const Plot& plot, const RobotMarks& robots) const;
@@ -102,8 +110,10 @@ class Painter {
     double width_;  // of the picture, in its own points
     Network network_;
     std::shared_ptr<Trails> trails_ = std::make_shared<Trails>();
-    std::optional<NodeId> source_ = std::nullopt, receiver_ = std::nullopt;
-    std::optional<Transmitter> transmitter_ = std::nullopt;
+    std::vector<NodeId> sources_ = {};
+    std::optional<NodeId> receiver_ = std::nullopt;
+    std::vector<Transmitter> transmitters_ = {};
+    std::optional<MarginSurvey> survey_ = std::nullopt;
     std::optional<MapLayer> map_ = std::nullopt;
     std::optional<HeatLayer> heat_ = std::nullopt;
     std::optional<TrailLines> ways_ = std::nullopt;
@@ -141,12 +151,17 @@ void Painter::run() {
         throw RunError(fmt::format("a picture of {} robots cannot be drawn; expected at most {}",
                                    network_.size(), most_robots));
     }
-    if (options_.coverage) source_ = robot_named(network_, *options_.coverage);
+    sources_ = partners_named(network_, options_.coverage, {}, "--coverage");
     if (options_.receiver) receiver_ = robot_named(network_, *options_.receiver);
     const auto& route = options_.route;
     const NodeId from = route ? robot_named(network_, route->from) : NodeId{};
     const NodeId to = route ? robot_named(network_, route->to) : NodeId{};
     if (route) search_->only(from);
+    if (options_.trails && !options_.margin_to.empty()) {
+        survey_.emplace(network_, partners_named(network_, options_.margin_to, {}, "--margin-to"),
+                        partners_named(network_, options_.over, {}, "--over"));
+        survey_->run_until(options_.at);
+    }
     network_.run_until(options_.at);
 
     if (route) route_.emplace(route_way(network_, from, to));
@@ -160,20 +175,33 @@ void Painter::run() {
         const auto is_here = [&](Vec3 p) { return scene.storeys().number_at(p.z) == storey(); };
         if (is_here(each.foot) || is_here(each.head)) map_->add_stairs(each.foot, each.head);
     }
-    if (source_) {
-        transmitter_ =
-            transmitter(network_, *source_, receiver_.value_or(*source_), storey(), options_.at);
+    for (const NodeId source : sources_) {
+        transmitters_.push_back(transmitter(network_, source, receiver_.value_or(sources_.front()),
+                                            storey(), options_.at));
     }
+    check_levels();
     if (options_.links) links_.emplace(network_, options_.at, storey());
-    if (options_.trails) ways_.emplace(*trails_, network_, options_.at, storey());
+    if (options_.trails) {
+        ways_.emplace(*trails_, network_, options_.at, storey(), survey_ ? &*survey_ : nullptr);
+    }
 }
 
-double Painter::shown_reach(const Extent& robots) const {
+/// Checks that all robots whose coverage is drawn have levels, or all have a range.
+void Painter::check_levels() const {
+    for (const Transmitter& each : transmitters_) {
+        if (range_of(each.model).has_value() == range_of(transmitters_.front().model).has_value())
+            continue;
+        throw std::invalid_argument(
+            "picture: the model disc gives no levels, which the coverage of other robots has; "
+            "expected the coverage of robots with disc, or of robots with other models");
+    }
+}
+
+double Painter::shown_reach(const Transmitter& transmitter, const Extent& robots) const {
     constexpr double most = 4;  // times the size of the robots' extent
-    const Radio& radio = transmitter_->radio;
+    const Radio& radio = transmitter.radio;
     const double reach =
-        transmitter_->model.reach(link_budget(radio, transmitter_->receiver), radio.frequency)
-            .value;
+        transmitter.model.reach(link_budget(radio, transmitter.receiver), radio.frequency).value;
     const double size = std::max(robots.width(), robots.height());
     const double limit = network_.size() > 1 ? most * size : 1e6;
     return std::min(reach, std::max(limit, 1.0));
@@ -186,7 +214,7 @@ Extent Painter::extent() const {
         const NodeId node{i};
         const RobotState robot = network_.robot(node);
         const bool there = robot.presence == Presence::on || robot.presence == Presence::off;
-        if (!there && source_ != node) continue;
+        if (!there && !is_source(node)) continue;
         if (network_.scene().storeys().number_at(robot.at.z) != storey()) continue;
         out.include(robot.at, robot.radius.value);
     }
@@ -195,8 +223,10 @@ Extent Painter::extent() const {
     if (!scene.open_field()) {
         out.include(scene.lower_left());
         out.include(scene.upper_right());
-    } else if (transmitter_) {
-        out.include(transmitter_->antenna, shown_reach(out));
+    } else if (!transmitters_.empty()) {
+        const Extent robots = out;
+        for (const Transmitter& each : transmitters_)
+            out.include(each.antenna, shown_reach(each, robots));
     } else if (out.empty()) {
         out.include({});
         out.grow(5, 5);
@@ -265,18 +295,21 @@ Legend Painter::legend(const Plot& plot, const RobotMarks& robots) const {
 std::string Painter::paint() {
     run();
     Plot plot = this->plot();
-    if (transmitter_) heat_.emplace(*transmitter_, plot, options_.cells);
+    if (!transmitters_.empty()) heat_.emplace(transmitters_, plot, options_.cells);
     const double right = bar_room();
     const double text_width = plot.right() + right - margin;
     const Time end = start_of_run + scenario_.scenario.duration;
     std::vector<std::string> caption =
-        picture_caption(network_, options_.at, end, storey(), source_, receiver_);
+        picture_caption(network_, options_.at, end, storey(), sources_, receiver_);
+    if (survey_) {
+        for (std::string& text : survey_->gap_texts()) caption.push_back(std::move(text));
+    }
     if (route_) caption.push_back(route_->text(network_));
     if (options_.search) caption.push_back(search_->text(network_));
     const Heading heading(shortened(scenario_.scenario.name, 100), caption, text_width);
     plot.top = margin + heading.height();
 
-    RobotMarks robots(network_, storey(), source_, options_.trails, plot);
+    RobotMarks robots(network_, storey(), sources_, options_.trails, plot);
     LabelPlaces places({plot.left, plot.top, plot.right(), plot.bottom()});
     if (links_) links_->keep_off(places, robots);
     if (options_.search) add_rings(robots, *search_);

@@ -6,17 +6,19 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace rovernet {
 
 /// Options of a picture of a scenario; map and robots are always drawn.
 struct PictureOptions {
     Time at = start_of_run;
-    /// Robot whose coverage is drawn, without link shadowing: a heat map of levels, and contours at
-    /// the receivers' sensitivity and at range_db.
-    std::optional<std::string> coverage = std::nullopt;
+    /// Robots whose coverage is drawn, without link shadowing: a heat map of the level of the best
+    /// robot at each place, and contours at the receivers' sensitivity and at range_db. Empty: no
+    /// coverage.
+    std::vector<std::string> coverage = {};
     /// Robot whose radio and antenna height the assumed receivers of the coverage have; none: the
-    /// robot `coverage`.
+    /// first robot of `coverage`.
     std::optional<std::string> receiver = std::nullopt;
     /// Source and destination of a route to draw: the route in use, with the age of each hop's
     /// route.
@@ -29,7 +31,14 @@ struct PictureOptions {
     bool search = false;
     bool links = false;   ///< draw links, coloured by level above sensitivity (margin)
     bool trails = false;  ///< draw the robots' past paths
-    int storey = 1;       ///< storey to draw; the lowest is 1
+    /// Robots to which the other robots need a link, such as access points: a trail shows the
+    /// margin of the link to the best of them, and where there is none. Empty: trails have the
+    /// robots' colours.
+    std::vector<std::string> margin_to = {};
+    /// Robots over which these links may go, too: the relays of a mesh. The margin is then that of
+    /// the weakest hop.
+    std::vector<std::string> over = {};
+    int storey = 1;  ///< storey to draw; the lowest is 1
     /// Approximate number of cells of the heat map, from 1 to most_coverage_cells.
     int cells = 200'000;
     bool axes = false;  ///< draw the axes of the map, in metres

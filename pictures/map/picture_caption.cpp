@@ -6,9 +6,11 @@
 #include "pictures/map/model_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace rovernet {
 namespace {
@@ -61,29 +63,58 @@ std::string presence_text(Presence presence) {
     return "";
 }
 
-void append_coverage(std::vector<std::string>& parts, const Network& network, NodeId source,
-                     std::optional<NodeId> receiver) {
+std::string name_text(const Network& network, NodeId node) {
     constexpr std::size_t longest_name = 40;
-    const RobotState robot = network.robot(source);
-    if (range_of(robot.propagation)) {
-        parts.push_back(fmt::format("coverage of {}{}", shortened(robot.name, longest_name),
-                                    presence_text(robot.presence)));
+    return shortened(network.name(node), longest_name);
+}
+
+/// Names of the robots whose coverage is drawn: "ap1 or ap2, whichever is stronger".
+std::string sources_text(const Network& network, const std::vector<NodeId>& sources) {
+    std::string text;
+    for (const NodeId source : sources) {
+        text += fmt::format("{}{}{}", text.empty() ? "" : " or ", name_text(network, source),
+                            presence_text(network.robot(source).presence));
+    }
+    return text + (sources.size() > 1 ? ", whichever is stronger" : "");
+}
+
+/// Words for the assumed receivers.
+std::string receiver_text(const Network& network, const std::vector<NodeId>& sources,
+                          std::optional<NodeId> receiver) {
+    if (receiver) return "the radio of " + name_text(network, *receiver);
+    if (sources.size() == 1) return "a radio like its own";
+    return "a radio like that of " + name_text(network, sources.front());
+}
+
+void append_coverage(std::vector<std::string>& parts, const Network& network,
+                     const std::vector<NodeId>& sources, std::optional<NodeId> receiver) {
+    const std::string names = sources_text(network, sources);
+    if (range_of(network.robot(sources.front()).propagation)) {
+        parts.push_back("coverage of " + names);
         return;
     }
-    parts.push_back(fmt::format(
-        "coverage of {}{}: {} for {}, antenna {:.6g} m up", shortened(robot.name, longest_name),
-        presence_text(robot.presence), robot.propagation.is_random() ? "median level" : "level",
-        receiver ? "the radio of " + shortened(network.name(*receiver), longest_name)
-                 : "a radio like its own",
-        network.robot(receiver.value_or(source)).radio.antenna_height.value));
-    parts.push_back(fmt::format("{:.4g} dBm at {:.6g} MHz", robot.radio.power.value,
-                                robot.radio.frequency.value / 1e6));
+    const bool is_random = std::any_of(sources.begin(), sources.end(), [&](NodeId source) {
+        return network.robot(source).propagation.is_random();
+    });
+    parts.push_back(
+        fmt::format("coverage of {}: {} for {}, antenna {:.6g} m up", names,
+                    is_random ? "median level" : "level", receiver_text(network, sources, receiver),
+                    network.robot(receiver.value_or(sources.front())).radio.antenna_height.value));
+    std::vector<std::string> powers;
+    for (const NodeId source : sources) {
+        const Radio& radio = network.robot(source).radio;
+        std::string text =
+            fmt::format("{:.4g} dBm at {:.6g} MHz", radio.power.value, radio.frequency.value / 1e6);
+        if (std::find(powers.begin(), powers.end(), text) == powers.end())
+            powers.push_back(std::move(text));
+    }
+    parts.push_back(fmt::format("{}", fmt::join(powers, " or ")));
 }
 
 }  // namespace
 
 std::vector<std::string> picture_caption(const Network& network, Time at, Time end,
-                                         std::size_t storey, std::optional<NodeId> source,
+                                         std::size_t storey, const std::vector<NodeId>& sources,
                                          std::optional<NodeId> receiver) {
     constexpr std::size_t most_models = 3;
     std::vector<std::string> parts{time_text(at, end)};
@@ -95,10 +126,10 @@ std::vector<std::string> picture_caption(const Network& network, Time at, Time e
     if (models.size() > most_models) {
         parts.push_back(fmt::format("and {} models more", models.size() - most_models));
     }
-    if (!source) return parts;
-    append_coverage(parts, network, *source, receiver);
-    if (models.size() > 1) {
-        parts.push_back("its model is " + model_text(network.robot(*source).propagation));
+    if (sources.empty()) return parts;
+    append_coverage(parts, network, sources, receiver);
+    if (models.size() > 1 && sources.size() == 1) {
+        parts.push_back("its model is " + model_text(network.robot(sources[0]).propagation));
     }
     return parts;
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace rovernet {
 namespace {
@@ -82,7 +83,10 @@ LegendItem sample(std::string text, Presence presence, bool stands_out) {
 }  // namespace
 
 RobotMarks::RobotMarks(const Network& network, std::size_t storey,
-                       std::optional<NodeId> standing_out, bool colored, const Plot& plot) {
+                       const std::vector<NodeId>& standing_out, bool colored, const Plot& plot) {
+    const auto stands_out = [&](NodeId node) {
+        return std::find(standing_out.begin(), standing_out.end(), node) != standing_out.end();
+    };
     for (std::uint32_t i = 0; i < network.size(); ++i) {
         const NodeId node{i};
         RobotState robot = network.robot(node);
@@ -92,7 +96,7 @@ RobotMarks::RobotMarks(const Network& network, std::size_t storey,
                           .heading = robot.heading.value,
                           .presence = robot.presence,
                           .here = network.scene().storeys().number_at(robot.at.z) == storey,
-                          .stands_out = standing_out == node,
+                          .stands_out = stands_out(node),
                           .rim = colored ? robot_color(node) : ink});
     }
 }
@@ -148,10 +152,11 @@ void RobotMarks::place_names(LabelPlaces& places) {
 }
 
 void RobotMarks::append_to(Legend& legend) const {
-    bool some_off = false;
+    bool some_off = false, some_transmitter = false;
     for (const auto& robot : marks_) {
         if (!robot.drawn()) continue;
-        if (robot.stands_out) legend.add(sample("transmitter", robot.presence, true));
+        if (robot.stands_out && !std::exchange(some_transmitter, true))
+            legend.add(sample("transmitter", robot.presence, true));
         some_off = some_off || robot.presence == Presence::off;
     }
     if (some_off) legend.add(sample("switched off", Presence::off, false));

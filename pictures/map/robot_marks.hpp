@@ -38,9 +38,9 @@ struct RobotMark {
 class RobotMarks {
   public:
     /// @param storey        number of the drawn storey
-    /// @param standing_out  robot whose coverage is drawn
+    /// @param standing_out  robots whose coverage is drawn
     /// @param colored       true: each circle has the colour of the robot's trail
-    RobotMarks(const Network& network, std::size_t storey, std::optional<NodeId> standing_out,
+    RobotMarks(const Network& network, std::size_t storey, const std::vector<NodeId>& standing_out,
                bool colored, const Plot& plot);
 
     const RobotMark& operator[](NodeId node) const { return marks_[node.index()]; }

@@ -18,16 +18,18 @@ const std::vector<Leg>& Trails::legs(NodeId node) const {
     return node.index() < legs_.size() ? legs_[node.index()] : none;
 }
 
-std::vector<std::vector<Vec3>> Trails::ways(NodeId node, Time at) const {
+std::vector<std::vector<Vec3>> Trails::ways(NodeId node, Time begin, Time at) const {
     constexpr double jump = 1e-6;  // [m] more than rounding
     std::vector<std::vector<Vec3>> out;
     const auto& own = legs(node);
-    for (std::size_t i = 0; i < own.size() && own[i].start <= at; ++i) {
-        if (out.empty() || distance(out.back().back(), own[i].from) > jump) {
-            out.push_back({own[i].from});
-        }
+    const auto after = std::upper_bound(own.begin(), own.end(), begin,
+                                        [](Time t, const Leg& leg) { return t < leg.start; });
+    const auto first = static_cast<std::size_t>(after - own.begin());  // behind the leg at `begin`
+    for (std::size_t i = first > 0 ? first - 1 : 0; i < own.size() && own[i].start <= at; ++i) {
+        const Vec3 from = own[i].start < begin ? own[i].position(begin) : own[i].from;
+        if (out.empty() || distance(out.back().back(), from) > jump) out.push_back({from});
         const Time next = i + 1 < own.size() ? own[i + 1].start : never;
-        for (const Vec3 p : {own[i].from, own[i].position(std::min(next, at))}) {
+        for (const Vec3 p : {from, own[i].position(std::min(next, at))}) {
             if (!(out.back().back() == p)) out.back().push_back(p);
         }
     }

@@ -17,7 +17,11 @@ class Trails {
 
     /// Past paths of a robot until `at`, each as its corners [m] in order; a new path starts where
     /// the robot was teleported. Empty if the robot never had a leg.
-    std::vector<std::vector<Vec3>> ways(NodeId node, Time at) const;
+    std::vector<std::vector<Vec3>> ways(NodeId node, Time at) const {
+        return ways(node, start_of_run, at);
+    }
+    /// The part of these paths from the time `begin` on.
+    std::vector<std::vector<Vec3>> ways(NodeId node, Time begin, Time at) const;
     /// Positions of a robot [m] at intervals of `every` > 0, from its first leg until `at`.
     std::vector<Vec3> marks(NodeId node, Time at, Duration every) const;
 

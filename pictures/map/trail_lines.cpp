@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/map/trail_lines.hpp"
 
+#include "pictures/map/link_stroke.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -10,10 +12,12 @@ namespace rovernet {
 namespace {
 
 constexpr Color sample_color{0x44, 0x44, 0x44};
-constexpr double line_width = 1.4;  // [px]
-constexpr double dot_radius = 2.6;  // [px]
-constexpr double ring_radius = 3;   // [px]
-constexpr double visible = 0.3;     // [px] a corner nearer to the last one is left out
+constexpr double line_width = 1.4;       // [px]
+constexpr double graded_width = 1.6;     // [-] of trails by margin, in the width of links
+constexpr double dot_radius = 2.6;       // [px]
+constexpr double graded_dot_radius = 4;  // [px] on the wider lines of trails by margin
+constexpr double ring_radius = 3;        // [px]
+constexpr double visible = 0.3;          // [px] a corner nearer to the last one is left out
 
 /// About a dozen dots in all, at round times; every 10 s if that is less.
 Duration dot_period(Time at) {
@@ -55,6 +59,11 @@ void append_way(SvgPath& path, const std::vector<PicturePoint>& way) {
     }
 }
 
+/// White line around dots, which keeps them apart from the line below them.
+void draw_seam(Svg& svg, const std::string& dots) {
+    svg.add("path", {{"d", dots}, {"stroke", "#ffffff"}, {"stroke-width", 2.4}});
+}
+
 void draw_way(Svg& svg, const std::string& lines, Color color, double width) {
     svg.add("path", {{"d", lines},
                      {"fill", "none"},
@@ -65,22 +74,24 @@ void draw_way(Svg& svg, const std::string& lines, Color color, double width) {
 
 }  // namespace
 
-TrailLines::TrailLines(const Trails& trails, const Network& network, Time at, std::size_t storey)
+TrailLines::TrailLines(const Trails& trails, const Network& network, Time at, std::size_t storey,
+                       const MarginSurvey* survey)
     : trails_(trails),
       network_(network),
       robots_(static_cast<std::uint32_t>(network.size())),
       storey_(storey),
       at_(at),
+      survey_(survey),
       every_(dot_period(at)) {}
 
 bool TrailLines::is_here(Vec3 p) const {
     return network_.scene().storeys().number_at(p.z) == storey_;
 }
 
-/// Ways of a robot, without the parts from and to other storeys.
-std::vector<std::vector<Vec3>> TrailLines::ways(NodeId node) const {
+/// Ways of a robot from `begin` to `end`, without the parts from and to other storeys.
+std::vector<std::vector<Vec3>> TrailLines::ways(NodeId node, Time begin, Time end) const {
     std::vector<std::vector<Vec3>> parts;
-    for (const auto& way : trails_.ways(node, at_)) {
+    for (const auto& way : trails_.ways(node, begin, end)) {
         bool goes_on = false;
         for (std::size_t i = 1; i < way.size(); ++i) {
             const bool shown = is_here(way[i - 1]) || is_here(way[i]);
@@ -110,7 +121,8 @@ TrailLines::Trail TrailLines::trail(NodeId node, const Plot& plot) const {
     }
     if (lines.empty()) return {};
     for (const Vec3 p : trails_.marks(node, at_, every_)) {
-        if (is_here(p)) append_disc(dots, plot.at(p), dot_radius);
+        if (is_here(p))
+            append_disc(dots, plot.at(p), has_grades(node) ? graded_dot_radius : dot_radius);
     }
     return {lines.text(), dots.text(), rings.text()};
 }
@@ -118,16 +130,18 @@ TrailLines::Trail TrailLines::trail(NodeId node, const Plot& plot) const {
 void TrailLines::draw(Svg& svg, const Plot& plot, bool on_colors) const {
     std::vector<Trail> all;
     for (std::uint32_t i = 0; i < robots_; ++i) all.push_back(trail(NodeId{i}, plot));
-    for (const Trail& each : all) {
-        if (!on_colors || each.lines.empty()) continue;
-        draw_way(svg, each.lines, {0xff, 0xff, 0xff}, line_width + 2);
+    for (std::uint32_t i = 0; i < robots_; ++i) {
+        if (!on_colors || all[i].lines.empty() || has_grades(NodeId{i})) continue;
+        draw_way(svg, all[i].lines, {0xff, 0xff, 0xff}, line_width + 2);
     }
+    if (survey_) draw_grades(svg, plot, on_colors);
     for (std::uint32_t i = 0; i < robots_; ++i) {
         if (all[i].lines.empty()) continue;
         const Color color = robot_color(NodeId{i});
         svg.open("g", {{"class", "trail"}});
         svg.title(network_.name(NodeId{i}));
-        draw_way(svg, all[i].lines, color, line_width);
+        if (!has_grades(NodeId{i})) draw_way(svg, all[i].lines, color, line_width);
+        if (has_grades(NodeId{i})) draw_seam(svg, all[i].dots);
         svg.add("path", {{"d", all[i].dots}, {"fill", color}});
         svg.add("path", {{"d", all[i].rings},
                          {"fill", "#ffffff"},
@@ -137,10 +151,55 @@ void TrailLines::draw(Svg& svg, const Plot& plot, bool on_colors) const {
     }
 }
 
+void TrailLines::draw_grades(Svg& svg, const Plot& plot, bool on_colors) const {
+    const auto paths = graded(plot);
+    svg.open("g", {{"class", "margins"}});
+    for (std::size_t i = 0; i < link_grades.size(); ++i) {
+        if (paths[i].empty()) continue;
+        if (on_colors)
+            draw_link_stroke(svg, paths[i].text(),
+                             {.grade = i, .seam = true, .width = graded_width});
+        draw_link_stroke(svg, paths[i].text(), {.grade = i, .width = graded_width});
+    }
+    if (!paths.back().empty()) draw_gap_stroke(svg, paths.back().text());
+    svg.close();
+}
+
+std::array<SvgPath, link_grades.size() + 1> TrailLines::graded(const Plot& plot) const {
+    std::array<SvgPath, link_grades.size() + 1> paths;
+    for (std::uint32_t i = 0; i < robots_; ++i) {
+        if (!has_grades(NodeId{i})) continue;
+        for (const MarginPiece& piece : survey_->pieces(NodeId{i})) {
+            for (const auto& way : ways(NodeId{i}, piece.begin, piece.end)) {
+                std::vector<PicturePoint> points;
+                for (const Vec3 p : way) points.push_back(plot.at(p));
+                append_way(paths[piece.grade.value_or(link_grades.size())], points);
+            }
+        }
+    }
+    return paths;
+}
+
+/// Appends all grades: the picture next to this one has the same legend.
+void TrailLines::append_grades_to(Legend& legend) const {
+    const std::string to = survey_->partner_names();
+    if (survey_->has_margins()) {
+        legend.add({fmt::format("link margin to {}:", to)});
+        for (std::size_t i = 0; i < link_grades.size(); ++i)
+            legend.add(link_sample(link_grades[i].text, {.grade = i, .width = graded_width}));
+    } else {
+        legend.add(
+            link_sample("link to " + to, {.grade = link_grades.size() - 1, .width = graded_width}));
+    }
+    legend.add(gap_sample("no link to " + to));
+}
+
 void TrailLines::append_to(Legend& legend) const {
+    if (survey_) append_grades_to(legend);
     legend.add(
-        {fmt::format("trail in the robot's colour, a dot every {}", period_text(every_)), 34,
-         [](Svg& svg, PicturePoint p) {
+        {fmt::format("{} a dot every {}", survey_ ? "start, and" : "trail in the robot's colour,",
+                     period_text(every_)),
+         34, [](Svg& svg, PicturePoint p) {
              SvgPath line, dot, ring;
              line.move(p.x + ring_radius, p.y).horizontal(p.x + 34);
              append_disc(dot, {p.x + 20, p.y}, dot_radius);

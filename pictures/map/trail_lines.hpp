@@ -4,22 +4,28 @@
 #include "pictures/draw/legend.hpp"
 #include "pictures/draw/plot.hpp"
 #include "pictures/draw/svg.hpp"
+#include "pictures/map/link_grades.hpp"
+#include "pictures/map/margin_survey.hpp"
 #include "pictures/map/robot_marks.hpp"
 #include "pictures/map/trail.hpp"
 
+#include <array>
 #include <cstdint>
 #include <string>
 
 namespace rovernet {
 
-/// Past paths of robots in a picture: thin lines in the robots' colours, with a ring at the start
-/// and dots at equal time intervals.
+/// Past paths of robots in a picture: thin lines in the robots' colours, or lines in the look of
+/// their links (link_grades), with a ring at the start and dots at equal time intervals.
 class TrailLines {
   public:
     /// Collects the parts of paths on one storey, and on whole stairs that begin or end there.
     /// @param trails  trails of the network's robots; trails and network must outlive the lines
     /// @param storey  number of the storey
-    TrailLines(const Trails& trails, const Network& network, Time at, std::size_t storey);
+    /// @param survey  margins of links, for lines in the look of links; null: none. Outlives the
+    ///                lines
+    TrailLines(const Trails& trails, const Network& network, Time at, std::size_t storey,
+               const MarginSurvey* survey = nullptr);
 
     void include_in(Extent& extent) const;
     void draw(Svg& svg, const Plot& plot, bool on_colors) const;
@@ -31,7 +37,13 @@ class TrailLines {
     };
 
     bool is_here(Vec3 p) const;
-    std::vector<std::vector<Vec3>> ways(NodeId node) const;
+    std::vector<std::vector<Vec3>> ways(NodeId node) const { return ways(node, start_of_run, at_); }
+    std::vector<std::vector<Vec3>> ways(NodeId node, Time begin, Time end) const;
+    bool has_grades(NodeId node) const { return survey_ && !survey_->is_station(node); }
+    /// Path data by grade of the link; the last one is without a link.
+    std::array<SvgPath, link_grades.size() + 1> graded(const Plot& plot) const;
+    void draw_grades(Svg& svg, const Plot& plot, bool on_colors) const;
+    void append_grades_to(Legend& legend) const;
     Trail trail(NodeId node, const Plot& plot) const;
 
     const Trails& trails_;
@@ -39,6 +51,7 @@ class TrailLines {
     std::uint32_t robots_;
     std::size_t storey_;
     Time at_;
+    const MarginSurvey* survey_;
     Duration every_{0};  // interval between dots
 };
 

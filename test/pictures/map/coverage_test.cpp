@@ -11,6 +11,8 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -153,6 +155,26 @@ TEST_CASE("coverage: an empty rectangle, or an absurd number of cells, is refuse
     CHECK_THROWS_AS(coverage(t, {0, 0}, {0, 1}, 10), std::invalid_argument);
     CHECK_THROWS_AS(coverage(t, {0, 0}, {1, 1}, 0), std::invalid_argument);
     CHECK_THROWS_AS(coverage(t, {0, 0}, {1, 1}, most_coverage_cells + 1), std::invalid_argument);
+}
+
+TEST_CASE("coverage: of two robots the stronger one counts at each place") {
+    const Scene scene;
+    const Transmitter west{.model = Friis{}, .antenna = {0, 0, 1}, .scene = &scene};
+    Transmitter east = west;
+    east.antenna.x = 40;
+    east.radio.power = Dbm{west.radio.power.value + 6};
+    const CoverageMap of_west = coverage(west, {-10, -10}, {50, 10}, 300);
+    const CoverageMap of_east = coverage(east, {-10, -10}, {50, 10}, 300);
+    const CoverageMap best = coverage(std::array{west, east}, {-10, -10}, {50, 10}, 300);
+    int from_west = 0;
+    for (std::size_t i = 0; i < best.dbm.size(); ++i) {
+        CHECK(best.dbm[i] == std::max(of_west.dbm[i], of_east.dbm[i]));
+        from_west += of_west.dbm[i] > of_east.dbm[i];
+    }
+    // 6 dB are a factor of 2 in distance: the border is a circle of Apollonius, at x = 40 / 3.
+    CHECK(from_west > 0);
+    CHECK(best.at(0, best.rows / 2) == of_west.at(0, best.rows / 2));
+    CHECK(best.at(best.columns / 2, best.rows / 2) == of_east.at(best.columns / 2, best.rows / 2));
 }
 
 }  // namespace coverage_test

@@ -74,13 +74,13 @@ TEST_CASE("picture: robots of a movement file are drawn, with and without [[robo
     for (const int own : {0, 1, 7}) {
         const Scenario s = files.beside(own);
         for (const bool everything : {false, true}) {
-            const PictureOptions options{
-                .at = start_of_run + 3s,
-                .coverage = everything ? std::optional<std::string>("n1") : std::nullopt,
-                .links = everything,
-                .trails = everything,
-                .cells = 400,
-                .axes = everything};
+            const PictureOptions options{.at = start_of_run + 3s,
+                                         .coverage = everything ? std::vector<std::string>{"n1"}
+                                                                : std::vector<std::string>{},
+                                         .links = everything,
+                                         .trails = everything,
+                                         .cells = 400,
+                                         .axes = everything};
             const std::string svg = draw_svg(s, options);
             CHECK(test::xml_fault(svg) == "");
             // The sign of the transmitter in the legend is one more.
@@ -93,7 +93,7 @@ TEST_CASE("picture: robots of a movement file are drawn, with and without [[robo
 
 TEST_CASE("picture: the coverage of a movement file's robot is that of its radio at this time") {
     Files files;
-    const std::string svg = draw_svg(files.beside(1), {.coverage = "n1", .cells = 400});
+    const std::string svg = draw_svg(files.beside(1), {.coverage = {"n1"}, .cells = 400});
     CHECK(has(svg, "coverage of n1: level for a radio like its own"));
     CHECK(has(svg, "sensitivity"));
 }
@@ -116,15 +116,15 @@ TEST_CASE("picture: vehicles that are not present are counted and not drawn") {
 TEST_CASE("picture: the coverage of an absent robot is marked as hypothetical") {
     Files files;
     const Scenario vehicles = load_scenario(files.vehicles, {});
-    const PictureOptions late{.at = start_of_run + 1s, .coverage = "late", .cells = 400};
+    const PictureOptions late{.at = start_of_run + 1s, .coverage = {"late"}, .cells = 400};
     CHECK(has(draw_svg(vehicles, late), "coverage of late, which has not departed"));
-    const PictureOptions early{.at = start_of_run + 3s, .coverage = "early", .cells = 400};
+    const PictureOptions early{.at = start_of_run + 3s, .coverage = {"early"}, .cells = 400};
     CHECK(has(draw_svg(vehicles, early), "coverage of early, which has left"));
     const std::string off = robots(1) + "off = [\"1 s\"]\n";
     const Scenario s = load_scenario(files.folder.write("off.toml", off), {});
-    const PictureOptions options{.at = start_of_run + 2s, .coverage = "own0", .cells = 400};
+    const PictureOptions options{.at = start_of_run + 2s, .coverage = {"own0"}, .cells = 400};
     CHECK(has(draw_svg(s, options), "coverage of own0, which is switched off"));
-    CHECK(has(draw_svg(s, {.coverage = "own0", .cells = 400}), "coverage of own0: level"));
+    CHECK(has(draw_svg(s, {.coverage = {"own0"}, .cells = 400}), "coverage of own0: level"));
 }
 
 TEST_CASE("picture: a time after the end of the run is marked as such") {

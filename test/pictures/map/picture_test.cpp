@@ -92,7 +92,7 @@ std::string_view circle_of(std::string_view svg, std::string_view name) {
 constexpr double rounding = 0.021;  // [px] of differences and sums of numbers with two decimals
 
 const PictureOptions everything{
-    .at = start_of_run + 12s, .coverage = "A", .links = true, .trails = true, .cells = 2000};
+    .at = start_of_run + 12s, .coverage = {"A"}, .links = true, .trails = true, .cells = 2000};
 
 /// The picture that is embedded in the document.
 Image embedded_image(std::string_view svg) {
@@ -143,11 +143,11 @@ TEST_CASE("picture: the caption names the scenario, the time and the model with 
 TEST_CASE("picture: the caption names each robot's model once") {
     const std::string disc = "propagation = { model = \"disc\", range = \"5 m\" }\n";
     const std::string all = draw_svg(scenario(robot("a", 0, 0, disc) + robot("b", 9, 0, disc)),
-                                     {.coverage = "a", .cells = 9});
+                                     {.coverage = {"a"}, .cells = 9});
     CHECK(count(all, "disc: range 5 m") == 1);
     CHECK_FALSE(has(all, "friis"));
     const std::string mixed = draw_svg(scenario(robot("a", 0, 0, disc) + robot("b", 9, 0)),
-                                       {.coverage = "a", .cells = 9});
+                                       {.coverage = {"a"}, .cells = 9});
     CHECK(has(mixed, "disc: range 5 m \xc2\xb7 friis"));
     CHECK(has(mixed, "its model is disc"));
 }
@@ -235,22 +235,51 @@ TEST_CASE("picture: two-way links are solid, one-way links dashed with an arrow 
 
 TEST_CASE("picture: coverage has a heat map, a colour bar, and a contour for each level") {
     const auto text = robot("A", 0, 0, "radio = { range_db = \"-60 dBm\" }\n") + robot("B", 90, 9);
-    const std::string svg = draw_svg(scenario(text), {.coverage = "A", .cells = 500});
+    const std::string svg = draw_svg(scenario(text), {.coverage = {"A"}, .cells = 500});
     CHECK(has(svg, "data:image/png;base64,"));
     CHECK(has(svg, ">dBm</text>"));
     CHECK(has(svg, "-75 dBm, sensitivity"));
     CHECK(has(svg, "-60 dBm, range_db"));
     CHECK(has(svg, "stroke-dasharray=\"7 4\""));
-    const std::string other = draw_svg(scenario(text), {.coverage = "B", .cells = 500});
+    const std::string other = draw_svg(scenario(text), {.coverage = {"B"}, .cells = 500});
     CHECK_FALSE(has(other, "range_db"));
     CHECK_FALSE(has(other, "stroke-dasharray=\"7 4\""));
+}
+
+TEST_CASE("picture: the coverage of several robots is that of the best, for one kind of receiver") {
+    const auto text = robot("A", 0, 0) + robot("B", 90, 9, "radio = { power = \"20 dBm\" }\n") +
+                      robot("C", 45, 0, "radio = { sensitivity = \"-90 dBm\" }\n");
+    PictureOptions options{.coverage = {"A", "B"}, .cells = 500};
+    const std::string svg = draw_svg(scenario(text), options);
+    CHECK(has(svg, "coverage of A or B, whichever is stronger: level for a radio like that of A"));
+    CHECK(has(svg, "16.53 dBm at 2450 MHz or 20 dBm at 2450 MHz"));
+    CHECK(has(svg, "-75 dBm, sensitivity"));
+    options.receiver = "C";
+    const std::string for_c = draw_svg(scenario(text), options);
+    CHECK(has(for_c, "level for the radio of C"));
+    CHECK(has(for_c, "-90 dBm, sensitivity"));
+    options.coverage = {"A", "A"};
+    CHECK_THROWS_WITH_AS(draw_svg(scenario(text), options), doctest::Contains("\"A\" twice"),
+                         InputError);
+}
+
+TEST_CASE("picture: ranges of the model disc are drawn together, but not with levels") {
+    const auto disc = [](int range) {
+        return fmt::format("propagation = {{ model = \"disc\", range = \"{} m\" }}\n", range);
+    };
+    const auto text = robot("A", 0, 0, disc(20)) + robot("B", 90, 9, disc(30)) + robot("C", 45, 0);
+    CHECK(has(draw_svg(scenario(text), {.coverage = {"A", "B"}, .cells = 500}),
+              "range of 20 m or 30 m"));
+    CHECK_THROWS_WITH_AS(draw_svg(scenario(text), {.coverage = {"A", "C"}, .cells = 500}),
+                         doctest::Contains("the model disc gives no levels"),
+                         std::invalid_argument);
 }
 
 TEST_CASE("picture: the heat map is lightest at the robot, and not upside down") {
     // Heard a few metres away only, so that B is in the upper right corner.
     const std::string svg =
         draw_svg(scenario("[radio]\npower = \"-30 dBm\"\n" + robot("A", 0, 0) + robot("B", 40, 30)),
-                 {.coverage = "B", .cells = 3000});
+                 {.coverage = {"B"}, .cells = 3000});
     const Image image = embedded_image(svg);
     int best_column = 0, best_row = 0, best = 0;
     for (int row = 0; row < image.height; ++row) {
@@ -275,7 +304,7 @@ TEST_CASE("picture: the coverage of a shadowed model is labelled as the median")
         return fmt::format("[propagation]\nmodel = \"log_distance\"\nsigma = \"{}\"\n", sigma) +
                robot("A", 0, 0);
     };
-    const PictureOptions options{.coverage = "A", .cells = 100};
+    const PictureOptions options{.coverage = {"A"}, .cells = 100};
     CHECK(has(draw_svg(scenario(text("5 dB")), options), "median"));
     CHECK_FALSE(has(draw_svg(scenario(text("0 dB")), options), "median"));
 }
@@ -472,7 +501,7 @@ TEST_CASE("picture: the coverage for another robot's radio uses its antenna's he
     };
     const auto drawn = [&](const char* radio, std::optional<std::string> receiver) {
         return draw_svg(scenario(access_point + rover(radio)),
-                        {.coverage = "AP", .receiver = std::move(receiver), .cells = 400});
+                        {.coverage = {"AP"}, .receiver = std::move(receiver), .cells = 400});
     };
     const char* low = "antenna_height = \"1 m\"";
     CHECK(drawn(low, "rover").find("for the radio of rover, antenna 1 m up") != std::string::npos);
@@ -493,10 +522,10 @@ TEST_CASE("picture: the coverage for another robot's radio uses its antenna's he
 
 TEST_CASE("picture: an unknown robot and options out of range are errors of the caller") {
     const Scenario s = scenario(robot("alpha", 0, 0) + robot("beta", 5, 0));
-    CHECK_THROWS_WITH_AS(draw_svg(s, {.coverage = "alpa"}), doctest::Contains("\"alpha\""),
+    CHECK_THROWS_WITH_AS(draw_svg(s, {.coverage = {"alpa"}}), doctest::Contains("\"alpha\""),
                          std::invalid_argument);
     CHECK_THROWS_AS(draw_svg(s, {.width = 10}), std::invalid_argument);
-    CHECK_THROWS_AS(draw_svg(s, {.coverage = "beta", .cells = 0}), std::invalid_argument);
+    CHECK_THROWS_AS(draw_svg(s, {.coverage = {"beta"}, .cells = 0}), std::invalid_argument);
     CHECK_THROWS_AS(draw_svg(s, {.at = start_of_run - 1s}), std::invalid_argument);
 }
 
