@@ -175,10 +175,16 @@ Scenario ReplayedScenario::with(const std::vector<std::string>& set) const {
     try {
         return load_scenario(file_, {.set = set});
     } catch (const InputError& error) {
-        // The user does not know the temporary folder.
+        // The user gave the assignments by --with, and does not know the temporary folder.
+        constexpr std::string_view option = "--set ";
         Location where = error.where();
-        if (!where.source.starts_with(folder_.path() + "/")) throw;
-        where.source.replace(0, folder_.path().size() + 1, trace_ + ": ");
+        if (where.source.starts_with(option)) {
+            where.source.replace(0, option.size(), "--with ");
+        } else if (where.source.starts_with(folder_.path() + "/")) {
+            where.source.replace(0, folder_.path().size() + 1, trace_ + ": ");
+        } else {
+            throw;
+        }
         throw InputError(where, error.message());
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/replay/message_at_robot.hpp"
 
-#include "experiment/replay/recorded_air.hpp"
+#include "experiment/replay/recorded_part.hpp"
 #include "experiment/reports/range_of_model.hpp"
 #include "sim/error.hpp"
 
@@ -43,7 +43,8 @@ class Account {
         message_.has_walls = !air_.scene().open_field();
     }
 
-    void take(const Record& record);
+    void read_all();
+    void read_chunks(const RecordedIndex& index);
     MessageAtRobot result() &&;
 
   private:
@@ -53,6 +54,7 @@ class Account {
         FrameAtRobot frame;
     };
 
+    void take(const Record& record);
     void begin(const RecordedFrame& frame);
     void end(const Received& received);
     void meet(Open& open, const RecordedFrame& other) const;
@@ -65,6 +67,15 @@ class Account {
     MessageAtRobot message_;
     std::vector<Open> frames_;  // of the message
 };
+
+void Account::read_all() {
+    while (const Record* record = trace_.next()) take(*record);
+}
+
+void Account::read_chunks(const RecordedIndex& index) {
+    read_part(trace_, index, index.chunks_of(uid_), air_,
+              [&](const Record& record) { take(record); });
+}
 
 void Account::take(const Record& record) {
     air_.take(record, trace_.context());
@@ -158,10 +169,15 @@ MessageAtRobot Account::result() && {
 
 }  // namespace
 
-MessageAtRobot message_at_robot(const std::string& path, std::uint64_t uid, NodeId robot) {
+MessageAtRobot message_at_robot(const std::string& path, std::uint64_t uid, NodeId robot,
+                                const RecordedIndex* index) {
     RecordedReader trace(path);
     Account account(trace, path, uid, robot);
-    while (const Record* record = trace.next()) account.take(*record);
+    if (index && index->knows_airtimes()) {
+        account.read_chunks(*index);
+    } else {
+        account.read_all();
+    }
     return std::move(account).result();
 }
 

@@ -20,6 +20,8 @@
 
 namespace rovernet {
 
+class RecordedIndex;
+
 /// Outcome of a frame at a robot other than its sender.
 enum class Outcome : std::uint8_t {
     received,       ///< frame received, the first one with this message at the robot
@@ -79,11 +81,14 @@ struct MessageAtRobot {
 };
 
 /// Examines every frame of a message at a robot.
-/// @param path  recorded trace
-/// @param uid   uid of the message
+/// @param path   recorded trace
+/// @param uid    uid of the message
+/// @param index  index of the trace, with which only the chunks with the message are read; null:
+///               none, or the trace is damaged
 /// @throws InputError if the trace has no scenario, the scenario cannot be loaded, or the trace has
 /// no such robot
-MessageAtRobot message_at_robot(const std::string& path, std::uint64_t uid, NodeId robot);
+MessageAtRobot message_at_robot(const std::string& path, std::uint64_t uid, NodeId robot,
+                                const RecordedIndex* index = nullptr);
 
 /// Sentence that explains why the robot received the message or did not receive it. Example:
 ///

@@ -57,6 +57,9 @@ class RecordedDay {
     /// @throws InputError if the scenario cannot be read
     RecordedDay(RecordedRun run, const std::string& path, DayLog log);
 
+    const RecordedRun& run() const { return run_; }
+    /// Legs (pieces of movement) of each robot, by NodeId.
+    const std::vector<std::vector<Leg>>& legs() const { return log_.legs; }
     /// Names of the robots by NodeId.
     const std::vector<std::string>& robots() const { return run_.robots; }
     /// Sentences about broken or missing parts of the trace.

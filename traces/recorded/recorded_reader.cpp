@@ -176,6 +176,16 @@ bool RecordedReader::begin_chunk() {
     return false;
 }
 
+void RecordedReader::go_to_chunk(std::uint32_t chunk) {
+    chunk_ = ByteReader({});
+    next_header_ = {};
+    while (chunks_ < chunk) {
+        const auto record = file_.next();
+        if (!record) return;
+        if (record->opcode == McapOpcode::chunk) ++chunks_;
+    }
+}
+
 /// Reports chunks that were damaged beyond recognition and skipped.
 void RecordedReader::tell_missing_chunks(std::string_view statistics) {
     ByteReader from(statistics);

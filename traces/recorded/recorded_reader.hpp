@@ -83,6 +83,11 @@ class RecordedReader {
     const std::vector<std::string>& damage() const { return file_.damage(); }
     /// Time of the last record so far.
     Time now() const { return now_; }
+    /// Number of the chunk of the last record; the first chunk of the file is 0.
+    std::uint32_t chunk() const { return chunks_ - 1; }
+    /// Goes on at the begin of a chunk, which is not before the last one. Legs are then those of
+    /// before; messages are correct. The trace must be free of damage.
+    void go_to_chunk(std::uint32_t chunk);
 
   private:
     void read_metadata(std::string_view content);

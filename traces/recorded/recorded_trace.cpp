@@ -88,6 +88,7 @@ class RecordedTrace::Packer {
     void begin(const RunInfo& run);
     std::unique_ptr<Batch> empty_batch();
     void hand_over(std::unique_ptr<Batch> batch);
+    std::string written();
     void finish();
     void give_name() { file_.give_name(); }
 
@@ -108,7 +109,7 @@ class RecordedTrace::Packer {
     std::deque<std::unique_ptr<Batch>> waiting_;   // of these the thread takes the first
     std::vector<std::unique_ptr<Batch>> emptied_;  // to be used again
     std::exception_ptr error_;
-    bool ended_ = false;
+    bool ended_ = false, packs_ = false;
     std::thread thread_;
 };
 
@@ -154,6 +155,14 @@ void RecordedTrace::Packer::hand_over(std::unique_ptr<Batch> batch) {
     changed_.notify_all();
 }
 
+/// Waits until all batches are in the file. @return path of the incomplete file
+std::string RecordedTrace::Packer::written() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return error_ || (waiting_.empty() && !packs_); });
+    if (error_) std::rethrow_exception(error_);
+    return file_.part();
+}
+
 void RecordedTrace::Packer::finish() {
     {
         const std::lock_guard lock(mutex_);
@@ -172,12 +181,15 @@ void RecordedTrace::Packer::work() try {
         if (waiting_.empty()) return;
         auto batch = std::move(waiting_.front());
         waiting_.pop_front();
+        packs_ = true;
         lock.unlock();
         changed_.notify_all();
         pack(*batch);
         batch->clear();
         lock.lock();
+        packs_ = false;
         emptied_.push_back(std::move(batch));
+        changed_.notify_all();
     }
 } catch (...) {
     const std::lock_guard lock(mutex_);
@@ -217,7 +229,7 @@ void RecordedTrace::Packer::pack(Batch& batch) {
 
 RecordedTrace::RecordedTrace(const std::string& path, Contents contents)
     : links_(contents.links),
-      chunk_(contents.chunk),
+      chunk_size_(contents.chunk),
       packer_(std::make_unique<Packer>(path, std::move(contents))),
       batch_(packer_->empty_batch()) {}
 RecordedTrace::RecordedTrace(RecordedTrace&&) noexcept = default;
@@ -241,12 +253,18 @@ void RecordedTrace::on(const Record& record, const RecordContext& context) {
         const auto& all = received->receptions;
         batch.receptions.insert(batch.receptions.end(), all.begin(), all.end());
     }
-    if (batch.size() >= chunk_) hand_over();
+    if (batch.size() >= chunk_size_) hand_over();
 }
 
 void RecordedTrace::hand_over() {
     auto next = packer_->empty_batch();
     packer_->hand_over(std::exchange(batch_, std::move(next)));
+    ++chunks_;
+}
+
+std::string RecordedTrace::flush() {
+    if (!batch_->records.empty()) hand_over();
+    return packer_->written();
 }
 
 void RecordedTrace::finish() {

@@ -51,6 +51,11 @@ class RecordedTrace {
     /// @throws RunError if the file cannot be written (disk full, for example); the error may come
     ///         some records later
     void on(const Record& record, const RecordContext& context);
+    /// Number of the chunk of the next record; the first chunk is 0.
+    std::uint32_t chunk() const { return chunks_; }
+    /// Writes all records so far. @return path of the incomplete file, for RecordedReader
+    /// @throws RunError as on()
+    std::string flush();
     /// Writes the remaining records, and completes the file. @throws RunError as on()
     void finish();
     /// Renames the file to its final name, after finish(). @throws RunError if renaming fails
@@ -63,7 +68,8 @@ class RecordedTrace {
     void hand_over();
 
     bool links_;
-    std::size_t chunk_;
+    std::size_t chunk_size_;
+    std::uint32_t chunks_ = 0;  // that were handed over
     std::unique_ptr<Packer> packer_;
     std::unique_ptr<Batch> batch_;
 };

@@ -76,6 +76,7 @@ TEST_CASE("replay of an ns-2 trace compares radios with the first given radio, n
     const Ended ended = command(folder, {"replay", sample, "--with", "radio.power=40 dBm;seed=2",
                                          "--with", "radio.power=0 dBm"});
     CHECK(ended.exit == 2);  // there is no key "seed"
+    CHECK(ended.err.find("--with seed=2") != std::string::npos);
     const Ended good =
         command(folder, {"replay", sample, "--with", "radio.power=40 dBm;scenario.seed=2", "--with",
                          "radio.power=0 dBm"});

@@ -3,10 +3,13 @@
 
 #include "experiment/reports/link_report.hpp"
 #include "experiment/run.hpp"
+#include "scenario/document/json.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/scenario_file.hpp"
 #include "sim/error.hpp"
 #include "test/traces/record_stream.hpp"
+#include "traces/recorded/recorded_index.hpp"
+#include "traces/recorded/recorded_reader.hpp"
 #include "traces/recorded/recorded_trace.hpp"
 
 #include <doctest/doctest.h>
@@ -173,6 +176,56 @@ TEST_CASE("message at a robot: levels and walls in the rescue equal those of the
     CHECK(behind_walls > 0);
     // Message 0 reaches E, so that the sentence names a way; walls are counted in it.
     CHECK(run.says(0, 4).find("wall") != std::string::npos);
+}
+
+TEST_CASE("an index answers alike from some chunks, whatever is in the others") {
+    // Robots walk and switch off; their frames overlap, and waiting makes messages long.
+    const Run run({0, 100, 200, 300}, R"([access]
+model = "csma"
+[reception]
+model = "collision"
+[[robot]]
+name = "w"
+count = 8
+off = ["1 s", "3 s"]
+on = ["2 s"]
+move = { model = "random_waypoint", area = [["0 m", "0 m"], ["300 m", "300 m"]], min_speed = "5 m/s", max_speed = "20 m/s" }
+[[traffic]]
+from = "A"
+size = "500 B"
+every = "10 ms"
+[[traffic]]
+from = "w3"
+size = "1500 B"
+start = "1 ms"
+every = "25 ms"
+)");
+    const std::string path = run.folder / "chunks.mcap";
+    RecordedReader whole(run.recorded);
+    const auto trace = std::make_shared<RecordedTrace>(
+        path,
+        RecordedTrace::Contents{.version = "1", .scenario = whole.run().scenario, .chunk = 600});
+    whole.read(Sink(trace));
+    trace->close();
+    RecordedReader reader(path);
+    RecordedIndex index;
+    std::uint64_t records = 0;
+    for (; const Record* record = reader.next(); ++records)
+        index.add(reader.chunk(), *record, reader.context());
+    CHECK(reader.chunk() > 50);
+    std::uint64_t read = 0, overlaps = 0;
+    constexpr std::uint64_t step = 7, messages = 600;
+    for (std::uint64_t uid = 0; uid < messages; uid += step) {
+        for (const auto& range : index.chunks_of(uid)) read += range.records;
+        for (const std::uint32_t robot : {1U, 3U, 5U, 11U}) {
+            const MessageAtRobot there = message_at_robot(path, uid, NodeId{robot}, &index);
+            const MessageAtRobot by_all = run.look(uid, robot);
+            CHECK(to_json_line(document_of(there)) == to_json_line(document_of(by_all)));
+            for (const FrameAtRobot& frame : there.frames) overlaps += frame.others.size();
+        }
+    }
+    CHECK(overlaps > 100);
+    CHECK(read / (messages / step) < records / 10);
 }
 
 TEST_CASE("message at a robot: a trace of a network built in code has no levels") {
