@@ -51,6 +51,28 @@ function(literal text out)
   set(${out} "${result}" PARENT_SCOPE)
 endfunction()
 
+# A script without the blanks that it does not need: beside signs, outside of texts.
+function(squeeze text out)
+  set(result "")
+  while(NOT text STREQUAL "")
+    # The code before the next text, and that text.
+    string(REGEX MATCH "^[^\"`]+" code "${text}")
+    string(LENGTH "${code}" length)
+    string(SUBSTRING "${text}" ${length} -1 text)
+    # A template may have others inside its ${ }.
+    string(REGEX MATCH "^(\"([^\"\\]|\\\\.)*\"|`([^`$]|[$][^{`]|[$]{[^`}]*(`[^`]*`[^`}]*)*})*`|[\"`])" quoted "${text}")
+    string(LENGTH "${quoted}" length)
+    string(SUBSTRING "${text}" ${length} -1 text)
+    string(REGEX REPLACE " ?([*/%<>=?:,(){}&|!]+) ?" "\\1" code "${code}")
+    foreach(pass 1 2)  # a + b + c: the second pass takes what lies between two signs
+      string(REGEX REPLACE "([^-+ ]) ([-+]) ([^-+ ])" "\\1\\2\\3" code "${code}")
+    endforeach()
+    string(REPLACE ";}" "}" code "${code}")
+    string(APPEND result "${code}${quoted}")
+  endwhile()
+  set(${out} "${result}" PARENT_SCOPE)
+endfunction()
+
 file(READ ${FOLDER}/page.html html)
 file(READ ${FOLDER}/page.css style)
 file(STRINGS ${FOLDER}/order.txt names)
@@ -66,16 +88,16 @@ foreach(text script style)
   string(REGEX REPLACE "(/\\*\\*[^*\n]*\\*/ ?|  //[^\n]*)" "" ${text} "${${text}}")
   string(REGEX REPLACE "\n[ \t\n]+" "\n" ${text} "${${text}}")
 endforeach()
-# These signs need no blanks; no text of the page has them between blanks.
-string(REGEX REPLACE " (=|=>|===|!==|&&|\\|\\||\\+=) " "\\1" script "${script}")
 # Without ends of lines where a statement, a list or a block goes on or ends: no text of the page spans lines.
 # A style needs no blanks beside its signs either.
 string(REGEX REPLACE "([;{,([])\n" "\\1" script "${script}")
 string(REGEX REPLACE "\n([]})])" "\\1" script "${script}")
+string(REPLACE "}\n" "}" script "${script}")
 string(REGEX REPLACE "([:;,{])[ \n]" "\\1" style "${style}")
 string(REGEX REPLACE ";? ?\n?}\n?" "}" style "${style}")
 # Strict mode once, for the whole script.
 string(REPLACE "\"use strict\";" "" script "${script}")
+squeeze("${script}" script)
 string(PREPEND script "\"use strict\";\n")
 csp_hash("${style}" style_hash)
 csp_hash("${script}" script_hash)

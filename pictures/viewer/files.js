@@ -33,7 +33,7 @@ const files = (() => {
     /** @param {string} text */
     function cell(text) {
         const safe = /^[=+\-@\t\r]/.test(text) ? `'${text}` : text;  // no formula for a spreadsheet
-        return /[",\n\r]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;
+        return /[\x22,\n\r]/.test(safe) ? `\x22${safe.replaceAll("\x22", "\x22\x22")}\x22` : safe;
     }
 
     /** Events of the whole run that the filter lets through. @param {Run} r @param {Blocks} all @param {Filter} filter */
