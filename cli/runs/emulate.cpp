@@ -51,7 +51,7 @@ PacedOptions emulation_options(const EmulateArguments& a, const Scenario& scenar
     a.fronts.append_to(options.fronts, a.reach);
     if (a.view.is_given())
         options.fronts.push_back(a.view.listeners(a.reach, {.speed = options.speed}));
-    options.say = announcer(a.json ? Announced::by_notice : Announced::by_output);
+    options.say = a.view.announced(announcer(a.json ? Announced::by_notice : Announced::by_output));
     options.most_late = time_of("--late", a.late);
     options.late_ends = a.on_late == "fail";
     return options;

@@ -98,7 +98,7 @@ LiveResult run_by_fronts(LiveArguments a) {
     if (config) tell_of(*config, scenario);
     PacedOptions options;
     options.folder = folder_of(a, scenario);
-    options.say = announcer(a.announced());
+    options.say = a.view.announced(announcer(a.announced()));
     if (a.speed) options.speed = a.speed;
     if (a.lockstep || !a.is_by_clock()) options.speed.reset();
     if (a.has_controllers()) options.fronts.push_back(controller_listeners(a, options.say));

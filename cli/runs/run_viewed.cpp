@@ -17,7 +17,7 @@ void run_viewed(const RunArguments& a, const Scenario& scenario) {
     PacedOptions options;
     options.folder = a.out ? *a.out : run_folder(scenario, a.options.set);
     options.speed = a.speed.value_or(1);
-    options.say = announcer(a.json ? Announced::by_notice : Announced::by_output);
+    options.say = a.view.announced(announcer(a.json ? Announced::by_notice : Announced::by_output));
     options.fronts.push_back(
         a.view.listeners(a.reach, {.of_time = true, .is_for_page = true, .speed = options.speed}));
     bool is_printed = false;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "cli/runs/view_option.hpp"
 
+#include "cli/terminal/browser.hpp"
+
+#include <utility>
+
 namespace rovernet::cli {
 
 Option ViewOption::add_to(Command command) {
@@ -13,7 +17,18 @@ Option ViewOption::add_to(Command command) {
         .add_flag("--view-control", control,
                   "allow the page to pause the run, to move robots and to send messages")
         .needs(view);
+    command.add_flag("--open", opens, "open the page in a browser, by xdg-open").needs(view);
     return view;
+}
+
+std::function<void(std::string_view)> ViewOption::announced(
+    std::function<void(std::string_view)> say) const {
+    if (!opens) return say;
+    return [say = std::move(say)](std::string_view text) {
+        constexpr std::string_view page = "page at ";
+        say(text);
+        if (text.starts_with(page)) open_in_browser(std::string(text.substr(page.size())));
+    };
 }
 
 FrontListeners ViewOption::listeners(const Reach& reach, ViewControl view) const {

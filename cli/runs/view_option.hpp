@@ -5,19 +5,25 @@
 #include "cli/terminal/command_line.hpp"
 #include "live/viewer/view_front.hpp"
 
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace rovernet::cli {
 
-/// Options --view and --view-control of a command that runs a scenario: a page that shows the run.
+/// Options --view, --view-control and --open of a command that runs a scenario: a page that shows
+/// the run.
 struct ViewOption {
     std::optional<std::string> address;
-    bool control = false;
+    bool control = false, opens = false;
 
     /// Adds the options to a command. @return the option --view
     Option add_to(Command command);
     bool is_given() const { return address.has_value(); }
+    /// Function that says what `say` says, and with --open opens the page when its address is said.
+    std::function<void(std::string_view)> announced(
+        std::function<void(std::string_view)> say) const;
     /// Listeners of the page.
     /// @param view  what the page may do without --view-control
     FrontListeners listeners(const Reach& reach, ViewControl view) const;

@@ -71,10 +71,12 @@ struct ViewArguments {
     /// Settings "path=value", or several of them separated by ";", with which the run is simulated
     /// again as the second one.
     std::vector<std::string> with;
-    std::optional<std::string> out;  ///< file of the page; none: the page is served
+    std::optional<std::string> movements;  ///< movement file of the robots of an ns-2 trace
+    std::optional<std::string> out;        ///< file of the page; none: the page is served
     std::string address = "127.0.0.1:0";
     std::optional<std::string> listen, from, to, limit;
     bool no_payloads = false, no_map = false;
+    bool opens = false;  ///< whether the page is opened in a browser
 };
 void view(const ViewArguments& arguments);
 

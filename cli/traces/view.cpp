@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "cli/terminal/browser.hpp"
 #include "cli/terminal/diagnostics.hpp"
 #include "cli/terminal/options.hpp"
 #include "cli/terminal/stop.hpp"
@@ -7,6 +8,7 @@
 #include "cli/traces/trace_commands.hpp"
 #include "cli/traces/trace_notices.hpp"
 #include "experiment/recorded_scenario.hpp"
+#include "experiment/replay/ns2_record.hpp"
 #include "experiment/replay/recorded_day.hpp"
 #include "experiment/replay/run_comparison.hpp"
 #include "experiment/reports/loss_table.hpp"
@@ -53,7 +55,7 @@ std::size_t option_size(const std::string& text) {
 /// which is run first.
 class TraceToView {
   public:
-    explicit TraceToView(const std::string& file) {
+    explicit TraceToView(const std::string& file, const ViewArguments& a) {
         if (fs::is_directory(file)) {
             path_ = (fs::path(file) / "trace.mcap").string();
             if (fs::exists(path_)) return;
@@ -61,12 +63,11 @@ class TraceToView {
                              "no trace.mcap in this folder; make one with `rovernet run FILE "
                              "--record`, or name a scenario, which is run first");
         }
-        if (fs::path(file).extension() == ".tr") {
-            throw InputError(Location{file},
-                             "an ns-2 trace has neither map nor outcomes of receptions; expected "
-                             "a trace of `rovernet run FILE --record`, or a scenario");
+        if (is_ns2_name(file)) {
+            read_ns2(file, a);
+        } else {
+            path_ = is_recorded_trace(file) ? file : run(file);
         }
-        path_ = is_recorded_trace(file) ? file : run(file);
     }
     /// Trace of the same movements and messages, simulated again with other settings.
     TraceToView(const TraceToView& recorded, const std::vector<std::string>& set) {
@@ -81,8 +82,21 @@ class TraceToView {
         });
     }
     const std::string& path() const { return path_; }
+    /// Sentences about what the input does not tell.
+    const std::vector<std::string>& missing() const { return missing_; }
 
   private:
+    /// Whether a file has the name of an ns-2 trace: NAME.tr, also packed.
+    static bool is_ns2_name(const std::string& file) {
+        const fs::path name = fs::path(file).filename();
+        return name.extension() == ".tr" || name.stem().extension() == ".tr";
+    }
+    void read_ns2(const std::string& file, const ViewArguments& a) {
+        folder_ = std::make_unique<TemporaryDirectory>();
+        path_ = folder_->path() + "/trace.mcap";
+        const Waiting waiting("reading " + file);
+        missing_ = record_ns2_trace(file, path_, {.movements = a.movements});
+    }
     std::string run(const std::string& file) {
         FileArguments given;
         given.file = file;
@@ -100,6 +114,7 @@ class TraceToView {
 
     std::unique_ptr<TemporaryDirectory> folder_;
     std::string path_;
+    std::vector<std::string> missing_;
 };
 
 /// Choice of the content of view files. @param page  size of the page without them [bytes]
@@ -152,7 +167,7 @@ struct Beside {
 /// Second trace that the arguments name: another run, or the first under other settings; none
 /// without such an argument.
 std::optional<TraceToView> second_trace(const ViewArguments& a, const TraceToView& first) {
-    if (a.other) return TraceToView(*a.other);
+    if (a.other) return TraceToView(*a.other, a);
     if (a.with.empty()) return std::nullopt;
     std::vector<std::string> set;
     for (const std::string& each : a.with)
@@ -202,7 +217,8 @@ void write_page(const ViewArguments& a, const ViewedRun& run, const Beside& besi
 /// Serves the page until Ctrl-C.
 void serve_page(const ViewArguments& a, const std::string& trace, ViewedRun run,
                 const Beside& beside) {
-    ViewerAnswers answers(trace, beside.path());
+    ViewerAnswers answers({trace, run.index},
+                          {beside.path(), beside.run ? beside.run->index : nullptr});
     Address address = read_loopback(a.address);
     if (a.listen) address.host = read_host(*a.listen);
     ViewServer server(
@@ -213,6 +229,7 @@ void serve_page(const ViewArguments& a, const std::string& trace, ViewedRun run,
         beside.run ? beside.comparison->names[0] + " and " + beside.comparison->names[1] : run.name,
         server.url());
     std::fflush(stdout);
+    if (a.opens) open_in_browser(server.url());
     const HeldStop until_told;
     server.serve([] { return stops_asked() == 0; });
 }
@@ -229,7 +246,8 @@ void view(const ViewArguments& a) {
     ViewChoice choice =
         choice_of(a, page_with("", a.other || !a.with.empty() ? "other" : "").size());
     const std::size_t most_bytes = choice.most_bytes;
-    const TraceToView trace(a.file);
+    const TraceToView trace(a.file, a);
+    choice.missing = trace.missing();
     Beside beside{.trace = second_trace(a, trace), .comparison = {}, .run = {}};
     if (beside.trace) {
         const Waiting waiting("comparing the runs");
@@ -244,10 +262,15 @@ void view(const ViewArguments& a) {
         ViewComparison& comparison = *beside.comparison;
         comparison.messages = run.message_names;
         choice.comparison = &comparison;
+        choice.missing = beside.trace->missing();
         choice.most_bytes = most_bytes - std::min(most_bytes, run.bytes.size());
         beside.run = read_view(beside.path(), choice);
     }
-    if (a.out) return write_page(a, run, beside);
+    if (a.out) {
+        write_page(a, run, beside);
+        if (a.opens) open_in_browser(*a.out);
+        return;
+    }
     serve_page(a, trace.path(), std::move(run), beside);
 }
 
@@ -259,8 +282,8 @@ void add_view(Command app) {
                        "rovernet view runs/patrol-s3 -o patrol.html --from \"10 s\" --to \"20 s\"",
                        "rovernet view runs/patrol-s3 --with propagation.model=friis -o both.html"});
     view.add_option("RUN", a.file,
-                    "folder of a run made with --record, its trace.mcap, or a scenario file, which "
-                    "is then run")
+                    "folder of a run made with --record, its trace.mcap, an ns-2 trace, or a "
+                    "scenario file, which is then run")
         .required();
     view.add_option("OTHER", a.other,
                     "second run with the same robots, shown on the right of the first run");
@@ -269,8 +292,13 @@ void add_view(Command app) {
             "KEY=VALUE of a different radio or model (several are separated by \";\"): show a "
             "second run with it, in which robots move and send messages as in the first run")
         .one_word();
+    view.add_option("--movements", a.movements,
+                    "of an ns-2 trace: the movement file that moved its robots");
     view.add_option("-o,--output", a.out,
                     "write the page to this file, which needs no server, instead of serving it");
+    view.add_flag("--open", a.opens, "open the page in a browser, by xdg-open");
+    view.add_option("--address", a.address, "address of this machine to serve at; port 0: any")
+        .shows_default();
     view.add_option(
             "--address", a.address,
             "address of this machine at which to serve the page; port 0 selects a free port")

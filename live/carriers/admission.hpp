@@ -31,6 +31,8 @@ class Admission {
 
     /// Reason to reject a request that opens a WebSocket; empty if it is accepted.
     std::string refusal(const WebRequest& request) const;
+    /// Whether only programs of this machine reach the address.
+    bool is_loopback() const { return address_.is_loopback(); }
 
   private:
     Address address_;

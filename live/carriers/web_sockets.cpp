@@ -160,7 +160,10 @@ struct WebSockets::State {
             return refuse(client, http::status::upgrade_required,
                           "this address accepts only WebSockets");
         }
-        const std::string why = refusal(client->gate, request);
+        const WebPage* page = is_upgrade ? nullptr : page_of(client);
+        const std::string why = page && page->is_public && !client->gate.admission.is_loopback()
+                                    ? ""
+                                    : refusal(client->gate, request);
         if (!why.empty()) return refuse(client, http::status::forbidden, why);
         if (!is_upgrade) return send_page(client);
         // A client must wait for the answer before it sends a message (RFC 6455, 4.1).
@@ -178,6 +181,13 @@ struct WebSockets::State {
         });
     }
 
+    /// Page that a client asks for; null if there is none.
+    static const WebPage* page_of(const Shared& client) {
+        const std::string_view target = text_of(client->request.get().target());
+        const auto page = client->gate.pages.find(target.substr(0, target.find('?')));
+        return page == client->gate.pages.end() ? nullptr : &page->second;
+    }
+
     /// Answers a request that opens no WebSocket.
     void send_page(const Shared& client) {
         const auto& request = client->request.get();
@@ -186,12 +196,10 @@ struct WebSockets::State {
             client->response.set(http::field::allow, "GET, HEAD");
             return refuse(client, http::status::method_not_allowed, "expected GET or HEAD");
         }
-        const std::string_view target = text_of(request.target());
-        const auto page = client->gate.pages.find(target.substr(0, target.find('?')));
-        const bool is_there = page != client->gate.pages.end();
         const WebPage absent{"text/plain", "there is no such page\n"};
-        respond(client, is_there ? http::status::ok : http::status::not_found,
-                is_there ? page->second : absent, is_head);
+        const WebPage* page = page_of(client);
+        respond(client, page ? http::status::ok : http::status::not_found, page ? *page : absent,
+                is_head);
     }
 
     void refuse(const Shared& client, http::status status, const std::string& why) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "live/viewer/answers.hpp"
 
+#include "experiment/replay/air_at_robot.hpp"
 #include "experiment/replay/message_at_robot.hpp"
 #include "experiment/reports/link_report.hpp"
 #include "experiment/reports/link_table.hpp"
@@ -37,17 +38,19 @@ bool has_member(const JsonElement& object, std::string_view key) {
 
 }  // namespace
 
-ViewerAnswers::ViewerAnswers(const std::string& trace, const std::string& other)
-    : trace_(trace), parser_(std::make_unique<JsonParser>()) {
-    const RecordedReader reader(trace);
+ViewerAnswers::ViewerAnswers(IndexedTrace trace, const IndexedTrace& other)
+    : trace_(std::move(trace)), parser_(std::make_unique<JsonParser>()) {
+    const RecordedReader reader(trace_.path);
     robots_ = reader.run().robots;
-    replayed_ = std::make_unique<ReplayedScenario>(reader.run(), trace);
+    replayed_ = std::make_unique<ReplayedScenario>(reader.run(), trace_.path);
     scenario_ = replayed_->with({});
-    if (!other.empty()) other_ = std::make_unique<ViewerAnswers>(other);
+    if (!other.path.empty()) other_ = std::make_unique<ViewerAnswers>(other);
 }
 
-ViewerAnswers::ViewerAnswers(std::shared_ptr<const Network> network)
-    : running_(std::move(network)), parser_(std::make_unique<JsonParser>()) {
+ViewerAnswers::ViewerAnswers(std::shared_ptr<const Network> network, History history)
+    : running_(std::move(network)),
+      history_(std::move(history)),
+      parser_(std::make_unique<JsonParser>()) {
     for (std::uint32_t i = 0; i < running_->size(); ++i)
         robots_.push_back(running_->name(NodeId{i}));
 }
@@ -78,6 +81,7 @@ std::string ViewerAnswers::answer(std::string_view question, const Others& other
 
 Table ViewerAnswers::answer_of(std::string_view op, const JsonElement& question) {
     if (op == "why") return why(question);
+    if (op == "air") return air(question);
     if (op == "pair") return pair(question);
     if (op == "robot") return link_table(question);
     if (op == "links") return links(question);
@@ -85,7 +89,7 @@ Table ViewerAnswers::answer_of(std::string_view op, const JsonElement& question)
     if (op == "svg") return svg(question);
     throw RequestError(
         "unknown_op", "op",
-        fmt::format("found \"{}\", expected why, pair, robot, links, coverage or svg", op));
+        fmt::format("found \"{}\", expected why, air, pair, robot, links, coverage or svg", op));
 }
 
 NodeId ViewerAnswers::robot(const JsonElement& question, std::string_view key) const {
@@ -102,12 +106,21 @@ Time ViewerAnswers::time(const JsonElement& question) const {
 Table ViewerAnswers::why(const JsonElement& question) const {
     const std::uint64_t uid = member(question, "uid").whole_number(0, 1ULL << 53U);
     const NodeId node = robot(question, "robot");
-    if (running_) {
-        throw RequestError("not_recorded", "op",
-                           "the reason can be found only in a recorded trace: when a run with "
-                           "--record has ended, `rovernet view FOLDER` answers this question");
+    const IndexedTrace trace = running_ ? history_.of_message(uid) : trace_;
+    if (trace.path.empty()) {
+        throw RequestError("not_kept", "uid",
+                           fmt::format("what happened to message {} is not kept: it was sent "
+                                       "before pages looked on, or too long ago",
+                                       uid));
     }
-    return document_of(message_at_robot(trace_, uid, node));
+    return document_of(message_at_robot(trace.path, uid, node, trace.index.get()));
+}
+
+Table ViewerAnswers::air(const JsonElement& question) const {
+    const NodeId node = robot(question, "robot");
+    const IndexedTrace trace = running_ ? history_.of_present() : trace_;
+    const Time at = running_ ? running_->now() : time(question);
+    return document_of(air_at_robot(trace.path, node, at, trace.index.get()));
 }
 
 Table ViewerAnswers::pair(const JsonElement& question) const {

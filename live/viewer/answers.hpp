@@ -19,6 +19,13 @@ namespace rovernet {
 struct JsonElement;
 class JsonParser;
 class Network;
+class RecordedIndex;
+
+/// Recorded trace, and its index, with which it need not be read for each question.
+struct IndexedTrace {
+    std::string path;
+    std::shared_ptr<const RecordedIndex> index = nullptr;  ///< null: none
+};
 
 /// Answers to the questions of the viewer's page about a run (docs/formats/view-format.md): why a
 /// robot has a message, link budgets, link tables, coverage. Each answer is computed by the
@@ -26,12 +33,18 @@ class Network;
 class ViewerAnswers {
   public:
     /// Answers about a recorded run, at any of its times.
-    /// @param trace  path of the recorded trace
-    /// @param other  path of a second trace, for questions with "run": 1; empty: none
+    /// @param other  second run, which questions with "run": 1 are about; without a path: none
     /// @throws InputError if a trace has no scenario
-    explicit ViewerAnswers(const std::string& trace, const std::string& other = {});
-    /// Answers about a running network at its present time, which each answer contains as `t_ns`.
-    explicit ViewerAnswers(std::shared_ptr<const Network> network);
+    explicit ViewerAnswers(IndexedTrace trace, const IndexedTrace& other = {});
+    /// What has happened in a network that runs, as recorded traces.
+    struct History {
+        /// Trace with all that is recorded of a message; without a path: it is no longer kept.
+        std::function<IndexedTrace(std::uint64_t uid)> of_message;
+        /// Trace of the last seconds.
+        std::function<IndexedTrace()> of_present;
+    };
+    /// Answers about a network that runs, at its present time, which the answers name as `t_ns`.
+    ViewerAnswers(std::shared_ptr<const Network> network, History history);
     ~ViewerAnswers();
 
     /// Function that answers further questions; returns an empty result for an unknown question.
@@ -43,6 +56,7 @@ class ViewerAnswers {
   private:
     Table answer_of(std::string_view op, const JsonElement& question);
     Table why(const JsonElement& question) const;
+    Table air(const JsonElement& question) const;
     Table pair(const JsonElement& question) const;
     Table link_table(const JsonElement& question);
     Table links(const JsonElement& question);
@@ -58,9 +72,10 @@ class ViewerAnswers {
     /// kept, because the next question is often about the same or a slightly later time.
     const Network& network(const JsonElement& question);
 
-    std::string trace_;                       // path of the trace; empty for a running network
-    std::shared_ptr<const Network> running_;  // running network; null for a trace
-    std::vector<std::string> robots_;         // names of the robots, by NodeId
+    IndexedTrace trace_;                      // without a path: of a network that runs
+    std::shared_ptr<const Network> running_;  // null: of a trace
+    History history_;                         // of running_
+    std::vector<std::string> robots_;         // names by NodeId
     std::unique_ptr<ReplayedScenario> replayed_;
     Scenario scenario_;
     std::unique_ptr<Network> network_;

@@ -66,7 +66,10 @@ void ViewFront::prepare(Session& session, const Scenario& scenario) {
 }
 
 void ViewFront::begin(Session&, const Scenario&) {
-    answers_.emplace(network_);
+    answers_.emplace(network_,
+                     ViewerAnswers::History{
+                         .of_message = [&](std::uint64_t uid) { return history().of_message(uid); },
+                         .of_present = [&] { return history().of_present(); }});
     waits_ = control_.is_for_page;
     if (waits_) limit_ = now();
 }
@@ -75,8 +78,15 @@ void ViewFront::begin(Session&, const Scenario&) {
 void ViewFront::observe() {
     if (stream_ || is_over_) return;
     stream_.emplace(*scenario_, network_);
+    history_.emplace(*scenario_, network_);
     log_.clear();
     next_ = now();
+}
+
+/// @throws RequestError if nothing was kept
+ViewHistory& ViewFront::history() {
+    if (!history_) throw RequestError("over", "op", "no page looked on when the run ended");
+    return *history_;
 }
 
 void ViewFront::opened(Connection client, ListenerId) {
@@ -103,6 +113,7 @@ void ViewFront::closed(Connection gone) {
 
 std::size_t ViewFront::received(Connection from, std::string_view question) {
     const auto others = [&](std::string_view op, const JsonElement& asked) -> std::optional<Table> {
+        if (op == "series") return series();
         if (op == "pace") return pace(asked);
         if (op == "step") return step(asked);
         if (op == "command") return command(asked);
@@ -110,6 +121,16 @@ std::size_t ViewFront::received(Connection from, std::string_view question) {
     };
     carrier_.send(from, answers_->answer(question, others));
     return 1;
+}
+
+/// Series for the page's charts, and the metrics of a run that is over.
+Table ViewFront::series() const {
+    if (!stream_) throw RequestError("over", "op", "no page looked on when the run ended");
+    Table answer;
+    answer.set("from_ns", (stream_->begin() - start_of_run).count());
+    answer.set("series", stream_->series());
+    answer.set("metrics", metrics_);
+    return answer;
 }
 
 /// State of the run, the entry `live` of a head.
@@ -138,6 +159,7 @@ void ViewFront::tell() {
     next_ = now() + std::max<Duration>(simulated, 1ns);
     if (watching_.empty() && !control_.is_for_page && real > last_seen_ + patience) {
         stream_.reset();
+        history_.reset();
         log_.clear();
         return;
     }
@@ -239,7 +261,8 @@ Table ViewFront::command(const JsonElement& question) {
     return answer;
 }
 
-void ViewFront::ended(std::string_view fingerprint, const Table&) {
+void ViewFront::ended(std::string_view fingerprint, const Table& metrics) {
+    metrics_ = metrics;
     session_ = nullptr;
     is_over_ = true;
     fingerprint_ = fingerprint;
@@ -248,7 +271,7 @@ void ViewFront::ended(std::string_view fingerprint, const Table&) {
 
 FrontListeners view_listener(const Address& at, const ViewControl& control) {
     WebPages pages;
-    pages["/"] = {"text/html; charset=utf-8", live_page()};
+    pages["/"] = {"text/html; charset=utf-8", live_page(), true};
     return {.entries = {{.at = at, .is_web = true}},
             .make =
                 [control](Front::Carrier carrier) {

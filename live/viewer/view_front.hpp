@@ -5,6 +5,7 @@
 #include "live/carriers/front.hpp"
 #include "live/paced_run.hpp"
 #include "live/viewer/answers.hpp"
+#include "live/viewer/view_history.hpp"
 #include "live/viewer/view_log.hpp"
 #include "pictures/viewer/view_stream.hpp"
 
@@ -57,10 +58,12 @@ class ViewFront : public Front {
     using RealTime = std::chrono::steady_clock::time_point;
 
     void observe();
+    ViewHistory& history();
     Table live() const;
     void add_part(bool is_last);
     void send_parts();
     Table answer(const JsonElement& question, Connection from);
+    Table series() const;
     Table pace(const JsonElement& question);
     Table step(const JsonElement& question);
     Table command(const JsonElement& question);
@@ -73,7 +76,8 @@ class ViewFront : public Front {
     Session* session_ = nullptr;  // null after the end of the run
     const Scenario* scenario_ = nullptr;
     std::shared_ptr<Network> network_;
-    std::optional<ViewStream> stream_;  // empty if no page is connected
+    std::optional<ViewStream> stream_;    // none: nobody watches
+    std::optional<ViewHistory> history_;  // as stream_
     std::optional<ViewerAnswers> answers_;
     std::unique_ptr<JsonParser> parser_;
     ViewLog log_;
@@ -90,6 +94,7 @@ class ViewFront : public Front {
     bool waits_ = false;  // the run waits for its first page
     bool is_over_ = false;
     std::string fingerprint_;
+    Table metrics_;
 };
 
 /// Listeners of the viewer's page for a live run. @param at  address of this machine

@@ -3,7 +3,7 @@
 const address = (() => {
     "use strict";
     const pause_ms = 300, ours = "rovernet";
-    let timer = 0, last = "";
+    let timer = 0, last = "", awaited = -1;  // message of the address that a run which goes on has not sent yet
 
     /** @returns {string} */
     function text() {
@@ -14,7 +14,7 @@ const address = (() => {
         if (view) p.set("view", [view.x, view.y, view.scale].map(v => Number(v.toPrecision(7))).join(","));
         if (span) p.set("span", [span.from, span.to].map(words_of_time).join(","));
         if (chosen.length) p.set("robots", chosen.join(","));
-        if (message >= 0) p.set("message", String(message));
+        if (message >= 0 || awaited >= 0) p.set("message", String(message >= 0 ? message : awaited));
         if (sides.own.all.length > 1) p.set("runs", runs);
         if (panel !== "events") p.set("panel", panel);
         if (!trails) p.set("trails", "0");
@@ -82,10 +82,13 @@ const address = (() => {
     }
 
     function begin() {
+        const { run: r } = sides.own.all[0], asked = Number(/[#&]message=(\d+)/.exec(location.hash)?.[1] ?? -1);
+        if (r.head.live && !r.head.live.ended && asked >= r.messages) awaited = asked;
         if (location.hash.length > 1) selection.set(parsed(location.hash));
         last = location.hash;
         selection.listen(changed => {
             clearTimeout(timer);
+            if (changed.has("message")) awaited = -1;
             if (text() === location.hash) last = location.hash;
             else if (changed.has("robots") || changed.has("message")) write(true);
             else if (!selection.state.playing) timer = setTimeout(() => write(false), pause_ms);
@@ -97,5 +100,8 @@ const address = (() => {
         });
     }
 
-    return { begin, text };
+    /** A run that goes on has more messages. @param {Run} r */
+    function grown(r) { if (awaited >= 0 && awaited < r.messages) selection.set({ message: awaited }); }
+
+    return { begin, text, grown };
 })();

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Charts of the run's series, and its metrics. Their time is that of the time line.
-/** @typedef {{chart: string, name: string, unit: string, points: number, width_ns: number, outcome?: number}} Series */
+/** @typedef {{chart: string, name: string, unit: string, points: number, width_ns: number, outcome?: number, values?: (number|null)[]}} Series */
 /** @typedef {{name: string, color: () => string, width: number, values: Numbers}} Curve */
 /** @typedef {{canvas: HTMLCanvasElement, told: HTMLElement, unit: string, curves: Curve[]}} Chart */
 const charts = (() => {
     "use strict";
     const height = 92, left = 40, axis = 16, top = 6, least_drag = 4;  // [px]
-    /** @type {{run: Run, charts: Chart[], key: string, hover: number, drag: {chart: Chart, from: number, to: number}|null}} */
-    const own = { run: /** @type {any} */ (null), charts: [], key: "", hover: -1, drag: null };
+    /** @type {{run: Run, charts: Chart[], key: string, hover: number, drag: {chart: Chart, from: number, to: number}|null, asked: number}} */
+    const own = { run: /** @type {any} */ (null), charts: [], key: "", hover: -1, drag: null, asked: 0 };
+    const again_ms = 1000;
 
     function width() { return Math.max(120, dom.by_id("charts-panel").clientWidth - 8); }
     function span() { return selection.state.span ?? { from: 0, to: Math.max(1, own.run.duration) }; }
@@ -150,6 +151,7 @@ const charts = (() => {
     /** @param {State} state */
     function update(state) {
         if (state.panel !== "charts") return;
+        if (live.is_live()) ask();
         const key = [state.t, state.span?.from, state.span?.to, own.hover, own.drag?.to, width(), theme.is_dark(), devicePixelRatio].join(" ");
         if (key === own.key) return;
         own.key = key;
@@ -159,11 +161,22 @@ const charts = (() => {
         }
     }
 
+    /** Asks for the series of a run that goes on, once a second, and when it has ended. */
+    function ask() {
+        const now = performance.now(), goes_on = live.goes_on();
+        if (own.drag || own.asked === Infinity || goes_on && now < own.asked + again_ms) return;
+        own.asked = goes_on ? now : Infinity;
+        server.ask("series", {}).then(answer => {
+            fill(answer.series, answer.metrics, ...(answer.from_ns > 0 ? [dom.make("p", "muted", `From ${words.seconds(answer.from_ns, 3)} s on, when a page came.`)] : []));
+            main.redraw();
+        }, error => dom.by_id("charts-panel").replaceChildren(dom.make("p", "muted", error.message)));
+    }
+
     /** Curves of one chart; outcomes of receptions by their sign. @param {Series[]} series @returns {Curve[]} */
     function curves_of(series) {
         /** @type {Map<number, Curve>} */ const by_sign = new Map(), out = /** @type {Curve[]} */ ([]);
         for (const one of series) {
-            const values = own.run.col(`series.${own.run.head.series.indexOf(one)}`), i = out.length;
+            const i = out.length, values = one.values ? Float64Array.from(one.values, v => v ?? NaN) : own.run.col(`series.${own.run.head.series.indexOf(one)}`);
             if (one.outcome === undefined) {
                 out.push({ name: words.visible(one.name), color: () => theme.category(i), width: one.width_ns, values });
                 continue;
@@ -175,24 +188,34 @@ const charts = (() => {
         return [...out, ...by_sign.values()];
     }
 
+    /** Canvas of a chart: the one that is there, or a new one. @param {string} title @returns {Chart} */
+    function chart_of(title) {
+        const there = own.charts.find(chart => chart.canvas.title === title);
+        if (there) return there;
+        const canvas = /** @type {HTMLCanvasElement} */ (dom.make("canvas", "chart"));
+        canvas.title = title;
+        canvas.setAttribute("role", "img");
+        const chart = { canvas, told: dom.make("p", "told"), unit: "", curves: [] };
+        pointers(chart);
+        return chart;
+    }
+
+    /** @param {Series[]} series @param {Record<string, unknown>} metrics @param {(Node|string)[]} first */
+    function fill(series, metrics, ...first) {
+        own.charts = [...new Set(series.map(s => s.chart))].map(title => {
+            const some = series.filter(s => s.chart === title);
+            return Object.assign(chart_of(title), { unit: some[0].unit, curves: curves_of(some) });
+        });
+        own.key = "";
+        const rows = Object.entries(metrics).filter(([, v]) => typeof v === "number").map(([key, v]) => /** @type {[string, string]} */ ([tables.title(key), tables.text(v)]));
+        dom.by_id("charts-panel").replaceChildren(...first, ...own.charts.flatMap(chart => [dom.make("h3", "", chart.canvas.title), chart.told, chart.canvas]),
+            ...(rows.length ? [dom.make("h3", "", "Metrics of the run"), dom.facts(rows)] : []));
+    }
+
     /** @param {Run} r */
     function show(r) {
-        own.run = r;
-        Object.assign(own, { charts: [], key: "" });
-        const { series, metrics } = r.head, panel = dom.by_id("charts-panel");
-        panel.replaceChildren();
-        if (live.is_live()) panel.append(dom.make("p", "muted", "Charts are made of a run that is over: record it, and open its folder by \u201crovernet view\u201d."));
-        for (const title of new Set(series.map(s => s.chart))) {
-            const some = series.filter(s => s.chart === title), canvas = /** @type {HTMLCanvasElement} */ (dom.make("canvas", "chart")), told = dom.make("p", "told");
-            canvas.title = title;
-            canvas.setAttribute("role", "img");
-            const chart = { canvas, told, unit: some[0].unit, curves: curves_of(some) };
-            own.charts.push(chart);
-            pointers(chart);
-            panel.append(dom.make("h3", "", title), told, canvas);
-        }
-        const rows = Object.entries(metrics).filter(([, v]) => typeof v === "number").map(([key, v]) => /** @type {[string, string]} */ ([tables.title(key), tables.text(v)]));
-        if (rows.length) panel.append(dom.make("h3", "", "Metrics of the run"), dom.facts(rows));
+        Object.assign(own, { run: r, asked: 0, charts: [] });
+        fill(r.head.series, r.head.metrics);
     }
 
     /** Values of all charts at a time, for tests. @param {number} t */

@@ -67,6 +67,11 @@ void FrameColumns::on(const Record& record, const RecordContext& context) {
     }
 }
 
+std::size_t FrameColumns::last_flow() const {
+    const auto& flows = messages_.flow;
+    return flows.empty() ? 0 : *std::max_element(flows.begin(), flows.end());
+}
+
 std::uint32_t FrameColumns::index_of(MessageId id, const RecordContext& context) {
     const Message& message = context.messages[id];
     if (id.index() >= known_.size()) known_.resize(id.index() + 1);

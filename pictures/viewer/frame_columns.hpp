@@ -52,6 +52,8 @@ class FrameColumns {
     std::size_t frames() const { return flights_.size(); }
     std::size_t receptions() const { return receptions_.size(); }
     std::size_t messages() const { return messages_.uid.size(); }
+    /// Largest number of a message's flow; 0 without messages.
+    std::size_t last_flow() const;
     /// Identity of each message (MessageName), by the message's index in the columns.
     const std::vector<MessageName>& message_names() const { return messages_.name; }
     /// Number of frames that write() left out.

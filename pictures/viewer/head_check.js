@@ -22,6 +22,7 @@ const head_check = (() => {
         version: text,
         duration_ns: count,
         robots: list(object({ name: text, radius: number })),
+        antennas: list(list(number, 1)),
         map: object({
             bounds: list(number, 4), floors: list(number, 1), materials: list(object({ name: text, style: count })),
             doors: list(door), stairs: list(stairs)

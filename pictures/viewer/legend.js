@@ -93,10 +93,10 @@ const legend = (() => {
 
     /** @param {Run} r @param {Blocks} all @param {State} state */
     function draw(r, all, state) {
-        const key = [state.runs, camera.now.scale, camera.now.width, state.storey, state.trails, theme.is_dark(), devicePixelRatio, all.kinds.size, coverage.version(), state.links && `${links.version()} ${state.robots}`, message_panel.version(), signs.counts(r).map(n => n > 0)].join(" ");
+        const key = [state.runs, camera.now.scale, camera.now.width, state.storey, state.trails, theme.is_dark(), devicePixelRatio, all.kinds.size, coverage.version(), state.links && links.version(), state.robots, message_panel.version(), signs.counts(r).map(n => n > 0)].join(" ");
         if (key === last) return;
         last = key;
-        dom.by_id("legend").replaceChildren(scale_bar(), ...places(r, state.storey), ...marks(r, state), ...frames(r, all), ...links.legend(item, state), ...message_panel.legend(item), ...compare.legend(item), ...coverage.legend(item));
+        dom.by_id("legend").replaceChildren(scale_bar(), ...places(r, state.storey), ...marks(r, state), ...antennas.legend(item, r, state), ...frames(r, all), ...links.legend(item, state), ...message_panel.legend(item), ...compare.legend(item), ...coverage.legend(item));
     }
 
     return { draw };

@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: MIT
 // Links between robots: by margin, as the server tells, or those that the trace has seen come up.
 /** @typedef {{from: number, to: number, margin: number|null, two_way: boolean}} LinkLine */
+/** @typedef {{run: Run, i: number, timer: number, busy: boolean, lines: LinkLine[], key: string, failed: string, t: number, at: number, up: Set<number>}} Lines */
 const links = (() => {
     "use strict";
     const rest_ms = 200, head = 7, gap = 2, scale = 26;  // [px]
-    /** @type {{run: Run, changed: () => void, say: (text: string) => void, timer: number, busy: boolean, lines: LinkLine[], key: string, failed: string, t: number, version: number, at: number, up: Set<number>, away: number}} */
-    const own = { run: /** @type {any} */ (null), changed: () => {}, say: () => {}, timer: 0, busy: false, lines: [], key: "", failed: "", t: -1, version: 0, at: 0, up: new Set(), away: 0 };
+    /** @type {{changed: () => void, say: (text: string) => void, of: Lines[], version: number, away: number}} */
+    const own = { changed: () => {}, say: () => {}, of: [], version: 0, away: 0 };
+
+    /** Lines of a run. @param {number} i its number @returns {Lines} */
+    function lines_on(i) {
+        return own.of[i] ??= { run: sides.own.all[i].run, i, timer: 0, busy: false, lines: [], key: "", failed: "", t: -1, at: 0, up: new Set() };
+    }
 
     /** Robot whose links are shown, or -1: all. @param {State} state */
     function chosen(state) { return state.robots.at(-1) ?? -1; }
     /** @param {State} state */
-    function key_of(state) { return `${sides.lead()} ${chosen(state)} ${state.t}`; }
+    function key_of(state) { return `${chosen(state)} ${state.t}`; }
 
     /** @param {any} a answer @returns {LinkLine[]} */
     function lines_of(a) {
@@ -21,23 +27,24 @@ const links = (() => {
         }));
     }
 
-    async function ask() {
+    /** @param {Lines} of */
+    async function ask(of) {
         const { state } = selection, key = key_of(state), robot = chosen(state), { t } = state;
-        own.timer = 0;
-        if (own.busy || !state.links) return;
-        own.busy = true;
+        of.timer = 0;
+        if (of.busy || !state.links) return;
+        of.busy = true;
         try {
             const t_ns = Math.floor(t);
-            const answer = await sides.ask("links", robot < 0 ? { t_ns } : { t_ns, robot });
-            own.lines = lines_of(answer);
-            if (own.failed) own.say("");
-            [own.key, own.t, own.failed] = [key, answer.t_ns ?? t, ""];
+            const answer = await sides.ask("links", robot < 0 ? { t_ns } : { t_ns, robot }, of.i);
+            of.lines = lines_of(answer);
+            if (of.failed) own.say("");
+            [of.key, of.t, of.failed] = [key, answer.t_ns ?? t, ""];
         } catch (error) {
-            own.lines = [];
-            [own.key, own.failed] = ["", key];
+            of.lines = [];
+            [of.key, of.failed] = ["", key];
             own.say(error instanceof Error ? error.message : String(error));
         }
-        own.busy = false;
+        of.busy = false;
         own.version++;
         own.changed();
     }
@@ -45,40 +52,42 @@ const links = (() => {
     /** Asks when the time rests; while it passes, when the last answer is there. @param {State} state */
     function update(state) {
         const key = key_of(state);
-        if (!state.links || !server.is_served() || own.busy || key === own.key || key === own.failed) return;
-        if (state.playing && own.timer) return;
-        clearTimeout(own.timer);
-        own.timer = setTimeout(ask, rest_ms);
+        if (!state.links || !server.is_served()) return;
+        for (const of of sides.shown().map(lines_on)) {
+            if (of.busy || key === of.key || key === of.failed || state.playing && of.timer) continue;
+            clearTimeout(of.timer);
+            of.timer = setTimeout(() => ask(of), rest_ms);
+        }
     }
 
-    /** Links that are up at a time by the changes that the trace has. @param {number} t */
-    function follow(t) {
-        const r = own.run, time = r.col("links.time"), until = run.count_until(time, t);
-        if (until === own.at) return;
-        if (until < own.at) {
-            own.at = 0;
-            own.up.clear();
+    /** Links that are up at a time by the changes that the trace has. @param {Lines} of @param {number} t */
+    function follow(of, t) {
+        const r = of.run, time = r.col("links.time"), until = run.count_until(time, t);
+        if (until === of.at) return;
+        if (until < of.at) {
+            of.at = 0;
+            of.up.clear();
         }
         const from = r.col("links.from"), to = r.col("links.to"), up = r.col("links.up");
-        for (; own.at < until; own.at++) {
-            const link = from[own.at] * r.robots + to[own.at];
-            if (up[own.at]) own.up.add(link); else own.up.delete(link);
+        for (; of.at < until; of.at++) {
+            const link = from[of.at] * r.robots + to[of.at];
+            if (up[of.at]) of.up.add(link); else of.up.delete(link);
         }
-        own.lines = [];
-        for (const link of own.up) {
-            const [a, b] = [Math.floor(link / r.robots), link % r.robots], two_way = own.up.has(b * r.robots + a);
-            if (!two_way || a < b) own.lines.push({ from: a, to: b, margin: null, two_way });
+        of.lines = [];
+        for (const link of of.up) {
+            const [a, b] = [Math.floor(link / r.robots), link % r.robots], two_way = of.up.has(b * r.robots + a);
+            if (!two_way || a < b) of.lines.push({ from: a, to: b, margin: null, two_way });
         }
         own.version++;
     }
 
-    /** Whether the trace tells links, and no server. */
-    function by_trace() { return !server.is_served() && Boolean(own.run.columns["links.time"]?.length); }
+    /** Whether the trace tells links, and no server. @param {Lines} of */
+    function by_trace(of) { return !server.is_served() && Boolean(of.run.columns["links.time"]?.length); }
 
-    /** Lines to be drawn. @param {State} state @returns {LinkLine[]} */
-    function shown(state) {
+    /** Lines to be drawn on the map of a run. @param {State} state @param {number} [i] its number @returns {LinkLine[]} */
+    function shown(state, i = sides.lead()) {
         const one = chosen(state), { storey } = robots.at;
-        const seen = own.lines.filter(l => one < 0 || l.from === one || l.to === one);
+        const seen = lines_on(i).lines.filter(l => one < 0 || l.from === one || l.to === one);
         const here = seen.filter(l => storey[l.from] === state.storey && storey[l.to] === state.storey);
         own.away = seen.filter(l => storey[l.from] === state.storey || storey[l.to] === state.storey).length - here.length;
         return here;
@@ -111,14 +120,14 @@ const links = (() => {
         c.fill();
     }
 
-    /** @param {CanvasRenderingContext2D} c @param {State} state */
-    function draw(c, state) {
+    /** @param {CanvasRenderingContext2D} c @param {State} state @param {number} i number of the run */
+    function draw(c, state, i) {
         if (!state.links) return;
-        if (by_trace()) follow(state.t);
-        const { x, y } = robots.at;
-        c.globalAlpha = by_trace() || own.t === state.t || live.follows() ? 0.9 : 0.35;
-        const all = shown(state);
-        for (const l of all.sort((a, b) => (a.margin ?? 0) - (b.margin ?? 0))) line(c, x[l.from], y[l.from], x[l.to], y[l.to], robots.radius(own.run, l.to), l);
+        const of = lines_on(i), { x, y } = robots.at, traced = by_trace(of);
+        if (traced) follow(of, state.t);
+        c.globalAlpha = traced || of.t === state.t || live.follows() ? 0.9 : 0.35;
+        const all = shown(state, i);
+        for (const l of all.sort((a, b) => (a.margin ?? 0) - (b.margin ?? 0))) line(c, x[l.from], y[l.from], x[l.to], y[l.to], robots.radius(of.run, l.to), l);
         c.setLineDash([]);
         c.globalAlpha = 1;
     }
@@ -138,10 +147,11 @@ const links = (() => {
     /** @param {Item} item @param {State} state */
     function legend(item, state) {
         if (!state.links) return [];
-        if (!server.is_served() && !by_trace()) return [];
-        const all = shown(state), out = [], some = all.find(l => l.margin === null), single = all.find(l => !l.two_way);
-        const when = by_trace() ? "up by the trace" : own.t < 0 ? "asked \u2026" : `at ${words.seconds(own.t, 3)} s`;
-        if (!by_trace() && (!some || all.some(l => l.margin !== null))) out.push(item(scale * 5 + 16, scale_of, `link margin [dB] ${when}`, "Level above the receiver's sensitivity, of the weaker direction"));
+        const maps = sides.shown(), { t } = lines_on(maps[0]), traced = maps.some(i => by_trace(lines_on(i)));
+        if (!server.is_served() && !traced) return [];
+        const all = maps.flatMap(i => shown(state, i)), out = [], some = all.find(l => l.margin === null), single = all.find(l => !l.two_way);
+        const when = traced ? "up by the trace" : t < 0 ? "asked \u2026" : `at ${words.seconds(t, 3)} s`;
+        if (!traced && (!some || all.some(l => l.margin !== null))) out.push(item(scale * 5 + 16, scale_of, `link margin [dB] ${when}`, "Level above the receiver's sensitivity, of the weaker direction"));
         if (some) out.push(item(24, c => line(c, 0, 8, 24, 8, 0, { from: 0, to: 0, margin: null, two_way: true }), `link ${when}`));
         if (single) out.push(item(30, c => line(c, 0, 8, 30, 8, 0, single), "one way only"));
         if (own.away) out.push(item(1, () => {}, words.counted(own.away, "link") + " to other storeys"));
@@ -151,15 +161,15 @@ const links = (() => {
     /** @param {() => void} changed @param {(text: string) => void} say */
     function begin(changed, say) { Object.assign(own, { changed, say }); }
 
-    /** @param {Run} r */
-    function show(r) { Object.assign(own, { run: r, lines: [], key: "", failed: "", t: -1, at: 0, up: new Set() }); }
+    /** The runs that are shown have changed: what was asked stays. */
+    function show() {}
 
     /** Shows links, or takes them away. */
     function toggle() {
         const on = !selection.state.links;
-        if (on && !server.is_served() && !by_trace()) own.say(`The trace tells no links: record it with \u201c--set trace.links=true\u201d, or open it by \u201crovernet view\u201d.`);
+        if (on && !server.is_served() && !sides.shown().some(i => by_trace(lines_on(i)))) own.say(`The trace tells no links: record it with \u201c--set trace.links=true\u201d, or open it by \u201crovernet view\u201d.`);
         else own.say("");
-        own.failed = "";
+        for (const of of own.of) if (of) of.failed = "";
         selection.set({ links: on });
     }
 

@@ -44,6 +44,7 @@ const live = (() => {
         }
         const file = rvw.open(bytes, undefined, head_check.part_fault);
         await growth.add(own.run, own.blocks, file);
+        address.grown(own.run);
         list.renew();
         if (file.head.live) take(file.head.live);
         renew();
@@ -66,6 +67,7 @@ const live = (() => {
         own.coming.then(() => {
             clock.extend(own.state?.now_ns ?? 0, false);
             own.changed();
+            if (!own.run) own.failed(new rvw.ViewError(`The server has gone, or does not know this page. ${server.token_hint}`));
             if (!own.state?.ended) server.come_back();
         });
     }

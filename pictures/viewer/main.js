@@ -57,9 +57,10 @@ const main = (() => {
         c.clip();
         robots.place(r, state.t);
         map.draw(c, r, state);
+        antennas.draw(c, r, state);
         pixels.begin();
         robots.trails(c, r, state);
-        if (i === sides.lead()) links.draw(c, state);
+        links.draw(c, state, i);
         const whole = flights.draw(c, all, state);
         message_panel.draw(c, compare.flood(i), state);
         pair_panel.draw(c, i, state);
@@ -203,7 +204,8 @@ const main = (() => {
         charts: charts.values, levels: coverage.levels,
         /** @param {number} robot */
         pixel: robot => [robots.at.x[robot], robots.at.y[robot]],
-        links: () => selection.state.links ? links.shown(selection.state).map(l => ({ ...l, ...links.look(l.margin) })) : [],
+        /** @param {number} [i] number of the run */
+        links: i => selection.state.links ? links.shown(selection.state, i).map(l => ({ ...l, ...links.look(l.margin) })) : [],
         /** @param {number} uid @param {number} robot */
         async outcome(uid, robot) {
             const { run: r, blocks: all } = own, message = r?.by_uid.get(uid);

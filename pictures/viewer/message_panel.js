@@ -3,8 +3,8 @@
 const message_panel = (() => {
     "use strict";
     const most_rows = 300;
-    /** @type {{run: Run, blocks: Blocks, flood: Flood|null, wanted: number, changes: number, done: () => void}} */
-    const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), flood: null, wanted: -1, changes: 0, done: () => {} };
+    /** @type {{run: Run, blocks: Blocks, flood: Flood|null, wanted: number, changes: number, told: string, done: () => void}} */
+    const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), flood: null, wanted: -1, changes: 0, told: "", done: () => {} };
 
     /** @param {number} robot */
     function robot_button(robot) {
@@ -76,8 +76,11 @@ const message_panel = (() => {
         return dom.facts(rows);
     }
 
-    /** @param {Flood} flood */
+    /** Tells of a way, unless all of it is told: answers and the focus stay where they are. @param {Flood} flood */
     function tell(flood) {
+        const key = [flood.message, flood.frames, flood.first.size, flood.whole].join(" ");
+        if (key === own.told) return;
+        own.told = key;
         const r = own.run, message = flood.message, wanted = floods.wanted(r, message);
         const missing = wanted.filter(robot => !flood.first.has(robot));
         /** @type {Map<number, number[]>} */ const children = new Map();
@@ -106,6 +109,7 @@ const message_panel = (() => {
         own.wanted = state.message;
         if (own.flood?.message !== state.message) own.flood = null;
         own.changes++;
+        if (own.flood === null) own.told = "";
         if (state.message < 0) {
             dom.by_id("message-panel").replaceChildren(...nothing());
             return;

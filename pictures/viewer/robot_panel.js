@@ -4,8 +4,8 @@ const robot_panel = (() => {
     "use strict";
     const most_messages = 50;
     /** @type {Pose} */ const pose = { x: 0, y: 0, z: 0, vx: 0, vy: 0, heading: 0 };
-    /** @type {{run: Run, blocks: Blocks, robot: number, counts: Uint32Array|null, sent: Uint32Array|null, read: number, messages: string, asked: HTMLElement|null}} */
-    const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), robot: -2, counts: null, sent: null, read: 0, messages: "", asked: null };
+    /** @type {{run: Run, blocks: Blocks, robot: number, counts: Uint32Array|null, sent: Uint32Array|null, read: number, messages: string}} */
+    const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), robot: -2, counts: null, sent: null, read: 0, messages: "" };
 
     /** Counts frames and receptions of all robots, block by block. */
     async function count() {
@@ -79,31 +79,46 @@ const robot_panel = (() => {
         dom.by_id("robot-messages").replaceChildren(...(rows.length ? rows : [dom.make("li", "muted", "none until now")]));
     }
 
-    /** @param {number} robot */
-    function ask(robot) {
-        const place = dom.by_id("robot-neighbours");
-        place.textContent = "\u2026";
-        sides.ask("robot", { robot, t_ns: selection.state.t }).then(answer => {
-            const rows = Array.isArray(answer.links) ? answer.links : [];
-            place.replaceChildren(rows.length ? tables.of(rows, ["robot", "level_dbm", "margin_db", "noise_dbm", "quality"]) : dom.make("p", "muted", "nobody hears it"));
-        }, error => place.textContent = error.message);
+    /** The air at a robot in the last second, and its queue, as the server tells them. @param {Record<string, any>} air @returns {[string, Node|string][]} */
+    function facts_of_air(air) {
+        /** @param {number} share */
+        const percent = share => typeof share === "number" ? `${words.number(100 * share, 3)}\u2009%` : "\u2013";
+        const senders = air.senders.map((/** @type {any} */ one) => `${words.shortened(words.visible(one.robot), 16)} ${percent(one.share)}`);
+        return [["busy", `${percent(air.busy)} of ${words.span((air.to_s - air.from_s) * run.nanoseconds)}`],
+            ["its own", `${percent(air.sending)}, ${words.counted(air.frames_sent, "frame")}`],
+            ["of others", [words.counted(air.frames_heard, "frame"), ...senders].join(", ")],
+            ["queue", air.queue === null ? "\u2013" : `${words.counted(air.queue, "frame")} when it last sent, ${words.span((air.to_s - air.queue_at_s) * run.nanoseconds)} before`]];
+    }
+
+    /** Heading with a button that asks the server, and the place of the answer. @param {string} title @param {string} id @param {string} op @param {number} robot @param {(answer: any) => Node} shown */
+    function asked(title, id, op, robot, shown) {
+        const heading = dom.make("h3", "", title), place = dom.make("div", "", dom.make("p", "muted", server.is_served() ? "asked at the time shown" : server.how));
+        place.id = id;
+        if (server.is_served()) heading.append(" ", dom.button("ask", "small", () => {
+            place.textContent = "\u2026";
+            sides.ask(op, { robot, t_ns: selection.state.t }).then(answer => place.replaceChildren(shown(answer)), error => place.textContent = error.message);
+        }, `ask for ${title.toLowerCase()}`));
+        return [heading, place];
+    }
+
+    /** @param {any} answer */
+    function neighbours(answer) {
+        const rows = Array.isArray(answer.links) ? answer.links : [];
+        return rows.length ? tables.of(rows, ["robot", "level_dbm", "margin_db", "noise_dbm", "quality"]) : dom.make("p", "muted", "nobody hears it");
     }
 
     /** @param {number} robot */
     function build(robot) {
-        const place = dom.make("div", "facts-place"), found = dom.make("ul", "plain"), neighbours = dom.make("div", "");
+        const place = dom.make("div", "facts-place"), found = dom.make("ul", "plain");
         place.id = "robot-place";
         found.id = "robot-messages";
-        neighbours.id = "robot-neighbours";
-        neighbours.append(dom.make("p", "muted", server.is_served() ? "asked at the time shown" : server.how));
         const actions = dom.make("p", "actions", dom.button("its events", "", () => selection.set({ filter: { ...selection.state.filter, robot }, panel: "events" })),
             dom.button("coverage", "", () => coverage.toggle(robot)));
         if (server.is_served()) actions.append(coverage.choice());
-        const title = dom.make("h3", "", "Neighbours");
-        if (server.is_served()) title.append(" ", dom.button("ask", "small", () => ask(robot), "ask for neighbours"));
         dom.by_id("robot-panel").replaceChildren(dom.make("h2", "", words.shortened(words.visible(own.run.name(robot)), 60)), place, actions,
             ...drive.parts(robot), dom.make("h3", "", live.is_live() ? "Until now" : "In the whole run"), counters(robot),
-            dom.make("h3", "", "Radio"), dom.facts(radio(robot)), title, neighbours,
+            dom.make("h3", "", "Radio"), dom.facts(radio(robot)), ...asked("Neighbours", "robot-neighbours", "robot", robot, neighbours),
+            ...asked("Air and queue", "robot-air", "air", robot, answer => dom.facts(facts_of_air(answer))),
             dom.make("h3", "", `Last messages until now`), found);
         own.messages = "";
     }

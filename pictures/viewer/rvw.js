@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // View file: head and columns of a run, as in docs/formats/view-format.md.
 /** @typedef {{name: string, type: string, count: number, offset: number, bytes: number, raw?: boolean}} Section */
-/** @typedef {{name: string, radius: number, model: string, power_dbm: number, sensitivity_dbm: number, antenna_z: number}} Robot */
+/** @typedef {{name: string, radius: number, model: string, power_dbm: number, sensitivity_dbm: number, antenna_z: number, antenna?: number}} Robot */
 /** @typedef {{name: string, floor: number, x0: number, y0: number, x1: number, y1: number, closed: boolean}} Door */
 /** @typedef {{foot: number[], head: number[]}} Stairs */
 /** @typedef {{bounds: number[], open_field: boolean, floors: number[], materials: {name: string, style: number}[], doors: Door[], stairs: Stairs[]}} PlaceMap */
 /** @typedef {{category: string[], lagoon: string[], ember: string[], balance: string[], links: {from_db: number, width: number, color: string}[], walls: {color: string, hatch: string|null}[], door: string, stairs: string, robot: string, outcomes: string[]}} Colors */
 /** @typedef {{begin_ns: number, end_ns: number, flights: number, receptions: number}} BlockInfo */
 /** @typedef {{message: number, robot: number, outcome: string, text: string}} Answer */
-/** @typedef {{rvw: number, version: string, name: string, seed: number, replication: number, duration_ns: number, robots: Robot[], map: PlaceMap, colors: Colors, models: string[], outcomes: string[], drops: {code: string, layer: string, text: string}[], frame_kinds: string[], message_kinds: string[], flows: string[], blocks: BlockInfo[], counts: {flights: number, receptions: number, messages: number, legs: number, outcomes: number[]}, metrics: Record<string, unknown>, series: Series[], density: {bins: number, width_ns: number, begin?: number}[], live?: Live, thinned: string[], damage: string[], follow: Answer[], sections: Section[]}} Head */
+/** @typedef {{rvw: number, version: string, name: string, seed: number, replication: number, duration_ns: number, robots: Robot[], antennas: number[][], map: PlaceMap, colors: Colors, models: string[], outcomes: string[], drops: {code: string, layer: string, text: string}[], frame_kinds: string[], message_kinds: string[], flows: string[], blocks: BlockInfo[], counts: {flights: number, receptions: number, messages: number, legs: number, outcomes: number[]}, metrics: Record<string, unknown>, series: Series[], density: {bins: number, width_ns: number, begin?: number}[], live?: Live, thinned: string[], damage: string[], follow: Answer[], sections: Section[]}} Head */
 /** @typedef {Uint8Array|Uint16Array|Uint32Array|Float32Array|Float64Array} Numbers */
 /** @typedef {{head: Head, sections: Map<string, Section>, body: Uint8Array, inflate: Inflate}} ViewFile */
 /** @typedef {(packed: Uint8Array, bytes: number) => Promise<Uint8Array>} Inflate */

@@ -2,11 +2,13 @@
 // Questions to the server of the page, which computes what the run does not hold.
 const server = (() => {
     "use strict";
-    const patience_ms = 20000, again_ms = 1500;
+    const patience_ms = 20000, again_ms = 1500, kept = "rovernet-token";
     /** @type {{socket: WebSocket|null, served: boolean, query: string, file: (bytes: Uint8Array) => void, gone: () => void, next: number, open: Map<number, {done: (answer: any) => void, failed: (error: Error) => void}>}} */
     const own = { socket: null, served: false, query: "", file: () => {}, gone: () => {}, next: 1, open: new Map() };
 
     const how = "This page is a file, so nobody answers. Open the run by \u201crovernet view RUN\u201d to ask.";
+
+    const token_hint = "Open the address with ?token= that it printed at its start.";
 
     /** @param {string|ArrayBuffer} data */
     function receive(data) {
@@ -74,10 +76,15 @@ const server = (() => {
         probe.addEventListener("error", () => setTimeout(come_back, again_ms));
     }
 
-    /** The page is served. A token leaves the address bar: addresses are copied. */
+    /** The page is served. A token leaves the address bar, since addresses are copied; the tab keeps it for when the page is loaded again. */
     function begin() {
         own.served = true;
-        own.query = location.search || own.query;
+        try {
+            if (location.search) sessionStorage.setItem(kept, location.search);
+            own.query = sessionStorage.getItem(kept) ?? "";
+        } catch {
+            own.query = location.search || own.query;  // a browser that stores nothing
+        }
         if (location.search) history.replaceState(null, "", location.pathname + location.hash);
     }
 
@@ -85,9 +92,10 @@ const server = (() => {
     async function run_bytes(name) {
         begin();
         const answer = await fetch(`/${name}.rvw${own.query}`);
+        if (answer.status === 403) return rvw.refuse(`The server does not know this page. ${token_hint}`);
         if (!answer.ok) return rvw.refuse(`The server refuses the run: ${answer.status} ${answer.statusText}.`);
         return new Uint8Array(await answer.arrayBuffer());
     }
 
-    return { run_bytes, watch, come_back, ask, how, is_served: () => own.served };
+    return { run_bytes, watch, come_back, ask, how, token_hint, is_served: () => own.served };
 })();

@@ -1,22 +1,47 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/viewer/view_head.hpp"
 
+#include "models/link_gain.hpp"
 #include "models/propagation/list.hpp"
 #include "pictures/viewer/view_map.hpp"
 #include "scenario/scenario.hpp"
 #include "sim/fate.hpp"
+#include "sim/math.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
+#include <numbers>
 #include <utility>
 
 namespace rovernet {
 namespace {
 
-Array robot_list(const std::vector<std::string>& names, const Scenario& scenario) {
+/// Gains [dB] of an antenna, against its largest one, in directions 5 degrees apart,
+/// counter-clockwise from the robot's heading.
+std::vector<double> antenna_pattern(const Radio& radio) {
+    constexpr int directions = 72;
+    constexpr double least_db = -100;  // JSON has no infinity
+    std::vector<double> gains;
+    for (int i = 0; i < directions; ++i) {
+        const auto [sin, cos] = math::sincos(2 * std::numbers::pi * i / directions);
+        gains.push_back(std::max(least_db, pattern_gain(radio, {}, {cos, sin, 0}).value));
+    }
+    return gains;
+}
+
+/// Descriptions of the robots; patterns of directional antennas are appended to `antennas`, each
+/// once.
+Array robot_list(const std::vector<std::string>& names, const Scenario& scenario, Array& antennas) {
+    std::map<std::vector<double>, std::size_t> numbers;
+    const auto number_of = [&](const Radio& radio) {
+        const auto [found, is_new] = numbers.emplace(antenna_pattern(radio), antennas.size());
+        if (is_new) antennas.emplace_back(Array(found->first.begin(), found->first.end()));
+        return std::uint64_t{found->second};
+    };
     std::map<std::string, const RobotTable*> tables;
     for (const RobotTable& table : scenario.robots) {
         for (int i = 0; i < table.count.value_or(1); ++i) tables.emplace(table.name_of(i), &table);
@@ -35,6 +60,7 @@ Array robot_list(const std::vector<std::string>& names, const Scenario& scenario
         robot.set("power_dbm", radio.power.value);
         robot.set("sensitivity_dbm", radio.sensitivity.value);
         robot.set("antenna_z", radio.antenna_height.value);
+        if (radio.is_directional()) robot.set("antenna", number_of(radio));
         list.emplace_back(std::move(robot));
     }
     return list;
@@ -83,7 +109,9 @@ Table view_head(const Scenario& scenario, const std::vector<std::string>& robots
     head.set("seed", scenario.scenario.seed);
     head.set("replication", scenario.scenario.replication);
     head.set("duration_ns", std::int64_t{scenario.scenario.duration.count()});
-    head.set("robots", robot_list(robots, scenario));
+    Array antennas;
+    head.set("robots", robot_list(robots, scenario, antennas));
+    head.set("antennas", std::move(antennas));
     head.set("colors", view_colors());
     head.set("models", model_list());
     head.set("outcomes", outcome_list());

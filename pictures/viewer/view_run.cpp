@@ -11,6 +11,7 @@
 #include "pictures/viewer/view_map.hpp"
 #include "pictures/viewer/view_series.hpp"
 #include "traces/metrics.hpp"
+#include "traces/recorded/recorded_index.hpp"
 #include "traces/recorded/recorded_reader.hpp"
 
 #include <fmt/format.h>
@@ -34,12 +35,15 @@ struct Columns {
             if (frames.kinds() & kind) frames.on(*record, context);
             if (metrics.kinds() & kind) metrics.on(*record, context);
             if (series.kinds() & kind) series.on(*record, context);
+            index->add(reader.chunk(), *record, context);
         }
+        if (!reader.damage().empty()) index = nullptr;
     }
     MotionColumns motion;
     FrameColumns frames;
     Metrics metrics;
     ViewSeries series;
+    std::shared_ptr<RecordedIndex> index = std::make_shared<RecordedIndex>();
 };
 
 Array texts(const std::vector<std::string>& list) { return {list.begin(), list.end()}; }
@@ -77,6 +81,10 @@ class Viewed {
 Table Viewed::head() const {
     const RecordedRun& run = reader_.run();
     Table head = view_head(scenario_, run.robots, run.version);
+    // Flows of an ns-2 trace are in no table of its scenario.
+    Array& flows = *head.find("flows")->array();
+    while (flows.size() <= columns_.frames.last_flow())
+        flows.emplace_back(fmt::format("flow {}", flows.size()));
     head.set("seed", run.seed);
     head.set("replication", run.replication);
     Table metrics;
@@ -87,13 +95,14 @@ Table Viewed::head() const {
     return head;
 }
 
-/// Reasons why robots missed messages, for a short run: each is found by reading the trace again.
+/// Reasons why robots missed messages, for a short run.
 Array Viewed::follow_list() const {
     constexpr std::size_t most = 100, most_frames = 5000;
     Array list;
     if (columns_.frames.frames() > most_frames) return list;
     for (const auto& missed : columns_.frames.missed(reader_.run().robots.size(), most)) {
-        const MessageAtRobot there = message_at_robot(path_, missed.uid, NodeId{missed.robot});
+        const MessageAtRobot there =
+            message_at_robot(path_, missed.uid, NodeId{missed.robot}, columns_.index.get());
         Table entry;
         entry.set("message", missed.message);
         entry.set("robot", missed.robot);
@@ -105,7 +114,7 @@ Array Viewed::follow_list() const {
 }
 
 std::vector<std::string> Viewed::left_out(const ViewChoice& choice) const {
-    std::vector<std::string> all;
+    std::vector<std::string> all = choice.missing;
     if (const std::size_t n = columns_.frames.left_out(); n > 0)
         all.push_back(fmt::format("{} of {} frames are left out.", n, columns_.frames.frames()));
     if (!choice.map) all.emplace_back("The map is left out.");
@@ -134,7 +143,8 @@ ViewedRun Viewed::write(const ViewChoice& choice) {
                    .frames = columns_.frames.frames() - columns_.frames.left_out(),
                    .left_out = left_out(choice),
                    .damage = reader_.damage(),
-                   .message_names = names};
+                   .message_names = names,
+                   .index = columns_.index};
     head.set("thinned", texts(view.left_out));
     view.bytes = file.bytes(std::move(head));
     return view;

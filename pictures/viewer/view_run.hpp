@@ -6,10 +6,13 @@
 
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace rovernet {
+
+class RecordedIndex;
 
 /// Choice of the content of a view file.
 struct ViewChoice {
@@ -19,6 +22,8 @@ struct ViewChoice {
     /// Largest size of the view file [bytes]: later frames are left out. Robots, legs and messages
     /// are always complete, so that a file without frames may be larger.
     std::size_t most_bytes = std::numeric_limits<std::size_t>::max();
+    /// Sentences about what the trace does not tell, for the page.
+    std::vector<std::string> missing = {};
     /// Comparison with the run that is shown beside this one; null: none.
     const ViewComparison* comparison = nullptr;
 };
@@ -31,7 +36,9 @@ struct ViewedRun {
     std::size_t frames;                 ///< number of frames in the file
     std::vector<std::string> left_out;  ///< sentences about data that the file does not contain
     std::vector<std::string> damage;    ///< sentences about broken or missing parts of the trace
-    std::vector<MessageName> message_names = {};  ///< identities of the messages, by index
+    std::vector<MessageName> message_names = {};  ///< messages, by their index in the file
+    /// Index of the trace; null if the trace is damaged.
+    std::shared_ptr<const RecordedIndex> index = nullptr;
 };
 
 /// Makes a view file of a recorded trace.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <variant>
@@ -21,7 +22,7 @@ double ratio(double part, double whole) { return whole > 0 ? part / whole : none
 
 }  // namespace
 
-ViewSeries::ViewSeries(Time end)
+ViewSeries::ViewSeries(Time end, bool with_links)
     : end_(std::max<std::int64_t>(1, whole_ns(end))),
       width_((end_ + most_bins - 1) / most_bins),
       bins_(static_cast<std::size_t>((end_ + width_ - 1) / width_)),
@@ -29,7 +30,8 @@ ViewSeries::ViewSeries(Time end)
       deliveries_(bins_),
       latency_sum_(bins_),
       latency_most_(bins_, none),
-      busy_(bins_) {}
+      busy_(bins_),
+      with_links_(with_links) {}
 
 std::size_t ViewSeries::bin_of(std::int64_t t) const {
     return std::min(static_cast<std::size_t>(std::max<std::int64_t>(t, 0) / width_), bins_ - 1);
@@ -156,19 +158,19 @@ std::uint64_t ViewSeries::components() const {
     return count;
 }
 
-void ViewSeries::add(ViewFile& file, const char* chart, const char* name, const char* unit,
-                     const Numbers& values) {
-    file.add(fmt::format("series.{}", list_.size()), values);
+/// Entry of the series in the head.
+Table ViewSeries::Series::entry(std::int64_t width) const {
     Table series;
     series.set("chart", chart);
     series.set("name", name);
     series.set("unit", unit);
     series.set("points", std::uint64_t{values.size()});
-    series.set("width_ns", width_);
-    list_.emplace_back(std::move(series));
+    series.set("width_ns", width);
+    if (outcome) series.set("outcome", std::uint64_t{*outcome});
+    return series;
 }
 
-void ViewSeries::add_deliveries(ViewFile& file) {
+void ViewSeries::add_deliveries(std::vector<Series>& list) const {
     Numbers so_far, mean;
     double expected = 0, deliveries = 0;
     for (std::size_t bin = 0; bin < bins_; ++bin) {
@@ -177,37 +179,60 @@ void ViewSeries::add_deliveries(ViewFile& file) {
         so_far.push_back(ratio(deliveries, expected));
         mean.push_back(ratio(latency_sum_[bin], deliveries_[bin]));
     }
-    if (expected > 0) add(file, "Delivery ratio", "so far", "", so_far);
+    if (expected > 0) list.push_back({"Delivery ratio", "so far", "", so_far});
     if (deliveries == 0) return;
-    add(file, "Latency of deliveries", "mean", "s", mean);
-    add(file, "Latency of deliveries", "largest", "s", latency_most_);
+    list.push_back({"Latency of deliveries", "mean", "s", mean});
+    list.push_back({"Latency of deliveries", "largest", "s", latency_most_});
 }
 
-void ViewSeries::add_receptions(ViewFile& file) {
+void ViewSeries::add_receptions(std::vector<Series>& list) const {
     for (const auto& [outcome, counts] : receptions_) {
         Numbers a_second;
         for (std::size_t bin = 0; bin < bins_; ++bin)
             a_second.push_back(1e9 * counts[bin] / length(bin));
-        add(file, "Receptions", "", "1/s", a_second);
-        std::get<Table>(list_.back().data).set("outcome", std::uint64_t{outcome});
+        list.push_back({"Receptions", "", "1/s", std::move(a_second), outcome});
     }
 }
 
-void ViewSeries::write(ViewFile& file, Table& head) {
-    list_.clear();
-    sample_topology_until(never);
-    add_deliveries(file);
-    add_receptions(file);
+std::vector<ViewSeries::Series> ViewSeries::list() const {
+    std::vector<Series> list;
+    add_deliveries(list);
+    add_receptions(list);
     if (busy_until_ > 0) {
         Numbers share;
         for (std::size_t bin = 0; bin < bins_; ++bin) share.push_back(busy_[bin] / length(bin));
-        add(file, "Channel occupancy", "share of time", "", share);
+        list.push_back({"Channel occupancy", "share of time", "", std::move(share)});
     }
     if (links_known_) {
-        add(file, "Neighbours of a robot", "mean", "", degree_);
-        add(file, "Parts of the network", "connected components", "", parts_);
+        list.push_back({"Neighbours of a robot", "mean", "", degree_});
+        list.push_back({"Parts of the network", "connected components", "", parts_});
     }
-    head.set("series", list_);
+    return list;
+}
+
+void ViewSeries::write(ViewFile& file, Table& head) {
+    sample_topology_until(never);
+    Array entries;
+    for (const Series& each : list()) {
+        file.add(fmt::format("series.{}", entries.size()), each.values);
+        entries.emplace_back(each.entry(width_));
+    }
+    head.set("series", std::move(entries));
+}
+
+Array ViewSeries::table(Time now) {
+    const auto over = std::min(static_cast<std::size_t>(whole_ns(now) / width_), bins_);
+    Array entries;
+    for (Series& each : list()) {
+        each.values.resize(std::min(each.values.size(), over));
+        Array values;
+        for (const double value : each.values)
+            values.push_back(std::isnan(value) ? Value() : Value(value));
+        Table entry = each.entry(width_);
+        entry.set("values", std::move(values));
+        entries.emplace_back(std::move(entry));
+    }
+    return entries;
 }
 
 }  // namespace rovernet

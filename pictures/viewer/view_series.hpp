@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -26,21 +27,34 @@ class ViewFile;
 /// bins.
 class ViewSeries {
   public:
-    /// @param end  end of the run
-    explicit ViewSeries(Time end);
+    /// @param end         end of the run
+    /// @param with_links  whether the sink wants link changes, which a network must search for
+    explicit ViewSeries(Time end, bool with_links = true);
 
     KindMask kinds() const {
-        return kind_of<Sent>() | kind_of<AirSent>() | kind_of<Received>() |
-               kind_of<ControlReceived>() | kind_of<Dropped>() | kind_of<Moved>() |
-               kind_of<Switched>() | kind_links;
+        const KindMask frames = kind_of<Sent>() | kind_of<AirSent>() | kind_of<Received>() |
+                                kind_of<ControlReceived>() | kind_of<Dropped>();
+        const KindMask topology = kind_of<Moved>() | kind_of<Switched>() | kind_links;
+        return with_links_ ? frames | topology : frames;
     }
     void on(const Record& record, const RecordContext& context);
 
     /// Writes the columns `series.N`, and the entry `series` of the head, after all records.
     void write(ViewFile& file, Table& head);
+    /// Series of a run that goes on, in the bins that are over: as entries of `series`, each with
+    /// its `values`, null where there is none. @param now  present time of the run
+    Array table(Time now);
 
   private:
     using Numbers = std::vector<double>;
+    /// Series, and what it is called in the head.
+    struct Series {
+        const char *chart, *name, *unit;
+        Numbers values;
+        std::optional<std::size_t> outcome = {};
+
+        Table entry(std::int64_t width) const;
+    };
     /// Number of destinations (`others`) of the message that occupies a slot of the message table.
     struct Expected {
         std::uint64_t uid = ~std::uint64_t{0};
@@ -56,10 +70,9 @@ class ViewSeries {
     void count(const Reception& reception);
     void sample_topology_until(Time t);
     std::uint64_t components() const;
-    void add(ViewFile& file, const char* chart, const char* name, const char* unit,
-             const Numbers& values);
-    void add_deliveries(ViewFile& file);
-    void add_receptions(ViewFile& file);
+    std::vector<Series> list() const;
+    void add_deliveries(std::vector<Series>& list) const;
+    void add_receptions(std::vector<Series>& list) const;
 
     std::int64_t end_, width_;  // [ns] end of the run, width of a bin
     std::size_t bins_;
@@ -74,7 +87,7 @@ class ViewSeries {
     bool links_known_ = false, has_changed_ = true;
     std::uint64_t components_ = 0;
     Numbers degree_, parts_;  // topology at the end of each bin
-    Array list_;              // descriptions of the series
+    bool with_links_;
 };
 
 }  // namespace rovernet

@@ -14,10 +14,14 @@
 namespace rovernet {
 
 ViewStream::ViewStream(const Scenario& scenario, std::shared_ptr<Network> network)
-    : scenario_(scenario), network_(std::move(network)) {
+    : scenario_(scenario),
+      network_(std::move(network)),
+      series_(std::make_shared<ViewSeries>(start_of_run + scenario.scenario.duration, false)),
+      begin_(network_->now()) {
     for (std::uint32_t i = 0; i < network_->size(); ++i)
         robots_.push_back(network_->name(NodeId{i}));
-    sinks_ = {network_->add_sink(motion_), network_->add_sink(frames_)};
+    sinks_ = {network_->add_sink(motion_), network_->add_sink(frames_),
+              network_->add_sink(series_)};
 }
 
 ViewStream::~ViewStream() {

@@ -4,6 +4,7 @@
 #include "network/network.hpp"
 #include "pictures/viewer/frame_columns.hpp"
 #include "pictures/viewer/motion_columns.hpp"
+#include "pictures/viewer/view_series.hpp"
 #include "scenario/document/value.hpp"
 
 #include <cstddef>
@@ -43,12 +44,19 @@ class ViewStream {
     /// @param is_last  whether the run is over, so that frames on air are written, too
     Part part(const Table& live, bool is_last);
 
+    /// Series for charts, from the time on at which this object was made, see ViewSeries::table().
+    Array series() const { return series_->table(network_->now()); }
+    /// Time at which this object was made.
+    Time begin() const { return begin_; }
+
   private:
     const Scenario& scenario_;
     std::shared_ptr<Network> network_;
     std::vector<std::string> robots_;
     std::shared_ptr<MotionColumns> motion_ = std::make_shared<MotionColumns>(false);
     std::shared_ptr<FrameColumns> frames_ = std::make_shared<FrameColumns>();
+    std::shared_ptr<ViewSeries> series_;
+    Time begin_;
     std::vector<SinkId> sinks_;
 };
 

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import fs from "node:fs";
 import path from "node:path";
 import test from "node:test";
-import { drawn, folder, told, trace, with_page } from "./page.mjs";
+import { drawn, folder, scenario, told, trace, with_command, with_page, with_served } from "./page.mjs";
 import { sections, view_file } from "./run_file.mjs";
 
 const radio = "propagation.model=friis";
@@ -133,3 +133,16 @@ test("V9: two runs are not cut off at 1024 x 640", () => with_page("both", { con
     const text = await page.locator("#labels span:last-child").evaluate(span => span.scrollWidth);
     assert.ok(label.x + Math.min(text, label.width - 40) <= zooms.x);
 }));
+
+test("links are drawn on both maps, each those of its run", () => with_command(["view", path.join(folder, "rescue"), "--with", radio], address => with_served(address, {}, async page => {
+    await page.evaluate(() => window.rovernet.select({ t: 10e9, links: true }));
+    await page.waitForFunction(() => window.rovernet.links(0).length > 0 && window.rovernet.links(1).length > 0);
+    for (const [i, set] of [[0, []], [1, ["--set", radio]]]) {
+        const robots = told("links", scenario("rescue"), "--at", "10s", ...set, "--json").robots ?? told("links", scenario("rescue"), "--at", "10s", ...set, "--json");
+        const names = await page.evaluate(() => sides.own.all[0].run.head.robots.map(robot => robot.name));
+        const pairs = await page.evaluate(run => window.rovernet.links(run).map(l => [l.from, l.to]), i);
+        const expected = new Set(robots.flatMap(one => one.links.map(link => [one.robot, link.robot].sort().join())));
+        assert.deepEqual(new Set(pairs.map(pair => pair.map(robot => names[robot]).sort().join())), expected);
+        assert.ok(pairs.length > 1);
+    }
+})));

@@ -5,7 +5,7 @@ import { execFileSync } from "node:child_process";
 import fs from "node:fs";
 import path from "node:path";
 import test from "node:test";
-import { colors, drawn, folder, launched, most_apart, printed, with_page } from "./page.mjs";
+import { colors, drawn, folder, launched, most_apart, printed, scenario, told, with_page } from "./page.mjs";
 import { html, sections, view_file } from "./run_file.mjs";
 
 for (const [name, robots] of [["stage", 3], ["movement", 50], ["doors", 2]]) {
@@ -17,6 +17,18 @@ for (const [name, robots] of [["stage", 3], ["movement", 50], ["doors", 2]]) {
         assert.ok(most < 1e-3, `${most} m apart`);
     }));
 }
+
+test("V22: an ns-2 trace shows its robots and messages, and says what it does not tell", () => with_page("ns2", {}, async page => {
+    const { head } = sections(view_file("ns2")), truth = told("trace", "stats", scenario("ns2"), "--json");
+    assert.equal(head.counts.messages, truth.messages);
+    assert.equal(head.counts.flights, truth.transmissions);
+    assert.equal(head.counts.receptions, truth.receptions);
+    assert.equal(head.counts.outcomes.reduce((sum, n, outcome) => sum + (outcome % 2 ? n : 0), 0), truth.deliveries);
+    assert.match(await page.textContent("#notice"), /ns-2 trace tells no map and no radio/);
+    // Its positions have two digits.
+    const most = await most_apart(page, "rescue", 80e9, 50);
+    assert.ok(most < 0.03, `${most} m apart`);
+}));
 
 test("V22: doors close on their own storey", () => with_page("doors", {}, async page => {
     /** Colours of a line across the place of a door. */

@@ -4,7 +4,8 @@ import assert from "node:assert/strict";
 import fs from "node:fs";
 import path from "node:path";
 import test from "node:test";
-import { drawn, folder, scenario, told, with_command, with_served } from "./page.mjs";
+import { drawn, folder, printed, scenario, told, with_command, with_page, with_served } from "./page.mjs";
+import { sections, view_file } from "./run_file.mjs";
 
 let number = 0;
 /** Command that runs a scenario with a page. */
@@ -115,7 +116,7 @@ test("a page of live --view may look alone: it cannot pause the run", () =>
     })));
 
 test("V13: a server that comes again on the same port shows its run in the page that waited", () =>
-    with_command(run(scenario("rescue")), (address, server, ended) => with_served(address, { faults: /ERR_CONNECTION_REFUSED/ }, async page => {
+    with_command(run(scenario("rescue")), (address, server, ended) => with_served(address, { faults: /ERR_CONNECTION_(REFUSED|RESET)/ }, async page => {
         await until(page, () => live.state().now_ns > 2e8);
         server.kill("SIGKILL");
         await ended;
@@ -124,4 +125,45 @@ test("V13: a server that comes again on the same port shows its run in the page 
         await with_command(["run", scenario("csma"), "--view", `127.0.0.1:${port}`, "--out", path.join(folder, `live${++number}`)], async () => {
             await until(page, () => window.rovernet?.ready && document.getElementById("name").textContent === "csma" && live.state().now_ns > 2e8);
         });
+    })));
+
+test("a run that goes on tells why a robot misses a message, and its charts; both are those of its trace", () => {
+    const out = path.join(folder, `live${++number}`), missed = sections(view_file("rescue")).head.follow[0].message;
+    return with_command(["run", scenario("rescue"), "--view", "--record", "--speed", "5", "--out", out], address => with_served(address, {}, async page => {
+        await until(page, () => live.state().now_ns > 11e9);
+        await page.click("#play");
+        await until(page, () => live.state().paused);
+        await page.evaluate(message => rovernet.select({ message, panel: "message" }), missed);
+        const rows = page.locator("#message-panel ul.plain > li:not(.wide)"), name = await rows.filter({ hasText: "why?" }).first().locator("button.link").textContent();
+        const row = rows.filter({ has: page.getByRole("button", { name, exact: true }) });
+        await row.getByText("why?").click();
+        await row.getByText("why?").waitFor({ state: "detached" });
+        const text = await row.locator("span span").first().textContent();
+        await page.click("#play");
+        await page.evaluate(() => clock.set_power(2));
+        await page.evaluate(() => rovernet.select({ panel: "charts" }));
+        await until(page, () => live.state().ended && rovernet.charts(0).length > 0);
+        // What was told stays, though the run has gone on.
+        assert.ok((await page.textContent("#message-panel")).includes(text));
+        await page.waitForFunction(() => document.getElementById("charts-panel").textContent.includes("Metrics of the run"));
+        const { answer } = told("trace", "follow", path.join(out, "trace.mcap"), "--message", String(missed), "--robot", name, "--json").at_robot;
+        assert.equal(`${name} ${text}`, answer);
+        const times = [12e9, 30e9, 75e9], charts = await page.evaluate(all => all.map(t => rovernet.charts(t)), times);
+        printed("view", out, "-o", `${out}.html`);
+        await with_page(`${out}.html`, {}, async recorded => {
+            assert.deepEqual(await recorded.evaluate(all => all.map(t => rovernet.charts(t)), times), charts);
+        });
+        assert.ok(charts[2].length >= 4);
+    }));
+});
+
+test("a message in the address is followed again when the page of a run that goes on is loaded again", () =>
+    with_command(run(scenario("rescue"), "--speed", "20"), address => with_served(address, {}, async page => {
+        await until(page, () => live.state().now_ns > 15e9);
+        await page.evaluate(() => rovernet.select({ message: 1 }));
+        await until(page, () => location.hash.includes("message=1"));
+        await page.reload();
+        await until(page, () => window.rovernet?.ready && live.state().now_ns > 16e9);
+        await until(page, () => rovernet.state.message === 1);
+        assert.match(page.url(), /message=1/);
     })));

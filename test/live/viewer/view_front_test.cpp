@@ -2,7 +2,9 @@
 // A run that goes on, as the viewer's page gets it: file by file, without sockets.
 #include "live/viewer/view_front.hpp"
 
+#include "experiment/replay/message_at_robot.hpp"
 #include "experiment/run.hpp"
+#include "live/viewer/view_history.hpp"
 #include "pictures/viewer/view_run.hpp"
 #include "scenario/document/json.hpp"
 #include "scenario/scenario_file.hpp"
@@ -14,6 +16,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -214,8 +217,87 @@ TEST_CASE("view front: answers are about the current time") {
     CHECK(ViewReader::integer(*pair.table(), "t_ns") == 10'000'000'000);
     CHECK(pair.table()->find("links")->array()->size() == 2);
     CHECK(viewed.ask(R"({"id": 1, "op": "robot", "robot": 0})").empty());
-    CHECK(viewed.ask(R"({"id": 1, "op": "why", "uid": 0, "robot": 4})").find("--record") !=
+    CHECK(viewed.ask(R"({"id": 1, "op": "why", "uid": 99, "robot": 4})").find("not kept") !=
           std::string::npos);
+}
+
+/// Answer without the keys that the server adds.
+std::string plain(std::string_view answer) {
+    Table table;
+    const Value read = parse_json(answer);
+    for (const char* key : {"robot", "frames", "answer", "from_s", "to_s", "busy", "sending",
+                            "frames_sent", "frames_heard", "senders"})
+        if (const Value* value = read.table()->find(key)) table.set(key, *value);
+    return to_json_line(std::move(table));
+}
+
+TEST_CASE("view front: why, and the air of the last second, are those of the recorded trace") {
+    Viewed viewed(rescue());
+    viewed.front.opened(1, {});
+    viewed.go(Time(30s));
+    std::vector<std::string> why, air;
+    for (const int robot : {1, 2, 3, 4}) {
+        const std::string about = R"(, "robot": )" + std::to_string(robot) + "}";
+        CHECK(viewed.ask(R"({"id": 1, "op": "why", "uid": 0)" + about).empty());
+        why.push_back(plain(viewed.answers.back()));
+        CHECK(viewed.ask(R"({"id": 1, "op": "air")" + about).empty());
+        air.push_back(plain(viewed.answers.back()));
+    }
+    viewed.finish();
+    ViewerAnswers recorded({viewed.folder.path("run/trace.mcap")});
+    for (const std::size_t i : {0U, 1U, 2U, 3U}) {
+        const std::string about = R"(, "robot": )" + std::to_string(i + 1) + "}";
+        CHECK(why[i] == plain(recorded.answer(R"({"id": 1, "op": "why", "uid": 0)" + about)));
+        CHECK(air[i] ==
+              plain(recorded.answer(R"({"id": 1, "op": "air", "t_ns": 30000000000)" + about)));
+    }
+    CHECK(why[3].find(R"("answer":"E )") != std::string::npos);
+}
+
+TEST_CASE("view history: it begins late, keeps two files, and forgets what is older") {
+    ScenarioRun run(rescue());
+    Session& session = run.session();
+    session.step(Time(11s));
+    const Scenario scenario = rescue();
+    ViewHistory history(scenario, session.shared_network(), 600);
+    session.step(Time(40s));
+    std::uint64_t newest = 1000;
+    while (newest > 1 && history.of_message(newest).path.empty()) --newest;
+    CHECK(history.of_message(0).path.empty());
+    const IndexedTrace last = history.of_message(newest);
+    REQUIRE_FALSE(last.path.empty());
+    const MessageAtRobot there = message_at_robot(last.path, newest, NodeId{1}, last.index.get());
+    CHECK_FALSE(there.frames.empty());
+    CHECK(to_json_line(document_of(there)) ==
+          to_json_line(document_of(message_at_robot(last.path, newest, NodeId{1}))));
+}
+
+TEST_CASE(
+    "view front: series for charts are those of the recorded trace, in the bins that are over") {
+    Viewed viewed(rescue());
+    viewed.front.opened(1, {});
+    viewed.go(Time(30s));
+    CHECK(viewed.ask(R"({"id": 1, "op": "series"})").empty());
+    const Value answer = parse_json(viewed.answers.back());
+    CHECK(ViewReader::integer(*answer.table(), "from_ns") == 0);
+    viewed.go(viewed.run.session().end());
+    viewed.finish();
+    const ViewReader recorded(view_of_trace(viewed.folder.path("run/trace.mcap"), {}).bytes);
+    const Array& series = *answer.table()->find("series")->array();
+    std::size_t compared = 0;
+    for (std::size_t i = 0; i < series.size(); ++i) {
+        const Table& one = *series[i].table();
+        const Array& values = *one.find("values")->array();
+        const Numbers whole = recorded.numbers("series." + std::to_string(i));
+        CHECK(values.size() == 100);  // 30 of 90 s, in 300 bins
+        for (std::size_t bin = 0; bin < values.size(); ++bin) {
+            const auto* value = std::get_if<double>(&values[bin].data);
+            CHECK((value ? *value : -1) == (std::isnan(whole[bin]) ? -1 : whole[bin]));
+            if (value && *value > 0) ++compared;
+        }
+    }
+    CHECK(series.size() > 4);
+    CHECK(compared > 50);
 }
 
 TEST_CASE("view front: a slow page gets the rest later, and a late page gets everything") {
