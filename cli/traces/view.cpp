@@ -297,8 +297,6 @@ void add_view(Command app) {
     view.add_option("-o,--output", a.out,
                     "write the page to this file, which needs no server, instead of serving it");
     view.add_flag("--open", a.opens, "open the page in a browser, by xdg-open");
-    view.add_option("--address", a.address, "address of this machine to serve at; port 0: any")
-        .shows_default();
     view.add_option(
             "--address", a.address,
             "address of this machine at which to serve the page; port 0 selects a free port")
