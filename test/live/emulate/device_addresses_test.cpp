@@ -108,7 +108,7 @@ TEST_CASE("device addresses: network and broadcast addresses are refused for hos
 TEST_CASE("device addresses: equal addresses of two robots are refused, in any notation") {
     CHECK(fault(two("mac = \"02:00:00:00:00:aA\"", "mac = \"02:00:00:00:00:Aa\""))
               .starts_with("s.toml:12:17: robot B: found the mac 02:00:00:00:00:Aa, which robot A "
-                           "has, too; "));
+                           "also has; "));
     // One that is made is not one that was given.
     CHECK(fault(two("ip = \"10.0.0.2\"", "")).empty());
     std::string many =

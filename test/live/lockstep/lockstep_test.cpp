@@ -552,8 +552,8 @@ TEST_CASE(
     talk.say(0, hello_a);
     talk.lockstep.held(1h);
     talk.lockstep.held(1h);
-    CHECK(said == std::vector<std::string>{"waiting for controllers: 0 of 2 are there",
-                                           "waiting for controllers: 1 of 2 is there"});
+    CHECK(said == std::vector<std::string>{"waiting for controllers: 0 of 2 are connected",
+                                           "waiting for controllers: 1 of 2 is connected"});
     talk.say(1, hello_b);
     talk.lockstep.held(49ms);
     CHECK_FALSE(talk.lockstep.is_done());
