@@ -79,15 +79,14 @@ const robot_panel = (() => {
         dom.by_id("robot-messages").replaceChildren(...(rows.length ? rows : [dom.make("li", "muted", "none until now")]));
     }
 
-    /** The air at a robot in the last second, and its queue, as the server tells them. @param {Record<string, any>} air @returns {[string, Node|string][]} */
+    /** The air at a robot in the last second, as the server tells it. @param {Record<string, any>} air @returns {[string, Node|string][]} */
     function facts_of_air(air) {
         /** @param {number} share */
         const percent = share => typeof share === "number" ? `${words.number(100 * share, 3)}\u2009%` : "\u2013";
         const senders = air.senders.map((/** @type {any} */ one) => `${words.shortened(words.visible(one.robot), 16)} ${percent(one.share)}`);
         return [["busy", `${percent(air.busy)} of ${words.span((air.to_s - air.from_s) * run.nanoseconds)}`],
             ["its own", `${percent(air.sending)}, ${words.counted(air.frames_sent, "frame")}`],
-            ["of others", [words.counted(air.frames_heard, "frame"), ...senders].join(", ")],
-            ["queue", air.queue === null ? "\u2013" : `${words.counted(air.queue, "frame")} when it last sent, ${words.span((air.to_s - air.queue_at_s) * run.nanoseconds)} before`]];
+            ["of others", [words.counted(air.frames_heard, "frame"), ...senders].join(", ")]];
     }
 
     /** Heading with a button that asks the server, and the place of the answer. @param {string} title @param {string} id @param {string} op @param {number} robot @param {(answer: any) => Node} shown */
@@ -118,7 +117,7 @@ const robot_panel = (() => {
         dom.by_id("robot-panel").replaceChildren(dom.make("h2", "", words.shortened(words.visible(own.run.name(robot)), 60)), place, actions,
             ...drive.parts(robot), dom.make("h3", "", live.is_live() ? "Until now" : "In the whole run"), counters(robot),
             dom.make("h3", "", "Radio"), dom.facts(radio(robot)), ...asked("Neighbours", "robot-neighbours", "robot", robot, neighbours),
-            ...asked("Air and queue", "robot-air", "air", robot, answer => dom.facts(facts_of_air(answer))),
+            ...asked("Air", "robot-air", "air", robot, answer => dom.facts(facts_of_air(answer))),
             dom.make("h3", "", `Last messages until now`), found);
         own.messages = "";
     }

@@ -32,7 +32,7 @@ test("the air of the last second at a robot is what its own and the heard frames
     const all = await frames("many"), at = 3e9, from = at - 1e9;
     for (const robot of [7, 500]) {
         await page.evaluate(([i, t]) => window.rovernet.select({ t, robots: [i], panel: "robot" }), [robot, at]);
-        await page.getByRole("button", { name: "ask for air and queue" }).click();
+        await page.getByRole("button", { name: "ask for air" }).click();
         await page.waitForFunction(() => document.querySelector("#robot-air dl"));
         const facts = await page.$eval("#robot-air dl", one => Object.fromEntries([...one.querySelectorAll("dt")].map(name => [name.textContent, name.nextElementSibling.textContent])));
         const own = all.filter(f => f.sender === robot && f.start < at && f.end > from), others = all.filter(f => f.heard.has(robot) && f.start < at && f.end > from);
