@@ -13,10 +13,10 @@ namespace rovernet {
 /// stays at 32 slots. The theory neglects that a station whose backoff is 0 sends immediately after
 /// its last frame: it is valid for up to about 10 stations.
 struct BroadcastCell {
-    static constexpr std::uint32_t payload = 1000;  ///< [bytes]
+    static constexpr std::uint32_t payload = 1000;  ///< bytes of data in each broadcast
     static constexpr BitRate rate{1e6};
 
-    std::uint32_t header = data_header_bytes;  ///< [bytes]
+    std::uint32_t header = data_header_bytes;  ///< bytes of the frame's header
 
     Csma csma() const { return {.eifs = EifsRule::none, .header = header}; }
     /// Share of the time [-] in which payload reaches a station if `n` stations send.

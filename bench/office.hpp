@@ -44,7 +44,7 @@ class Office {
     }
     const OccupancyGrid& grid() const { return grid_; }
 
-    static constexpr double width = 40, depth = 20;  // [m]
+    static constexpr double width = 40, depth = 20;  // size of the floor [m]
 
   private:
     static constexpr double cell = 0.05, wall = 0.1, door = 1, room = 5;  // [m]

@@ -85,7 +85,7 @@ class Served {
     /// Current resident memory of the command [bytes].
     double memory() const {
         std::ifstream file("/proc/" + std::to_string(pid_) + "/statm");
-        double all = 0, resident = 0;  // [pages]
+        double all = 0, resident = 0;  // numbers of memory pages
         file >> all >> resident;
         return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
     }

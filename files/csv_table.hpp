@@ -32,7 +32,7 @@ class CsvTable {
     bool has(std::string_view column) const;
     /// Field in a row (index from 0). @throws InputError if there is no such column
     Word word(std::size_t row, std::string_view column) const;
-    /// Text of a field, as word().
+    /// Text of a field in a row (index from 0). @throws InputError if there is no such column
     std::string text(std::size_t row, std::string_view column) const {
         return std::string(word(row, column).text);
     }

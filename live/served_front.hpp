@@ -10,14 +10,14 @@
 
 namespace rovernet {
 
-/// Front (protocol server) of a paced run, with its listeners and what the run keeps of it.
+/// Front (protocol server) of a paced run, with its listeners and its state in the run.
 struct ServedFront {
     const FrontListeners& listeners;
     std::unique_ptr<Front> front = nullptr;
     FrontListeners::Ports ports = {};
     std::set<Front::Connection> clients = {};
-    Time due = never;      ///< its next(), before the session went on
-    Time held_at = never;  ///< its limit(), at which the run waits
+    Time due = never;      ///< value of Front::next() before the session continued
+    Time held_at = never;  ///< value of Front::limit() at which the run waits
     std::chrono::steady_clock::time_point held_since = {};
 };
 

@@ -64,9 +64,9 @@ struct GaussMarkov {
     struct Progress {
         bool begun = false;
         Draws draws = {};
-        double speed = 0;           // [m/s]
-        double direction = 0;       // [rad]
-        double mean_direction = 0;  // [rad]
+        double speed = 0;           // current speed [m/s]
+        double direction = 0;       // current direction of movement [rad]
+        double mean_direction = 0;  // direction that the draws scatter about [rad]
     } progress = {};
 
   private:

@@ -59,7 +59,8 @@ class Planners {
     }
 
     const Scene* scene_;
-    std::map<std::pair<std::size_t, Meters>, Planner> planners_;  // by storey and radius
+    std::map<std::pair<std::size_t, Meters>, Planner>
+        planners_;  // keys: storey number, robot radius
 };
 
 }  // namespace rovernet

@@ -39,11 +39,11 @@ class WallThickness {
   private:
     void measure() const;
 
-    double cell_width_, cell_height_;  // [m]
+    double cell_width_, cell_height_;  // size of a map cell [m]
     std::shared_ptr<const WallIndex> walls_;
     std::shared_ptr<const HollowWalls> hollows_;
     mutable Once measured_;
-    mutable std::vector<float> thickness_;  // [m] by cell
+    mutable std::vector<float> thickness_;  // wall thickness at each map cell [m]
 };
 
 }  // namespace rovernet

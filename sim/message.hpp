@@ -16,7 +16,7 @@
 
 namespace rovernet {
 
-inline constexpr std::uint32_t longest_message = 65'507;  ///< [bytes] in a UDP packet over IPv4
+inline constexpr std::uint32_t longest_message = 65'507;  ///< largest UDP data over IPv4 [bytes]
 
 /// Message of an application, or control packet of a routing protocol. A message does not change
 /// once it is in the MessageTable.
@@ -84,7 +84,7 @@ struct Frame {
     /// Header of this copy: entry in its protocol's table, from 1; 0: none. See LinkLayer::send.
     std::uint32_t header = 0;
 
-    /// Size [bytes] of this frame of the message `content`, see `bytes`.
+    /// Size [bytes] of this frame: `bytes`, or the size of its message `content` if `bytes` is 0.
     std::uint32_t size_of(const Message& content) const { return bytes > 0 ? bytes : content.size; }
 };
 

@@ -30,7 +30,7 @@
 
 namespace rovernet {
 
-/// Exceptions in the use of a record's field: bits, combined by |; 0 for no exceptions.
+/// Special treatment of a record's field, such as not_hashed: bits, combined by |; 0: none.
 using FieldUse = unsigned;
 /// Field that fingerprints do not contain.
 inline constexpr FieldUse not_hashed = 1;

@@ -30,10 +30,10 @@ class DeliverySeries {
         std::size_t place = 0;  // index of the message in the series
     };
 
-    std::vector<Known> known_;  // messages by MessageId
+    std::vector<Known> known_;  // index: MessageId
     std::vector<Time> sent_;
-    std::vector<std::uint32_t> others_;      // by message: number of possible receivers
-    std::vector<std::uint32_t> deliveries_;  // by message: number of deliveries
+    std::vector<std::uint32_t> others_;      // number of possible receivers of each message
+    std::vector<std::uint32_t> deliveries_;  // number of deliveries of each message
 };
 
 }  // namespace rovernet

@@ -70,11 +70,11 @@ class Topology {
     std::vector<Robot> robots_;
     std::size_t there_ = 0, on_ = 0;
     std::map<std::pair<NodeId, NodeId>, Time> up_;  // start times of links that are up
-    // [s] total time of: links up, robots on, all robots
+    // Sums [s] of the times of links that were up, of robots that were on, and of all robots.
     double link_s_ = 0, on_s_ = 0, robot_s_ = 0;
-    double way_ = 0;  // [m] sum of all robots' path lengths
+    double way_ = 0;  // sum of the lengths of all robots' paths [m]
     std::uint64_t samples_ = 0, components_ = 0;
-    double lifetime_ = 0;  // [s] sum of lifetimes
+    double lifetime_ = 0;  // sum of the lifetimes of links that have ended [s]
     std::uint64_t ended_ = 0;
 };
 

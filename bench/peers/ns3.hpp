@@ -28,7 +28,7 @@ constexpr std::uint16_t protocol = 0x88b5;  // EtherType for local experiments (
 
 /// Options of every program: --payload and --seed.
 struct PeerOptions {
-    std::uint32_t payload;  // [B]
+    std::uint32_t payload;  // bytes of data in each packet
     std::uint32_t seed = 1;
 
     explicit PeerOptions(std::uint32_t usual_payload) : payload(usual_payload) {}

@@ -67,7 +67,7 @@ inline boost::asio::local::stream_protocol::acceptor listen_on_path(boost::asio:
 /// Enables TCP keep-alive: after 30 s of silence the peer is probed three times, at intervals of
 /// 10 s. If the peer does not reply, the connection is closed.
 inline void keep_alive(int socket) {
-    const int on = 1, silence = 30, interval = 10, times = 3;  // [s] except times
+    const int on = 1, silence = 30, interval = 10, times = 3;  // silence and interval in s
     setsockopt(socket, SOL_SOCKET, SO_KEEPALIVE, &on, sizeof on);
     setsockopt(socket, IPPROTO_TCP, TCP_KEEPIDLE, &silence, sizeof silence);
     setsockopt(socket, IPPROTO_TCP, TCP_KEEPINTVL, &interval, sizeof interval);

@@ -90,8 +90,8 @@ class Front {
     /// Called once the results are written. Messages sent in this call still reach the clients.
     /// @param metrics  metrics of the run, as in summary.json
     virtual void ended(std::string_view /*fingerprint*/, const Table& /*metrics*/) {}
-    /// Whether the front goes on to serve its clients after the call of ended(), until the user
-    /// stops the program.
+    /// Whether the front continues to serve its clients after ended(), until the user stops the
+    /// program.
     virtual bool stays() const { return false; }
     /// Error that ended the run, such as a lost client; empty: no error.
     virtual std::string fault() const { return {}; }

@@ -46,7 +46,7 @@ class RecentLosses {
     static constexpr std::size_t size = 1024;
     struct Known {
         Link link{};
-        double cutoff = 0, loss_db = 0;  // [dB]
+        double cutoff = 0, loss_db = 0;  // cutoff and path loss [dB]
     };
     using Slots = std::array<Known, size>;
     static std::size_t slot(const Link& link) {

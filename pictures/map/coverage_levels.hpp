@@ -11,7 +11,7 @@ namespace rovernet {
 
 /// Level whose contour a picture of a coverage map shows.
 struct ContourLevel {
-    Dbm level;            ///< [dBm]
+    Dbm level;            ///< received power on the contour [dBm]
     const char* meaning;  ///< "sensitivity" or "range_db"
 };
 

@@ -94,7 +94,7 @@ class FrameColumns {
     };
     /// Frame on air.
     struct Flight {
-        std::int64_t start;  // [ns]
+        std::int64_t start;  // start of the transmission [ns]
         std::uint32_t airtime, sender, to, message;
         std::uint32_t before;  // index of the sender's previous flight; no_index: none
         std::uint8_t kind, ttl, hops;

@@ -51,7 +51,7 @@ class Slab {
     double most_reflected(double cosine) const;
 
   private:
-    double wave_number_;  // in air [rad/m]
+    double wave_number_;  // wave number of the radio wave in air [rad/m]
     math::Complex permittivity_;
 };
 

@@ -16,7 +16,7 @@ std::optional<double> leading_number(const std::string& text, std::string& unit)
 /// Columns of a table of external values, such as measurements, that are drawn as marks beside the
 /// curves of a study.
 struct MarkColumns {
-    std::string x;     ///< name of the column with x, as the user names the key
+    std::string x;     ///< name of the column with x, equal to the name of the varied key
     std::string unit;  ///< unit of x in the chart; empty: none
     std::string by;    ///< name of the column with the name of the curve; empty: only one curve
     /// Name of the column with y. The ends of its interval are in "Y low" and "Y high", if the

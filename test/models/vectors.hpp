@@ -64,7 +64,7 @@ class Vectors {
 
 /// Tolerance of the vectors [dB]. They have 15 digits, so that losses of up to 4079 dB are accurate
 /// to 1e-11 dB.
-inline constexpr double vector_tolerance = 1e-9;  // [dB]
+inline constexpr double vector_tolerance = 1e-9;
 
 inline constexpr double no_cutoff = std::numeric_limits<double>::infinity();
 

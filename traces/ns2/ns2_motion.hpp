@@ -70,7 +70,7 @@ class Ns2Motion {
     };
     Track& track(NodeId node);
 
-    std::vector<Track> tracks_;  // by NodeId
+    std::vector<Track> tracks_;  // movements of the robots; index: NodeId
 };
 
 }  // namespace rovernet

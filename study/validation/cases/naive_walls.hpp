@@ -37,7 +37,7 @@ class NaiveRaster {
     Vec3 in_cells(Vec3 p) const { return {(p.x - low_.x) / cell_, (p.y - low_.y) / cell_}; }
 
     Vec3 low_;
-    double cell_;  // [m]
+    double cell_;  // edge length of a cell [m]
     std::int64_t columns_, rows_;
     std::vector<std::uint8_t> cells_;
 };
