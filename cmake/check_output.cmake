@@ -1,6 +1,7 @@
-# cmake -DPROGRAM=... -DEXPECTED=... -P check_output.cmake: what PROGRAM prints is what EXPECTED holds.
+# cmake -DPROGRAM=... -DEXPECTED=... [-DEMULATOR=...] -P check_output.cmake: what PROGRAM prints is what EXPECTED
+# holds. EMULATOR runs programs for another processor.
 
-execute_process(COMMAND "${PROGRAM}" OUTPUT_VARIABLE printed RESULT_VARIABLE status)
+execute_process(COMMAND ${EMULATOR} "${PROGRAM}" OUTPUT_VARIABLE printed RESULT_VARIABLE status)
 if(NOT status EQUAL 0)
   message(FATAL_ERROR "${PROGRAM} ended with ${status}")
 endif()

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "scenario/robot_table.hpp"
 
-#include "mobility/movement.hpp"
 #include "models/link_gain.hpp"
 #include "scenario/document/located.hpp"
 #include "scenario/scenario.hpp"
@@ -28,54 +27,6 @@ PlaceTable read_place(const Value& value) {
     return place;
 }
 
-/// Checks the destination of a message: `to` needs `send`, and "sender" needs on_receive.
-void check_receiver(const ReactionTable& reaction, TableReader& table) {
-    if (!reaction.to) return;
-    if (!reaction.send) table.missing("send", "send = \"F\": to needs it");
-    if (*reaction.to != ReactionTable::sender || reaction.trigger == Trigger::on_receive) return;
-    throw InputError(reaction.to_where,
-                     fmt::format("to: found \"sender\" in {}, where no message came; expected the "
-                                 "name of a robot, or on_receive",
-                                 name_of(reaction.trigger)));
-}
-
-ReactionTable read_reaction(const Value& value, Trigger trigger) {
-    TableReader table(value, std::string(name_of(trigger)));
-    ReactionTable reaction;
-    reaction.trigger = trigger;
-    reaction.where = value.where;
-    const bool receives = trigger == Trigger::on_receive;
-    if (receives) table.read("payload", reaction.payload);
-    if (receives) {
-        table.read("hops", reaction.hops,
-                   Range{.low = 1, .high = 65535, .text = "from 1 to 65535"});
-    }
-    if (receives || trigger == Trigger::on_link_lost) {
-        if (table.read("from", reaction.from)) reaction.from_where = table.take("from")->where;
-    }
-    if (trigger == Trigger::on_time) {
-        if (!table.read("time", reaction.time, non_negative)) {
-            table.missing("time", "time = \"10 s\"");
-        }
-    } else {
-        table.read("once", reaction.once);
-    }
-    if (const Value* move = table.take("move")) reaction.move = read_move(*move, true);
-    table.read("send", reaction.send);
-    if (table.read("to", reaction.to)) reaction.to_where = table.take("to")->where;
-    table.read("size", reaction.size, sizes_of_messages);
-    table.read("stop", reaction.stop);
-    table.reject_unknown();
-    check_receiver(reaction, table);
-    if (reaction.stop && reaction.move) table.only_one_of("move", "stop");
-    if (reaction.size && !reaction.send) table.missing("send", "send = \"F\": size needs it");
-    if (!reaction.move && !reaction.send && !reaction.stop) {
-        table.missing("move",
-                      "move = { model = \"goal\", to = [...] }, send = \"F\" or stop = true");
-    }
-    return reaction;
-}
-
 void read_reactions(TableReader& table, RobotTable& robot) {
     for (std::size_t i = 0; i < EnumNames<Trigger>::values.size(); ++i) {
         const auto trigger = static_cast<Trigger>(i);
@@ -100,10 +51,10 @@ void check_name(const Value& value, const std::string& name) {
     }
 }
 
-void read_switching(TableReader& table, RobotTable& robot) {
+void check_switching(TableReader& table, RobotTable& robot) {
     for (auto* times : {&robot.off, &robot.on}) {
         const char* key = times == &robot.off ? "off" : "on";
-        if (!table.read(key, *times)) continue;
+        if (!table.table().find(key)) continue;
         (times == &robot.off ? robot.off_where : robot.on_where) = table.take(key)->where;
         for (const Duration t : *times) {
             if (t >= Duration{0}) continue;
@@ -145,41 +96,6 @@ Table difference(const Radio& own, const Radio& usual) {
     return table;
 }
 
-Table reaction_document(const ReactionTable& reaction) {
-    Table table;
-    if (reaction.trigger == Trigger::on_receive) table.set("payload", reaction.payload);
-    if (reaction.from) table.set("from", *reaction.from);
-    if (reaction.hops) table.set("hops", *reaction.hops);
-    if (reaction.trigger == Trigger::on_time) {
-        table.set("time", to_value(reaction.time));
-    } else {
-        table.set("once", reaction.once);
-    }
-    if (reaction.move) table.set("move", move_document(*reaction.move));
-    if (reaction.send) table.set("send", *reaction.send);
-    if (reaction.to) table.set("to", *reaction.to);
-    if (reaction.size) table.set("size", to_value(*reaction.size));
-    if (reaction.stop) table.set("stop", true);
-    return table;
-}
-
-void append_reactions(Table& table, const RobotTable& robot) {
-    for (std::size_t i = 0; i < EnumNames<Trigger>::values.size(); ++i) {
-        Array list;
-        for (const ReactionTable& reaction : robot.reactions) {
-            if (reaction.trigger == static_cast<Trigger>(i)) {
-                list.emplace_back(reaction_document(reaction));
-            }
-        }
-        if (list.empty()) continue;
-        const auto key = name_of(static_cast<Trigger>(i));
-        if (list.size() == 1)
-            table.set(key, std::move(list.front()));
-        else
-            table.set(key, std::move(list));
-    }
-}
-
 Table place_document(const PlaceTable& place) {
     Table table;
     append_fields(table, place);
@@ -217,18 +133,13 @@ RobotTable read_robot(const Value& value, const Scenario& scenario, bool needs_p
     TableReader table(value, "[[robot]]");
     RobotTable robot;
     robot.where = robot.at_where = robot.radio_where = robot.propagation_where = value.where;
-    if (!table.read("name", robot.name)) table.missing("name", "name = \"A\"");
+    table.read_fields(robot);
+    if (!table.table().find("name")) table.missing("name", "name = \"A\"");
     check_name(*table.take("name"), robot.name);
-    table.read("count", robot.count, Range{.low = 1, .high = 10e6, .text = "from 1 to 10,000,000"});
-    if (const Value* at = table.take("at")) robot.at_where = at->where;
-    table.read("at", robot.at);
+    if (robot.at) robot.at_where = table.take("at")->where;
     if (const Value* place = table.take("place")) robot.place = read_place(*place);
     if (robot.at && robot.place) table.only_one_of("at", "place");
     const bool placed = robot.at || robot.place;
-    table.read("heading", robot.heading);
-    table.read("radius", robot.radius, non_negative);
-    table.read("top_speed", robot.top_speed, positive);
-    table.read("turn_rate", robot.turn_rate, turn_rates);
     if (const Value* move = table.take("move")) robot.move = read_move(*move, placed);
     if (const Value* scan = table.take("scan")) robot.scan = read_scanners(*scan);
     if (!placed && needs_place && !robot.move.draws_place()) {
@@ -240,7 +151,7 @@ RobotTable read_robot(const Value& value, const Scenario& scenario, bool needs_p
     }
     read_air(table, robot, scenario);
     read_reactions(table, robot);
-    read_switching(table, robot);
+    check_switching(table, robot);
     table.reject_unknown();
     return robot;
 }
@@ -261,7 +172,7 @@ Table robot_document(const RobotTable& robot, const Scenario& scenario) {
     if (robot.propagation) table.set("propagation", chosen_document(*robot.propagation));
     table.set("move", move_document(robot.move));
     if (!robot.scan.empty()) table.set("scan", scanners_document(robot.scan));
-    append_reactions(table, robot);
+    append_reactions(table, robot.reactions);
     if (!robot.off.empty()) table.set("off", to_value(robot.off));
     if (!robot.on.empty()) table.set("on", to_value(robot.on));
     return table;

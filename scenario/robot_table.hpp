@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mobility/movement.hpp"
 #include "models/radio.hpp"
+#include "scenario/reaction_table.hpp"
 #include "scenario/tables/move_table.hpp"
 #include "scenario/tables/propagation_table.hpp"
 #include "scene/scanner.hpp"
@@ -50,61 +52,6 @@ struct PlaceTable {
 template <>
 struct EnumNames<PlaceTable::Model> {
     static constexpr std::array<std::string_view, 2> values = {"uniform", "choice"};
-};
-
-/// Trigger of a reaction: the event to which the robot reacts. Each enumerator has the name of its
-/// key in [[robot]].
-enum class Trigger {
-    /// The robot receives a message.
-    on_receive,
-    /// The robot comes to rest at the end of a movement.
-    on_arrival,
-    /// The link from any other robot to the reacting robot is lost.
-    on_link_lost,
-    /// A given time of the run is reached.
-    on_time
-};
-/// Key of a [[robot]] table for each Trigger, in the order of printing.
-template <>
-struct EnumNames<Trigger> {
-    static constexpr std::array<std::string_view, 4> values = {"on_receive", "on_arrival",
-                                                               "on_link_lost", "on_time"};
-};
-
-/// Reaction of a robot to an event: on_receive = { ... }, on_arrival, on_link_lost or on_time. A
-/// list of tables stands for several reactions. At least one of `move`, `send` and `stop` is given.
-struct ReactionTable {
-    Trigger trigger{};
-    /// Text with which the payload of the received message must begin; empty: any message. Used by
-    /// on_receive.
-    std::string payload = {};
-    /// Robot that sent the message, or whose link is lost; none: any robot. Used by on_receive and
-    /// on_link_lost.
-    std::optional<std::string> from = {};
-    /// Largest number of hops of the message; none: any number. Used by on_receive.
-    std::optional<int> hops = {};
-    /// Time of the reaction since the start of the run [ns]. Used by on_time.
-    Duration time{0};
-    /// True if the robot reacts only to the first event of the trigger; false: to all events. Not
-    /// used by on_time, which happens once.
-    bool once = true;
-    /// Movement that the robot starts in reaction to the event `trigger`; none: no movement.
-    std::optional<MoveTable> move = {};
-    /// Payload of the message that the robot sends in reaction to the event `trigger`; none: no
-    /// message is sent.
-    std::optional<std::string> send = {};
-    /// Destination of the message that the robot sends: a robot's name, or "sender"; none:
-    /// everyone.
-    std::optional<std::string> to = {};
-    /// Size [bytes] of the message that the robot sends; none: the length of its payload.
-    std::optional<Bytes> size = {};
-    /// True if the robot stops at its current position; excludes `move`.
-    bool stop = false;
-    /// File positions of the reaction's table, and of its keys `from` and `to`.
-    Location where = {}, from_where = {}, to_where = {};
-
-    /// Value of `to` for the origin of the received message, even if a robot is named "sender".
-    static constexpr std::string_view sender = "sender";
 };
 
 /// File positions of the keys of a robot's radio, for errors that are found after reading. A key
@@ -160,6 +107,21 @@ struct RobotTable {
     /// position.
     Location where, at_where, radio_where, propagation_where, on_where, off_where;
 
+    /// Keys of the table that are plain values. Tables in it: place, move, scan, radio,
+    /// propagation, and a reaction to each Trigger; the key `role` is a word of all_roles().
+    static constexpr auto fields() {
+        constexpr Range counts{.low = 1, .high = 10e6, .text = "from 1 to 10,000,000"};
+        using R = RobotTable;
+        return describe(field("name", &R::name, "of the robot"),
+                        field("count", &R::count, counts, "robots name0, name1, ..."),
+                        field("at", &R::at, "where it starts"),
+                        field("heading", &R::heading, "where it looks at the start"),
+                        field("radius", &R::radius, non_negative, "of its body"),
+                        field("top_speed", &R::top_speed, positive, "which no movement exceeds"),
+                        field("turn_rate", &R::turn_rate, turn_rates, "of turning on the spot"),
+                        field("off", &R::off, "times at which it is switched off"),
+                        field("on", &R::on, "times at which it is switched on"));
+    }
     /// Name of the i-th robot of this [[robot]] table, i from 0.
     std::string name_of(int i) const { return count ? name + std::to_string(i) : name; }
 };

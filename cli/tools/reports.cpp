@@ -8,6 +8,8 @@
 #include "experiment/version.hpp"
 #include "models/propagation/disc.hpp"
 #include "scenario/document/json.hpp"
+#include "scenario/model_names.hpp"
+#include "scenario/schema.hpp"
 
 #include <fmt/format.h>
 
@@ -173,15 +175,24 @@ void models(const PrintArguments& a) {
     }
 }
 
+void print_schema(const PrintArguments&) { fmt::print("{}", to_json(scenario_schema())); }
+
 void print_version(const PrintArguments& a) {
-    const Table built = build_provenance();
+    Table built = build_provenance();
+    const Table names = model_names();
     if (a.json) {
+        built.set("models", names);
         fmt::print("{}", to_json(built));
         return;
     }
     fmt::print("rovernet {}\n", version());
     for (const auto& entry : built.entries) {
         if (entry.key != "version") fmt::print("{:<11} {}\n", entry.key, text_of(entry.value));
+    }
+    for (const auto& entry : names.entries) {
+        std::vector<std::string> words;
+        for (const Value& name : *entry.value.array()) words.push_back(text_of(name));
+        fmt::print("{:<11} {}\n", entry.key, fmt::join(words, ", "));
     }
 }
 

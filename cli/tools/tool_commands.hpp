@@ -55,6 +55,7 @@ struct PrintArguments {
     bool json = false;
 };
 void models(const PrintArguments& arguments);
+void print_schema(const PrintArguments& arguments);
 void print_version(const PrintArguments& arguments);
 
 }  // namespace rovernet::cli

@@ -117,11 +117,18 @@ void add_help(Command app) {
 }
 
 void add_version(Command app) {
-    const auto [version, a] =
-        add_command(app, "version", "Print the version and the build options of this program",
-                    cli::print_version);
+    const auto [version, a] = add_command(
+        app, "version", "Print the version, the build options and the models of this program",
+        cli::print_version);
     version.add_examples({"rovernet version --json"});
     add_json(version, a.json);
+}
+
+void add_schema(Command app) {
+    const auto [schema, a] = add_command(
+        app, "schema", "Print the JSON Schema of scenario files, by which editors check them",
+        cli::print_schema);
+    schema.add_examples({"rovernet schema > scenario.schema.json"});
 }
 
 /// Scripts and pages that are made from the commands themselves.
@@ -151,6 +158,7 @@ void add_tool_commands(Command app) {
     add_view(app);
     add_bench(app);
     add_help(app);
+    add_schema(app);
     add_version(app);
     add_completion(app);
 }

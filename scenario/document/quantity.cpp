@@ -208,6 +208,14 @@ double read_quantity(const Value& value, std::string_view key, Dimension dimensi
            near.empty() ? example : near);
 }
 
+std::string quantity_pattern(Dimension dimension, bool any_sign) {
+    std::vector<std::string_view> names;
+    for (const Unit& unit : kind(dimension).units) names.push_back(unit.name);
+    return fmt::format(
+        "^[ \t]*[+]?{}([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][+-]?[0-9]+)?[ \t]*({})[ \t]*$",
+        any_sign ? "-?" : "", fmt::join(names, "|"));
+}
+
 std::string quantity_text(double value, Dimension dimension) {
     const QuantityKind& k = kind(dimension);
     for (const auto& unit : k.units) {

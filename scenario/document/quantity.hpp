@@ -71,6 +71,10 @@ concept IsQuantity = requires(T v) {
 /// suggestion
 double read_quantity(const Value& value, std::string_view key, Dimension dimension);
 
+/// Regular expression of the texts that read_quantity() accepts for a dimension.
+/// @param any_sign  false: no text with a minus sign
+std::string quantity_pattern(Dimension dimension, bool any_sign);
+
 /// Name of a dimension's base unit: "dBm", "m", "s" ...
 std::string_view base_unit(Dimension dimension);
 

@@ -19,12 +19,6 @@ void for_each_move(Visitor&& visit) {
     }(static_cast<MoveModels*>(nullptr));
 }
 
-std::vector<std::string> move_names() {
-    std::vector<std::string> names;
-    for_each_move([&](const auto& model) { names.emplace_back(model.name); });
-    return names;
-}
-
 void check_times(const Value& value, const std::vector<Duration>& times) {
     const bool later =
         std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
@@ -90,6 +84,12 @@ void settle_start(Model& model, TableReader& table, bool placed) {
 }
 
 }  // namespace
+
+std::vector<std::string> move_names() {
+    std::vector<std::string> names;
+    for_each_move([&](const auto& model) { names.emplace_back(model.name); });
+    return names;
+}
 
 bool MoveTable::draws_place() const {
     return std::visit(

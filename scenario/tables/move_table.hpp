@@ -128,6 +128,9 @@ struct MoveTable {
     }
 };
 
+/// Names of all models of the list MoveModels, in order.
+std::vector<std::string> move_names();
+
 /// Reads the movement of a robot: move = { ... }.
 /// @param placed  true if the robot has a start position, so that its model draws none
 /// @throws InputError for an unknown model or key, a value out of range, or a missing required

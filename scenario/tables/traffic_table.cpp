@@ -11,7 +11,7 @@ namespace {
 
 void read_start(const Value* start, TrafficTable& traffic, TableReader& table) {
     traffic.start = Duration{0};
-    if (start && start->string() && *start->string() == "arrival") {
+    if (start && start->string() && *start->string() == TrafficTable::at_arrival) {
         traffic.start.reset();
     } else {
         table.read("start", traffic.start, non_negative);
@@ -49,34 +49,29 @@ void check_stop(const TrafficTable& traffic, TableReader& table) {
 TrafficTable read_traffic(const Value& value) {
     TableReader table(value, "[[traffic]]");
     TrafficTable traffic;
-    table.read("kind", traffic.kind);
-    if (table.read("name", traffic.name) && !is_flow_name(traffic.name)) {
-        throw InputError(table.take("name")->where,
+    table.read_fields(traffic);
+    read_start(table.take("start"), traffic, table);
+    const auto given = [&](std::string_view key) { return table.table().find(key); };
+    if (given("name") && !is_flow_name(traffic.name)) {
+        throw InputError(given("name")->where,
                          fmt::format("name: found \"{}\"; expected a name without blanks and "
                                      "commas, as it ends the names of metrics",
                                      traffic.name));
     }
-    if (!table.read("from", traffic.from)) table.missing("from", "from = \"A\"");
-    traffic.from_where = table.take("from")->where;
-    if (table.read("to", traffic.to)) traffic.to_where = table.take("to")->where;
+    if (!given("from")) table.missing("from", "from = \"A\"");
+    traffic.from_where = given("from")->where;
+    if (traffic.to) traffic.to_where = given("to")->where;
     const bool to_one = traffic.kind == TrafficKind::unicast;
     if (!to_one && traffic.to) {
         throw InputError(
             traffic.to_where,
             "to: a broadcast has no destination; expected kind = \"unicast\", or no key \"to\"");
     }
-    constexpr Range one{
-        .low = 1, .high = 1, .text = "of 1: over one hop, without the routing protocol"};
-    if (table.read("hops", traffic.hops, one)) traffic.hops_where = table.take("hops")->where;
-    table.read("saturate", traffic.saturate);
-    const bool payload = table.read("payload", traffic.payload);
-    const bool size = table.read("size", traffic.size, sizes_of_messages);
-    if (payload) read_payload_place(traffic, table);
-    if (!payload && !size) table.missing("payload", "payload = \"F\", or size = \"64 B\"");
-    read_start(table.take("start"), traffic, table);
-    table.read("every", traffic.every, positive);
-    table.read("stop", traffic.stop, non_negative);
-    table.read("count", traffic.count, Range{.low = 1, .text = ">= 1"});
+    if (traffic.hops) traffic.hops_where = given("hops")->where;
+    if (given("payload")) read_payload_place(traffic, table);
+    if (!given("payload") && !traffic.size) {
+        table.missing("payload", "payload = \"F\", or size = \"64 B\"");
+    }
     if (to_one && !traffic.to) table.missing("to", "to = \"B\": whom a unicast is for");
     table.reject_unknown();
     check_receiver(traffic);

@@ -30,6 +30,12 @@ struct EnumNames<TrafficKind> {
     static constexpr std::array<std::string_view, 2> values = {"broadcast", "unicast"};
 };
 
+/// Allowed message sizes [bytes]: range of the key `size` of [[traffic]] and of reactions.
+inline constexpr Range sizes_of_messages{
+    .low = 0,
+    .high = longest_message,
+    .text = "from 0 to 65507 bytes, which fit into a UDP packet"};
+
 /// [[traffic]]: one flow of messages. The robot `from` sends a message at time `start`, and repeats
 /// it at intervals of `every` until the time `stop`, or until `count` messages are sent.
 struct TrafficTable {
@@ -61,13 +67,29 @@ struct TrafficTable {
     std::optional<int> count;
     /// File positions of the keys `from`, `to`, `hops` and `payload`, for errors and notices.
     Location from_where = {}, to_where = {}, hops_where = {}, payload_where = {};
-};
 
-/// Allowed message sizes [bytes]: range of the key `size` of [[traffic]] and of reactions.
-inline constexpr Range sizes_of_messages{
-    .low = 0,
-    .high = longest_message,
-    .text = "from 0 to 65507 bytes, which fit into a UDP packet"};
+    /// Word for the key `start`: the first message is sent when the robot arrives.
+    static constexpr std::string_view at_arrival = "arrival";
+
+    /// Keys of the table, without `start`.
+    static constexpr auto fields() {
+        constexpr Range one{
+            .low = 1, .high = 1, .text = "of 1: over one hop, without the routing protocol"};
+        constexpr Range counts{.low = 1, .text = ">= 1"};
+        using T = TrafficTable;
+        return describe(
+            field("kind", &T::kind, "to everyone, or to one robot"),
+            field("name", &T::name, "of the flow, in the names of its metrics"),
+            field("from", &T::from, "sending robot"), field("to", &T::to, "receiver of a unicast"),
+            field("hops", &T::hops, one, "1: without the routing protocol"),
+            field("saturate", &T::saturate, "the next message follows as soon as one is sent"),
+            field("payload", &T::payload, "text of the message"),
+            field("size", &T::size, sizes_of_messages, "of the message, if not that of its text"),
+            field("every", &T::every, positive, "interval between messages"),
+            field("stop", &T::stop, non_negative, "end of the flow"),
+            field("count", &T::count, counts, "number of messages"));
+    }
+};
 
 /// Reads one flow of [[traffic]]. A table that names a traffic file is read by read_flows().
 /// @throws InputError for a key that is unknown, is missing, or contradicts another key

@@ -360,6 +360,29 @@ TEST_CASE("version and --version print the version") {
     CHECK(command(folder, {"version"}).out.starts_with("rovernet " + version + "\n"));
 }
 
+TEST_CASE("version lists the models of each table of a scenario, and a scenario can choose each") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("s.toml", relay);
+    const Json models = json_of(folder, {"version"})["models"];
+    const std::string text = command(folder, {"version"}).out;
+    const auto complaint = [&](const std::string& table, const std::string& name) {
+        const std::string key = table == "routing" ? "routing.protocol"
+                                : table == "move"  ? "robot.A.move.model"
+                                                   : table + ".model";
+        return command(folder, {"run", file, "--print-scenario", "--set", key + "=" + name}).err;
+    };
+    for (const auto& [table, names] : models.items()) {
+        CAPTURE(table);
+        CHECK(names.size() > 1);
+        CHECK(complaint(table, "nonesuch").find("nonesuch") != std::string::npos);
+        for (const std::string name : names) {
+            CAPTURE(name);
+            CHECK(text.find(name) != std::string::npos);
+            CHECK(complaint(table, name).find("unknown") == std::string::npos);
+        }
+    }
+}
+
 TEST_CASE("run --speed gives the same fingerprint as an unpaced run") {
     const TemporaryFolder folder;
     std::vector<std::string> arguments = {"run",   folder.write("s.toml", relay),

@@ -3,6 +3,8 @@
 #include "scenario/document/toml.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/scenario_file.hpp"
+#include "scenario/schema.hpp"
+#include "test/scenario/json_schema.hpp"
 #include "test/scene/png_writer.hpp"
 #include "test/scene/temporary_folder.hpp"
 
@@ -455,6 +457,37 @@ TEST_CASE("bad input: every mistake is reported with line, column and a helpful 
     }
 }
 
+TEST_CASE("bad input: the schema sees what depends on no other key and no other file") {
+    const Table schema = scenario_schema();
+    const TemporaryFolder folder;
+    write_maps(folder);
+    std::size_t seen = 0, unseen = 0;
+    for (const auto& mistake : mistakes) {
+        CAPTURE(mistake.text);
+        try {
+            const Value document = parse_toml(mistake.text, "s.toml");
+            const bool accepted = test::JsonSchema::accepts(schema, document);
+            ++(accepted ? unseen : seen);
+            std::string message;
+            try {
+                build(load_scenario(folder.write("s.toml", mistake.text), {}));
+            } catch (const InputError& error) {
+                message = error.message();
+            }
+            CAPTURE(message);
+            for (const char* words :
+                 {"unknown ", "without a unit", "with a unit", "a text in quotes", "a whole number",
+                  "true or false", "expected a table"}) {
+                if (message.find(words) != message.npos) CHECK_FALSE(accepted);
+            }
+        } catch (const InputError&) {
+            // Not TOML: nothing for a schema.
+        }
+    }
+    CHECK(seen > 0);
+    MESSAGE(seen, " mistakes seen by the schema, ", unseen, " not");
+}
+
 TEST_CASE("bad input: messages are on stderr only, exit code 3, no folder is created") {
     const TemporaryFolder folder;
     write_maps(folder);
@@ -550,6 +583,7 @@ TEST_CASE("bad input: a scenario with any typing error is read, or refused with 
     const std::string pieces[] = {"\"",  "[", "]", "{",  "}", "=",    "\n",  ".", "-", "1e999",
                                   "nan", "0", "#", "\\", ",", "\xff", "[[a", " ", "m", "true"};
     std::mt19937 random(1);  // the engine's numbers are the standard's, the same everywhere
+    const Table schema = scenario_schema();
     int failed = 0;
     for (int i = 0; i < 2000; ++i) {
         std::string text = valid;
@@ -563,7 +597,9 @@ TEST_CASE("bad input: a scenario with any typing error is read, or refused with 
         }
         CAPTURE(text);
         try {
-            to_toml(to_document(read_scenario(parse_toml(text, "s.toml"), "s.toml")));
+            const Value document = parse_toml(text, "s.toml");
+            to_toml(to_document(read_scenario(document, "s.toml")));
+            CHECK(test::JsonSchema::accepts(schema, document));
         } catch (const InputError& error) {
             ++failed;
             CHECK_FALSE(error.message().empty());

@@ -4,6 +4,8 @@
 #include "scenario/document/json.hpp"
 #include "scenario/document/toml.hpp"
 #include "scenario/scenario_file.hpp"
+#include "scenario/schema.hpp"
+#include "test/scenario/json_schema.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
@@ -205,8 +207,14 @@ zip = [["routing.ttl", "routing.jitter"]]
 exclude = [{ "propagation.model" = "disc", "routing.ttl" = [1, 2] }]
 )";
 
+/// Reads a scenario; its schema accepts each that is read.
 Scenario read(const std::string& text) {
-    return read_scenario(parse_toml(text, "s.toml"), "s.toml");
+    static const Table schema = scenario_schema();
+    const Value document = parse_toml(text, "s.toml");
+    Scenario scenario = read_scenario(document, "s.toml");
+    CAPTURE(text);
+    CHECK(test::JsonSchema::accepts(schema, document));
+    return scenario;
 }
 
 Scenario with(const std::string& text, const std::vector<std::string>& options) {

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "scenario/schema.hpp"
+
+#include "scenario/scenario.hpp"
+#include "scenario/tables/value_schema.hpp"
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace rovernet {
+namespace {
+
+/// Table that chooses a model of a list, with the keys of all models of the list.
+template <class Choice, Described... Common>
+Table choice_schema(std::string_view key) {
+    Table keys;
+    add_key(keys, key, schema_of_words(listed(Choice::names())), "the one that is used");
+    Choice::for_each_type([&]<class M>() { add_keys<M>(keys, M::name); });
+    (add_keys<Common>(keys), ...);
+    return schema_of_table(std::move(keys));
+}
+
+/// Table `move`: it has the keys of its model alone.
+Table move_schema() {
+    Array models;
+    [&]<class... Models>(std::variant<Models...>*) {
+        const auto add = [&]<class M>(std::type_identity<M>) {
+            Table keys;
+            Array required{"model"};
+            add_key(keys, "model", schema_of_words({M::name}), "of the movement");
+            add_keys<M>(keys);
+            if constexpr (LedModel<M>) {
+                add_key(keys, "leader", schema_of_type("string"), "robot to follow");
+                required.emplace_back("leader");
+            }
+            models.emplace_back(schema_of_table(std::move(keys), required));
+        };
+        (add(std::type_identity<Models>{}), ...);
+    }(static_cast<MoveModels*>(nullptr));
+    Table schema;
+    schema.set("anyOf", std::move(models));
+    return schema;
+}
+
+/// One table, or a list of tables.
+Table one_or_more(const Table& schema) { return schema_of_either(schema, schema_of_list(schema)); }
+
+Table reaction_schema(Trigger trigger) {
+    Table keys;
+    add_keys_if<ReactionTable>(
+        keys, {}, [&](std::string_view key) { return ReactionTable::has_key(trigger, key); });
+    add_key(keys, "move", move_schema(), "movement that begins");
+    return schema_of_table(std::move(keys), trigger == Trigger::on_time ? Array{"time"} : Array{});
+}
+
+Table robot_schema() {
+    Table keys;
+    add_keys<RobotTable>(keys);
+    add_key(keys, "place", table_schema<PlaceTable>(), "random start");
+    add_key(keys, "move", move_schema(), "movement");
+    Table scanner;
+    add_keys<RangeFinder>(scanner);
+    add_keys<Scanner>(scanner);
+    add_key(keys, "scan", one_or_more(schema_of_table(std::move(scanner))), "range finders");
+    add_key(keys, "role", schema_of_words(listed(all_roles())), "role in the routing protocol");
+    add_key(keys, "radio", table_schema<Radio>(), "keys of [radio] of its own");
+    add_key(keys, "propagation", choice_schema<PropagationTable>("model"),
+            "propagation of the frames that it sends");
+    for (std::size_t i = 0; i < EnumNames<Trigger>::values.size(); ++i) {
+        const auto trigger = static_cast<Trigger>(i);
+        add_key(keys, name_of(trigger), one_or_more(reaction_schema(trigger)), "reaction");
+    }
+    return schema_of_table(std::move(keys), {"name"});
+}
+
+Table scene_schema() {
+    Table keys;
+    add_keys<SceneTable>(keys);
+    Table floor;
+    add_keys<FloorTable>(floor);
+    add_key(floor, "ceiling", table_schema<CeilingTable>(), "slab above");
+    Table floors = schema_of_list(schema_of_table(std::move(floor), {"map", "height"}), 1);
+    add_key(keys, "floor", std::move(floors), "storeys, from the lowest up");
+    add_key(keys, "door", schema_of_list(table_schema<DoorTable>({"from", "to", "closes"})),
+            "walls that close and open");
+    Table materials = schema_of_type("object");
+    materials.set("additionalProperties", table_schema<MaterialTable>());
+    add_key(keys, "materials", std::move(materials), "what walls are made of, by name");
+    return schema_of_table(std::move(keys));
+}
+
+Table traffic_schema() {
+    Table keys;
+    add_keys<TrafficTable>(keys);
+    add_key(keys, "start",
+            schema_of_either(schema_of_quantity(Dimension::time, false),
+                             schema_of_words({TrafficTable::at_arrival})),
+            "of the first message: a time, or when the robot arrives");
+    return schema_of_table(std::move(keys), {"from"});
+}
+
+/// [traffic] or [[traffic]]: flows, or files of flows.
+Table all_traffic_schema() {
+    Table keys;
+    add_key(keys, "file", schema_of_type("string"), "traffic file of ns-2");
+    const Table file = schema_of_table(std::move(keys), {"file"});
+    return schema_of_either(schema_of_list(schema_of_either(traffic_schema(), file)), file);
+}
+
+Table study_schema() {
+    Table keys;
+    add_keys<StudyTable>(keys);
+    add_key(
+        keys, "warmup",
+        schema_of_either(schema_of_quantity(Dimension::time, false), schema_of_words({"mser5"})),
+        "beginning of a run that is not measured");
+    add_key(keys, "vary", schema_of_type("object"), "values by path: vary.\"radio.power\" = [...]");
+    add_key(keys, "zip", value_schema<decltype(StudyTable::zip)>(any), "paths that vary together");
+    add_key(keys, "exclude", schema_of_list(schema_of_type("object")), "combinations left out");
+    return schema_of_table(std::move(keys));
+}
+
+}  // namespace
+
+Table scenario_schema() {
+    Table keys;
+    keys.set("scenario", table_schema<ScenarioTable>());
+    keys.set("scene", scene_schema());
+    keys.set("radio", table_schema<Radio>());
+    keys.set("medium", table_schema<MediumTable>());
+    keys.set("propagation", choice_schema<PropagationTable>("model"));
+    keys.set("shadowing", table_schema<Shadowing>({"model"}));
+    keys.set("fading", table_schema<Fading>({"model"}));
+    keys.set("reception", choice_schema<ReceptionTable>("model"));
+    keys.set("access", choice_schema<AccessTable, ArpSettings>("model"));
+    keys.set("links", table_schema<LinksTable>());
+    keys.set("movement", table_schema<MovementTable>());
+    keys.set("robot", schema_of_list(robot_schema()));
+    keys.set("routing", choice_schema<RoutingTable>("protocol"));
+    keys.set("traffic", all_traffic_schema());
+    keys.set("trace", table_schema<TraceTable>());
+    keys.set("metrics", table_schema<MetricsTable>());
+    keys.set("study", study_schema());
+    Table schema;
+    schema.set("$schema", "http://json-schema.org/draft-04/schema#");
+    schema.set("title", "Scenario of rovernet");
+    const Table root = schema_of_table(std::move(keys));
+    for (const Entry& entry : root.entries) schema.set(entry.key, entry.value);
+    return schema;
+}
+
+}  // namespace rovernet
