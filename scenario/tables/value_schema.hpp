@@ -31,11 +31,13 @@ Table schema_of_either(Table one, Table other);
 void add_limits(Table& schema, const Range& range);
 
 /// Names as values.
-inline Array listed(const std::vector<std::string>& names) { return {names.begin(), names.end()}; }
+inline Array listed(const std::vector<std::string>& names) {
+    return Array(names.begin(), names.end());
+}
 /// Names of an enumeration in files, as values.
 template <class E>
 Array words_of() {
-    return {EnumNames<E>::values.begin(), EnumNames<E>::values.end()};
+    return Array(EnumNames<E>::values.begin(), EnumNames<E>::values.end());
 }
 
 /// Schema of the values that read_value() reads into a T. A type that gets an overload of
