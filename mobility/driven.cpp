@@ -29,7 +29,7 @@ Duration chord_time(double v, double w, double chord) {
 /// Length [m] that leads off any map from any point on it.
 double beyond_map(const Scene& scene) {
     const Vec3 size = scene.upper_right() - scene.lower_left();
-    return 1 + std::hypot(size.x, size.y);
+    return 1 + std::sqrt(size.x * size.x + size.y * size.y);
 }
 
 /// Time until the end of the next chord, or of the straight path; empty if it is endless.

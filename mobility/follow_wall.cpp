@@ -3,6 +3,7 @@
 
 #include "mobility/area.hpp"
 #include "mobility/look_round.hpp"
+#include "sim/math.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +54,7 @@ Step FollowWall::next_leg(Mover& mover) {
     const double across = look.way_towards(look.direction(*wall) + 2 * quarter);
     if (across < range.value) gap = std::min(gap, (look.way(*wall) + across) / 2);  // a narrow way
     const double error = look.way(*wall) - gap;
-    const double to_wall = std::atan2(error, stride.value);
+    const double to_wall = math::atan2(error, stride.value);
     const double along = look.direction(*wall) - sign * (quarter - to_wall);
     const double most = std::max(stride.value, error / 2);
     const double ahead = look.way_towards(along);

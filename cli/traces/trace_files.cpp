@@ -5,6 +5,7 @@
 #include "experiment/replay/capture.hpp"
 #include "experiment/replay/trace_input.hpp"
 #include "experiment/reports/loss_table.hpp"
+#include "pictures/foxglove/foxglove_trace.hpp"
 #include "traces/ns2/ns2_convert.hpp"
 #include "traces/ns2/ns2_diff.hpp"
 #include "traces/recorded/recorded_reader.hpp"
@@ -44,12 +45,16 @@ void print_kinds(const TraceDifference& d) {
     }
 }
 
+void check_is_recorded(const TraceConvertArguments& a, std::string_view why) {
+    if (is_recorded_trace(a.in)) return;
+    throw InputError({.source = a.in},
+                     fmt::format("{} can be made only from a recorded trace (run --record), "
+                                 "because {} the scenario in it",
+                                 a.to, why));
+}
+
 void convert_to_capture(const TraceConvertArguments& a) {
-    if (!is_recorded_trace(a.in)) {
-        throw InputError({.source = a.in},
-                         "pcapng can be made only from a recorded trace (run --record), because "
-                         "levels are computed from the scenario in it");
-    }
+    check_is_recorded(a, "levels are computed from");
     const Capture made = capture_recorded(a.in, a.out);
     tell_damage(a.in, made.damage);
     if (made.left_out > 0) {
@@ -63,6 +68,10 @@ void convert_to_capture(const TraceConvertArguments& a) {
 
 void trace_convert(const TraceConvertArguments& a) {
     if (a.to == "pcapng") return convert_to_capture(a);
+    if (a.to == "foxglove") {
+        check_is_recorded(a, "the map and the bodies of robots are those of");
+        return tell_damage(a.in, convert_to_foxglove(a.in, a.out));
+    }
     TraceInput::Lines lines;
     if (a.to == "ns2-old") lines.format = Ns2Format::old_format;
     if (a.mac) lines.mac = MacTrace::on;

@@ -31,14 +31,15 @@ void add_trace_convert(Command trace) {
     convert.add_examples(
         {"rovernet trace convert runs/patrol-s3/trace.tr patrol.csv --to csv",
          "rovernet trace convert runs/rescue-s1/trace.mcap rescue.tr --to ns2-old --mac",
-         "rovernet trace convert runs/rescue-s1/trace.mcap rescue.pcapng --to pcapng"});
+         "rovernet trace convert runs/rescue-s1/trace.mcap rescue.pcapng --to pcapng",
+         "rovernet trace convert runs/rescue-s1/trace.mcap rescue.mcap --to foxglove"});
     convert.add_option("IN", a.in, any_trace).required();
     convert.add_option("OUT", a.out, "file to write").required();
     convert
         .add_option(
             "--to", a.to,
-            "format to write: csv, ns2-old, ns2-new, or pcapng (only from a recorded trace)")
-        .one_of({"csv", "ns2-old", "ns2-new", "pcapng"})
+            "format to write: csv, ns2-old, ns2-new; only from a recorded trace: pcapng, foxglove")
+        .one_of({"csv", "ns2-old", "ns2-new", "pcapng", "foxglove"})
         .required();
     convert.add_flag("--mac", a.mac,
                      "also write the lines of the MAC layer, as [trace] mac = true does (only from "

@@ -12,7 +12,6 @@
 namespace rovernet {
 namespace {
 
-constexpr std::string_view encoding = "rovernet";
 // Higher levels take longer than the run itself and save little, because the columns are already
 // small.
 constexpr int level = 1;
@@ -101,22 +100,33 @@ void McapWriter::attach(const AttachedFile& file) {
     write_record(McapOpcode::attachment, content.view());
 }
 
-void McapWriter::declare(std::uint16_t number, std::string_view topic, std::string_view layout) {
+void McapWriter::declare(const McapChannel& declared) {
     ByteWriter schema, channel;
-    schema.fixed(number);
-    schema.text(fmt::format("rovernet.{}", topic));
-    schema.text(encoding);
-    schema.text(layout);
+    schema.fixed(declared.number);
+    schema.text(declared.schema_name);
+    schema.text(declared.schema_encoding);
+    schema.text(declared.schema);
     put_record(schemas_, McapOpcode::schema, schema.view());
     write_record(McapOpcode::schema, schema.view());
-    channel.fixed(number);
-    channel.fixed(number);
-    channel.text(topic);
-    channel.text(encoding);
+    channel.fixed(declared.number);
+    channel.fixed(declared.number);
+    channel.text(declared.topic);
+    channel.text(declared.encoding);
     channel.text("");  // no metadata of its own
     put_record(channels_, McapOpcode::channel, channel.view());
     write_record(McapOpcode::channel, channel.view());
     ++declared_;
+}
+
+void McapWriter::declare(std::uint16_t number, std::string_view topic, std::string_view layout) {
+    constexpr std::string_view encoding = "rovernet";
+    const std::string name = fmt::format("rovernet.{}", topic);
+    declare({.number = number,
+             .topic = topic,
+             .encoding = encoding,
+             .schema_name = name,
+             .schema_encoding = encoding,
+             .schema = layout});
 }
 
 void McapWriter::write(const McapChunk& chunk) {

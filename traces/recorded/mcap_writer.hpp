@@ -16,6 +16,16 @@ struct ZSTD_CCtx_s;  // compression context of zstd
 
 namespace rovernet {
 
+/// Schema of an MCAP file, and the channel for its messages. Both have the same number.
+struct McapChannel {
+    std::uint16_t number = 0;
+    std::string_view topic;
+    /// Encoding of the messages, such as "json".
+    std::string_view encoding;
+    /// Name, encoding and text of the schema.
+    std::string_view schema_name, schema_encoding, schema;
+};
+
 /// Messages of an MCAP chunk before the chunk is packed.
 class McapChunk {
   public:
@@ -49,7 +59,10 @@ class McapWriter {
 
     void metadata(std::string_view name, const std::map<std::string, std::string>& entries);
     void attach(const AttachedFile& file);
-    /// Declares a schema with this number, and a channel with the same number for the schema.
+    /// Declares a schema, and its channel.
+    void declare(const McapChannel& channel);
+    /// Declares the schema of messages of a recorded trace, and its channel, in the encoding
+    /// "rovernet".
     void declare(std::uint16_t number, std::string_view topic, std::string_view layout);
     /// Packs and writes the messages of a chunk.
     void write(const McapChunk& chunk);
