@@ -43,6 +43,8 @@ def outside(config, page, link):
 
 
 def on_files(files, config):
+    for file in [file for file in files if not Path(file.src_path).suffix]:
+        files.remove(file)  # scripts, such as docs/draw
     found, pending = set(), [file for file in files if file.src_path.endswith(".md")]
     while pending:
         file = pending.pop()
