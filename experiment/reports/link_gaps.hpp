@@ -95,7 +95,7 @@ std::vector<NodeId> partners_named(const Network& network, const std::vector<std
 LinkGaps link_gaps(const Scenario& scenario, const LinkGapsQuestion& question,
                    const TellTime& tell = {});
 
-/// Sentence on the gaps: "R1 has no link to ap1 for 98.4 s of 227 s (43.4 %), ...".
+/// Sentence on the gaps: "R1 has no link to ap1: 98.400 s of 227 s (43.3 %), ...".
 std::string link_gaps_text(const LinkGapsQuestion& question, const LinkGaps& gaps);
 /// Header line of the CSV output, for the lines of link_gaps_csv().
 inline constexpr const char* link_gaps_csv_head =

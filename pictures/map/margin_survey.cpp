@@ -17,7 +17,7 @@
 namespace rovernet {
 namespace {
 
-constexpr std::int64_t least_samples = 1000, most_samples = 8000, most_margins = 400'000;
+constexpr std::int64_t least_samples = 1000, most_samples = 4000, most_margins = 400'000;
 
 /// Margin between two samples [dB]: the mean, or the larger one if the link is down at the other.
 double between(double a, double b) { return std::min(a, b) >= 0 ? (a + b) / 2 : std::max(a, b); }

@@ -118,6 +118,8 @@ TEST_CASE(
     const LinkGaps vehicle = link_gaps(left, {.robot = "v", .partners = {"west"}});
     REQUIRE(vehicle.gaps.size() == 1);
     CHECK(near(seconds(vehicle.present), 10));
+    CHECK(link_gaps_text({.robot = "v", .partners = {"west"}}, {}) ==
+          "v is not there during the run");
     CHECK(near(vehicle.lost_share(), 1));
 }
 

@@ -65,7 +65,7 @@ bool has(std::string_view text, std::string_view word) { return text.find(word) 
 
 TEST_CASE("margins: the grades of a straight road change where free space says") {
     const auto pieces = pieces_of(road, false);
-    constexpr double sampling = 100.0 / 8000 + 1e-9;  // [s], or 1 m/s times that [m]
+    constexpr double sampling = 100.0 / 4000 + 1e-9;  // [s], or 1 m/s times that [m]
     constexpr double sensitivity_digit = 0.006;       // [m] by 0.0005 dB of the road's sensitivity
     REQUIRE(pieces.size() == link_grades.size() + 1);
     for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
