@@ -64,10 +64,11 @@ class ViewHistory::Records {
             RecordedTrace::Contents{
                 .version = code_version(), .scenario = scenario_.text, .files = scenario_.files});
         last_.index = std::make_shared<RecordedIndex>();
+        std::string name;  // of the robot that was asked for last
         last_.trace->begin(
             {.scenario = {},
              .robots = network_.size(),
-             .name = [&](NodeId robot) -> std::string_view { return network_.name(robot); },
+             .name = [&](NodeId robot) -> std::string_view { return name = network_.name(robot); },
              .seed = network_.settings().seed,
              .replication = network_.settings().replication});
         const MessageTable no_messages;
