@@ -54,6 +54,14 @@ Table reaction_schema(Trigger trigger) {
     return schema_of_table(std::move(keys), trigger == Trigger::on_time ? Array{"time"} : Array{});
 }
 
+/// Keys of a radio, and its labels.
+Table radio_schema() {
+    Table keys;
+    add_keys<Radio>(keys);
+    add_keys<RadioLabels>(keys);
+    return schema_of_table(std::move(keys));
+}
+
 Table robot_schema() {
     Table keys;
     add_keys<RobotTable>(keys);
@@ -64,7 +72,7 @@ Table robot_schema() {
     add_keys<Scanner>(scanner);
     add_key(keys, "scan", one_or_more(schema_of_table(std::move(scanner))), "range finders");
     add_key(keys, "role", schema_of_words(listed(all_roles())), "role in the routing protocol");
-    add_key(keys, "radio", table_schema<Radio>(), "keys of [radio] of its own");
+    add_key(keys, "radio", radio_schema(), "keys of [radio] of its own");
     add_key(keys, "propagation", choice_schema<PropagationTable>("model"),
             "propagation of the frames that it sends");
     for (std::size_t i = 0; i < EnumNames<Trigger>::values.size(); ++i) {
@@ -127,7 +135,7 @@ Table scenario_schema() {
     Table keys;
     keys.set("scenario", table_schema<ScenarioTable>());
     keys.set("scene", scene_schema());
-    keys.set("radio", table_schema<Radio>());
+    keys.set("radio", radio_schema());
     keys.set("medium", table_schema<MediumTable>());
     keys.set("propagation", choice_schema<PropagationTable>("model"));
     keys.set("shadowing", table_schema<Shadowing>({"model"}));
