@@ -23,8 +23,8 @@ struct ModelErrors {
     }
 };
 
-/// Rows of all models but the reference, in the order of cost. The cost of a fitted model is that
-/// of its fitted form.
+/// Rows of all models but the reference, in the order of the panel. The cost of a fitted model is
+/// that of its fitted form.
 std::vector<ModelErrors> model_rows_of(const ValidationPanel& panel) {
     const double whole = panel.points.front().cost.median;
     std::vector<ModelErrors> rows;
@@ -38,13 +38,11 @@ std::vector<ModelErrors> model_rows_of(const ValidationPanel& panel) {
         (point.series == "fitted" ? row->row.fitted : row->row.as_given) = point.error;
         row->row.cost = point.cost.median / whole;
     }
-    std::stable_sort(rows.begin(), rows.end(), [](const ModelErrors& a, const ModelErrors& b) {
-        return a.row.cost < b.row.cost;
-    });
     return rows;
 }
 
-/// Removes each row with the same errors as a row before it.
+/// Removes each row with the same errors as a row before it: of free space and two_ray in a
+/// building, free space stays, whatever their costs were this time.
 void remove_equals(std::vector<ModelErrors>& rows) {
     for (std::size_t i = 0; i < rows.size();) {
         const FitRow& row = rows[i].row;
@@ -62,6 +60,9 @@ void remove_equals(std::vector<ModelErrors>& rows) {
 FitPanel fit_panel_of(const ValidationPanel& panel) {
     std::vector<ModelErrors> rows = model_rows_of(panel);
     remove_equals(rows);
+    std::stable_sort(rows.begin(), rows.end(), [](const ModelErrors& a, const ModelErrors& b) {
+        return a.row.cost < b.row.cost;
+    });
     const auto best =
         std::min_element(rows.begin(), rows.end(), [](const ModelErrors& a, const ModelErrors& b) {
             if (a.is_reference_form != b.is_reference_form) return b.is_reference_form;

@@ -165,10 +165,11 @@ std::string naive_sentence(const ValidationPanel& panel) {
     });
     const ValidationPoint& best = *naive.point;
     return fmt::format(
-        "Of the approximations {}. {} costs {:.2g} times as much as the exact length and flips "
+        "Of the approximations {}. {} costs {} times as much as the exact length and flips "
         "{:.2g} % of the decisions.",
         nearest_text(naive, [](double error) { return fmt::format("{:.2g} dB off (rms)", error); }),
-        best.label, best.cost.median / exact.cost.median, detail_of(best, "flipped decisions [%]"));
+        best.label, two_digits(best.cost.median / exact.cost.median),
+        detail_of(best, "flipped decisions [%]"));
 }
 
 }  // namespace
