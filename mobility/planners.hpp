@@ -59,8 +59,8 @@ class Planners {
     }
 
     const Scene* scene_;
-    std::map<std::pair<std::size_t, Meters>, Planner>
-        planners_;  // keys: storey number, robot radius
+    // Keys: number of the storey, radius of the robot.
+    std::map<std::pair<std::size_t, Meters>, Planner> planners_;
 };
 
 }  // namespace rovernet

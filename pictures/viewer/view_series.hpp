@@ -78,11 +78,10 @@ class ViewSeries {
     std::size_t bins_;
     std::vector<Expected> expected_of_;  // what is expected of each message; index: MessageId
     Numbers expected_, deliveries_;      // numbers of expected and of actual deliveries in each bin
-    Numbers latency_sum_, latency_most_;  // sum and maximum of the latencies in each bin [s]
-    std::map<std::size_t, Numbers>
-        receptions_;               // for each outcome: numbers of receptions in each bin
-    Numbers busy_;                 // time with a frame on air in each bin [ns]
-    std::int64_t busy_until_ = 0;  // [ns] end of the last frame so far
+    Numbers latency_sum_, latency_most_;         // sum and maximum of the latencies in each bin [s]
+    std::map<std::size_t, Numbers> receptions_;  // by outcome: receptions in each bin
+    Numbers busy_;                               // time with a frame on air in each bin [ns]
+    std::int64_t busy_until_ = 0;                // end of the last frame so far [ns]
     std::set<std::pair<NodeId, NodeId>> links_;  // links that are up
     std::vector<bool> is_on_;                    // whether the robot is on; index: NodeId
     bool links_known_ = false, has_changed_ = true;
