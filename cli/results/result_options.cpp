@@ -111,9 +111,10 @@ void add_plot(Command app) {
         .one_word();
     plot.add_flag("--log-x", p.log_x, "a logarithmic axis");
     plot.add_flag("--log-y", p.log_y, "a logarithmic axis");
-    plot.add_option("--width", p.width,
-                    "width of the picture in pixels (of a PDF in points); all parts are scaled "
-                    "(default: 672, for several charts 352 each)")
+    plot.add_option(
+            "--width", p.width,
+            "width of the picture in pixels, of a PDF in points; the text is scaled with it "
+            "(default: 672 for one chart, 352 for each of several charts)")
         .range(100, 10000);
     plot.add_option("--font-size", p.font_size,
                     "font size in points; a chart is 672 points wide, or 352 beside other charts")

@@ -92,7 +92,7 @@ void add_sweep(Command app, const std::string& typed) {
                              .add_option("--shard", a.shard,
                                          "make only the runs of the chunk with this number, from 0")
                              .check(whole_number());
-    sweep.add_option("--chunk", a.chunk, "number of runs in a chunk")
+    sweep.add_option("--chunk", a.chunk, "number of runs in each chunk of --shard")
         .check(above_zero())
         .shows_default();
     sweep.add_option("--except", a.except, "skip runs that are finished in this store");

@@ -116,8 +116,9 @@ void add_draw(Command app) {
         .needs(margin_to);
     draw.add_option("--storey", a.storey, "storey to draw; the lowest is 1").shows_default();
     draw.add_flag("--axes", a.axes, "draw axes in metres");
-    draw.add_option("--width", a.width,
-                    "width of the picture in pixels (of a PDF in points); all parts are scaled")
+    draw.add_option(
+            "--width", a.width,
+            "width of the picture in pixels, of a PDF in points; the text is scaled with it")
         .range(100, 10000)
         .shows_default();
     draw.add_option("--font-size", a.font_size,

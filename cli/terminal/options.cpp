@@ -108,8 +108,8 @@ void add_interval(Command command, std::optional<std::string>& interval) {
     command
         .add_option("--interval", interval,
                     "method of the confidence intervals of means: t, betting or star (default: "
-                    "star for metrics with two bounds, or betting if the study has a precision; t "
-                    "for other metrics)")
+                    "t; for metrics with a smallest and a largest possible value star, or betting "
+                    "if the study has a precision)")
         .one_of({"t", "betting", "star"});
 }
 

@@ -21,7 +21,8 @@ void add_trace_stats(Command trace) {
     stats.add_option("--by", a.by, "also print the counts of each robot, flow or second")
         .one_of({"robot", "flow", "second"});
     add_strict(stats, a.strict);
-    stats.add_flag("--csv", a.csv, "print CSV: the rows of --by, or else the totals");
+    stats.add_flag("--csv", a.csv,
+                   "print CSV: a row for each value of --by, or one row for the whole trace");
     add_json(stats, a.json);
 }
 
