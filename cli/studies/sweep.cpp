@@ -127,8 +127,8 @@ void print_end(const SweepArguments& a, const Study& study, const Store& store,
         return;
     }
     notice(fmt::format("{} runs finished{}, {} failed, {} left; results in {}", p.finished,
-                       p.before > 0 ? fmt::format(", {} were there", p.before) : "", p.failed,
-                       p.left, store.path()));
+                       p.before > 0 ? fmt::format(", {} were already stored", p.before) : "",
+                       p.failed, p.left, store.path()));
 }
 
 }  // namespace

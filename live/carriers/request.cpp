@@ -156,7 +156,8 @@ std::vector<double> numbers_in(const std::optional<JsonElement>& list, std::size
     for_each_item(*list, [&](const JsonElement& item) { numbers.push_back(item.number(range)); });
     if (numbers.size() != size) {
         list->fail("bad_value",
-                   fmt::format("found {} numbers for {} robots", numbers.size(), size));
+                   fmt::format("found {} numbers for {} robots; expected one for each robot",
+                               numbers.size(), size));
     }
     return numbers;
 }

@@ -148,7 +148,7 @@ double climb(const Likelihood& likelihood, std::vector<double>& point) {
     constexpr int most_steps = 200;
     for (int step = 0; step < most_steps; ++step) {
         const auto way = newton_step(here.bend, here.slope);
-        if (!way) throw std::invalid_argument("tobit: the columns depend on each other");
+        if (!way) throw std::invalid_argument("tobit: the columns are linearly dependent");
         double gain = 0;
         for (std::size_t j = 0; j < way->size(); ++j) gain += (*way)[j] * here.slope[j];
         if (gain < 1e-18 * (1 + std::abs(here.value))) break;
