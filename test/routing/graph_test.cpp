@@ -93,8 +93,7 @@ TEST_CASE("graph: a unicast over an edge is acked, without an edge it ends with 
     CHECK(results[SendResult::retries] == 2);
 }
 
-TEST_CASE(
-    "fake link layer: queued frames are taken by next hop, end with a result, and are freed") {
+TEST_CASE("fake link layer: a protocol takes queued frames by next hop; others end and are freed") {
     FakeLinkLayer link(3);
     std::map<SendResult, int> results;
     Direct protocol{&results};

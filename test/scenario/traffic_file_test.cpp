@@ -99,7 +99,8 @@ TEST_CASE("traffic file: content other than CBR over UDP is an error with its po
           std::string::npos);
 }
 
-TEST_CASE("traffic file: [traffic] plays it with a movement file, or with [[traffic]]") {
+TEST_CASE(
+    "traffic file: [traffic] plays the file beside a movement file; [[traffic]] can be added") {
     const TemporaryFolder folder;
     folder.write("cbr.tcl", flow(0, 1, 2, "1.0"));
     folder.write("scen.tcl", "$node_(1) set X_ 1.0\n$node_(2) set X_ 9.0\n");

@@ -63,7 +63,7 @@ TEST_CASE("link changes: of a disc are at the first nanosecond inside and the fi
     CHECK(pair.changes(b, a, start_of_run, start_of_run + 60s) == found);
 }
 
-TEST_CASE("link changes: of models by distance are exact to the nanosecond") {
+TEST_CASE("link changes: with models that use only the distance, times are exact to 1 ns") {
     const Scene field;
     const std::vector<Propagation> models{Disc{.range = 15_m}, Friis{}, ItuIndoor{}, LogDistance{}};
     test::Draw draw(8);

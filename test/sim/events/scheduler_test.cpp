@@ -128,7 +128,7 @@ std::vector<int> served(Scheduler<int>& queue) {
 
 }  // namespace
 
-TEST_CASE("event key: holds the largest values, and only its time changes") {
+TEST_CASE("event key: the largest sequence and slot fit in; at() changes only the time") {
     static_assert(sizeof(EventKey) == 16);
     constexpr std::uint64_t last_sequence = (std::uint64_t{1} << 36) - 1;
     constexpr std::uint32_t last_slot = (1U << 24) - 1;

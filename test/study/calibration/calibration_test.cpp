@@ -184,7 +184,7 @@ TEST_CASE("calibration: a grown sample equals one of its size, and computes no l
     CHECK(asked_growing <= 2 * asked);
 }
 
-TEST_CASE("calibration: robots of a sample move by multi_wall instead of rays") {
+TEST_CASE("calibration: with rays, sampled robots react to what they hear by multi_wall") {
     // B drives off when it hears A, through a wall that takes so much by multi_wall.
     const auto links_with = [](const std::string& heavy_wall) {
         Scenario scenario = scenario_from(R"([scenario]

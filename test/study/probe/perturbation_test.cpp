@@ -92,7 +92,7 @@ TEST_CASE("perturbations: on an open field, or with models without walls, only p
     CHECK(names(perturbations(in_hall({Material{}}, 0, table_of(Friis{})))) == places);
 }
 
-TEST_CASE("perturbations: a robot with its own model that uses walls counts") {
+TEST_CASE("perturbations: walls are varied also if only one robot's own model uses them") {
     Scenario scenario = in_hall({Material{}}, 0, table_of(Friis{}));
     scenario.robots.emplace_back().propagation = table_of(Raytrace2007{});
     CHECK(perturbations(scenario).size() > 2);

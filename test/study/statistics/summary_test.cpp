@@ -152,7 +152,7 @@ TEST_CASE("summary: a value that is not finite is refused") {
     CHECK_THROWS_WITH(summary_of(std::array{infinity}), "summary: values must be finite, got inf");
 }
 
-TEST_CASE("half-width: equals the bank of Law's book, 2.03 +- 0.32 min at 90 %") {
+TEST_CASE("half-width: equals the bank example in Law's book, 2.03 +- 0.32 min at 90 %") {
     CHECK(is_close(*half_width(ten(2.03, 0.31), 0.90), 0.32, hundredth / 0.32));
 }
 
@@ -174,7 +174,7 @@ TEST_CASE("half-width: the 95 % interval covers the truth in 94 to 96 % of 10,00
     CHECK(std::abs(covered(5, 0.5) - 5000) < 250);  // 5 standard deviations
 }
 
-TEST_CASE("replications needed: equals the bank of Law's book, 16 for 0.25 min at 90 %") {
+TEST_CASE("replications needed: equals the bank example in Law's book, 16 for 0.25 min at 90 %") {
     CHECK(replications_needed(ten(2.03, 0.31), 0.25, 0.90) == 16);
 }
 

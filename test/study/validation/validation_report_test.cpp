@@ -231,7 +231,7 @@ TEST_CASE("validation: numbers of a chart are a table with one line per point") 
     CHECK(count(csv, "office,cheap,fitted,10,9,12,2,1.5,2.5,0\n") == 1);
 }
 
-TEST_CASE("validation: costs are those of the turns, the lowest first") {
+TEST_CASE("validation: the median cost of a method lies between its lowest and highest turn") {
     double calls = 0;
     const std::vector<TimedMethod> methods{{[&] { return ++calls; }, 1}, {[] { return 1.0; }, 10}};
     const auto costs = costs_in_turns(methods, {.turns = 3, .least_s = 1e-5});
