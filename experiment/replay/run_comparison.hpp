@@ -31,8 +31,9 @@ struct RunComparison {
     /// Deliveries in only one run, in order of time; if there are more than
     /// ComparisonChoice::most_changes, those of the messages sent first.
     std::vector<ChangedDelivery> changes;
-    /// First record in which the runs differ, as `rovernet trace diff` prints it. Of a replay
-    /// without records of motion: the robots move as recorded, but an interrupted leg is shorter.
+    /// First record in which the runs differ, as `rovernet trace diff` prints it. If
+    /// one run is a replay without records of motion, these records are not compared: the robots
+    /// move as recorded, but an interrupted leg is shorter in the replay.
     TraceDifference first;
 };
 

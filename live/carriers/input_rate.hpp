@@ -28,7 +28,8 @@ class InputRate {
     static constexpr std::chrono::microseconds time_a_message{200};
     static constexpr std::chrono::nanoseconds time_a_byte{60};  // 16 MiB in 1.007 s
 
-    // Times at which the input so far would have arrived at the limits of messages and of bytes.
+    // Times at which the input so far would have arrived if the client had sent it at the allowed
+    // rate of messages, and of bytes.
     Clock::time_point messages_paid_{}, bytes_paid_{};
 };
 

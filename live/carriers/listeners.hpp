@@ -103,9 +103,9 @@ class Listeners {
     void wait(std::chrono::nanoseconds most);
     /// Event loop that wait() runs, for other servers of this process, such as WebSockets.
     boost::asio::io_context& io();
-    /// Sends all remaining data, at most for `soon` to clients of byte streams and for `most` to
-    /// clients of lines, then closes all connections. Waits for started programs, again at most
-    /// `most`, and ends the programs that still run. No handler is called any more.
+    /// Sends all remaining data, then closes all connections. Sending ends after `soon` for clients
+    /// of byte streams, and after `most` for clients of lines. Then waits at most `most` for
+    /// started programs, and ends those that still run. No handler is called any more.
     /// @return errors of programs: "python3 x.py ended with 1"
     std::vector<std::string> close(std::chrono::milliseconds soon, std::chrono::milliseconds most);
 

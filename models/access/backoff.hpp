@@ -76,7 +76,8 @@ class Backoff {
     // Time before all relevant times: a station starts with an idle medium.
     static constexpr Time long_ago{Duration{-1'000'000'000'000}};
 
-    // Time from which slots count again, by the energy and the lost frames reported so far.
+    // Earliest time at which slots can count again, from the energy and the damaged frames that
+    // were reported so far.
     Time anchor() const {
         return std::max({not_before_, busy_until_ + timing_->difs, eifs_until_});
     }

@@ -30,8 +30,8 @@ struct PredictionErrors {
     double bias = 0;             ///< mean error, predicted minus known loss [dB]
     double most_in_95 = 0;       ///< absolute error that 95 % of the losses do not exceed [dB]
     std::size_t decisions = 0;   ///< number of links whose predicted state (up or down) is judged
-    std::size_t false_up = 0;    ///< number of links that are predicted up, but are down
-    std::size_t false_down = 0;  ///< number of links that are predicted down, but are up
+    std::size_t false_up = 0;    ///< number of links predicted up that are down
+    std::size_t false_down = 0;  ///< number of links predicted down that are up
     std::map<std::uint32_t, GroupErrors> groups = {};  ///< errors of each group, by group number
 
     double wrong() const {

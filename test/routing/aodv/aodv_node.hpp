@@ -87,7 +87,7 @@ struct AodvNode {
         link.go();
         link.end(router, link.sent.size() - 1, SendResult::retries);
     }
-    /// Gives node `origin` a route to `to` over node 0, whose neighbours are `from` and `over`.
+    /// Gives node `origin` a route to `to`: from `origin` over `from`, node 0 and `over`.
     void pass_reply(std::uint32_t origin, std::uint32_t from, std::uint32_t to, std::uint32_t over,
                     std::uint32_t number = 9) {
         hear(from,
