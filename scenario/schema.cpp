@@ -116,6 +116,25 @@ Table all_traffic_schema() {
     return schema_of_either(schema_of_list(schema_of_either(traffic_schema(), file)), file);
 }
 
+/// [study] vary: values by path, in lists and ranges. A path with dots is a table in a table: the
+/// schema of the inner table is that of [study] vary itself.
+Table vary_schema() {
+    const Table amount = schema_of_either(schema_of_type("number"), schema_of_type("string"));
+    Table range;
+    for (const char* key : {"from", "to", "step"}) range.set(key, amount);
+    Table longer_path;
+    longer_path.set("$ref", "#/properties/study/properties/vary");
+    Table list = schema_of_type("array");
+    list.set("minItems", 1);
+    Table values = schema_of_either(
+        schema_of_either(std::move(list),
+                         schema_of_table(std::move(range), {"from", "to", "step"})),
+        std::move(longer_path));
+    Table schema = schema_of_type("object");
+    schema.set("additionalProperties", std::move(values));
+    return schema;
+}
+
 Table study_schema() {
     Table keys;
     add_keys<StudyTable>(keys);
@@ -123,7 +142,7 @@ Table study_schema() {
         keys, "warmup",
         schema_of_either(schema_of_quantity(Dimension::time, false), schema_of_words({"mser5"})),
         "beginning of a run that is not measured");
-    add_key(keys, "vary", schema_of_type("object"), "values by path: vary.\"radio.power\" = [...]");
+    add_key(keys, "vary", vary_schema(), "values by path: vary.\"radio.power\" = [...]");
     add_key(keys, "zip", value_schema<decltype(StudyTable::zip)>(any), "paths that vary together");
     add_key(keys, "exclude", schema_of_list(schema_of_type("object")), "combinations left out");
     return schema_of_table(std::move(keys));

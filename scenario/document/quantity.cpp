@@ -209,11 +209,23 @@ double read_quantity(const Value& value, std::string_view key, Dimension dimensi
 }
 
 std::string quantity_pattern(Dimension dimension, bool any_sign) {
+    constexpr const char* any_number = "([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][+-]?[0-9]+)?";
+    constexpr const char* not_zero =
+        "([0-9]*[1-9][0-9]*[.]?[0-9]*|[0-9]*[.][0-9]*[1-9][0-9]*)([eE][+-]?[0-9]+)?";
+    constexpr const char* whole_number = "[0-9]+([.]0*)?([eE][+]?[0-9]+)?";
+    const std::string sign = any_sign ? "-?" : "";
+    std::vector<std::string> forms;
     std::vector<std::string_view> names;
-    for (const Unit& unit : kind(dimension).units) names.push_back(unit.name);
-    return fmt::format(
-        "^[ \t]*[+]?{}([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][+-]?[0-9]+)?[ \t]*({})[ \t]*$",
-        any_sign ? "-?" : "", fmt::join(names, "|"));
+    for (const Unit& unit : kind(dimension).units) {
+        if (unit.level)
+            forms.push_back(fmt::format("{}[ \t]*{}", not_zero, unit.name));
+        else if (dimension == Dimension::size && unit.is_base())
+            forms.push_back(fmt::format("{}[ \t]*{}", whole_number, unit.name));
+        else
+            names.push_back(unit.name);
+    }
+    forms.push_back(fmt::format("{}{}[ \t]*({})", sign, any_number, fmt::join(names, "|")));
+    return fmt::format("^[ \t]*[+]?({})[ \t]*$", fmt::join(forms, "|"));
 }
 
 std::string quantity_text(double value, Dimension dimension) {

@@ -71,7 +71,8 @@ concept IsQuantity = requires(T v) {
 /// suggestion
 double read_quantity(const Value& value, std::string_view key, Dimension dimension);
 
-/// Regular expression of the texts that read_quantity() accepts for a dimension.
+/// Regular expression of the texts that read_quantity() accepts for a dimension. Of a power in W,
+/// mW or uW: more than zero, as it has a level in dBm. Of a size in bytes: a whole number.
 /// @param any_sign  false: no text with a minus sign
 std::string quantity_pattern(Dimension dimension, bool any_sign);
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 #include <stdexcept>
 
 namespace rovernet {
@@ -18,8 +19,8 @@ struct ModelErrors {
     bool is_reference_form = false;
 
     double least() const {
-        return std::min(row.as_given.value_or(*row.fitted),
-                        row.fitted.value_or(row.as_given.value_or(0)));
+        constexpr double none = std::numeric_limits<double>::infinity();
+        return std::min(row.as_given.value_or(none), row.fitted.value_or(none));
     }
 };
 

@@ -15,13 +15,27 @@ namespace rovernet::test {
 class JsonSchema {
   public:
     static bool accepts(const Table& schema, const Value& value) {
-        for (const Entry& entry : schema.entries) {
-            if (!accepts(schema, entry.key, entry.value, value)) return false;
-        }
-        return true;
+        return JsonSchema(schema).holds(schema, value);
     }
 
   private:
+    explicit JsonSchema(const Table& root) : root_(root) {}
+
+    bool holds(const Table& schema, const Value& value) const {
+        return std::all_of(schema.entries.begin(), schema.entries.end(), [&](const Entry& entry) {
+            return holds(schema, entry.key, entry.value, value);
+        });
+    }
+    /// Part of the whole schema that a text such as "#/properties/study" names.
+    const Table& part(const std::string& reference) const {
+        const Table* at = &root_;
+        for (std::size_t from = 2; from < reference.size();) {
+            const std::size_t end = std::min(reference.find('/', from), reference.size());
+            at = at->find(reference.substr(from, end - from))->table();
+            from = end + 1;
+        }
+        return *at;
+    }
     static double number(const Value& value) {
         const auto* whole = std::get_if<std::int64_t>(&value.data);
         return whole ? static_cast<double>(*whole) : std::get<double>(value.data);
@@ -44,23 +58,24 @@ class JsonSchema {
         if (is_new) at->second = std::regex(pattern);
         return std::regex_search(text, at->second);
     }
-    static bool accepts_object(const Table& schema, const Table& object) {
+    bool accepts_object(const Table& schema, const Table& object) const {
         const Value* keys = schema.find("properties");
         const Value* others = schema.find("additionalProperties");
         return std::all_of(object.entries.begin(), object.entries.end(), [&](const Entry& entry) {
             const Value* known = keys ? keys->table()->find(entry.key) : nullptr;
-            if (known) return accepts(*known->table(), entry.value);
+            if (known) return holds(*known->table(), entry.value);
             if (!others) return true;
-            return others->table() ? accepts(*others->table(), entry.value)
+            return others->table() ? holds(*others->table(), entry.value)
                                    : std::get<bool>(others->data);
         });
     }
-    static bool accepts(const Table& schema, const std::string& key, const Value& rule,
-                        const Value& value) {
+    bool holds(const Table& schema, const std::string& key, const Value& rule,
+               const Value& value) const {
         const Array* list = value.array();
         const auto each = [&](const Array& all, auto&& test) {
             return std::all_of(all.begin(), all.end(), test);
         };
+        if (key == "$ref") return holds(part(*rule.string()), value);
         if (key == "type") return is_of_type(*rule.string(), value);
         if (key == "enum") {
             return !each(*rule.array(), [&](const Value& word) {
@@ -69,7 +84,7 @@ class JsonSchema {
         }
         if (key == "anyOf") {
             return !each(*rule.array(),
-                         [&](const Value& one) { return !accepts(*one.table(), value); });
+                         [&](const Value& one) { return !holds(*one.table(), value); });
         }
         if (key == "pattern") return !value.string() || matches(*rule.string(), *value.string());
         if (key == "properties") return !value.table() || accepts_object(schema, *value.table());
@@ -84,7 +99,7 @@ class JsonSchema {
         }
         if (key == "items") {
             return !list ||
-                   each(*list, [&](const Value& item) { return accepts(*rule.table(), item); });
+                   each(*list, [&](const Value& item) { return holds(*rule.table(), item); });
         }
         if (key == "minItems") return !list || static_cast<double>(list->size()) >= number(rule);
         if (key == "maxItems") return !list || static_cast<double>(list->size()) <= number(rule);
@@ -96,6 +111,8 @@ class JsonSchema {
         if (key == "maximum") return !is_number(value) || number(value) <= number(rule);
         return true;  // of description, title, $schema
     }
+
+    const Table& root_;
 };
 
 }  // namespace rovernet::test

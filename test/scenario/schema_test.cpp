@@ -146,8 +146,9 @@ TEST_CASE("schema: values have the type, the unit and the limits that the reader
     for (const char* power :
          {"\"15 dBm\"", "\" -15dBm \"", "\"+1e-1 mW\"", "\".5 W\"", "\"3. uW\""})
         CHECK(agree("[radio]\npower = " + std::string(power) + "\n" + robot_a));
-    for (const char* power : {"15", "15.0", "\"15\"", "\"15 dBW\"", "\"dBm\"", "\"1,5 dBm\"",
-                              "true", "[\"15 dBm\"]", "\"15 dBm x\"", "\"nan dBm\""})
+    for (const char* power :
+         {"15", "15.0", "\"15\"", "\"15 dBW\"", "\"dBm\"", "\"1,5 dBm\"", "true", "[\"15 dBm\"]",
+          "\"15 dBm x\"", "\"nan dBm\"", "\"-5 mW\"", "\"0 W\"", "\"0.0e3 uW\"", "\"-.5 W\""})
         CHECK_FALSE(agree("[radio]\npower = " + std::string(power) + "\n" + robot_a));
     for (const char* key :
          {"count = 0", "count = 1.5", "radius = \"-1 m\"", "at = [\"1 m\"]", "heading = 3",
@@ -160,12 +161,13 @@ TEST_CASE("schema: values have the type, the unit and the limits that the reader
                             "role = \"router\"", "off = [\"1 s\", \"2 min\"]", "scan = [{}, {}]",
                             "on_time = [{ time = \"1 s\", stop = true }]"})
         CHECK(agree(robot_a + key));
-    for (const char* rest : {"start = \"arrival\"", "start = \"1 s\"", "every = \"1 ms\"",
-                             "hops = 1", "size = \"1 kB\""})
-        CHECK(agree(robot_a + "[[traffic]]\nfrom = \"A\"\npayload = \"x\"\n" + rest));
     for (const char* rest :
-         {"start = \"late\"", "start = 1", "start = \"-1 s\"", "every = \"-1 s\"", "hops = 2",
-          "size = 5", "kind = \"all\"", "count = 0"})
+         {"start = \"arrival\"", "start = \"1 s\"", "every = \"1 ms\"", "hops = 1",
+          "size = \"1 kB\"", "size = \"1.5 kB\"", "size = \"2.0 B\"", "size = \" +64B\""})
+        CHECK(agree(robot_a + "[[traffic]]\nfrom = \"A\"\npayload = \"x\"\n" + rest));
+    for (const char* rest : {"start = \"late\"", "start = 1", "start = \"-1 s\"",
+                             "every = \"-1 s\"", "hops = 2", "size = 5", "size = \"1.5 B\"",
+                             "size = \"-1 B\"", "size = \"B\"", "kind = \"all\"", "count = 0"})
         CHECK_FALSE(agree(robot_a + "[[traffic]]\nfrom = \"A\"\npayload = \"x\"\n" + rest));
     CHECK_FALSE(agree(robot_a + "[[traffic]]\npayload = \"x\""));
     for (const char* pattern : {"[[0, 0], [180, -20]]", "[[\"0 deg\", \"0 dB\"], [\"3 rad\", -1]]"})
@@ -174,6 +176,12 @@ TEST_CASE("schema: values have the type, the unit and the limits that the reader
         CHECK(agree("[access]\nmodel = \"csma\"\neifs = " + std::string(eifs) + "\n" + robot_a));
     CHECK_FALSE(agree("[access]\nmodel = \"csma\"\neifs = 1\n" + robot_a));
     CHECK_FALSE(agree("[fading]\nm = 2\n" + robot_a));
+    for (const char* vary : {"radio.power = [\"1 dBm\"]", "\"radio.power\" = [\"1 dBm\"]",
+                             "robot.A.radius = { from = \"1 m\", to = \"2 m\", step = \"1 m\" }"})
+        CHECK(agree(robot_a + "[study]\nvary." + vary));
+    for (const char* vary :
+         {"a = 1", "a = []", "a = { from = 1, to = 2, stop = 1 }", "a.b = { from = 1 }"})
+        CHECK_FALSE(agree(robot_a + "[study]\nvary." + vary));
 }
 
 TEST_CASE("schema: a key that several models have accepts what one of them accepts") {
