@@ -5,10 +5,12 @@
 #include "pictures/draw/picture_file.hpp"
 #include "sim/error.hpp"
 #include "study/advise/study_chart.hpp"
+#include "study/advise/table_chart.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace rovernet::cli {
 namespace {
@@ -44,6 +46,54 @@ ChartLayout layout_of(const PlotArguments& a) {
     return out;
 }
 
+/// Checks that no option is given that needs the runs of a study.
+void check_options_of_table(const PlotArguments& a) {
+    const std::pair<const char*, bool> given[] = {{"--confidence", a.confidence.has_value()},
+                                                  {"--quantile", a.quantile.has_value()},
+                                                  {"--interval", a.interval.has_value()},
+                                                  {"--common", a.common},
+                                                  {"--beside", !a.beside.empty()}};
+    for (const auto& [option, is_given] : given) {
+        if (is_given) {
+            throw std::invalid_argument(
+                fmt::format("{}: expected a store of a study; the table {} has numbers and no runs",
+                            option, a.store));
+        }
+    }
+}
+
+/// A chart for each y, of the store of a study or of a CSV file.
+std::vector<Chart> charts_of(const PlotArguments& a) {
+    ChartQuestion question{.kind = kind_of(a.kind),
+                           .x = a.x,
+                           .by = a.by,
+                           .confidence = a.confidence,
+                           .quantile = a.quantile,
+                           .interval = method_named(a.interval),
+                           .log_x = a.log_x,
+                           .log_y = a.log_y,
+                           .common = a.common,
+                           .beside = a.beside};
+    const bool is_table = a.store.ends_with(".csv");
+    std::optional<Store> store;
+    if (is_table) {
+        check_options_of_table(a);
+        for (const std::string& text : a.where) question.where.push_back(condition_of(text));
+    } else {
+        store.emplace(Store::open(a.store));
+        question.where = conditions_of(varied_paths(*store), a.where);
+    }
+    std::vector<Chart> charts;
+    for (const std::string& metric : a.y) {
+        question.y = metric;
+        Chart& chart = charts.emplace_back(is_table ? table_chart(a.store, question)
+                                                    : study_chart(*store, question));
+        if (a.x_title) chart.x_label = *a.x_title;
+        if (!a.y_titles.empty()) chart.y_label = a.y_titles[charts.size() - 1];
+    }
+    return charts;
+}
+
 }  // namespace
 
 void plot(const PlotArguments& a) {
@@ -61,25 +111,7 @@ void plot(const PlotArguments& a) {
                         a.y_titles.size(), a.y_titles.size() == 1 ? "" : "s", a.y.size(),
                         a.y.size() == 1 ? "" : "s"));
     }
-    const Store store = Store::open(a.store);
-    ChartQuestion question{.kind = kind_of(a.kind),
-                           .x = a.x,
-                           .by = a.by,
-                           .where = conditions_of(varied_paths(store), a.where),
-                           .confidence = a.confidence,
-                           .quantile = a.quantile,
-                           .interval = method_named(a.interval),
-                           .log_x = a.log_x,
-                           .log_y = a.log_y,
-                           .common = a.common,
-                           .beside = a.beside};
-    std::vector<Chart> charts;
-    for (const std::string& metric : a.y) {
-        question.y = metric;
-        Chart& chart = charts.emplace_back(study_chart(store, question));
-        if (a.x_title) chart.x_label = *a.x_title;
-        if (!a.y_titles.empty()) chart.y_label = a.y_titles[charts.size() - 1];
-    }
+    const std::vector<Chart> charts = charts_of(a);
     if (is_picture_name(a.out)) {
         write_picture(a.out, chart_svg(charts, layout_of(a)));
     } else {

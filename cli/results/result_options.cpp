@@ -75,10 +75,15 @@ void add_results(Command app) {
 }
 
 void add_plot(Command app) {
-    const auto [plot, p] = add_command(app, "plot", "Draw the results of a study", cli::plot);
+    const auto [plot, p] = add_command(
+        app, "plot", "Draw the results of a study, or the numbers of a table", cli::plot);
     plot.add_examples(
-        {"rovernet plot density.db -x robot.r.count -y delivery_ratio -o density.svg"});
-    plot.add_option("STUDY", p.store, "store of a study, as written by rovernet sweep").required();
+        {"rovernet plot density.db -x robot.r.count -y delivery_ratio -o density.svg",
+         "rovernet plot measured.csv -x distance -y level --by robot -o measured.svg"});
+    plot.add_option("STUDY", p.store,
+                    "store of a study, as written by rovernet sweep; or a table NAME.csv, whose "
+                    "columns are keys and metrics")
+        .required();
     plot.add_option("-x", p.x, "varied key along the x axis, such as robots or radio.power");
     plot.add_option("-y", p.y,
                     "metrics along the y axis, such as delivery_ratio or airtime_s/messages; each "

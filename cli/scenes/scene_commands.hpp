@@ -13,6 +13,7 @@ namespace rovernet::cli {
 struct LinkArguments : FileArguments {
     std::string from, to;
     std::string at = "0 s";
+    std::string out;  ///< picture to write; empty: none
     bool json = false;
 };
 void link(const LinkArguments& arguments);

@@ -6,14 +6,18 @@ namespace rovernet::cli {
 namespace {
 
 void add_link(Command app) {
-    const auto [link, a] =
-        add_command(app, "link", "Print the budget of the link from robot A to robot B", cli::link);
-    link.add_examples({"rovernet link examples/rescue/rescue.toml A B --at 10s"});
+    const auto [link, a] = add_command(
+        app, "link", "Print or draw the budget of the link from robot A to robot B", cli::link);
+    link.add_examples({"rovernet link examples/rescue/rescue.toml A B --at 10s",
+                       "rovernet link examples/rescue/rescue.toml A B -o budget.svg"});
     add_file(link, a, any_file);
     link.add_option("A", a.from, "transmitting robot").required();
     link.add_option("B", a.to, "receiving robot").required();
     link.add_option("--at", a.at, "simulated time, such as 12.5s").shows_default();
+    const Option out = link.add_option("-o,--output", a.out,
+                                       "draw the budget as steps: NAME.svg, NAME.png or NAME.pdf");
     add_json(link, a.json);
+    link.option("--json").excludes(out);
 }
 
 void add_links(Command app) {

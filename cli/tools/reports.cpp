@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "cli/scenes/scene_commands.hpp"
+#include "cli/terminal/picture_output.hpp"
 #include "cli/terminal/playing.hpp"
 #include "cli/tools/tool_commands.hpp"
 #include "experiment/reports/link_report.hpp"
-#include "experiment/reports/loss_table.hpp"
 #include "experiment/run.hpp"
 #include "experiment/version.hpp"
-#include "models/propagation/disc.hpp"
+#include "pictures/chart/budget_chart.hpp"
 #include "scenario/document/json.hpp"
 #include "scenario/model_names.hpp"
 #include "scenario/schema.hpp"
 
 #include <fmt/format.h>
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -61,19 +62,28 @@ void print_budget(const LinkReport& r) {
         fmt::print("  {:<28} {:+10.3f} {}\n", what, value, unit);
     };
     line("power", r.sender.power.value, "dBm");
-    line("sender's antenna gain", r.sender.antenna_gain.value, "dB");
-    if (r.sender.is_directional()) line("sender's pattern", r.sender_pattern.value, "dB");
-    line("sender's cable loss", -r.sender.cable_loss.value, "dB");
-    const Db shadowing = r.shadowing.value_or(Db{0});
-    line("path loss", -(r.path_loss - shadowing).value, "dB");
-    if (r.shadowing) line("shadowing", -shadowing.value, "dB");
-    line("receiver's antenna gain", r.receiver.antenna_gain.value, "dB");
-    if (r.receiver.is_directional()) line("receiver's pattern", r.receiver_pattern.value, "dB");
-    line("receiver's cable loss", -r.receiver.cable_loss.value, "dB");
+    for (const BudgetTerm& term : budget_terms(r, false)) line(term.what, term.change, "dB");
     line("received power", r.received.value, "dBm");
     line("receiver's sensitivity", r.receiver.sensitivity.value, "dBm");
     line("margin", r.margin.value, "dB");
     print_state(r);
+}
+
+/// Chart of a link's budget: without terms that change nothing.
+BudgetChart chart_of(const LinkReport& r) {
+    if (r.range) {
+        throw std::invalid_argument(fmt::format(
+            "the model {} has a range and no levels, so there is no budget to draw", r.model));
+    }
+    BudgetChart chart{.title = fmt::format("{} to {} at {:.9g} s: {}", r.from, r.to, seconds(r.at),
+                                           r.up ? "the link is up" : "no link, " + r.why_down),
+                      .subtitle = fmt::format("{:.1f} m, model {}", r.distance_m, r.model),
+                      .power = r.sender.power.value,
+                      .sensitivity = r.receiver.sensitivity.value};
+    for (const BudgetTerm& term : budget_terms(r, true)) {
+        if (term.change != 0) chart.steps.push_back({term.what, term.change});
+    }
+    return chart;
 }
 
 std::string text_of(const Value& value) {
@@ -95,60 +105,17 @@ void print_parameters(const Table& model) {
 
 }  // namespace
 
-void loss(const LossArguments& a) {
-    const Hertz frequency = option_frequency("--frequency", a.frequency);
-    std::vector<Meters> distances;
-    for (const auto& text : a.distances) distances.push_back(option_length("--distance", text));
-    const Meters wall = a.wall ? option_length("--wall", *a.wall) : Meters{0};
-    if (a.heights.size() > 2) {
-        throw InputError({"--heights", 0, 0, true},
-                         fmt::format("found {} heights; expected that of both antennas, or those "
-                                     "of the sender and of the receiver: 1.5,0.3",
-                                     a.heights.size()));
-    }
-    const Meters standard = Radio{}.antenna_height;
-    const LossAntennas heights{
-        a.heights.empty() ? standard : option_length("--heights", a.heights.front()),
-        a.heights.empty() ? standard : option_length("--heights", a.heights.back())};
-    const bool has_levels = a.model != Disc::name;
-    const auto rows = loss_table(a.model, a.parameters, frequency, distances, heights, wall);
-    if (!a.json) {
-        fmt::print("{:>14} {:>14}\n", "distance [m]", has_levels ? "loss [dB]" : "link");
-        for (const auto& [d, l] : rows) {
-            const std::string loss = has_levels       ? fmt::format("{:.6f}", l.value)
-                                     : l.value == 0.0 ? "in range"
-                                                      : "out of range";
-            fmt::print("{:>14} {:>14}\n", d.value, loss);
-        }
-        return;
-    }
-    Table table;
-    table.set("model", a.model);
-    table.set("frequency_hz", frequency.value);
-    if (!a.heights.empty()) {
-        table.set("from_height_m", heights.from.value);
-        table.set("to_height_m", heights.to.value);
-    }
-    Array list;
-    for (const auto& [d, l] : rows) {
-        Table row;
-        row.set("distance_m", d.value);
-        row.set("loss_db", has_levels ? Value(l.value) : Value());
-        if (!has_levels) row.set("in_range", l.value == 0.0);
-        list.emplace_back(std::move(row));
-    }
-    table.set("rows", std::move(list));
-    fmt::print("{}", to_json(table));
-}
-
 void link(const LinkArguments& a) {
+    if (!a.out.empty()) check_picture_name(a.out);
     const Scenario scenario = scenario_of(a);
     const Time at = time_in(scenario, a.at);
     const auto report = [&] {
         Playing playing(a.file, at);
         return report_link(scenario, a.from, a.to, at, playing.tell());
     }();
-    if (a.json) {
+    if (!a.out.empty()) {
+        write_picture(a.out, budget_chart_svg(chart_of(report)));
+    } else if (a.json) {
         fmt::print("{}", to_json(link_document(report)));
     } else {
         print_budget(report);

@@ -12,12 +12,12 @@
 namespace rovernet::cli {
 
 struct LossArguments {
-    std::string model;
-    std::vector<std::string> parameters;
+    std::vector<std::string> models;  ///< names, each before its parameters KEY=VALUE
     std::string frequency = "2450 MHz";
     std::vector<std::string> distances;
     std::vector<std::string> heights;
     std::optional<std::string> wall;
+    std::string out;  ///< picture to write; empty: none
     bool json = false;
 };
 void loss(const LossArguments& arguments);

@@ -14,13 +14,15 @@ void add_models(Command app) {
 
 void add_loss(Command app) {
     const auto [loss, a] = add_command(
-        app, "loss", "Print the median path loss of a model at given distances", cli::loss);
+        app, "loss", "Print or draw the median path loss of models over the distance", cli::loss);
     loss.add_examples({"rovernet loss friis --distance 1,10,100",
                        "rovernet loss raytrace_2007 coefficient=20 --distance 20 --wall 0.5",
-                       "rovernet loss two_ray form=exact --distance 36 --heights 1.5,1.5"});
-    loss.add_option("MODEL", a.model, "name of a propagation model, see rovernet models")
+                       "rovernet loss two_ray form=exact --distance 36 --heights 1.5,1.5",
+                       "rovernet loss friis log_distance exponent=4 --distance 1,100 -o loss.svg"});
+    loss.add_option("MODELS", a.models,
+                    "propagation models (see rovernet models), each followed by its parameters "
+                    "KEY=VALUE")
         .required();
-    loss.add_option("PARAMETERS", a.parameters, "parameters of the model, each KEY=VALUE");
     loss.add_option("--frequency", a.frequency, "carrier frequency, such as \"2450 MHz\"")
         .shows_default();
     loss.add_option("--distance", a.distances,
@@ -32,7 +34,12 @@ void add_loss(Command app) {
                     "(default: 1 m)")
         .delimiter(',');
     loss.add_option("--wall", a.wall, "length of the path inside a wall, such as 0.5 (in metres)");
+    const Option out =
+        loss.add_option("-o,--output", a.out,
+                        "draw curves from the least to the largest distance: NAME.svg, NAME.png or "
+                        "NAME.pdf");
     add_json(loss, a.json);
+    loss.option("--json").excludes(out);
 }
 
 void add_bench(Command app) {

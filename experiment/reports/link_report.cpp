@@ -246,6 +246,36 @@ LinkReport report_link(const Network& network, NodeId from, NodeId to) {
     return report_at(network, from, to, network.now());
 }
 
+std::vector<BudgetTerm> budget_terms(const LinkReport& report, bool by_wall) {
+    const LinkReport& r = report;
+    const double shadowing = r.shadowing.value_or(Db{0}).value;
+    double rest = r.path_loss.value - shadowing;
+    std::vector<BudgetTerm> parts;
+    const auto take = [&](std::string what, Db loss) {
+        if (!by_wall || loss.value == 0) return;
+        rest -= loss.value;
+        parts.push_back({std::move(what), -loss.value});
+    };
+    for (std::size_t i = 0; i < r.wall_losses.size(); ++i) {
+        take(fmt::format("wall at {:.1f} m: {}", r.walls[i].entry, r.materials[i]),
+             r.wall_losses[i]);
+    }
+    take("ceilings", r.ceiling_loss);
+    take("floors", r.floor_loss);
+
+    std::vector<BudgetTerm> terms = {{"sender's antenna gain", r.sender.antenna_gain.value}};
+    if (r.sender.is_directional()) terms.push_back({"sender's pattern", r.sender_pattern.value});
+    terms.push_back({"sender's cable loss", -r.sender.cable_loss.value});
+    terms.push_back({parts.empty() ? "path loss" : "path loss by distance", -rest});
+    terms.insert(terms.end(), parts.begin(), parts.end());
+    if (r.shadowing) terms.push_back({"shadowing", -shadowing});
+    terms.push_back({"receiver's antenna gain", r.receiver.antenna_gain.value});
+    if (r.receiver.is_directional())
+        terms.push_back({"receiver's pattern", r.receiver_pattern.value});
+    terms.push_back({"receiver's cable loss", -r.receiver.cable_loss.value});
+    return terms;
+}
+
 Table link_document(const LinkReport& report) {
     Table table;
     table.set("from", report.from);

@@ -63,6 +63,19 @@ LinkReport report_link(const Scenario& scenario, const std::string& from, const 
 /// @throws std::invalid_argument if both are the same robot
 LinkReport report_link(const Network& network, NodeId from, NodeId to);
 
+/// Term of a link budget: gain (positive) or loss (negative) on the way from the sender to the
+/// receiver [dB].
+struct BudgetTerm {
+    std::string what;  ///< "sender's antenna gain", "path loss", ...
+    double change;
+};
+
+/// Terms of a link's budget, from the sender to the receiver. The sender's power and all changes
+/// add up to the received level.
+/// @param by_wall  true: each wall, the ceilings and the floors have terms of their own, beside the
+///                 rest of the path loss
+std::vector<BudgetTerm> budget_terms(const LinkReport& report, bool by_wall);
+
 /// Link report as a document, the output of `rovernet link --json`.
 Table link_document(const LinkReport& report);
 

@@ -170,22 +170,25 @@ void draw_bar(Svg& svg, double left, double right, double from, double to, std::
 }
 
 /// Offset between the series of a line chart [px]; 0 if whiskers and marks do not overlap, or if
-/// intervals are bands.
+/// there are no whiskers: intervals are bands, or none are given.
 std::vector<double> shifts(const ChartView& view, const ChartFrame& frame) {
     std::vector<double> out(view.series.size(), 0);
     std::vector<std::pair<double, Box>> covers;  // of all points, and their x
+    bool has_whiskers = false;
     double room = frame.box.right - frame.box.left;
     std::set<double> all_x;
     for (std::size_t i = 0; i < view.series.size(); ++i) {
         if (has_band(view, i) || view.points > most_tips) return out;
         for (const auto& p : view.series[i]) {
             covers.emplace_back(p.x, cover(p, frame, 0));
+            has_whiskers = has_whiskers || p.low || p.high;
             all_x.insert(frame.at(p.x, p.y).x);
         }
     }
     for (auto it = all_x.begin(); it != all_x.end() && std::next(it) != all_x.end(); ++it) {
         room = std::min(room, *std::next(it) - *it);
     }
+    if (!has_whiskers) return out;
     bool hidden = false;
     for (std::size_t i = 0; i < covers.size() && !hidden; ++i) {
         for (std::size_t k = 0; k < i && !hidden; ++k) {

@@ -228,8 +228,9 @@ void ChartPanel::draw_axes(Svg& svg) const {
     SvgPath lines, axes;
     if (view_.points > 0) append_ticks(lines, axes);
     const double zero = frame_.at(frame_.x.low, 0).y;
+    const bool has_zero = !frame_.y.log && frame_.y.low <= 0 && frame_.y.high >= 0;
     axes.move(box.left, box.top).vertical(box.bottom).horizontal(box.right);
-    if (!heat_map() && !frame_.y.log && zero < box.bottom && zero > box.top) {
+    if (!heat_map() && has_zero && zero < box.bottom && zero > box.top) {
         axes.move(box.left, zero).horizontal(box.right);
     }
     svg.add("path", {{"class", "grid"}, {"d", lines.text()}, {"stroke", chart_grid}});

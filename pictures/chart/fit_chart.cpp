@@ -154,8 +154,7 @@ class FitDrawing {
 
     /// The smaller error beside its dot, on the side without the other dot if there is room.
     void draw_number(Svg& svg, const FitRow& row, double y) const {
-        const double error = std::min(row.as_given.value_or(*row.fitted),
-                                      row.fitted.value_or(row.as_given.value_or(0)));
+        const double error = row.least_error();
         const std::string text = fmt::format("{:.2g}", error);
         const double wide = text_width(text, chart_label_size), gap = FitStyle::radius + 4;
         const bool before = at(error) - gap - wide > FitStyle::left;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,6 +16,12 @@ struct FitRow {
     std::optional<double> as_given = {}, fitted = {};  ///< errors [unit of the chart], >= 0
     double cost = 1;                                   ///< cost relative to the reference [-], > 0
     bool best = false;  ///< true: the row is highlighted, with its smaller error as a number
+
+    /// Smaller of the two errors; infinite if the row has none.
+    double least_error() const {
+        constexpr double none = std::numeric_limits<double>::infinity();
+        return std::min(as_given.value_or(none), fitted.value_or(none));
+    }
 };
 
 /// Panel of a fit chart: the models on one scene, compared with one reference.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "study/advise/study_chart.hpp"
 
-#include "scenario/document/quantity.hpp"
 #include "scenario/document/toml.hpp"
 #include "sim/error.hpp"
 #include "study/advise/marks_beside.hpp"
@@ -16,39 +15,11 @@
 namespace rovernet {
 namespace {
 
-/// The values of a key as numbers of one unit.
-struct Numbers {
-    std::vector<double> values;
-    std::string unit;
-};
-
-/// The values as they stand if they share their unit, or else in the base unit of what they
-/// measure; nothing if they are words.
+/// Numbers of a key's values; none if they are words.
 std::optional<Numbers> numbers_of(const std::vector<Answer>& list, const std::string& path) {
     std::vector<std::string> texts;
     for (const Answer& answer : list) texts.push_back(plain_text(*answer.settings.find(path)));
-    Numbers numbers;
-    bool same_unit = true;
-    for (const std::string& text : texts) {
-        std::string unit;
-        const auto number = leading_number(text, unit);
-        if (!number) return std::nullopt;
-        same_unit = same_unit && (numbers.values.empty() || unit == numbers.unit);
-        numbers.values.push_back(*number);
-        numbers.unit = unit;
-    }
-    if (same_unit) return numbers;
-    const auto dimension = shared_dimension(texts);
-    if (!dimension) return std::nullopt;
-    numbers.unit = base_unit(*dimension);
-    for (std::size_t i = 0; i < texts.size(); ++i) {
-        numbers.values[i] = read_quantity(Value(texts[i]), path, *dimension);
-    }
-    return numbers;
-}
-
-std::string label_of(const std::string& path, const std::string& unit) {
-    return unit.empty() ? path : fmt::format("{} [{}]", path, unit);
+    return rovernet::numbers_of(texts, path);
 }
 
 /// Metrics in seconds end in _s, those in microseconds in _us. A quotient "A/B" is in the unit of A
@@ -130,20 +101,13 @@ Chart frame_of(const ChartQuestion& q, const std::string& unit) {
             chart.y_label = "share of replications";
             break;
         case ChartKind::heat_map:
-            chart.x_label = label_of(q.x, unit);
+            chart.x_label = axis_label(q.x, unit);
             chart.y_label = q.by;
             chart.value_label = metric_label(q.y);
             break;
-        default: chart.x_label = label_of(q.x, unit); chart.y_label = metric_label(q.y);
+        default: chart.x_label = axis_label(q.x, unit); chart.y_label = metric_label(q.y);
     }
     return chart;
-}
-
-ChartSeries& series_named(Chart& chart, const std::string& name) {
-    for (ChartSeries& series : chart.series) {
-        if (series.name == name) return series;
-    }
-    return chart.series.emplace_back(ChartSeries{.name = name});
 }
 
 void add_replications(ChartSeries& series, const Answer& answer) {
@@ -170,6 +134,17 @@ ChartPoint mark_of(const Answer& delivery, const Answer& airtime) {
 
 }  // namespace
 
+std::string axis_label(const std::string& path, const std::string& unit) {
+    return unit.empty() ? path : fmt::format("{} [{}]", path, unit);
+}
+
+ChartSeries& series_named(Chart& chart, const std::string& name) {
+    for (ChartSeries& series : chart.series) {
+        if (series.name == name) return series;
+    }
+    return chart.series.emplace_back(ChartSeries{.name = name});
+}
+
 std::string varied_path(const std::vector<std::string>& paths, const std::string& word) {
     std::vector<std::string> found;
     for (const std::string& path : paths) {
@@ -188,16 +163,21 @@ std::string varied_path(const std::vector<std::string>& paths, const std::string
         near.empty() ? "" : "; " + near));
 }
 
+Condition condition_of(const std::string& text) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos) {
+        throw std::invalid_argument(
+            fmt::format("--where: \"{}\"; expected KEY=VALUE, such as ttl=6", text));
+    }
+    return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
 std::vector<Condition> conditions_of(const std::vector<std::string>& paths,
                                      const std::vector<std::string>& texts) {
     std::vector<Condition> conditions;
     for (const std::string& text : texts) {
-        const auto equals = text.find('=');
-        if (equals == std::string::npos) {
-            throw std::invalid_argument(
-                fmt::format("--where: \"{}\"; expected KEY=VALUE, such as ttl=6", text));
-        }
-        conditions.push_back({varied_path(paths, text.substr(0, equals)), text.substr(equals + 1)});
+        Condition& condition = conditions.emplace_back(condition_of(text));
+        condition.path = varied_path(paths, condition.path);
     }
     return conditions;
 }

@@ -30,6 +30,11 @@ struct ChartQuestion {
     std::string beside = {};
 };
 
+/// Label of an axis: "NAME [UNIT]", or NAME without a unit.
+std::string axis_label(const std::string& name, const std::string& unit);
+/// Series of a chart with a name; it is added if there is none.
+ChartSeries& series_named(Chart& chart, const std::string& name);
+
 /// Full path of the varied key that the user calls `word`. The word may be the full path, the last
 /// part of the path if only one varied key ends with that part, or "robots" for the count of
 /// robots.
@@ -37,8 +42,10 @@ struct ChartQuestion {
 /// @throws std::invalid_argument if no key or several keys match
 std::string varied_path(const std::vector<std::string>& paths, const std::string& word);
 
-/// Parses texts such as "ttl=6" into conditions. varied_path() finds the key.
-/// @throws std::invalid_argument if a text is not KEY=VALUE, or as varied_path()
+/// Condition of a text such as "ttl=6". @throws std::invalid_argument if it is not KEY=VALUE
+Condition condition_of(const std::string& text);
+/// Conditions of several texts; varied_path() finds the keys.
+/// @throws std::invalid_argument as condition_of() and varied_path()
 std::vector<Condition> conditions_of(const std::vector<std::string>& paths,
                                      const std::vector<std::string>& texts);
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <limits>
 #include <stdexcept>
 
 namespace rovernet {
@@ -17,11 +16,6 @@ namespace {
 struct ModelErrors {
     FitRow row;
     bool is_reference_form = false;
-
-    double least() const {
-        constexpr double none = std::numeric_limits<double>::infinity();
-        return std::min(row.as_given.value_or(none), row.fitted.value_or(none));
-    }
 };
 
 /// Rows of all models but the reference, in the order of the panel. The cost of a fitted model is
@@ -67,7 +61,7 @@ FitPanel fit_panel_of(const ValidationPanel& panel) {
     const auto best =
         std::min_element(rows.begin(), rows.end(), [](const ModelErrors& a, const ModelErrors& b) {
             if (a.is_reference_form != b.is_reference_form) return b.is_reference_form;
-            return a.least() < b.least();
+            return a.row.least_error() < b.row.least_error();
         });
     if (best != rows.end()) best->row.best = true;
     FitPanel out{.title = panel.title, .reference = panel.points.front().label};

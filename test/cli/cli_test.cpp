@@ -4,6 +4,7 @@
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <chrono>
@@ -257,6 +258,42 @@ TEST_CASE("loss --heights: antennas 1.5 m high over a field lose what the vector
     CHECK(command(folder, {"loss", "friis", "--distance", "1", "--heights", "1,2,3"}).exit == 2);
 }
 
+TEST_CASE("loss: several models have a column each, and curves in a picture") {
+    const TemporaryFolder folder;
+    const std::vector<std::string> models = {"loss", "friis", "log_distance", "exponent=4", "disc"};
+    const auto with = [&](std::vector<std::string> words, std::size_t number) {
+        words.insert(words.begin(), models.begin(),
+                     models.begin() + static_cast<std::ptrdiff_t>(number));
+        return words;
+    };
+    const Ended text = command(folder, with({"--distance", "1,10"}, 4));
+    CHECK(text.out ==
+          "  distance [m]     friis [dB] log_distance exponent=4 [dB]\n"
+          "             1      40.231105                    40.231105\n"
+          "            10      60.231105                    80.231105\n");
+    const Json list = json_of(folder, with({"--distance", "10"}, 4));
+    REQUIRE(list.size() == 2);
+    CHECK(list[1]["model"] == "log_distance");
+    CHECK(list[1]["parameters"] == Json::array({"exponent=4"}));
+    CHECK(list[1]["rows"][0]["distance_m"] == 10.0);
+
+    CHECK(command(folder, with({"--distance", "1,100", "-o", folder.path("loss.svg")}, 4)).exit ==
+          0);
+    const std::string svg = content(folder.path("loss.svg"));
+    CHECK(svg.find(">log_distance exponent=4</text>") != svg.npos);
+    CHECK(svg.find("path loss [dB]") != svg.npos);
+    for (const auto& [words, number] : {std::pair<std::vector<std::string>, std::size_t>{
+                                            {"--distance", "1", "-o", folder.path("x.svg")}, 4},
+                                        {{"--distance", "0,1", "-o", folder.path("x.svg")}, 4},
+                                        {{"--distance", "1,2", "-o", folder.path("x.svg")}, 5},
+                                        {{"--distance", "1,2", "-o", "x.txt"}, 4}}) {
+        const Ended ended = command(folder, with(words, number));
+        CAPTURE(ended.err);
+        CHECK(ended.exit != 0);
+        CHECK(!std::filesystem::exists(folder.path("x.svg")));
+    }
+}
+
 TEST_CASE("link --json: the budget and its walls") {
     const TemporaryFolder folder;
     const png_byte w = 255;
@@ -285,6 +322,11 @@ TEST_CASE("link --json: the budget and its walls") {
     const double margin = link["margin_db"], received = link["rx_power_dbm"];
     CHECK(std::abs(received + 75 - margin) < rounding_m);
     CHECK(link["up"] == (margin >= 0));
+    CHECK(command(folder, {"link", file, "A", "B", "-o", folder.path("budget.svg")}).exit == 0);
+    const std::string svg = content(folder.path("budget.svg"));
+    CHECK(svg.find(">wall at 3.0 m: ") != svg.npos);
+    CHECK(svg.find(">-100.0 dB</text>") != svg.npos);
+    CHECK(svg.find(fmt::format(">{:.1f} dBm</text>", received)) != svg.npos);
 
     std::vector<std::string> clear = {"link", file, "A", "B", "--set", "propagation.model=friis"};
     CHECK(json_of(folder, clear)["up"] == true);

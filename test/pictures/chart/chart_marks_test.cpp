@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <regex>
 #include <set>
 #include <string>
 #include <string_view>
@@ -475,6 +476,38 @@ TEST_CASE("marks beside a line are hollow, in its colour, and not joined by a li
     CHECK(count("stroke", color) == 2);  // of the hollow ones
     CHECK(count("fill", "#ffffff") == 2);
     CHECK(count("fill", color) == 2);
+}
+
+TEST_CASE("marks without intervals stand at their x, also where they hide one another") {
+    Chart chart{.kind = ChartKind::lines,
+                .series = {{"a", {{.x = 1, .y = 1}, {.x = 2, .y = 2}}},
+                           {"b", {{.x = 1, .y = 1}, {.x = 2, .y = 3}}}}};
+    const auto lines = [&] {
+        const std::string svg = chart_svg({&chart, 1});
+        std::vector<std::string> out;
+        const std::regex line("class=\"line\" d=\"M([0-9.]+) ");
+        for (std::sregex_iterator at(svg.begin(), svg.end(), line), end; at != end; ++at)
+            out.push_back((*at)[1]);
+        return out;
+    };
+    REQUIRE(lines().size() == 2);
+    CHECK(lines()[0] == lines()[1]);
+    for (ChartSeries& series : chart.series) series.points[0].low = 0.5;
+    CHECK(lines()[0] != lines()[1]);
+}
+
+TEST_CASE("axes: a line at zero only where the axis has a zero") {
+    const auto zero_lines = [](double low) {
+        const Chart chart{.kind = ChartKind::lines,
+                          .series = {{"a", {{.x = 1, .y = low}, {.x = 2, .y = 100}}}}};
+        const std::string svg = chart_svg({&chart, 1});
+        const std::size_t from = svg.find("class=\"axes\"");
+        const std::string axes = svg.substr(from, svg.find('>', from) - from);
+        const std::regex across("M[0-9.]+ [0-9.]+H[0-9]{3}");  // longer than a tick
+        return std::distance(std::sregex_iterator(axes.begin(), axes.end(), across), {});
+    };
+    CHECK(zero_lines(-10) == 1);
+    CHECK(zero_lines(40) == 0);
 }
 
 }  // namespace chart_marks_test

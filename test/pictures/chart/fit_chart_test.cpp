@@ -55,6 +55,13 @@ TEST_CASE("fit chart: costs have one digit, as fractions of the reference or mul
     CHECK(cost_text(10) == "10 times");
 }
 
+TEST_CASE("fit chart: the least error of a row is the smaller one, or the only one") {
+    CHECK(FitRow{"a", 0.4, {}}.least_error() == 0.4);
+    CHECK(FitRow{"a", {}, 0.3}.least_error() == 0.3);
+    CHECK(FitRow{"a", 0.1, 0.3}.least_error() == 0.1);
+    CHECK(std::isinf(FitRow{"a"}.least_error()));
+}
+
 TEST_CASE("fit chart: a hollow dot for what is given, a filled one for what is fitted, one scale") {
     const std::string svg = fit_chart_svg(two_scenes());
     const auto given = places(svg, "as-given"), fitted = places(svg, "fitted");
