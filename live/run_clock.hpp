@@ -11,8 +11,9 @@
 
 namespace rovernet {
 
-/// Clock of a run that follows real time: its time is simulated time, which passes at a speed. The
-/// speed may change during the run. Without a speed, the clock does not limit the run.
+/// Clock of a run that follows real time. The clock shows simulated time; its speed is the ratio of
+/// simulated time to real time [-], and may change during the run. Without a speed, the clock does
+/// not limit the run.
 class RunClock {
   public:
     using Real = std::chrono::steady_clock;
@@ -35,7 +36,7 @@ class RunClock {
         started_ = real_();
         if (speed_) started_ -= std::chrono::duration_cast<Real::duration>(real_time(t));
     }
-    /// Sets the clock to the time `t`, from which it passes at another speed.
+    /// Sets the clock to the time `t`, and changes its speed from then on.
     void set_speed(std::optional<double> speed, Time t) {
         speed_ = speed;
         set(t);

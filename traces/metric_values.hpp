@@ -132,9 +132,10 @@ struct MetricValues {
     }();
 
     /// Packet delivery ratio r / e [-]: r is the number of deliveries, without duplicates; e is the
-    /// sum over messages of their destinations: all other robots when the message was sent, or 1
-    /// for a unicast. Empty if e is 0. Messages cut off by the end of the run are not included.
-    /// Source: for unicasts, J. Broch et al., MobiCom 1998.
+    /// total number of destinations of all messages. A unicast has one destination; a broadcast has
+    /// all robots that existed when it was sent, except its sender. Empty if e is 0. Messages cut
+    /// off by the end of the run are not included. Source: for unicasts, J. Broch et al., MobiCom
+    /// 1998.
     std::optional<double> delivery_ratio;
 
     /// Reachability RE = r / e [-]: r is the number of deliveries; e is the sum over messages of

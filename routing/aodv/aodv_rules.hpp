@@ -49,7 +49,8 @@ struct AodvRules {
     /// search.
     Duration pause_after_failure;
     /// True: a node stores a route to each neighbour that it hears, and a message extends the
-    /// lifetimes of all routes that it uses. False: only of the route to its destination.
+    /// lifetimes of all routes that it uses. False: a message extends only the lifetime of the
+    /// route to its destination.
     bool meets_neighbours;
     /// Whether a RERR also lists routes that no neighbour uses, and is broadcast.
     bool errors_for_all;
