@@ -41,13 +41,15 @@ class RunClock {
         speed_ = speed;
         set(t);
     }
-    /// Real time since the clock stood at `t`; negative before. Needs a speed.
+    /// Real time that has passed since the clock showed `t`; negative if the clock has not reached
+    /// `t` yet. To be called only if the clock has a speed.
     Duration since(Time t) const { return real_() - started_ - real_time(t); }
-    /// Real time that a simulated duration takes. Needs a speed.
+    /// Real time that a simulated duration takes. To be called only if the clock has a speed.
     Duration real_time(Duration simulated) const {
         return from_seconds(seconds(simulated) / *speed_);
     }
-    /// Simulated time that passes in a real duration, at most until `end`. Needs a speed.
+    /// Simulated time that passes in a real duration, at most until `end`. To be called only if the
+    /// clock has a speed.
     Duration simulated(Duration real, Time end) const {
         return from_seconds(std::min(seconds(real) * *speed_, seconds(end)));
     }

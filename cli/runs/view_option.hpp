@@ -12,8 +12,8 @@
 
 namespace rovernet::cli {
 
-/// Options --view, --view-control and --open of a command that runs a scenario: a page that shows
-/// the run.
+/// Options --view, --view-control and --open, by which a command that runs a scenario shows the run
+/// on a web page.
 struct ViewOption {
     std::optional<std::string> address;
     bool control = false, opens = false;

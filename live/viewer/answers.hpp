@@ -72,8 +72,9 @@ class ViewerAnswers {
     /// `with`; empty if the question has no such key.
     std::optional<Propagation> other_model(const JsonElement& question, NodeId robot) const;
     Time time(const JsonElement& question) const;
-    /// Running network, or network of the recorded run at the time of the question. The latter is
-    /// kept, because the next question is often about the same or a slightly later time.
+    /// Running network, or network of the recorded run at the time of the question. The network of
+    /// a recorded run is kept, because the next question is often about the same or a slightly
+    /// later time.
     const Network& network(const JsonElement& question);
 
     IndexedTrace trace_;                      // empty path: the answers are about a running network

@@ -120,8 +120,8 @@ class Medium {
     /// Finds `to` alone, if it can decode the frame.
     void find_receiver(NodeId from, NodeId to, Coding, Time start, Time end, const Legs&,
                        Receivers& out);
-    /// Finds the receivers as find_receivers(). @return nodes that sense the frame but cannot
-    /// decode it, unsorted; valid until the next call
+    /// Finds the receivers like find_receivers(). @return nodes that sense the frame but cannot
+    /// decode it, in any order; valid until the next call
     std::span<const Found> find_sensors(NodeId from, Coding coding, Time start, Time end,
                                         const Legs& legs, Receivers& out);
 
@@ -148,11 +148,9 @@ class Medium {
               std::uint64_t frame);
     // Method of find() for losses that depend only on the distance: compares distances with ranges.
     void find_in_range(NodeId from, Kind mine, Strength strength, Time t, const Legs& legs);
-    // Faster form of find_in_range(), used if all stations are of one kind; finds only the nodes
-    // that can decode.
+    // Faster find_in_range() for stations of one kind: finds only the nodes that can decode.
     void find_alike(NodeId from, Kind mine, Time t, const Legs& legs);
-    // Method of find() under shadowing: looks up distance and shadowing draw of each pair in a
-    // table.
+    // Method of find() under shadowing: tables of distance and shadowing draw decide each link.
     void find_in_table(NodeId from, Kind mine, Strength strength, Time t, const Legs& legs);
     // Method of find() for any propagation model: computes the losses to all nodes within reach.
     void find_in_reach(NodeId from, Kind mine, Strength strength, Time t, const Legs& legs,
@@ -185,8 +183,8 @@ class Medium {
     NeighbourIndex index_;
     PairCache pairs_;
     const Scene* pairs_of_ = nullptr;  // scene of the losses in pairs_
-    // Contributions of nodes to draws_, by place in the index; and the value of
-    // NeighbourIndex::bins() for which these places are valid.
+    // Contributions of nodes to draws_, by place in the index; NeighbourIndex::bins() of these
+    // places.
     std::vector<std::uint64_t> shares_;
     std::uint64_t shares_of_bin_ = 0;
     // Whether the cell size of the index was set.

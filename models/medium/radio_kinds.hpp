@@ -68,10 +68,9 @@ class RadioKinds {
         return !gated_ || Membership::match(kinds_[a].membership, kinds_[b].membership);
     }
 
-    /// Largest path loss [dB] at which a signal of `from` still has the strength `strength` at
-    /// `to`.
+    /// Largest path loss [dB] at which a signal of `from` is still `strength` at `to`.
     Db budget(Strength strength, Kind from, Kind to, LinkGain gain) const;
-    /// Budget with the largest gains of the antennas [dB]: an upper bound for all poses.
+    /// Upper bound of budget() [dB] for all poses of the antennas, from their largest gains.
     Db budget(Strength strength, Kind from, Kind to) const;
     /// Weakest signal [dBm] that interferes at `to`; to be called only if there is a cut-off.
     Dbm weakest_interfering(const Radio& to) const;
@@ -89,8 +88,7 @@ class RadioKinds {
     /// Upper bound of the squared distance [m^2] to nodes that `from` reaches with this strength.
     double squared_reach(Kind from, Strength strength);
 
-    /// Method by which the receivers of a signal are determined, if its sender is of the kind
-    /// `from`.
+    /// Method by which the receivers of a sender of the kind `from` are determined.
     Decision decision(Kind from) const {
         // A table costs time and memory, which pays off only if many radios are equal.
         constexpr std::size_t most_tables = 16;
@@ -110,8 +108,7 @@ class RadioKinds {
             return loss_at(model(from), radio(from).frequency, d, antennas_.first);
         });
     }
-    /// Table that decides by distance and shadowing draw whether a link is within range, for
-    /// Decision::by_table.
+    /// Table from distance and shadowing draw to link decision, for Decision::by_table.
     const ShadowedRange& table(Kind from, Kind to, Strength strength) {
         auto& table = kinds_[from].tables[to][static_cast<std::size_t>(strength)];
         if (!table) [[unlikely]]
@@ -162,8 +159,7 @@ class RadioKinds {
 
     // Fastest method that a model allows between antennas of the present heights.
     Decision cheapest_decision(const Propagation& model, Hertz frequency) const;
-    // Largest path loss [dB] at which a signal still has the strength `strength`, if `to` has the
-    // given sensitivity.
+    // Result of budget() [dB] if `to` has the given sensitivity.
     Db budget(Strength strength, const Radio& from, const Radio& to, LinkGain gain,
               Dbm sensitivity) const;
     // Sensitivity [dBm] of a radio to the coding that it receives best.

@@ -6,7 +6,8 @@
 
 namespace rovernet {
 
-/// Look of a link's line, by the link margin: the level [dB] above the receiver's sensitivity.
+/// Style of a link's line for a range of link margins. The link margin is the level [dB] above the
+/// receiver's sensitivity.
 struct LinkGrade {
     double from;       ///< smallest margin of the grade [dB]
     double width;      ///< width of the line [px]

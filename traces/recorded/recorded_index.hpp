@@ -21,8 +21,8 @@ namespace rovernet {
 ///         for (std::uint64_t i = 0; i < range.records; ++i) use(*reader.next());
 ///     }
 ///
-/// Memory: 72 bytes for each robot that begins a leg in a chunk, 32 bytes for each pair of a
-/// message and a chunk with its records, and the slots of the message table.
+/// Memory: 72 bytes for each pair of a chunk and a robot that begins a leg in it, 32 bytes for each
+/// pair of a message and a chunk with its records, and the slots of the message table.
 class RecordedIndex {
   public:
     /// Adds the next record of the run.

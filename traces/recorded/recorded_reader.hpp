@@ -66,7 +66,8 @@ class RecordedReader {
     explicit RecordedReader(const std::string& path);
 
     const RecordedRun& run() const { return run_; }
-    /// Format of the trace (recorded_format): data that a later format added are 0.
+    /// Format number of the trace, see recorded_format. Fields that only later formats store have
+    /// their default values.
     unsigned format() const { return format_; }
     /// Next record, valid until the next call; null at the end.
     /// @throws InputError for a robot that the trace does not name, or for too many flows
