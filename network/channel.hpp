@@ -73,8 +73,8 @@ class Channel {
 
     /// Starts to transmit a frame now. The frame holds a reference to its message until the last
     /// reception.
-    /// @param audience nodes for which the arrival is simulated; for `sensors`, ChannelUser::sensed
-    /// is called
+    /// @param audience  nodes for which the arrival is simulated; for `sensors`,
+    /// ChannelUser::sensed is called
     /// @return receptions at the nodes of the audience that can decode the frame, in order of time
     ///         and then of node; possibly others, too; valid until the next call
     std::span<const Reception> transmit(const AirFrame& frame, const Transmission& how,

@@ -26,7 +26,7 @@ struct ViewOption {
     std::function<void(std::string_view)> announced(
         std::function<void(std::string_view)> say) const;
     /// Listeners of the page.
-    /// @param view rights of the page without --view-control
+    /// @param view  rights of the page without --view-control
     FrontListeners listeners(const Reach& reach, ViewControl view) const;
 };
 

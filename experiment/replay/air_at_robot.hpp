@@ -35,7 +35,7 @@ struct AirAtRobot {
 
 /// Examines the second before a time.
 /// @param path   recorded trace
-/// @param index index of the trace, used to read only the necessary chunks; null: the trace has no
+/// @param index  index of the trace, used to read only the necessary chunks; null: the trace has no
 ///               index, or is damaged
 /// @throws InputError if the trace has no scenario, or no such robot
 AirAtRobot air_at_robot(const std::string& path, NodeId robot, Time at,

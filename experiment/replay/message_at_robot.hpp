@@ -83,7 +83,7 @@ struct MessageAtRobot {
 /// Examines every frame of a message at a robot.
 /// @param path   recorded trace
 /// @param uid    uid of the message
-/// @param index index of the trace, used to read only the chunks with the message; null: the trace
+/// @param index  index of the trace, used to read only the chunks with the message; null: the trace
 ///               has no index, or is damaged
 /// @throws InputError if the trace has no scenario, the scenario cannot be loaded, or the trace has
 /// no such robot

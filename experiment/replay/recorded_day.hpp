@@ -76,8 +76,8 @@ class RecordedDay {
                    const std::function<bool(double)>& progress = {}) const {
         return play(set, progress, {});
     }
-    /// Simulates as play(), and writes the new run as a recorded trace, with the scenario that has
-    /// the assignments `set`.
+    /// Simulates like play(), and writes the new run to a recorded trace. The scenario in this
+    /// trace includes the assignments `set`.
     /// @param path  path of the new trace
     /// @throws InputError, RunError, Interrupted
     PlayedDay record(const std::string& path, const std::vector<std::string>& set,

@@ -46,9 +46,9 @@ struct LinkGaps {
 class LinkGapFinder {
   public:
     /// @param network   network of the run; outlives the finder
-    /// @param partners robots such as access points; a link to any one of them is enough
-    /// @param relays robots over which the connection may go, in any number of hops; each hop must
-    ///                  be a link in both directions. Empty: direct links only
+    /// @param partners  robots such as access points; a link to any one of them is enough
+    /// @param relays    robots over which the connection may go, in any number of hops; each hop
+    ///                  must be a link in both directions. Empty: direct links only
     LinkGapFinder(const Network& network, NodeId robot, std::vector<NodeId> partners,
                   std::vector<NodeId> relays);
 
@@ -87,7 +87,7 @@ struct LinkGapsQuestion {
 
 /// Looks up robots of a network by name. Each name must be listed once, and must not be the name of
 /// `robot`.
-/// @param option name of the option that lists the names, for errors
+/// @param option  name of the option that lists the names, for errors
 /// @throws InputError for a robot that is listed twice or is `robot`; std::invalid_argument for an
 ///         unknown name
 std::vector<NodeId> partners_named(const Network& network, const std::vector<std::string>& names,

@@ -37,7 +37,7 @@ inline constexpr std::uint32_t most_linked = 5000;
 
 /// All pairs of robots with a link at the time `at`, in the order of the robots. Links are local
 /// means, without fading.
-/// @param at_one_end function that selects robots; only pairs with at least one selected robot are
+/// @param at_one_end  function that selects robots; only pairs with at least one selected robot are
 /// returned
 /// @throws RunError if selected robots times all robots exceeds the square of most_linked
 std::vector<LinkPair> link_pairs(const Network& network, Time at,

@@ -34,8 +34,8 @@ struct IndexedTrace {
 class ViewerAnswers {
   public:
     /// Answers about a recorded run, at any of its times.
-    /// @param other trace of the second run, to which questions with "run": 1 refer; empty path: no
-    /// second run
+    /// @param other  trace of the second run, to which questions with "run": 1 refer; empty path:
+    /// no second run
     /// @throws InputError if a trace has no scenario
     explicit ViewerAnswers(IndexedTrace trace, const IndexedTrace& other = {});
     /// History of a running network, as recorded traces.

@@ -183,8 +183,7 @@ class Medium {
     NeighbourIndex index_;
     PairCache pairs_;
     const Scene* pairs_of_ = nullptr;  // scene of the losses in pairs_
-    // Contributions of nodes to draws_, by place in the index; NeighbourIndex::bins() of these
-    // places.
+    // Contributions of nodes to draws_, by place in the index; and bins() of the index then.
     std::vector<std::uint64_t> shares_;
     std::uint64_t shares_of_bin_ = 0;
     // Whether the cell size of the index was set.

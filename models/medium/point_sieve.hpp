@@ -25,7 +25,7 @@ class PlainSieveStep {
         : xs_(xs), ys_(ys), x_(x), y_(y), squared_reach_(squared_reach) {}
 
     /// Selects among the points `i` to `i` + 3.
-    /// @param wanted bit mask of the points to test: bit k stands for point `i` + k
+    /// @param wanted   bit mask of the points to test: bit k stands for point `i` + k
     /// @param kept     receives the numbers of the selected points, in order; room for four
     /// @param squares  receives their squared distances [m^2], if squares_too; room for four
     /// @return number of selected points

@@ -47,7 +47,7 @@ class RadioKinds {
     Kind add(const Radio& radio, const Propagation& model);
     /// Whether the sensitivity of receivers depends on the coding of a frame.
     bool depend_on_coding() const { return phy_.has_sensitivities(); }
-    /// Kind used instead of `kind` for the links of a station that transmits with this coding.
+    /// Kind of a station of the kind `kind` while it transmits frames of this coding.
     Kind of_coding(Kind kind, Coding coding);
 
     /// Number of kinds.

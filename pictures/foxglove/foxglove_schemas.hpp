@@ -35,7 +35,7 @@ struct Color {
 Table color(Color c);
 
 /// Entity of a foxglove.SceneUpdate, without shapes: lists are empty until they are set.
-/// @param frame coordinate frame of the shapes: "map", or the name of a robot
+/// @param frame  coordinate frame of the shapes: "map", or the name of a robot
 /// @param lifetime  time after which the entity vanishes; 0: it stays
 Table entity(Time t, const std::string& frame, const std::string& id, Duration lifetime);
 /// Message foxglove.SceneUpdate with these entities.

@@ -24,7 +24,7 @@ class TrailLines {
     /// storey.
     /// @param trails  trails of the network's robots; trails and network must outlive the lines
     /// @param storey  number of the storey
-    /// @param survey margins of links, for lines that show grades of links; null: lines in the
+    /// @param survey  margins of links, for lines that show grades of links; null: lines in the
     ///                robots' colours. Must outlive the lines
     TrailLines(const Trails& trails, const Network& network, Time at, std::size_t storey,
                const MarginSurvey* survey = nullptr);

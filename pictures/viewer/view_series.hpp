@@ -43,7 +43,7 @@ class ViewSeries {
     void write(ViewFile& file, Table& head);
     /// Series of a run that has not ended, for the bins that lie before `now`. The elements have
     /// the form of the entries of `series`, with the additional key `values`; a missing value is
-    /// null. @param now present time of the run
+    /// null. @param now  present time of the run
     Array table(Time now);
 
   private:

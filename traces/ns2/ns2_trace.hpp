@@ -14,7 +14,7 @@ namespace rovernet {
 /// Wireless trace formats of ns-2.35: the CMU extension's, and `use-newtrace`.
 enum class Ns2Format { old_format, new_format };
 
-/// Whether lines of the MAC layer are written: `-macTrace` of ns-2, which is also OFF by default.
+/// Switch for the lines of the MAC layer: `-macTrace` of ns-2, which is also OFF by default.
 enum class MacTrace { off, on };
 
 /// Packet type of a message in an ns-2 trace: "cbr" for a message that a routing protocol delivers
