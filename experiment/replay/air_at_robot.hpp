@@ -22,7 +22,7 @@ class RecordedIndex;
 /// carrier-sense threshold or the sensitivity of the receiving robot, whichever is lower. Under the
 /// propagation model disc, which gives no levels, a frame from within the range is counted.
 struct AirAtRobot {
-    Time begin, end;                  ///< one second, or less at the begin of the run
+    Time begin, end;                  ///< one second, or less at the start of the run
     Duration busy{0};                 ///< time with a counted frame, or a frame of the robot, on
                                       ///< air
     Duration sending{0};              ///< time with a frame of the robot on air

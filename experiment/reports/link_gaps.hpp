@@ -22,7 +22,7 @@ namespace rovernet {
 /// Stretch of a robot's path on which it has no link to any of its partners.
 struct LinkGap {
     Time begin, end;
-    Vec3 from, to;    ///< positions of the robot at the begin and at the end [m]
+    Vec3 from, to;    ///< positions of the robot at the start and at the end [m]
     double path = 0;  ///< length of the robot's path in the gap [m]
 
     Duration length() const { return end - begin; }
@@ -32,7 +32,7 @@ struct LinkGap {
 struct LinkGaps {
     Duration present{0};             ///< time for which the robot takes part in the run, on or off
     double path = 0;                 ///< length of the robot's path [m]
-    std::vector<LinkGap> gaps = {};  ///< gaps in the order of time, with a link between them
+    std::vector<LinkGap> gaps = {};  ///< gaps in the order of time; they do not touch
 
     Duration lost() const;      ///< sum of the gaps' lengths
     double lost_path() const;   ///< sum of the gaps' paths [m]

@@ -26,7 +26,8 @@ std::vector<pid_t> descendants();
 
 /// Ends all processes that `find` lists, and calls `find` again until no process is left. Processes
 /// get SIGTERM first, after 1 s SIGHUP (an interactive shell ignores SIGTERM), and after 2 s
-/// SIGKILL. The function also returns if only processes remain that cannot be killed.
+/// SIGKILL. The function also returns if only processes remain that this process may not kill, and
+/// after 3 s at the latest.
 /// @param find  function that lists the current processes
 void end_processes(const std::function<std::vector<pid_t>()>& find);
 

@@ -40,7 +40,7 @@ class MarginSurvey {
     bool is_station(NodeId node) const { return robots_[node.index()].finder == nullptr; }
     /// Pieces of a robot's path in the order of time; empty for a partner or a relay.
     std::vector<MarginPiece> pieces(NodeId node) const;
-    /// Sentences on the gaps of the robots that moved, for at most three of them.
+    /// Sentences on the gaps of robots that moved, for at most three robots.
     std::vector<std::string> gap_texts() const;
     /// Names of the partners: "ap1 or ap2", ", also over relays" if there are relays.
     std::string partner_names() const;

@@ -19,8 +19,8 @@ struct AodvRules {
     static AodvRules of(const Aodv& aodv);
 
     Duration active_route_timeout, my_route_timeout, node_traversal_time, hello, jitter;
-    /// Time for which a broken route is stored with its sequence number [ns]: longer than any other
-    /// node may still use a route over this node.
+    /// Time for which a broken route is stored with its sequence number [ns]: longer than other
+    /// nodes may keep routes over this node.
     Duration delete_period;
     /// Time for which a node that was switched on again takes no part in route searches [ns].
     Duration silence;

@@ -29,7 +29,8 @@ class SuppressionRouter {
     void forget(MessageId message);
 
   private:
-    /// Frame that nodes hear, and position of its sender [m]; the latter only if places_matter().
+    /// Frame that nodes hear, and position of its sender [m]; the position is only set if
+    /// places_matter().
     struct Heard {
         const Frame& frame;
         Vec3 from;

@@ -68,8 +68,8 @@ class Ns2Trace {
                       Ns2Format format = Ns2Format::new_format, MacTrace mac = MacTrace::off);
     Ns2Trace(Ns2Trace&&) noexcept;
     Ns2Trace& operator=(Ns2Trace&&) noexcept;
-    /// Closes the trace as close(), but without exceptions; during an exception it removes the file
-    /// instead.
+    /// Closes the trace like close(), but throws no exception. If the destructor runs because of an
+    /// exception, it removes the file instead.
     ~Ns2Trace();
 
     KindMask kinds() const {

@@ -12,7 +12,7 @@
 namespace rovernet {
 
 /// Index of a recorded trace: for each message the chunks with its records, and for each chunk the
-/// robots' legs and states at its begin. With the index, a reader finds all records of a message by
+/// robots' legs and states at its start. With the index, a reader finds all records of a message by
 /// reading a few chunks:
 ///
 ///     for (const auto& range : index.chunks_of(uid)) {
@@ -41,7 +41,7 @@ class RecordedIndex {
     bool has(std::uint64_t uid) const;
     /// Chunks with all frames that are on air at a robot between two times.
     std::vector<Range> chunks_between(Time from, Time to) const;
-    /// Calls visit(record) for the records that determine the state of the robots at the begin of a
+    /// Calls visit(record) for the records that determine the state of the robots at the start of a
     /// chunk: the last Moved of each robot, and the last Switched of each robot that was switched
     /// on or off.
     void for_each_before(std::uint32_t chunk,
@@ -62,7 +62,7 @@ class RecordedIndex {
         std::size_t chunk;  // index in chunks_
         Time first, last;
     };
-    /// Value that is valid from the begin of a chunk on.
+    /// Value that is valid from the start of a chunk on.
     template <class T>
     struct From {
         std::uint32_t chunk;
@@ -77,7 +77,7 @@ class RecordedIndex {
     static void for_each(const Values<T>& all, std::uint32_t chunk, const Visit& visit);
     void append(std::vector<Range>& ranges, std::size_t& end, std::size_t first,
                 std::size_t last) const;
-    /// Longest time from the begin of a frame at its sender to its end at a receiver.
+    /// Longest time from the start of a frame at its sender to its end at a receiver.
     Duration longest_on_air() const;
     void mention(std::uint64_t uid, MessageId slot);
 

@@ -86,7 +86,7 @@ class RecordedReader {
     Time now() const { return now_; }
     /// Number of the chunk of the last record; the first chunk of the file is 0.
     std::uint32_t chunk() const { return chunks_ - 1; }
-    /// Continues reading at the begin of a chunk, which must not precede the current chunk. The
+    /// Continues reading at the start of a chunk, which must not precede the current chunk. The
     /// messages of the context are then correct, but its legs are still the legs of the previous
     /// position. The trace must be free of damage.
     void go_to_chunk(std::uint32_t chunk);
