@@ -40,7 +40,7 @@ class ReplayedScenario {
 
   private:
     /// Path of a file that the scenario names. If the file is attached to the trace, the path is
-    /// relative to the temporary folder. Otherwise the path is absolute, of a file beside the
+    /// relative to the temporary folder. Otherwise it is the absolute path of a file beside the
     /// trace.
     std::string find_file(const RecordedRun& run, const std::string& name) const;
 

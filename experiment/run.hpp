@@ -31,6 +31,7 @@ struct Scenario;
 struct TopologyValues;
 struct TraceFile;
 
+/// Options of run_scenario().
 struct RunOptions {
     std::optional<std::string> folder;  ///< folder for the results of the run; none: run_folder()
     std::optional<double> speed;        ///< ratio of simulated time to real time [-]; none: as fast
@@ -48,6 +49,7 @@ class Interrupted : public std::exception {
     const char* what() const noexcept override { return "interrupted"; }
 };
 
+/// Results of a run: metrics, files and costs, and the network at its end.
 struct RunResult {
     std::string folder;                ///< folder of the results; empty: nothing was written
     std::optional<std::string> trace;  ///< path of the ns-2 trace, or else of the recorded trace

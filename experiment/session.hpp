@@ -85,8 +85,8 @@ class Session {
     /// each robot that a leaving client drives.
     void on_input(std::function<void(const Input&)> tell) { tell_ = std::move(tell); }
 
-    // Commands of a client to robots driven by the client, and SendCommands to robots whose radios
-    // the client uses. @throws std::invalid_argument for any other robot
+    // A client may command the robots that it drives. It may also give SendCommands to the robots
+    // whose radios it uses. The functions below throw std::invalid_argument for any other robot.
 
     /// Executes a command of a client now.
     /// @param number  number that the client gave to the command, for on_input()
@@ -118,9 +118,9 @@ class Session {
     bool is_stalled(NodeId robot) const;
     /// Whether the robot stands still since no path reaches the goal of its command.
     bool has_no_way(NodeId robot) const;
-    /// Sentence that explains why a robot cannot carry out a command: it does not fit at the
-    /// position [m] of a PlaceCommand, off the map, in a wall, or nearer to a wall than its radius.
-    /// Empty if the robot can.
+    /// Sentence that explains why a robot cannot carry out a command; empty if the robot can. The
+    /// only reason is a PlaceCommand to a position [m] at which the robot does not fit: off the
+    /// map, in a wall, or nearer to a wall than the robot's radius.
     std::string why_not(NodeId robot, const RobotCommand& command) const;
     /// Velocity of a robot in the robot's coordinate frame: the commanded velocity while a drive
     /// command is active; otherwise the velocity of the current leg (piece of movement).

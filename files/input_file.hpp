@@ -53,10 +53,10 @@ class InputFile {
     int file_ = -1;
 };
 
-/// File name (last part) of the path `name` if no file exists at `name`, but `folder` contains a
-/// file with this file name; otherwise "". An error message can then report a wrong folder (of a
-/// different machine, or `~`, which only a shell expands) instead of a missing file. Backslashes
-/// also separate folders.
+/// Searches `folder` for a file that does not exist at the path `name`. Returns the file name (last
+/// part of the path) if `folder` contains such a file, otherwise "". An error message can then
+/// report a wrong folder instead of a missing file: a folder of a different machine, or `~`, which
+/// only a shell expands. Backslashes also separate folders.
 std::string named_beside(const std::string& folder, const std::string& name);
 
 /// Checks that a path is a regular file. @throws InputError if it is not

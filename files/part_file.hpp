@@ -30,7 +30,7 @@ class PartFile {
 
     /// Appends bytes. @throws RunError (disk full, for example); see Failed
     void write(std::string_view bytes);
-    /// Path of the file until it has its name.
+    /// Path of the incomplete file, NAME.N.part; empty after give_name() or keep().
     const std::string& part() const { return part_; }
     /// Closes the file. After this call, give_name() cannot fail for lack of disk space.
     /// @throws RunError as for write()

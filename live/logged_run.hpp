@@ -26,9 +26,9 @@ struct StopRules {
     std::function<bool()> go_on = [] {
         return true;
     };  ///< function called repeatedly during the run; returning false ends the run
-    /// Called with false before the network is set up, and with true before the run writes files.
-    /// The setup may take minutes, does not call `go_on`, and leaves no files if the process is
-    /// killed meanwhile.
+    /// Reports whether the run may write files: called with false before the network is set up, and
+    /// with true before the first file is written. The setup may take minutes and does not call
+    /// `go_on`. Until the call with true, the process may be killed without leaving files.
     std::function<void(bool)> writes = [](bool) {};
 };
 

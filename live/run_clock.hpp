@@ -11,8 +11,9 @@
 
 namespace rovernet {
 
-/// Clock of a run that follows real time: its time is simulated time, which passes at a speed. The
-/// speed may change during the run. Without a speed, the clock does not limit the run.
+/// Clock of a run that follows real time. The clock shows simulated time; its speed is the ratio of
+/// simulated time to real time [-], and may change during the run. Without a speed, the clock does
+/// not limit the run.
 class RunClock {
   public:
     using Real = std::chrono::steady_clock;
@@ -35,18 +36,20 @@ class RunClock {
         started_ = real_();
         if (speed_) started_ -= std::chrono::duration_cast<Real::duration>(real_time(t));
     }
-    /// Sets the clock to the time `t`, from which it passes at another speed.
+    /// Sets the clock to the time `t`, and changes its speed from then on.
     void set_speed(std::optional<double> speed, Time t) {
         speed_ = speed;
         set(t);
     }
-    /// Real time since the clock stood at `t`; negative before. Needs a speed.
+    /// Real time that has passed since the clock showed `t`; negative if the clock has not reached
+    /// `t` yet. To be called only if the clock has a speed.
     Duration since(Time t) const { return real_() - started_ - real_time(t); }
-    /// Real time that a simulated duration takes. Needs a speed.
+    /// Real time that a simulated duration takes. To be called only if the clock has a speed.
     Duration real_time(Duration simulated) const {
         return from_seconds(seconds(simulated) / *speed_);
     }
-    /// Simulated time that passes in a real duration, at most until `end`. Needs a speed.
+    /// Simulated time that passes in a real duration, at most until `end`. To be called only if the
+    /// clock has a speed.
     Duration simulated(Duration real, Time end) const {
         return from_seconds(std::min(seconds(real) * *speed_, seconds(end)));
     }

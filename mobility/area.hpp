@@ -17,6 +17,7 @@ enum class StartPlace {
               ///< movement begins after the start of the run
     here,     ///< current position of the robot
 };
+/// Names of the values of `start` in scenario files.
 template <>
 struct EnumNames<StartPlace> {
     static constexpr std::array<std::string_view, 2> values = {"uniform", "here"};

@@ -11,6 +11,7 @@ namespace rovernet {
 
 /// Side of a robot on which it follows its wall.
 enum class WallSide { left, right };
+/// Names of the values of `side` in scenario files.
 template <>
 struct EnumNames<WallSide> {
     static constexpr std::array<std::string_view, 2> values = {"left", "right"};

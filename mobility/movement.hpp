@@ -67,6 +67,7 @@ struct Blocked {
     Vec3 goal;  ///< goal without a path [m]
 };
 
+/// Result of a movement model: the next leg (piece of movement), or the reason why there is none.
 using Step = std::variant<Leg, AtRest, Blocked>;
 
 /// Movement model: a generator of legs (pieces of movement). It is called whenever a leg has ended,

@@ -18,6 +18,7 @@ enum class BorderTurn {
     cosine,   ///< density cos of the angle to the border's normal (Lambert's law)
     uniform,  ///< all angles equally likely
 };
+/// Names of the values of `border_turn` in scenario files.
 template <>
 struct EnumNames<BorderTurn> {
     static constexpr std::array<std::string_view, 2> values = {"cosine", "uniform"};

@@ -21,6 +21,7 @@ enum class StartState {
     uniform,     ///< new trip from a uniform random position; the mean speed falls with time
     here,        ///< new trip from the robot's position; the mean speed falls with time
 };
+/// Names of the values of `start` in scenario files.
 template <>
 struct EnumNames<StartState> {
     static constexpr std::array<std::string_view, 3> values = {"stationary", "uniform", "here"};

@@ -20,8 +20,8 @@ struct EnumNames<WifiMode> {
         "auto", "adhoc", "infrastructure", "master", "repeater", "secondary"};
 };
 
-/// Labels of a radio: what link tables, pictures, Player and emulated devices show or use. Links do
-/// not depend on them. The wifi of a Stage world has all of them.
+/// Labels of a radio, for link tables, pictures, Player and emulated devices. Links do not depend
+/// on them. The wifi of a Stage world has all of them.
 struct RadioLabels {
     /// IP address of the radio, unique; generated if not given.
     std::optional<std::string> ip = std::nullopt;
@@ -38,8 +38,8 @@ struct RadioLabels {
 
     friend bool operator==(const RadioLabels&, const RadioLabels&) = default;
 
-    /// Labels in scenario files: keys of [radio] and of a robot's own `radio`, as the parameters
-    /// are.
+    /// Labels in scenario files: keys of [radio] and of a robot's own `radio`, beside the
+    /// parameters of Radio.
     static constexpr auto fields() {
         return describe(
             field("ip", &RadioLabels::ip, "address; unique, given if left out"),

@@ -34,9 +34,9 @@ struct Arriving {
     bool error_free;
 };
 
-/// Nodes that matter for a frame.
+/// Nodes for which the channel has to simulate the arrival of a frame.
 enum class Audience {
-    next_hop,   ///< next hop of a unicast: no other node does anything about the frame
+    next_hop,   ///< only the next hop of a unicast: no other node reacts to the frame
     receivers,  ///< nodes that can decode the frame
     sensors,    ///< nodes that can sense the frame, for an access model that listens
 };
@@ -73,7 +73,8 @@ class Channel {
 
     /// Starts to transmit a frame now. The frame holds a reference to its message until the last
     /// reception.
-    /// @param audience  nodes that matter; for `sensors`, ChannelUser::sensed is called
+    /// @param audience  nodes for which the arrival is simulated; for `sensors`,
+    /// ChannelUser::sensed is called
     /// @return receptions at the nodes of the audience that can decode the frame, in order of time
     ///         and then of node; possibly others, too; valid until the next call
     std::span<const Reception> transmit(const AirFrame& frame, const Transmission& how,
@@ -114,7 +115,7 @@ class Channel {
         bool error_free = false;
     };
 
-    // Finds the receivers of the frame that matter.
+    // Finds the receivers of the frame that belong to the audience.
     void find_receivers(Flight& flight, const Transmission& how, Audience audience);
     // Finds the receivers of the frame and all nodes that sense the frame; reports the sensing
     // nodes by ChannelUser::sensed.

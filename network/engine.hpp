@@ -33,8 +33,8 @@ class Engine {
     /// @throws std::invalid_argument if a setting is out of its range
     explicit Engine(NetworkSettings settings);
 
-    /// Implementations of Network::reserve() and the functions below. add_sink() also configures
-    /// the parts of the network for the records that the sink wants.
+    /// These functions implement the functions of Network with the same names. add_sink() also
+    /// configures the parts of the network for the records that the sink wants.
     void reserve(std::size_t robots);
     NodeId add(Robot robot);
     SinkId add_sink(Sink sink);

@@ -36,8 +36,9 @@ struct LinkChange {
 /// reports every change once, in the order of (time, from, to). Links count as down before start().
 ///
 /// A new leg costs a search for each pair with its robot, see next_link_change; robots at rest cost
-/// nothing. Links of a propagation model of unknown shape (LossShape) are sampled as far ahead as
-/// the watch has lasted so far (at least 16 samples), because legs may last far beyond the run.
+/// nothing. For a propagation model of unknown shape (LossShape), a search covers a time span as
+/// long as the time since start(), and at least 16 samples: a leg may last far beyond the end of
+/// the run.
 ///
 /// Memory: 9 bytes for each pair, and 16 more while a change is pending; 225 MB for 5000 robots,
 /// the largest number of robots.
@@ -109,7 +110,7 @@ class LinkWatch {
 
     // Allocates memory for the pairs of this many robots.
     void grow(std::size_t robots);
-    // Search again for the next change: of all pairs, of all pairs of a robot, or of one pair.
+    // Search again for the next change of all pairs, of all pairs of a robot, or of one pair.
     void look_at_all(Time now);
     void look_at(NodeId node, Time now);
     void look_at(NodeId from, NodeId to, Time now);

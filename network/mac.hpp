@@ -113,7 +113,7 @@ class Mac final : public Air, public ChannelUser {
     bool judges(const Frame& frame) const {
         return frame.next_hop != everyone && !listens_ && user_.wants_result(frame);
     }
-    // Nodes that matter for a frame.
+    // Nodes for which the channel has to simulate the arrival of a frame.
     Audience audience_of(const Frame& frame) const;
     // Handles a unicast whose next hop is out of range. If the MAC finds the result of the unicast
     // itself (see judges()), queues an event at `end`, the end of the frame, that reports the loss

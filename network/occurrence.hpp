@@ -7,7 +7,7 @@
 #include <cstdint>
 
 // Events of a running network. Every future action is an Occurrence in the Scheduler of the World;
-// Engine::serve passes it to its part.
+// Engine::serve passes it to the part of the network that handles it.
 
 namespace rovernet {
 

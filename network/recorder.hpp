@@ -45,8 +45,9 @@ class Recorder {
     bool wants() const {
         return wants(kind_of<R>());
     }
-    /// Stops these kinds for the rest of the run, for present and later sinks. Applications stop
-    /// kind_cheap_reachable when it becomes expensive; the metric `reach` is then null for the run.
+    /// Stops the making of records of these kinds for the rest of the run, also for sinks that are
+    /// added later. Applications stop kind_cheap_reachable when it becomes expensive; the metric
+    /// `reach` is then null for the run.
     void stop(KindMask kinds) {
         stopped_ |= kinds;
         wanted_ &= ~kinds;

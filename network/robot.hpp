@@ -60,6 +60,7 @@ enum class Presence {
     left,
 };
 
+/// Names of the values of Presence in reports.
 template <>
 struct EnumNames<Presence> {
     static constexpr std::array<std::string_view, 4> values = {"on", "off", "not_departed", "left"};

@@ -144,7 +144,7 @@ class Routing final : public LinkLayer, public MacUser, public ArpUser {
     // Passes receptions to the protocol, which sets their fate. Without a protocol, the message is
     // delivered at each node, and not forwarded.
     void hand_up(const Frame& frame, std::span<Reception> receptions, std::span<const Dbm> levels);
-    // Passes the receptions of a group that were decoded at nodes that are on to hand_up().
+    // Calls hand_up() for those receptions of a group that were decoded, and whose nodes are on.
     void hand_up_heard(const Frame& frame, const Arriving& part);
     // Handles receptions of a broadcast: passes them to the protocol, emits Received, and passes
     // them to the applications.

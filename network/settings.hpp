@@ -29,8 +29,8 @@ class Scene;
 /// Settings of a Network, all with defaults: an open field, free space, and frames that do not
 /// interfere and are transmitted immediately.
 ///
-///   Network network({.seed = 7, .propagation = LogDistance{}, .reception = Sinr{}, .access =
-///   Csma{}});
+///   Network network({.seed = 7, .propagation = LogDistance{}, .reception = Sinr{},
+///                    .access = Csma{}});
 struct NetworkSettings {
     /// Seed of all random draws, and number of the independent repetition.
     std::uint64_t seed = 1;

@@ -15,6 +15,7 @@ namespace rovernet {
 /// (docs/methods/routing.md).
 enum class AodvProfile { rfc, ns2 };
 
+/// Names of the values of `profile` in scenario files.
 template <>
 struct EnumNames<AodvProfile> {
     static constexpr std::array<std::string_view, 2> values = {"rfc", "ns2"};

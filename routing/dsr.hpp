@@ -14,6 +14,7 @@ namespace rovernet {
 /// (docs/methods/routing.md).
 enum class DsrProfile { rfc, ns2 };
 
+/// Names of the values of `profile` in scenario files.
 template <>
 struct EnumNames<DsrProfile> {
     static constexpr std::array<std::string_view, 2> values = {"rfc", "ns2"};

@@ -11,6 +11,7 @@ namespace rovernet {
 /// Treatment of the copies of a message that a node receives after the first one.
 enum class Duplicates { suppress, forward };
 
+/// Names of the values of `duplicates` in scenario files.
 template <>
 struct EnumNames<Duplicates> {
     static constexpr std::array<std::string_view, 2> values = {"suppress", "forward"};

@@ -61,7 +61,8 @@ class FloodRouter {
         Knowledge& operator[](NodeId node) { return of_nodes_[node.index()]; }
 
       private:
-        // Bit of each node: the node is settled. The bits of a million nodes fit into a cache.
+        // Bit of each node: true if any further copy of the message is a duplicate for the node,
+        // see is_settled(). The bits of a million nodes fit into the processor's cache.
         std::vector<std::uint64_t> settled_;
         std::vector<Knowledge> of_nodes_;
     };

@@ -14,6 +14,7 @@ namespace rovernet {
 /// Rule by which a node suppresses a message (does not forward it), see Suppression.
 enum class SuppressionScheme { counter, probability, distance, location, cluster };
 
+/// Names of the values of `scheme` in scenario files.
 template <>
 struct EnumNames<SuppressionScheme> {
     static constexpr std::array<std::string_view, 5> values = {"counter", "probability", "distance",

@@ -76,7 +76,7 @@ struct ReactionTable {
     /// Value of `to` for the origin of the received message, even if a robot is named "sender".
     static constexpr std::string_view sender = "sender";
 
-    /// Keys of the table, without `move`. has_key() says which ones a trigger has.
+    /// Keys of the table, without `move`. has_key() returns whether a trigger has a key.
     static constexpr auto fields() {
         constexpr Range hop_counts{.low = 1, .high = 65535, .text = "from 1 to 65535"};
         using R = ReactionTable;

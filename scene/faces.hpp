@@ -33,8 +33,8 @@ struct Face {
     /// face is oblique. False: any deviation is only a bump.
     bool slants = false;
     /// Thickness of the wall behind the face [m], at most 5 m: the median of three measurements
-    /// perpendicular to the face. Each one ends at the line of the opposite face if the two faces
-    /// are nearly parallel.
+    /// perpendicular to the face. Each measurement ends at the line of the opposite face if the two
+    /// faces are nearly parallel.
     double thickness = 0;
     /// Material of the wall: index into Scene::materials().
     std::size_t material = 0;

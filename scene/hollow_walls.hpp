@@ -33,9 +33,9 @@ void for_each_hollow(const CellMap& map, Meters widest,
                      const std::function<void(std::span<const std::size_t> cells)>& visit);
 
 /// Interiors of walls that a map draws as outlines (hollow walls). An interior is an enclosed free
-/// area so narrow that the wall is at most 0.5 m thick. Most of its border is a line of one or two
-/// cells. A cavity between two walls of three or more cells is not an interior. A slot that is open
-/// at one end is not an interior, either.
+/// area so narrow that the wall is at most 0.5 m thick. Most of the drawn outline around it is one
+/// or two cells thick. A cavity between two walls that are drawn three or more cells thick is not
+/// an interior, nor is a slot that is open at one end.
 ///
 /// The interiors are found on first use. Several threads may call the functions concurrently.
 class HollowWalls {

@@ -135,7 +135,8 @@ class LinkLayer {
     /// Removes a reference to a message. After the last reference is removed, the router's forget()
     /// is called, and the slot may be reused.
     virtual void release(MessageId) = 0;
-    /// Adds a reference to the message and to the header of a frame that the router stores.
+    /// Adds a reference to the message and to the header of a frame. Must be called for each frame
+    /// that the router stores, so that message and header remain in memory.
     virtual void hold(const Frame&) = 0;
     /// Removes the references that hold(frame) added. After the last reference to a header is
     /// removed, the router's forget_header() is called.

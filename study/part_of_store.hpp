@@ -22,9 +22,9 @@ std::optional<std::uint32_t> more_replications(const Store& store, const Study& 
 /// Copies the runs that the study requests from the store `whole` into the store `part`.
 void take_part(const Store& whole, const Study& study, Store& part);
 
-/// Adds the points and runs of the store `part` to the store `whole`. If only one of the two stores
-/// varies a key, points of the other store get the value that this key has at a point common to
-/// both stores.
+/// Adds the points and runs of the store `part` to the store `whole`. If only one store varies a
+/// key, the points of the other store get a value of this key: the value at a point that both
+/// stores have.
 void give_back(const Store& part, Store& whole);
 
 }  // namespace rovernet

@@ -71,8 +71,8 @@ struct RoutingValues {
     friend bool operator==(const RoutingValues&, const RoutingValues&) = default;
 };
 
-/// Use of the air by all frames of a run: messages, their copies, control packets and the control
-/// frames of the access model.
+/// Airtime of all frames of a run: messages, their copies, control packets and the control frames
+/// of the access model.
 struct AirtimeValues {
     double total = 0;                ///< sum of the frames' airtimes [s]
     std::optional<double> per_byte;  ///< airtime per delivered byte [us]; empty: nothing delivered

@@ -132,16 +132,17 @@ struct MetricValues {
     }();
 
     /// Packet delivery ratio r / e [-]: r is the number of deliveries, without duplicates; e is the
-    /// sum over messages of their destinations: all other robots when the message was sent, or 1
-    /// for a unicast. Empty if e is 0. Messages cut off by the end of the run are not included.
-    /// Source: for unicasts, J. Broch et al., MobiCom 1998.
+    /// total number of destinations of all messages. A unicast has one destination; a broadcast has
+    /// all robots that existed when it was sent, except its sender. Empty if e is 0. Messages cut
+    /// off by the end of the run are not included. Source: for unicasts, J. Broch et al., MobiCom
+    /// 1998.
     std::optional<double> delivery_ratio;
 
-    /// Reachability RE = r / e [-]: r is the number of deliveries; e is the sum over messages of
-    /// the robots that a chain of links connected to the sender when it sent the message (for a
-    /// unicast only the destination counts). RE can exceed 1, because robots that move or forward
-    /// late may reach further robots. Empty if e is 0 or was not measured for every message.
-    /// Source: S.-Y. Ni et al., The broadcast storm problem, MobiCom 1999.
+    /// Reachability RE = r / e [-]: r is the number of deliveries; e is the total number, over all
+    /// messages, of robots that a chain of links connected to the sender when it sent the message
+    /// (for a unicast only the destination counts). RE can exceed 1, because robots that move or
+    /// forward late may reach further robots. Empty if e is 0 or was not measured for every
+    /// message. Source: S.-Y. Ni et al., The broadcast storm problem, MobiCom 1999.
     std::optional<double> reach;
     bool reach_known = true;  ///< true if connected robots were counted for every message
 
@@ -160,6 +161,7 @@ struct MetricValues {
     /// robot.
     std::optional<RoutingValues> routing;
     std::optional<RoutedMetrics> routed;  ///< metrics of routed unicasts; empty if `routing` is
+                                          ///< empty
 
     std::vector<PartValues> flows;   ///< values of each flow, at index flow - 1, if measured
     std::vector<PartValues> robots;  ///< values of each robot, by its id, if measured

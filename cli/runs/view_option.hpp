@@ -12,8 +12,8 @@
 
 namespace rovernet::cli {
 
-/// Options --view, --view-control and --open of a command that runs a scenario: a page that shows
-/// the run.
+/// Options --view, --view-control and --open, by which a command that runs a scenario shows the run
+/// on a web page.
 struct ViewOption {
     std::optional<std::string> address;
     bool control = false, opens = false;
@@ -21,11 +21,12 @@ struct ViewOption {
     /// Adds the options to a command. @return the option --view
     Option add_to(Command command);
     bool is_given() const { return address.has_value(); }
-    /// Function that says what `say` says, and with --open opens the page when its address is said.
+    /// Function that passes each message to `say`. With --open, the function also opens the page in
+    /// the browser when the message contains the page's address.
     std::function<void(std::string_view)> announced(
         std::function<void(std::string_view)> say) const;
     /// Listeners of the page.
-    /// @param view  what the page may do without --view-control
+    /// @param view  rights of the page without --view-control
     FrontListeners listeners(const Reach& reach, ViewControl view) const;
 };
 

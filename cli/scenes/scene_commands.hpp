@@ -43,7 +43,8 @@ void scene(const SceneArguments& arguments);
 struct WhereArguments : FileArguments {
     std::vector<std::string> at;
     std::optional<std::string> robot;
-    std::vector<std::string> to;    ///< robots of which a link to one is enough; empty: not asked
+    std::vector<std::string> to;    ///< partners: a link to any one of them is enough; empty:
+                                    ///< option not given
     std::vector<std::string> over;  ///< robots over which the link may go, too
     bool csv = false, json = false;
 };

@@ -12,8 +12,8 @@ namespace rovernet::cli {
 /// Form in which results are printed.
 enum class ReportForm { text, csv, json };
 
-/// Prints comparisons of the same models or values, one for each metric. As JSON, a single
-/// comparison is printed as an object; several comparisons are printed as an object with a list.
+/// Prints the comparisons of a study, one comparison for each metric. As JSON, a single comparison
+/// is printed as an object; several comparisons are printed as an object with a list.
 void print_comparisons(const std::vector<Comparison>& all, ReportForm form);
 
 /// Writes the picture of a comparison. For protocols the picture shows the delivery ratio over the

@@ -56,9 +56,10 @@ struct ReplayArguments {
     std::vector<std::string> with;
     std::optional<std::string> map;  ///< map file to use instead of the recorded map
     std::optional<double> speed;
-    // Options for an ns-2 trace. `as`: settings of the radio with which the radios of `with` are
-    // compared, in the form of `with`. `routing`: routing of the messages, "flood" or "direct".
-    // `movements`: path of the robots' movement file.
+    // Options for an ns-2 trace:
+    // - `as`: settings like an element of `with`; the radio with which all others are compared
+    // - `routing`: routing of the messages, "flood" or "direct"
+    // - `movements`: path of the robots' movement file
     std::optional<std::string> as, routing, movements;
     std::optional<std::string> store;
     bool json = false;

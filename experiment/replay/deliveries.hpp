@@ -27,8 +27,9 @@ struct Delivery {
     friend bool operator==(const Delivery& a, const Delivery& b) { return (a <=> b) == 0; }
 };
 
-/// Calls use(delivery, reception) for each reception of an application's message in a record, as if
-/// the message were delivered; whether it was is in the reception.
+/// Calls use(delivery, reception) for each reception of an application's message in a record. The
+/// delivery describes the reception as if the message were delivered; the fate in `reception`
+/// states whether it was.
 template <class Use>
 void for_each_reception(const Record& record, const RecordContext& context, Use use) {
     const auto* received = std::get_if<Received>(&record);

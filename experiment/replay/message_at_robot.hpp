@@ -83,8 +83,8 @@ struct MessageAtRobot {
 /// Examines every frame of a message at a robot.
 /// @param path   recorded trace
 /// @param uid    uid of the message
-/// @param index  index of the trace, with which only the chunks with the message are read; null:
-///               none, or the trace is damaged
+/// @param index  index of the trace, used to read only the chunks with the message; null: the trace
+///               has no index, or is damaged
 /// @throws InputError if the trace has no scenario, the scenario cannot be loaded, or the trace has
 /// no such robot
 MessageAtRobot message_at_robot(const std::string& path, std::uint64_t uid, NodeId robot,

@@ -8,7 +8,7 @@
 
 namespace rovernet {
 
-/// Routing in a new simulation of the messages of an ns-2 trace. The routing protocol of the ns-2
+/// Routing of the messages when an ns-2 trace is simulated again. The routing protocol of the ns-2
 /// run is not simulated.
 enum class DayRouting {
     /// Flood: every robot forwards every message. A message for one robot is delivered only at that

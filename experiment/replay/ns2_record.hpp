@@ -8,15 +8,16 @@
 
 namespace rovernet {
 
-/// Writes an ns-2 trace as a recorded trace, for all that reads recorded traces: the movements of
-/// read_ns2_day(), and the records of read_ns2_trace(). The scenario is that of read_ns2_day(), an
-/// open field with ns-2's default radio.
+/// Converts an ns-2 trace to a recorded trace. The movements and the scenario are the results of
+/// read_ns2_day(): an open field, with ns-2's default radio. The records are the results of
+/// read_ns2_trace().
 ///
-/// A frame lasts from the line in which its sender passes it on (`s RTR`, `f RTR`) to its first
-/// reception, time in the queue included. A frame that nobody received has no length.
+/// A frame starts at the line in which its sender's router sends or forwards it (`s RTR`, `f RTR`),
+/// and ends at its first reception. Its length therefore includes the time in the sender's queue. A
+/// frame that nobody received has no length.
 ///
 /// @param to  path of the recorded trace
-/// @return sentences about what an ns-2 trace does not tell
+/// @return notices, as sentences, about data that the ns-2 trace lacks
 /// @throws InputError as read_ns2_day()
 std::vector<std::string> record_ns2_trace(const std::string& path, const std::string& to,
                                           const Ns2DayOptions& options);

@@ -8,9 +8,9 @@
 
 namespace rovernet {
 
-/// Check that records are plain, that is, that ns-2 trace lines can represent the records. Records
-/// of a run always are plain. Records of a damaged or foreign file may have a time, a robot number
-/// or a packet kind that no ns-2 line can represent. A reader would reject lines of such records.
+/// Checker of records. A record is plain if ns-2 trace lines can represent it. Records of a run
+/// always are plain. Records of a damaged or foreign file may have a time, a robot number or a
+/// packet kind that no ns-2 line can represent. A reader would reject lines of such records.
 ///
 /// The check also collects the robots that occur in the ns-2 trace lines so far.
 class PlainRecords {

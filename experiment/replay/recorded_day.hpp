@@ -76,21 +76,21 @@ class RecordedDay {
                    const std::function<bool(double)>& progress = {}) const {
         return play(set, progress, {});
     }
-    /// Simulates as play(), and writes the new run as a recorded trace, with the scenario that has
-    /// the assignments `set`.
+    /// Simulates like play(), and writes the new run to a recorded trace. The scenario in this
+    /// trace includes the assignments `set`.
     /// @param path  path of the new trace
     /// @throws InputError, RunError, Interrupted
     PlayedDay record(const std::string& path, const std::vector<std::string>& set,
                      const std::function<bool(double)>& progress = {}) const;
 
-    /// Warning, as a sentence, that at least a tenth of the messages start at the same instant and
-    /// collide under the access model of the scenario with the assignments `set`. Empty if fewer
-    /// messages collide.
+    /// Warning, as a sentence, if at least a tenth of the messages start at the same instant and
+    /// therefore collide; empty if fewer messages do. The access model is the one of the scenario,
+    /// after the assignments `set`.
     /// @throws InputError
     std::string starts_together(const std::vector<std::string>& set) const;
-    /// Warning, as a sentence, that the farthest reception in the trace is out of range of the
-    /// radio of the scenario with the assignments `set`. Empty if the reception is in range, or if
-    /// the trace has no receptions.
+    /// Warning, as a sentence, if the farthest reception in the trace is beyond the range of the
+    /// radio; empty if it is in range, or if the trace has no receptions. The radio is the one of
+    /// the scenario, after the assignments `set`.
     /// @throws InputError
     std::string hears_farther(const std::vector<std::string>& set) const;
 

@@ -10,8 +10,9 @@
 
 namespace rovernet {
 
-/// Reads some chunks of a trace: gives `air` what holds at the begin of each range, and calls
-/// take(record) for each record.
+/// Reads some chunks of a trace. At the start of each range, `air` gets the earlier records that
+/// determine the robots' legs and states at that time. Then take(record) is called for each record
+/// of the range.
 template <class Take>
 void read_part(RecordedReader& trace, const RecordedIndex& index,
                const std::vector<RecordedIndex::Range>& ranges, RecordedAir& air,

@@ -19,8 +19,8 @@ struct ChangedDelivery {
     Delivery delivery;
     bool is_gained = false;  ///< true: in only the second run; false: in only the first
     Time time;               ///< time of the delivery, in the run that has it
-    /// Fate of the last frame with this message at the robot, in the other run; none: no frame was
-    /// in reach of the robot.
+    /// Fate at the robot of the last frame with this message, in the run without the delivery;
+    /// none: no frame with this message was in reach of the robot.
     std::optional<Fate> other = {};
 };
 

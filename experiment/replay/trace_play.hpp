@@ -12,7 +12,8 @@ namespace rovernet {
 struct TracePlay {
     /// Callback with the line of each event of the trace, called at the time of the event.
     std::function<void(std::string_view line)> show;
-    /// Callback at least every 50 ms while play_trace() waits; returning false stops the playback.
+    /// Callback, called at least every 50 ms while play_trace() waits; returning false stops the
+    /// playback.
     std::function<bool()> goes_on;
 };
 

@@ -22,33 +22,33 @@ namespace rovernet {
 /// Stretch of a robot's path on which it has no link to any of its partners.
 struct LinkGap {
     Time begin, end;
-    Vec3 from, to;    ///< positions of the robot at the begin and at the end [m]
+    Vec3 from, to;    ///< positions of the robot at the start and at the end [m]
     double path = 0;  ///< length of the robot's path in the gap [m]
 
     Duration length() const { return end - begin; }
 };
 
-/// Gaps of a robot's link to the best of its partners, during a run.
+/// Gaps in a robot's connection to its partners during a run: times without a link to any partner.
 struct LinkGaps {
-    Duration present{0};             ///< time for which the robot is there, switched on or off
+    Duration present{0};             ///< time for which the robot takes part in the run, on or off
     double path = 0;                 ///< length of the robot's path [m]
     std::vector<LinkGap> gaps = {};  ///< gaps in the order of time; they do not touch
 
     Duration lost() const;      ///< sum of the gaps' lengths
     double lost_path() const;   ///< sum of the gaps' paths [m]
-    double lost_share() const;  ///< lost() / present [-]; 0 if the robot is never there
+    double lost_share() const;  ///< lost() / present [-]; 0 if `present` is 0
 };
 
 /// Sink that finds the gaps in a robot's link to its partners.
 ///
-/// The robot has a link to a partner while both hear each other. The times of link changes are
-/// those of LinkUp and LinkDown.
+/// The robot has a link to a partner while both receive each other's frames. Changes of links are
+/// taken from the records LinkUp and LinkDown.
 class LinkGapFinder {
   public:
     /// @param network   network of the run; outlives the finder
-    /// @param partners  robots of which one is enough, such as access points
-    /// @param relays    robots over which the link may go, in any number of hops, of which each
-    ///                  works in both directions; empty: direct links only
+    /// @param partners  robots such as access points; a link to any one of them is enough
+    /// @param relays    robots over which the connection may go, in any number of hops; each hop
+    ///                  must be a link in both directions. Empty: direct links only
     LinkGapFinder(const Network& network, NodeId robot, std::vector<NodeId> partners,
                   std::vector<NodeId> relays);
 
@@ -73,21 +73,23 @@ class LinkGapFinder {
     bool is_there_;  // whether the robot is present
     Time now_ = start_of_run;
     std::optional<Leg> leg_ = std::nullopt;        // the robot's leg
-    std::set<std::pair<NodeId, NodeId>> up_ = {};  // links that matter and are up
+    std::set<std::pair<NodeId, NodeId>> up_ = {};  // links that are up, between robot, partners and
+                                                   // relays
     LinkGaps gaps_ = {};
 };
 
-/// Question for the gaps of a robot's link.
+/// Arguments of link_gaps(): names of the robot, its partners and the relays.
 struct LinkGapsQuestion {
     std::string robot;
     std::vector<std::string> partners;
     std::vector<std::string> relays = {};
 };
 
-/// Robots of a network by their names, each once and other than `robot`.
-/// @param option  name of the option that lists them, for errors
+/// Looks up robots of a network by name. Each name must be listed once, and must not be the name of
+/// `robot`.
+/// @param option  name of the option that lists the names, for errors
 /// @throws InputError for a robot that is listed twice or is `robot`; std::invalid_argument for an
-///         unknown one
+///         unknown name
 std::vector<NodeId> partners_named(const Network& network, const std::vector<std::string>& names,
                                    const std::optional<NodeId>& robot, const std::string& option);
 

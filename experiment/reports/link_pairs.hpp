@@ -24,7 +24,7 @@ struct LinkStrength {
 
 /// Two robots with a link from `from` to `to`, and often also a link back.
 struct LinkPair {
-    NodeId from, to;  ///< `from` is the first of both robots, if the link has both directions
+    NodeId from, to;  ///< from < to if the link works in both directions
     LinkStrength there;
     std::optional<LinkStrength> back;  ///< none: a one-way link
 
@@ -37,8 +37,9 @@ inline constexpr std::uint32_t most_linked = 5000;
 
 /// All pairs of robots with a link at the time `at`, in the order of the robots. Links are local
 /// means, without fading.
-/// @param at_one_end  whether a robot is wanted: pairs without a wanted robot are left out
-/// @throws RunError for more pairs of a wanted robot and another than most_linked robots have
+/// @param at_one_end  function that selects robots; only pairs with at least one selected robot are
+/// returned
+/// @throws RunError if selected robots times all robots exceeds the square of most_linked
 std::vector<LinkPair> link_pairs(const Network& network, Time at,
                                  const std::function<bool(NodeId)>& at_one_end);
 

@@ -27,10 +27,10 @@ namespace rovernet {
 /// that sends without reading does not fill the memory, and may send several lines in advance. A
 /// byte stream is read as it arrives, and messages to its client may be sent at any time.
 ///
-/// If a client's first line is no JSON object, the client gets an error and is disconnected, after
-/// its first byte if possible. No line of this client is executed. Reason: any web page can make a
-/// browser send an HTTP request to this machine, with arbitrary lines in its body. An HTTP request
-/// begins with a word, never with a brace (RFC 9110, 9.1).
+/// If a client's first line is no JSON object, the client gets an error and is disconnected, as
+/// soon as the bytes received so far cannot begin an object. No line of this client is executed.
+/// Reason: any web page can make a browser send an HTTP request to this machine, with arbitrary
+/// lines in its body. An HTTP request begins with a word, never with a brace (RFC 9110, 9.1).
 ///
 /// | limit                               | value           | beyond it                 |
 /// |-------------------------------------|-----------------|---------------------------|

@@ -16,7 +16,7 @@ namespace rovernet {
 struct WebPage {
     std::string type;  ///< media type: "text/html; charset=utf-8"
     std::string text;
-    bool is_public = false;  ///< whether everyone may get it: it has nothing of the run
+    bool is_public = false;  ///< whether no token is needed: the page has no data of the run
 };
 /// Web pages by path, such as "/". The server serves no other path, and reads no file.
 using WebPages = std::map<std::string, WebPage, std::less<>>;

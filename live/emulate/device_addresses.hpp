@@ -8,8 +8,8 @@
 
 namespace rovernet {
 
-/// Checks the addresses of the robots' network devices, given or generated, before devices are
-/// made. The kernel needs valid addresses, while link tables accept any text.
+/// Checks the addresses, given or generated, of the robots' network devices before the devices are
+/// made, because the kernel rejects invalid addresses.
 ///
 /// A mac must be a unicast address (IEEE 802-2014, 8.2), an ip a unicast address (RFC 1122,
 /// 3.2.1.3), and a netmask a prefix of ones (RFC 950). An ip must not be the network or broadcast

@@ -24,9 +24,10 @@ class NamespaceSet {
 /// Descendants of this process: its children, their children, and so on.
 std::vector<pid_t> descendants();
 
-/// Ends processes, and processes started by these until then: by SIGTERM, after 1 s by SIGHUP (an
-/// interactive shell ignores SIGTERM), after 2 s by SIGKILL. Returns once no process is left, or
-/// only processes that cannot be killed.
+/// Ends all processes that `find` lists, and calls `find` again until no process is left. Processes
+/// get SIGTERM first, after 1 s SIGHUP (an interactive shell ignores SIGTERM), and after 2 s
+/// SIGKILL. The function also returns if only processes remain that this process may not kill, and
+/// after 3 s at the latest.
 /// @param find  function that lists the current processes
 void end_processes(const std::function<std::vector<pid_t>()>& find);
 

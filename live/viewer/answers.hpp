@@ -21,29 +21,33 @@ class JsonParser;
 class Network;
 class RecordedIndex;
 
-/// Recorded trace, and its index, with which it need not be read for each question.
+/// Recorded trace and its index. With the index, only the needed parts of the trace are read for
+/// each question.
 struct IndexedTrace {
     std::string path;
     std::shared_ptr<const RecordedIndex> index = nullptr;  ///< null: none
 };
 
 /// Answers to the questions of the viewer's page about a run (docs/formats/view-format.md): why a
-/// robot has a message, link budgets, link tables, coverage. Each answer is computed by the
-/// function that the command line calls for the same question.
+/// robot received a message or did not receive it, link budgets, link tables, coverage. Each answer
+/// is computed by the function that the command line calls for the same question.
 class ViewerAnswers {
   public:
     /// Answers about a recorded run, at any of its times.
-    /// @param other  second run, which questions with "run": 1 are about; without a path: none
+    /// @param other  trace of the second run, to which questions with "run": 1 refer; empty path:
+    /// no second run
     /// @throws InputError if a trace has no scenario
     explicit ViewerAnswers(IndexedTrace trace, const IndexedTrace& other = {});
-    /// What has happened in a network that runs, as recorded traces.
+    /// History of a running network, as recorded traces.
     struct History {
-        /// Trace with all that is recorded of a message; without a path: it is no longer kept.
+        /// Returns a trace with all records of the message. Its path is empty if the records are no
+        /// longer kept.
         std::function<IndexedTrace(std::uint64_t uid)> of_message;
-        /// Trace of the last seconds.
+        /// Returns a trace of the last seconds.
         std::function<IndexedTrace()> of_present;
     };
-    /// Answers about a network that runs, at its present time, which the answers name as `t_ns`.
+    /// Answers about a running network at its present time. The answers contain this time as
+    /// `t_ns`.
     ViewerAnswers(std::shared_ptr<const Network> network, History history);
     ~ViewerAnswers();
 
@@ -68,13 +72,14 @@ class ViewerAnswers {
     /// `with`; empty if the question has no such key.
     std::optional<Propagation> other_model(const JsonElement& question, NodeId robot) const;
     Time time(const JsonElement& question) const;
-    /// Running network, or network of the recorded run at the time of the question. The latter is
-    /// kept, because the next question is often about the same or a slightly later time.
+    /// Running network, or network of the recorded run at the time of the question. The network of
+    /// a recorded run is kept, because the next question is often about the same or a slightly
+    /// later time.
     const Network& network(const JsonElement& question);
 
-    IndexedTrace trace_;                      // without a path: of a network that runs
-    std::shared_ptr<const Network> running_;  // null: of a trace
-    History history_;                         // of running_
+    IndexedTrace trace_;                      // empty path: the answers are about a running network
+    std::shared_ptr<const Network> running_;  // null: the answers are about a trace
+    History history_;                         // history of running_
     std::vector<std::string> robots_;         // names by NodeId
     std::unique_ptr<ReplayedScenario> replayed_;
     Scenario scenario_;

@@ -76,8 +76,8 @@ class ViewFront : public Front {
     Session* session_ = nullptr;  // null after the end of the run
     const Scenario* scenario_ = nullptr;
     std::shared_ptr<Network> network_;
-    std::optional<ViewStream> stream_;    // none: nobody watches
-    std::optional<ViewHistory> history_;  // as stream_
+    std::optional<ViewStream> stream_;    // none: the run is not observed now
+    std::optional<ViewHistory> history_;  // none: the run is not observed now
     std::optional<ViewerAnswers> answers_;
     std::unique_ptr<JsonParser> parser_;
     ViewLog log_;

@@ -12,28 +12,29 @@ namespace rovernet {
 
 struct Scenario;
 
-/// What has happened in a network that runs, as a recorded trace, so that questions about it have
-/// the answers that a recorded run has. It begins when this object is made.
+/// History of a running network, as a recorded trace, so that ViewerAnswers can answer the same
+/// questions as for a recorded run. The history begins when this object is made.
 ///
-/// The records are in a temporary folder, in files of `file_size`. The last two files are kept, and
-/// deleted with this object: about 4 bytes on disk for a reception, 50 for any other record.
+/// The records are in a temporary folder, in files of `file_size`. Only the last two files are
+/// kept; the destructor deletes them. On disk, a reception takes about 4 bytes, and any other
+/// record about 50.
 class ViewHistory {
   public:
     /// Size of a file [receptions]; each record counts as 12 further receptions.
     static constexpr std::size_t file_size = 30'000'000;
 
-    /// Adds its sink to the network.
+    /// Adds the sink of this object to the network.
     /// @param scenario  scenario of the network; must outlive this object
     /// @throws RunError if the temporary folder cannot be written
     ViewHistory(const Scenario& scenario, std::shared_ptr<Network> network,
                 std::size_t size = file_size);
     ~ViewHistory();
-    ViewHistory(const ViewHistory&) = delete;  // removes its sink
+    ViewHistory(const ViewHistory&) = delete;  // the destructor removes the sink of this object
     ViewHistory& operator=(const ViewHistory&) = delete;
 
-    /// Trace with all that is recorded of a message until now; without a path if nothing is.
+    /// Trace with all records of a message until now; its path is empty if there are no records.
     IndexedTrace of_message(std::uint64_t uid);
-    /// Trace of the present.
+    /// Trace of the last seconds, for questions about the present.
     IndexedTrace of_present();
 
   private:

@@ -106,8 +106,8 @@ class Access {
 
     /// Size [bytes] of the header that the access model adds to a message.
     virtual std::uint32_t header() const { return 0; }
-    /// Bit rate [bit/s] at which a frame is transmitted.
-    /// The last rate is that of the receiver's radio for a unicast, otherwise the sender's.
+    /// Bit rate [bit/s] at which a frame is transmitted. For a unicast, the third argument is the
+    /// bit rate of the receiver's radio; otherwise it is the bit rate of the sender's radio.
     /// @param sender  bit rate of the sender's radio
     virtual BitRate rate(const AirFrame& /*frame*/, BitRate sender, BitRate /*receiver*/) const {
         return sender;

@@ -18,10 +18,10 @@ namespace rovernet {
 ///   counts                | DIFS | 7 | 6 | 5 | 4 |               | DIFS | 3 | ...
 ///
 /// Slots count once the medium has been idle for an interframe space; a slot in which the medium is
-/// busy does not count. A station decides to send at the end of its last slot minus the turnaround
-/// time, from the energy that arrived more than the CCA time earlier: so two stations whose slots
-/// end at the same time both send, whatever the propagation delay between them and the order of
-/// events.
+/// busy does not count. A station decides to send one turnaround time before the end of its last
+/// slot. The decision uses only energy that arrived more than one CCA time earlier. So two stations
+/// whose slots end at the same time both send: neither the propagation delay between them nor the
+/// order of events matters.
 ///
 /// Dcf has one Backoff for each station. Dcf reports sensed frames to the Backoff when they start,
 /// and calls grant() when the station's timer is due.

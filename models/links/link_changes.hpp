@@ -33,9 +33,10 @@ class Scene;
 ///   about 45 samples of the link, often 8; none for a pair that stays out of range.
 /// - by walls: a jump of the loss is found about a nanosecond late (WallPassages return the times
 ///   to sample), other changes up to `tolerance` late. With k passed corners there are about 4 k
-///   samples, and more where the loss bends near the budget: an interval between passages is halved
-///   until the losses at its ends and middle differ from the budget by more than 16 times the
-///   amount that a parabola through them could add in between.
+///   samples, and more where the loss comes near the budget. There an interval between passages is
+///   sampled at both ends and in the middle, and halved until the loss surely does not cross the
+///   budget in between: a parabola through the samples could add at most 1/16 of their distance to
+///   the budget.
 /// - unknown: a sample every `min_dwell`; a change between two samples is located as for walls. The
 ///   step doubles every 65536 samples, so that every search ends.
 ///

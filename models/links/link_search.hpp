@@ -11,7 +11,7 @@ namespace rovernet {
 /// for propagation models whose link changes cannot be computed as roots; for other models the
 /// changes are exact to the nanosecond.
 struct LinkSearch {
-    /// Largest error [ns] of the time of a link change by walls, >= 1 ns.
+    /// Largest error [ns], >= 1 ns, of the time of a link change that walls cause.
     Duration tolerance{1'000'000};
     /// Sampling interval [ns], >= 1 ns, for propagation models that do not state how their loss
     /// depends on the distance (LossShape::unknown). Shorter link states may be missed.

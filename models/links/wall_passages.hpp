@@ -82,8 +82,8 @@ class WallPassages {
     std::vector<End> ends_;
     // Heights of tops, bottoms and ceilings [m], ascending, each once.
     std::vector<double> levels_;
-    // Height [m] of each storey at which pass_edges() finds the edges of all walls of the storey:
-    // below the tops of these walls.
+    // One height [m] for each storey, below the tops of all walls of the storey. At this height
+    // pass_edges() finds the edges of these walls.
     std::vector<double> feet_;
     // Lower left corner [m] of the grid of tiles.
     Vec3 low_ = {};

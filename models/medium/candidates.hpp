@@ -23,7 +23,8 @@ namespace rovernet {
 /// determines whether it is a receiver.
 struct Candidate {
     NodeId node;
-    /// True if the node is at rest, until PairCache::moved is called for it.
+    /// True if the node is at rest, and stays at rest until the next call of PairCache::moved for
+    /// it.
     bool rests;
     /// Key of the candidate's robot, for random draws.
     std::uint64_t key;

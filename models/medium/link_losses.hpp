@@ -18,8 +18,9 @@
 
 namespace rovernet {
 
-/// Losses, levels and margins of single links of a medium. Functions for a link at a time return
-/// the local mean: with shadowing, without fading. Functions for a frame include its fading.
+/// Losses, levels and margins of single links of a medium. Functions that take two nodes and a time
+/// return the local mean: with shadowing, without fading. Functions that take a frame include the
+/// fading of the frame.
 ///
 /// A link is up if and only if its path loss is within link_budget.
 class LinkLosses {
@@ -73,7 +74,8 @@ class LinkLosses {
     Db most_fade() const { return fades_ ? fades_->most() : Db{0}; }
 
     /// Whether losses of a model of this shape are stored in RecentLosses, for judging frames. A
-    /// loss that depends on distance alone is not: it is computed as fast as it is looked up.
+    /// loss that depends on distance alone is not stored, because computing it takes no longer than
+    /// a look-up.
     bool keeps(LossShape shape) const {
         return settings_.interference_cut && settings_.keep_losses && !settings_.all_pairs &&
                (shape == LossShape::by_walls || shape == LossShape::unknown);

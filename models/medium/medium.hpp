@@ -120,8 +120,8 @@ class Medium {
     /// Finds `to` alone, if it can decode the frame.
     void find_receiver(NodeId from, NodeId to, Coding, Time start, Time end, const Legs&,
                        Receivers& out);
-    /// Finds the receivers as find_receivers(). @return nodes that sense the frame but cannot
-    /// decode it, unsorted; valid until the next call
+    /// Finds the receivers like find_receivers(). @return nodes that sense the frame but cannot
+    /// decode it, in any order; valid until the next call
     std::span<const Found> find_sensors(NodeId from, Coding coding, Time start, Time end,
                                         const Legs& legs, Receivers& out);
 
@@ -141,18 +141,18 @@ class Medium {
     // Sets the cell size of the index to the reach of the median station, so that most queries
     // visit nine cells.
     void choose_cells();
-    // Finds the nodes at which a signal of `from` has at least `strength`, by the Decision of its
-    // kind. Nodes that can decode the signal go into found_, the others into sensors_.
-    // `mine` is the kind of `from` for the coding of its frame.
+    // Finds the nodes at which a signal of `from` has at least `strength`, by the method (Decision)
+    // that is fastest for the kind `mine`. Nodes that can decode the signal go into found_, the
+    // others into sensors_. `mine` is the kind of `from` for the coding of its frame.
     void find(NodeId from, Kind mine, Strength strength, Time t, const Legs& legs,
               std::uint64_t frame);
-    // Search for find() by distance alone, if the loss only depends on the distance.
+    // Method of find() for losses that depend only on the distance: compares distances with ranges.
     void find_in_range(NodeId from, Kind mine, Strength strength, Time t, const Legs& legs);
-    // Search of find_in_range() for decoding nodes only, used if all stations are of one kind.
+    // Faster find_in_range() for stations of one kind: finds only the nodes that can decode.
     void find_alike(NodeId from, Kind mine, Time t, const Legs& legs);
-    // Search for find() by distance and the shadowing draw of each pair.
+    // Method of find() under shadowing: tables of distance and shadowing draw decide each link.
     void find_in_table(NodeId from, Kind mine, Strength strength, Time t, const Legs& legs);
-    // Search for find() by the model's losses of all nodes within reach.
+    // Method of find() for any propagation model: computes the losses to all nodes within reach.
     void find_in_reach(NodeId from, Kind mine, Strength strength, Time t, const Legs& legs,
                        std::uint64_t frame);
     // Node `to`, if it can decode a signal of `from` from `here`.
@@ -183,7 +183,7 @@ class Medium {
     NeighbourIndex index_;
     PairCache pairs_;
     const Scene* pairs_of_ = nullptr;  // scene of the losses in pairs_
-    // Contributions of nodes to draws_, by place in the index, and their NeighbourIndex::bins().
+    // Contributions of nodes to draws_, by place in the index; and bins() of the index then.
     std::vector<std::uint64_t> shares_;
     std::uint64_t shares_of_bin_ = 0;
     // Whether the cell size of the index was set.

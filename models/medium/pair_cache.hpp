@@ -72,7 +72,8 @@ class PairCache {
         std::uint32_t version;
         double loss_db;
     };
-    // Row of a node as a transmitter, and state of the node as a receiver.
+    // Data of one node: its row of receivers, for frames that it transmits; and its leg number, for
+    // losses from other nodes to it.
     struct Node {
         /// Number of legs of the node so far.
         std::uint32_t version = 0;

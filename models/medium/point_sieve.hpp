@@ -25,7 +25,7 @@ class PlainSieveStep {
         : xs_(xs), ys_(ys), x_(x), y_(y), squared_reach_(squared_reach) {}
 
     /// Selects among the points `i` to `i` + 3.
-    /// @param wanted   a bit for each of them that is to be tested
+    /// @param wanted   bit mask of the points to test: bit k stands for point `i` + k
     /// @param kept     receives the numbers of the selected points, in order; room for four
     /// @param squares  receives their squared distances [m^2], if squares_too; room for four
     /// @return number of selected points
@@ -49,8 +49,9 @@ class PlainSieveStep {
 };
 
 #ifdef __SSSE3__
-/// Step of a PointSieve: the same by vectors of four numbers, which x86-64 builds have (x86-64-v2).
-/// The search for links with shadowing takes 15 % fewer instructions.
+/// Step of a PointSieve with the results of PlainSieveStep, but computed by vectors of four
+/// numbers, in builds for x86-64 (x86-64-v2). The search for links with shadowing takes 15 % fewer
+/// instructions.
 class VectorSieveStep {
   public:
     /// Parameters as for PlainSieveStep.

@@ -47,7 +47,7 @@ class RadioKinds {
     Kind add(const Radio& radio, const Propagation& model);
     /// Whether the sensitivity of receivers depends on the coding of a frame.
     bool depend_on_coding() const { return phy_.has_sensitivities(); }
-    /// Kind used instead of `kind` for the links of a station that transmits with this coding.
+    /// Kind of a station of the kind `kind` while it transmits frames of this coding.
     Kind of_coding(Kind kind, Coding coding);
 
     /// Number of kinds.
@@ -68,9 +68,9 @@ class RadioKinds {
         return !gated_ || Membership::match(kinds_[a].membership, kinds_[b].membership);
     }
 
-    /// Largest path loss [dB] at which a signal of `from` has this strength at `to`.
+    /// Largest path loss [dB] at which a signal of `from` is still `strength` at `to`.
     Db budget(Strength strength, Kind from, Kind to, LinkGain gain) const;
-    /// Largest path loss [dB] at which a signal has this strength, over all poses of antennas.
+    /// Upper bound of budget() [dB] for all poses of the antennas, from their largest gains.
     Db budget(Strength strength, Kind from, Kind to) const;
     /// Weakest signal [dBm] that interferes at `to`; to be called only if there is a cut-off.
     Dbm weakest_interfering(const Radio& to) const;
@@ -88,7 +88,7 @@ class RadioKinds {
     /// Upper bound of the squared distance [m^2] to nodes that `from` reaches with this strength.
     double squared_reach(Kind from, Strength strength);
 
-    /// Method by which receivers of stations of a kind are determined.
+    /// Method by which the receivers of a sender of the kind `from` are determined.
     Decision decision(Kind from) const {
         // A table costs time and memory, which pays off only if many radios are equal.
         constexpr std::size_t most_tables = 16;
@@ -108,7 +108,7 @@ class RadioKinds {
             return loss_at(model(from), radio(from).frequency, d, antennas_.first);
         });
     }
-    /// Table of the shadowing draws with which a link is within range, for Decision::by_table.
+    /// Table from distance and shadowing draw to link decision, for Decision::by_table.
     const ShadowedRange& table(Kind from, Kind to, Strength strength) {
         auto& table = kinds_[from].tables[to][static_cast<std::size_t>(strength)];
         if (!table) [[unlikely]]
@@ -133,7 +133,7 @@ class RadioKinds {
         std::array<double, strengths.size()> of = {unknown, unknown, unknown};
         double& operator[](Strength s) { return of[static_cast<std::size_t>(s)]; }
     };
-    // Tables of draws within range, by Strength; empty if not made yet.
+    // Results of table(), by Strength; empty if not made yet.
     using Tables = std::array<std::optional<ShadowedRange>, strengths.size()>;
     // Kind of stations, and the data computed for it.
     struct Alike {
@@ -159,7 +159,7 @@ class RadioKinds {
 
     // Fastest method that a model allows between antennas of the present heights.
     Decision cheapest_decision(const Propagation& model, Hertz frequency) const;
-    // Largest path loss [dB] at which a signal has this strength, for this sensitivity of `to`.
+    // Result of budget() [dB] if `to` has the given sensitivity.
     Db budget(Strength strength, const Radio& from, const Radio& to, LinkGain gain,
               Dbm sensitivity) const;
     // Sensitivity [dBm] of a radio to the coding that it receives best.

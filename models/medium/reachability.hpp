@@ -31,9 +31,8 @@ class Scene;
 /// first query.
 class Reachability {
   public:
-    /// Limit of cheap use: number of searches for receivers, in addition to one search for each
-    /// transmitted frame. Below this limit, a run spends at most about 0.1 s on reachability more
-    /// than on its frames.
+    /// Number of searches for receivers that a run can afford for reachability, in addition to one
+    /// search for each transmitted frame. These searches take at most about 0.1 s.
     static constexpr std::uint64_t cheap_searches = 10'000;
 
     /// Number of nodes other than `from` to which a chain of links leads from `from` at `t`, which

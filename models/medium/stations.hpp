@@ -117,8 +117,8 @@ class Stations {
             measure(measured_, keys_.size(), legs);
     }
 
-    /// On/off states of all nodes by one copied pointer, which a loop that writes to memory need
-    /// not reload.
+    /// Copy of the pointer to the on/off states of all nodes. A loop that writes to memory need not
+    /// load this pointer again for each node.
     class Switches {
       public:
         explicit Switches(const Stations& stations)
@@ -133,7 +133,8 @@ class Stations {
     Kind kind_of_coding(NodeId node, Coding coding);
     // Fills stations_, up to the last node; new entries have the first radio and kind, and are on.
     void list_stations();
-    // Model with the shadowing of the settings; copies of one Propagation give one object.
+    // Adds the shadowing of the settings to a model. All copies of one Propagation share the
+    // result.
     Propagation shadowed(const Propagation& model);
     // Reports the antenna heights on the legs of nodes `begin` to `end` to kinds_.
     void measure(std::size_t begin, std::size_t end, const Legs& legs);

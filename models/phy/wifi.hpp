@@ -93,11 +93,11 @@ std::span<const BitRate> rates_of(WifiStandard standard);
 ///                802.11a, 54 Mb/s, 20 us of preamble     244 us
 Duration wifi_airtime(WifiStandard standard, Duration preamble, BitRate rate, std::uint32_t bytes);
 
-/// Physical layer "wifi": IEEE 802.11b, a and g. Error rates are in models/phy/error_rate.hpp; a
-/// Coding is a Modulation.
+/// Physical layer "wifi": IEEE 802.11b, a and g. Error rates are in models/phy/error_rate.hpp. The
+/// number in a Coding is a Modulation.
 ///
-/// Without `framing`, Wifi is the simple physical layer of access models "none" and "aloha": 64
-/// bytes at 11 Mb/s with the long preamble take 192 us + 46.545 us on air.
+/// Access models "none" and "aloha" use Wifi without `framing`, that is, with simplified airtimes:
+/// 64 bytes at 11 Mb/s with the long preamble take 192 us + 46.545 us on air.
 struct Wifi {
     static constexpr std::string_view name = "wifi";
 

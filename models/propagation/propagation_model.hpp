@@ -150,16 +150,16 @@ concept ShapedModel = requires(const T& model) {
     { model.shape() } -> std::same_as<LossShape>;
 };
 
-/// Model whose loss, at each frequency, is a ShadowedLoss of the antennas' distance and the pair's
-/// draw in shadowing_draws(); a ShadowedRange then decides links exactly like `loss`.
+/// Model with log-normal shadowing: its loss is the function shadowed_loss() of the distance and of
+/// the pair's draw, see shadowing_draws(). A ShadowedRange then decides links exactly like `loss`.
 template <class T>
 concept ShadowedModel = requires(const T& model, Hertz frequency) {
     { model.shadowed_loss(frequency) } -> std::same_as<ShadowedLoss>;
 };
 
-/// Model with a random part for each pair of nodes; median() returns the model without the random
-/// part (an equal model if nothing is random). Pictures of coverage show the median, because a
-/// point of a picture has no pair of nodes.
+/// Model with a random part for each pair of nodes. median() returns the model without the random
+/// part; the result equals the model if it has no random part. Pictures of coverage show the
+/// median, because a point of a picture has no pair of nodes.
 template <class T>
 concept RandomModel = requires(const T& model) {
     { model.median() } -> std::same_as<T>;

@@ -52,8 +52,8 @@ struct EdgeCorner {
     std::size_t edge;  ///< index of the corner's edge
 };
 
-/// Subset of `corners` that a string, stretched from `from` to `to` around the bodies of these
-/// corners, touches. The bodies are on the left of the string.
+/// Corners that a taut string touches. The string is stretched from `from` to `to`, around the
+/// bodies to which `corners` belong; the bodies are on its left.
 std::vector<EdgeCorner> touched(std::span<const EdgeCorner> corners, Vec3 from, Vec3 to);
 
 /// Taut string around bodies, in plan, with the bodies on its left.

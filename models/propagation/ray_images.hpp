@@ -16,10 +16,10 @@ namespace rovernet {
 /// Mirror images of a sender in the faces of a scene, in plan, for finding reflected paths to a
 /// receiver.
 ///
-/// An image of order n is the mirror image of an image of order n - 1, in a face within the beam of
-/// the latter image: the sector from that image through the face that made it. F faces have up to
-/// F (F - 1)^(n - 1) images; the beams leave far fewer. Walls between the faces are ignored here,
-/// because radio waves pass through walls.
+/// Each image has a beam: the sector from the image through the face that made it. An image of
+/// order n is made by mirroring an image of order n - 1 in a face that lies within its beam. F
+/// faces have up to F (F - 1)^(n - 1) images; the beams leave far fewer. Walls between the faces
+/// are ignored here, because radio waves pass through walls.
 class RayImages {
   public:
     /// Empty set: no faces, no images.

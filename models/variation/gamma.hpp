@@ -35,8 +35,9 @@ class GammaTable {
     double operator()(double p) const;
 
   private:
-    // Support point of the table, for an exponential variate p and its gamma variate y: log y, and
-    // derivative of log y with respect to log p, times the spacing of the points in log p.
+    // Support point of the table. p is the exponential variate of the point, and y is the gamma
+    // variate of p. The point has log y, and the derivative of log y with respect to log p, times
+    // the spacing of the points in log p.
     struct Edge {
         double log_y, slope;
     };

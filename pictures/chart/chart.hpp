@@ -43,8 +43,9 @@ struct ChartPoint {
 struct ChartSeries {
     std::string name;
     std::vector<ChartPoint> points = {};
-    /// Number of a second series, whose colour and mark this series takes: hollow marks without a
-    /// line, for values of a different source in a chart of lines.
+    /// Index of another series to which this series belongs, such as measurements beside a computed
+    /// line. This series then has the colour and the mark of that series; its marks are hollow, and
+    /// no line joins them.
     std::optional<std::size_t> beside = {};
 };
 

@@ -18,9 +18,9 @@ namespace rovernet::foxglove {
 /// "foxglove.SceneUpdate" or "foxglove.Log".
 Table schema_of(std::string_view type);
 
-/// Time of a run as a message has it, from 0 at its start.
+/// Time of a run in the form of Foxglove's messages; 0 at the start of the run.
 Table time(Time t);
-/// Length of time as a message has it.
+/// Duration in the form of Foxglove's messages.
 Table duration(Duration length);
 Table vector(Vec3 v);
 /// Position [m] and heading [rad] as a pose.
@@ -35,7 +35,7 @@ struct Color {
 Table color(Color c);
 
 /// Entity of a foxglove.SceneUpdate, without shapes: lists are empty until they are set.
-/// @param frame     coordinate frame in which the shapes are: "map", or the name of a robot
+/// @param frame  coordinate frame of the shapes: "map", or the name of a robot
 /// @param lifetime  time after which the entity vanishes; 0: it stays
 Table entity(Time t, const std::string& frame, const std::string& id, Duration lifetime);
 /// Message foxglove.SceneUpdate with these entities.

@@ -18,8 +18,8 @@ namespace rovernet {
 class HeatLayer {
   public:
     /// Computes the coverage of the plot area.
-    /// @param transmitters  at least one, all for the same receivers; all with the model disc, or
-    ///                      none
+    /// @param transmitters  at least one, all for the same receivers; either all or none have the
+    ///                      model disc
     /// @param cells         approximate number of cells of the heat map
     HeatLayer(std::span<const Transmitter> transmitters, const Plot& plot, int cells);
 

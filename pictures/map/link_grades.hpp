@@ -6,7 +6,8 @@
 
 namespace rovernet {
 
-/// Look of a link's line, by the link margin: the level [dB] above the receiver's sensitivity.
+/// Style of a link's line for a range of link margins. The link margin is the level [dB] above the
+/// receiver's sensitivity.
 struct LinkGrade {
     double from;       ///< smallest margin of the grade [dB]
     double width;      ///< width of the line [px]
@@ -14,7 +15,8 @@ struct LinkGrade {
     const char* text;  ///< range of margins in words
 };
 
-/// Grades of links in pictures, in ascending order of margins: the more, the darker and wider.
+/// Grades of links in pictures, in ascending order of margins. A larger margin has a darker and
+/// wider line.
 inline constexpr std::array link_grades{
     LinkGrade{0, 1.3, 0.0, "0 to 5 dB"},    LinkGrade{5, 1.8, 0.25, "5 to 10 dB"},
     LinkGrade{10, 2.4, 0.5, "10 to 20 dB"}, LinkGrade{20, 3.0, 0.75, "20 to 30 dB"},

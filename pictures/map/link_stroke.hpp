@@ -9,18 +9,18 @@
 
 namespace rovernet {
 
-/// Line in the look of a link's grade.
+/// Style of a line that shows a link of some grade.
 struct LinkStroke {
     std::size_t grade;    ///< index in link_grades
     bool dashed = false;  ///< dashed line, for a one-way link
     bool seam = false;    ///< white line that is wider, to be drawn below the line on a heat map
-    double width = 1;     ///< width of the line, in that of the grade [-]
+    double width = 1;     ///< width of the line relative to the grade's width [-]
 };
 
-/// Draws a path as a line in the look of a link's grade.
+/// Draws a path as a line in the style `stroke`.
 /// @param data  data of the SVG path
 void draw_link_stroke(Svg& svg, const std::string& data, const LinkStroke& stroke);
-/// Entry of a legend: such a line; a dashed one has an arrow head.
+/// Entry of a legend: a line in the style `stroke`; a dashed line has an arrow head.
 LegendItem link_sample(std::string text, const LinkStroke& stroke);
 
 /// Draws a path as a hollow line, which stands for a missing link. It differs from the lines of all

@@ -20,11 +20,13 @@ struct MarginPiece {
     std::optional<std::size_t> grade;  ///< index in link_grades; none: no link
 };
 
-/// Margins of the robots' links to the best of some partners, such as access points, during a run.
+/// Survey of link margins during a run. Each robot is surveyed for its best link to one of the
+/// given partners, such as access points.
 ///
-/// The margin of a link is the smaller one of both directions, without fading; of a link over
-/// relays it is that of the weakest hop, on the best path. It is sampled at equal intervals, 1000
-/// times or more. The begin and the end of a gap are exact: see LinkGapFinder.
+/// The margin of a link is the smaller margin of both directions, without fading. If a link goes
+/// over relays, its margin is the margin of the weakest hop on the best path. Margins are sampled
+/// at equal intervals, at least 1000 times. The begin and the end of a gap are exact: see
+/// LinkGapFinder.
 class MarginSurvey {
   public:
     /// @param network  network before its run, with all robots; outlives the survey
@@ -38,7 +40,7 @@ class MarginSurvey {
     bool is_station(NodeId node) const { return robots_[node.index()].finder == nullptr; }
     /// Pieces of a robot's path in the order of time; empty for a partner or a relay.
     std::vector<MarginPiece> pieces(NodeId node) const;
-    /// Sentences on the gaps of the robots that moved, for at most three of them.
+    /// Sentences on the gaps of robots that moved, for at most three robots.
     std::vector<std::string> gap_texts() const;
     /// Names of the partners: "ap1 or ap2", ", also over relays" if there are relays.
     std::string partner_names() const;

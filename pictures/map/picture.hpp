@@ -17,8 +17,8 @@ struct PictureOptions {
     /// robot at each place, and contours at the receivers' sensitivity and at range_db. Empty: no
     /// coverage.
     std::vector<std::string> coverage = {};
-    /// Robot whose radio and antenna height the assumed receivers of the coverage have; none: the
-    /// first robot of `coverage`.
+    /// Robot whose radio and antenna height are assumed for the receivers of the coverage; none:
+    /// the first robot of `coverage`.
     std::optional<std::string> receiver = std::nullopt;
     /// Source and destination of a route to draw: the route in use, with the age of each hop's
     /// route.
@@ -31,12 +31,12 @@ struct PictureOptions {
     bool search = false;
     bool links = false;   ///< draw links, coloured by level above sensitivity (margin)
     bool trails = false;  ///< draw the robots' past paths
-    /// Robots to which the other robots need a link, such as access points: a trail shows the
-    /// margin of the link to the best of them, and where there is none. Empty: trails have the
-    /// robots' colours.
+    /// Partners to which the other robots need a link, such as access points. A trail then shows
+    /// the margin of the robot's link to the best partner, and the gaps without a link. Empty:
+    /// trails have the robots' colours.
     std::vector<std::string> margin_to = {};
-    /// Robots over which these links may go, too: the relays of a mesh. The margin is then that of
-    /// the weakest hop.
+    /// Relays of a mesh: robots over which the links to partners may go, too. The margin of such a
+    /// link is the margin of its weakest hop.
     std::vector<std::string> over = {};
     int storey = 1;  ///< storey to draw; the lowest is 1
     /// Approximate number of cells of the heat map, from 1 to most_coverage_cells.

@@ -20,7 +20,7 @@ class Trails {
     std::vector<std::vector<Vec3>> ways(NodeId node, Time at) const {
         return ways(node, start_of_run, at);
     }
-    /// The part of these paths from the time `begin` on.
+    /// Past paths of a robot from the time `begin` until `at`.
     std::vector<std::vector<Vec3>> ways(NodeId node, Time begin, Time at) const;
     /// Positions of a robot [m] at intervals of `every` > 0, from its first leg until `at`.
     std::vector<Vec3> marks(NodeId node, Time at, Duration every) const;

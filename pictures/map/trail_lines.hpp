@@ -15,15 +15,17 @@
 
 namespace rovernet {
 
-/// Past paths of robots in a picture: thin lines in the robots' colours, or lines in the look of
-/// their links (link_grades), with a ring at the start and dots at equal time intervals.
+/// Past paths of robots in a picture, with a ring at the start and dots at equal time intervals.
+/// The lines are thin and have the robots' colours, or show the grades of the robots' links
+/// (link_grades).
 class TrailLines {
   public:
-    /// Collects the parts of paths on one storey, and on whole stairs that begin or end there.
+    /// Collects the parts of paths on one storey, and on the stairs that begin or end on this
+    /// storey.
     /// @param trails  trails of the network's robots; trails and network must outlive the lines
     /// @param storey  number of the storey
-    /// @param survey  margins of links, for lines in the look of links; null: none. Outlives the
-    ///                lines
+    /// @param survey  margins of links, for lines that show grades of links; null: lines in the
+    ///                robots' colours. Must outlive the lines
     TrailLines(const Trails& trails, const Network& network, Time at, std::size_t storey,
                const MarginSurvey* survey = nullptr);
 
@@ -40,7 +42,7 @@ class TrailLines {
     std::vector<std::vector<Vec3>> ways(NodeId node) const { return ways(node, start_of_run, at_); }
     std::vector<std::vector<Vec3>> ways(NodeId node, Time begin, Time end) const;
     bool has_grades(NodeId node) const { return survey_ && !survey_->is_station(node); }
-    /// Path data by grade of the link; the last one is without a link.
+    /// Path data by grade of the link; the last element is the path without a link.
     std::array<SvgPath, link_grades.size() + 1> graded(const Plot& plot) const;
     void draw_grades(Svg& svg, const Plot& plot, bool on_colors) const;
     void append_grades_to(Legend& legend) const;

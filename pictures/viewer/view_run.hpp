@@ -22,7 +22,7 @@ struct ViewChoice {
     /// Largest size of the view file [bytes]: later frames are left out. Robots, legs and messages
     /// are always complete, so that a file without frames may be larger.
     std::size_t most_bytes = std::numeric_limits<std::size_t>::max();
-    /// Sentences about what the trace does not tell, for the page.
+    /// Sentences about data that the trace lacks, for the page.
     std::vector<std::string> missing = {};
     /// Comparison with the run that is shown beside this one; null: none.
     const ViewComparison* comparison = nullptr;

@@ -41,13 +41,14 @@ class ViewSeries {
 
     /// Writes the columns `series.N`, and the entry `series` of the head, after all records.
     void write(ViewFile& file, Table& head);
-    /// Series of a run that goes on, in the bins that are over: as entries of `series`, each with
-    /// its `values`, null where there is none. @param now  present time of the run
+    /// Series of a run that has not ended, for the bins that lie before `now`. The elements have
+    /// the form of the entries of `series`, with the additional key `values`; a missing value is
+    /// null. @param now  present time of the run
     Array table(Time now);
 
   private:
     using Numbers = std::vector<double>;
-    /// Series, and what it is called in the head.
+    /// Series, and its name in the head.
     struct Series {
         const char *chart, *name, *unit;
         Numbers values;
@@ -55,7 +56,8 @@ class ViewSeries {
 
         Table entry(std::int64_t width) const;
     };
-    /// Number of destinations (`others`) of the message that occupies a slot of the message table.
+    /// Message that occupies a slot of the message table, and the number of its destinations
+    /// (`others`).
     struct Expected {
         std::uint64_t uid = ~std::uint64_t{0};
         std::uint32_t others = 0;
@@ -76,14 +78,14 @@ class ViewSeries {
 
     std::int64_t end_, width_;  // [ns] end of the run, width of a bin
     std::size_t bins_;
-    std::vector<Expected> expected_of_;  // what is expected of each message; index: MessageId
+    std::vector<Expected> expected_of_;  // expected deliveries of each message, by MessageId
     Numbers expected_, deliveries_;      // numbers of expected and of actual deliveries in each bin
     Numbers latency_sum_, latency_most_;         // sum and maximum of the latencies in each bin [s]
-    std::map<std::size_t, Numbers> receptions_;  // by outcome: receptions in each bin
+    std::map<std::size_t, Numbers> receptions_;  // number of receptions in each bin, by outcome
     Numbers busy_;                               // time with a frame on air in each bin [ns]
     std::int64_t busy_until_ = 0;                // end of the last frame so far [ns]
     std::set<std::pair<NodeId, NodeId>> links_;  // links that are up
-    std::vector<bool> is_on_;                    // whether the robot is on; index: NodeId
+    std::vector<bool> is_on_;                    // flag of each robot, by NodeId: the robot is on
     bool links_known_ = false, has_changed_ = true;
     std::uint64_t components_ = 0;
     Numbers degree_, parts_;  // topology at the end of each bin

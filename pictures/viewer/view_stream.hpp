@@ -18,12 +18,13 @@ struct Scenario;
 
 /// View of a running network, as a sequence of view files (docs/formats/view-format.md). The first
 /// file contains the map and the robots; each later file contains the events since the previous
-/// file. The sinks are the same as for a recorded trace.
+/// file. The view files are made by the same sinks as the view file of a recorded trace.
 ///
-/// Memory: as for MotionColumns and FrameColumns, for the records since the last part.
+/// Only the records since the last file take memory; for the bytes of each record see MotionColumns
+/// and FrameColumns.
 class ViewStream {
   public:
-    /// Adds its sinks to the network.
+    /// Adds the sinks of this object to the network.
     /// @param scenario  scenario of the network; must outlive this object
     ViewStream(const Scenario& scenario, std::shared_ptr<Network> network);
     ~ViewStream();
@@ -34,8 +35,8 @@ class ViewStream {
     /// @param live  entry `live` of the head
     std::string start(Table live) const;
 
-    /// Events since the last part, as two view files: `rest`, which a viewer needs to understand
-    /// later parts, and `frames`, which may be left out.
+    /// Events since the last part, as two view files. A viewer needs `rest` to understand later
+    /// parts; `frames` may be left out.
     struct Part {
         std::string rest, frames;  ///< `frames` is empty if no frame has ended
         std::size_t number_of_frames = 0;

@@ -17,7 +17,7 @@
 namespace rovernet {
 
 /// Routing protocol with the parameters of an Aodv. Numbers in comments are sections of RFC 3561.
-/// Names in comments are rules beyond the text of the RFC:
+/// A14, A15 and A16 in comments are rules that the RFC does not state:
 ///
 /// - A14: the sequence number of a route never decreases, not even by a RERR.
 /// - A15: no node has a route to itself.

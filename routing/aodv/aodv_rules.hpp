@@ -19,8 +19,8 @@ struct AodvRules {
     static AodvRules of(const Aodv& aodv);
 
     Duration active_route_timeout, my_route_timeout, node_traversal_time, hello, jitter;
-    /// Time for which a broken route is stored with its sequence number [ns]: longer than any other
-    /// node may still use a route over this node.
+    /// Time for which a broken route is stored with its sequence number [ns]: longer than other
+    /// nodes may keep routes over this node.
     Duration delete_period;
     /// Time for which a node that was switched on again takes no part in route searches [ns].
     Duration silence;
@@ -49,7 +49,8 @@ struct AodvRules {
     /// search.
     Duration pause_after_failure;
     /// True: a node stores a route to each neighbour that it hears, and a message extends the
-    /// lifetimes of all routes that it uses. False: only of the route to its destination.
+    /// lifetimes of all routes that it uses. False: a message extends only the lifetime of the
+    /// route to its destination.
     bool meets_neighbours;
     /// Whether a RERR also lists routes that no neighbour uses, and is broadcast.
     bool errors_for_all;

@@ -15,8 +15,8 @@ namespace rovernet {
 /// node belongs to the neighbouring head with the lowest key. A gateway hears a node of another
 /// cluster.
 ///
-/// Clusters settle in the order of keys. Once settled, heads and gateways connect the nodes that a
-/// plain flood connects: between two neighbours of one cluster is their head, two neighbours of
+/// Clusters settle in the order of keys. Once settled, heads and gateways connect all nodes that a
+/// plain flood connects: two neighbours of one cluster both hear their head, and two neighbours of
 /// different clusters are gateways. A node stores 16 bytes for each neighbour, and a bit for each
 /// message.
 class ClusterRouter {

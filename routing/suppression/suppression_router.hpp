@@ -11,9 +11,9 @@
 namespace rovernet {
 
 /// Routing protocol with the parameters of a Suppression, except for scheme "cluster"
-/// (ClusterRouter). Memory for each message in use: a bit per node; except for scheme
-/// "probability", four more bytes per node, and twelve bytes per node that waits or waited; for
-/// "location" also the position of each sender that such a node heard.
+/// (ClusterRouter). For each message in use the protocol stores a bit per node. All schemes except
+/// "probability" also store four bytes per node, and twelve bytes for each node that waits or has
+/// waited. Scheme "location" also stores the position of each sender that such a node has heard.
 ///
 /// All schemes are monotone: further copies only add reasons not to forward. A waiting copy is
 /// therefore cancelled when a received copy meets the scheme's condition, not at the end of the
@@ -29,7 +29,8 @@ class SuppressionRouter {
     void forget(MessageId message);
 
   private:
-    /// Frame that nodes hear, and position of its sender [m]; the latter only if places_matter().
+    /// Frame that nodes hear, and position of its sender [m]; the position is only set if
+    /// places_matter().
     struct Heard {
         const Frame& frame;
         Vec3 from;

@@ -71,8 +71,9 @@ concept IsQuantity = requires(T v) {
 /// suggestion
 double read_quantity(const Value& value, std::string_view key, Dimension dimension);
 
-/// Regular expression of the texts that read_quantity() accepts for a dimension. Of a power in W,
-/// mW or uW: more than zero, as it has a level in dBm. Of a size in bytes: a whole number.
+/// Regular expression of the texts that read_quantity() accepts for a dimension. A power in W, mW
+/// or uW must be more than zero, because it is converted to dBm. A size in bytes must be a whole
+/// number.
 /// @param any_sign  false: no text with a minus sign
 std::string quantity_pattern(Dimension dimension, bool any_sign);
 

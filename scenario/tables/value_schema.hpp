@@ -25,7 +25,7 @@ Table schema_of_words(const Array& words);
 Table schema_of_list(Table items, int least = 0, int most = 0);
 /// Schema of a text with a quantity, see quantity_pattern().
 Table schema_of_quantity(Dimension dimension, bool any_sign);
-/// Schema of what one of two schemas accepts.
+/// Schema that accepts every value that at least one of two schemas accepts.
 Table schema_of_either(Table one, Table other);
 /// Adds the limits of a range to the schema of a number.
 void add_limits(Table& schema, const Range& range);
@@ -77,14 +77,15 @@ Table value_schema([[maybe_unused]] const Range& range) {
     }
 }
 
-/// Adds the schema of a key to the properties of a table. If the table has the key already, for
-/// another model, the schemas are joined: the key accepts what one of them accepts.
+/// Adds the schema of a key to the properties of a table. If the table already has the key, from
+/// another model, the two schemas are joined: the key then accepts every value that one of them
+/// accepts.
 /// @param owner  model that has the key, for the description; empty: the table
 void add_key(Table& properties, std::string_view key, Table schema, std::string_view meaning,
              std::string_view owner = {});
 
-/// Adds the keys of a struct with fields() to the properties of a table: those of which is_wanted
-/// says so, or all.
+/// Adds the keys of a struct with fields() to the properties of a table: all keys, or only the keys
+/// for which is_wanted returns true.
 template <Described T, class Wanted>
 void add_keys_if(Table& properties, std::string_view owner, Wanted&& is_wanted) {
     for_each_field<T>([&]<class S, class V>(const Field<S, V>& f) {

@@ -24,6 +24,7 @@ enum class ItuMaterial : std::uint8_t {
     floorboard,
     metal,
 };
+/// Names of the materials in scenario files.
 template <>
 struct EnumNames<ItuMaterial> {
     static constexpr std::array<std::string_view, 11> values = {

@@ -47,10 +47,11 @@ std::optional<double> number_in(const CsvTable& table, std::size_t row, const st
 /// @throws InputError at a field that is no number
 std::optional<ChartPoint> point_of(const CsvTable& table, std::size_t row, const std::string& y);
 
-/// Adds the rows of a CSV file to a chart of lines: hollow marks in the style of the curve that
-/// their row names. The file has a line of column names, and lines of numbers that are separated by
-/// commas; lines that begin with # are comments. The legend names the marks by the curve and by the
-/// file, without its folders and without ".csv". Rows without y make no mark.
+/// Adds marks for the rows of a CSV file to a chart of lines. The mark of a row is hollow, in the
+/// style of the curve that the row names. The file has a line of column names, and lines of numbers
+/// that are separated by commas; lines that begin with # are comments. The legend names the marks
+/// by the curve and by the file, without its folders and without ".csv". Rows without y make no
+/// mark.
 /// @throws InputError if the file cannot be read, lacks a column, names a curve that the chart does
 ///         not have, or has a text where a number is expected
 void add_marks(Chart& chart, const std::string& path, const MarkColumns& columns);

@@ -20,9 +20,9 @@ struct DiscFit {
     std::size_t wrong;  ///< wrong decisions: links that are down within the range, or up beyond it
 };
 
-/// Fits the range of a disc model for the fewest wrong decisions (link up or down). Among equally
-/// good ranges, ordered by the number of links within the range, the lower median is chosen. The
-/// range is
+/// Fits the range of a disc model to known links. The chosen range has the fewest links for which
+/// the model's decision (up or down) is wrong. If several ranges are equally good, they are ordered
+/// by the number of links within the range, and the lower median is chosen. The range is
 /// - half the nearest distance, if no link is within the range
 /// - the farthest distance, if all links are within the range
 /// - otherwise the geometric mean of the distances of the farthest link within and the nearest

@@ -73,11 +73,11 @@ struct SampleSize {
     std::uint32_t first_replication = first_sampled_replication;
 };
 
-/// Sample of links between a scenario's robots, with losses by a reference model. The sample is
-/// taken at random times of replications, by default with numbers that no study uses. It takes all
-/// pairs of robots that are switched on and within the reference's range for a link budget raised
-/// by 20 dB. Pairs are selected by distance only, since a selection by loss would bias every fit.
-/// If the links are too many, every k-th link is taken.
+/// Sample of links between a scenario's robots, with losses by a reference model. Links are sampled
+/// at random times of some replications; by default no study uses the numbers of these
+/// replications. The sample has all pairs of robots that are switched on and within the reference's
+/// range for a link budget raised by 20 dB. Pairs are selected by distance only, since a selection
+/// by loss would bias every fit. If the links are too many, every k-th link is taken.
 ///
 /// If robots react to messages, the scenario is run with its traffic, but with the faster model
 /// multi_wall instead of rays: only the robots' positions depend on these runs.

@@ -29,6 +29,7 @@ enum class IntervalMethod { t, betting, star };
 inline constexpr std::array all_interval_methods = {IntervalMethod::t, IntervalMethod::betting,
                                                     IntervalMethod::star};
 
+/// Names of the methods in scenario files and on the command line.
 template <>
 struct EnumNames<IntervalMethod> {
     static constexpr std::array<std::string_view, 3> values = {"t", "betting", "star"};

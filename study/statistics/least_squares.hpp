@@ -55,12 +55,12 @@ struct LinearFit {
 };
 
 /// Fits a linear model by Householder QR with column pivoting. A column whose pivot is below 1e-9
-/// of the first pivot is omitted. Coefficients that must not be negative but would be are fixed at
-/// 0 one by one, the most negative first, and the rest is fitted again. Standard errors by group
-/// use the sandwich estimator, times G / (G - 1) (N - 1) / (N - p), with G groups, N observations
-/// and p fitted coefficients. Source: G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed.,
-/// section 5.4; A. C. Cameron, D. L. Miller, A Practitioner's Guide to Cluster-Robust Inference,
-/// JHR 50(2), 2015.
+/// of the first pivot is omitted. If the fit gives negative values to coefficients that must be >=
+/// 0, the most negative of these is fixed at 0, and the others are fitted again, until no such
+/// value is negative. Standard errors by group use the sandwich estimator, times G / (G - 1) (N -
+/// 1) / (N - p), with G groups, N observations and p fitted coefficients. Source: G. H. Golub, C.
+/// F. Van Loan, Matrix Computations, 4th ed., section 5.4; A. C. Cameron, D. L. Miller, A
+/// Practitioner's Guide to Cluster-Robust Inference, JHR 50(2), 2015.
 /// @param not_below_0  for each coefficient: true if it must be >= 0; empty: any may be negative
 /// @throws std::invalid_argument without a row, or if sizes differ or a number is not finite
 LinearFit least_squares(const Observations& observations,

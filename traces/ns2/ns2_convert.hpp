@@ -40,8 +40,8 @@ struct TraceCut {
     std::optional<Time> from = {};     ///< earliest time of packets that are kept
     std::optional<Time> to = {};       ///< time from which on events are excluded
     std::optional<NodeId> robot = {};  ///< robot whose lines are kept; none: all robots
-    /// Id of packets that are kept; none: any id. Packets of routing agents and of the MAC are then
-    /// excluded, because their ids repeat.
+    /// Id of packets that are kept; none: any id. If an id is given, packets of routing agents and
+    /// of the MAC are excluded, because their ids repeat.
     std::optional<std::uint64_t> message = {};
 };
 

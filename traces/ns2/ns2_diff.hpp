@@ -32,8 +32,9 @@ struct TraceDifference {
     Ns2Counts counts_a, counts_b;
 };
 
-/// How far two traces are read: to the end, or up to the first difference. Then `kinds` and the
-/// counts end there, and no events follow the different one.
+/// Part of two traces that is read: the whole traces, or the traces up to the first difference. In
+/// the second case `kinds` and the counts end at the difference, and `a` and `b` contain no later
+/// events.
 enum class DiffExtent { whole, first_difference };
 
 /// Compares two ns-2 traces event by event, in any formats, by the fields that both lines have.

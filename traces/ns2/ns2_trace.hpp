@@ -14,7 +14,7 @@ namespace rovernet {
 /// Wireless trace formats of ns-2.35: the CMU extension's, and `use-newtrace`.
 enum class Ns2Format { old_format, new_format };
 
-/// Whether lines of the MAC layer are written: `-macTrace` of ns-2, which is also OFF by default.
+/// Switch for the lines of the MAC layer: `-macTrace` of ns-2, which is also OFF by default.
 enum class MacTrace { off, on };
 
 /// Packet type of a message in an ns-2 trace: "cbr" for a message that a routing protocol delivers
@@ -68,8 +68,8 @@ class Ns2Trace {
                       Ns2Format format = Ns2Format::new_format, MacTrace mac = MacTrace::off);
     Ns2Trace(Ns2Trace&&) noexcept;
     Ns2Trace& operator=(Ns2Trace&&) noexcept;
-    /// Closes the trace as close(), but without exceptions; during an exception it removes the file
-    /// instead.
+    /// Closes the trace like close(), but throws no exception. If the destructor runs because of an
+    /// exception, it removes the file instead.
     ~Ns2Trace();
 
     KindMask kinds() const {

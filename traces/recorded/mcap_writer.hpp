@@ -68,7 +68,8 @@ class McapWriter {
     void write(const McapChunk& chunk);
     /// Writes the summary, and completes the file.
     void finish();
-    /// Path of the file until it has its name; all chunks so far can be read there.
+    /// Path of the incomplete file, NAME.N.part; readers may already read the chunks written so
+    /// far.
     const std::string& part() const { return file_.part(); }
     /// Renames the finished file from its temporary name to its final name.
     void give_name() { file_.give_name(); }

@@ -11,8 +11,9 @@
 
 namespace rovernet {
 
-/// Index of a recorded trace: the chunks in which a message is, and the robots' legs and states at
-/// the begin of each chunk. With it, what happened to a message is found by reading a few chunks:
+/// Index of a recorded trace: for each message the chunks with its records, and for each chunk the
+/// robots' legs and states at its start. With the index, a reader finds all records of a message by
+/// reading a few chunks:
 ///
 ///     for (const auto& range : index.chunks_of(uid)) {
 ///         reader.go_to_chunk(range.begin);
@@ -20,8 +21,8 @@ namespace rovernet {
 ///         for (std::uint64_t i = 0; i < range.records; ++i) use(*reader.next());
 ///     }
 ///
-/// Memory: 72 bytes for each leg that is a robot's last one in a chunk, 32 for each chunk in which
-/// a message is, and the slots of the message table.
+/// Memory: 72 bytes for each pair of a chunk and a robot that begins a leg in it, 32 bytes for each
+/// pair of a message and a chunk with its records, and the slots of the message table.
 class RecordedIndex {
   public:
     /// Adds the next record of the run.
@@ -31,7 +32,7 @@ class RecordedIndex {
     /// Chunks that follow each other; `end` is not included.
     struct Range {
         std::uint32_t begin, end;
-        std::uint64_t records;  ///< number of their records
+        std::uint64_t records;  ///< number of records in these chunks
     };
     /// Chunks with all records of a message, and with all frames that are on air together with a
     /// frame of the message, in ascending order.
@@ -40,12 +41,13 @@ class RecordedIndex {
     bool has(std::uint64_t uid) const;
     /// Chunks with all frames that are on air at a robot between two times.
     std::vector<Range> chunks_between(Time from, Time to) const;
-    /// Calls visit(record) with what holds at the begin of a chunk: the leg of each robot (Moved),
-    /// and the state of each robot that has been switched (Switched).
+    /// Calls visit(record) for the records that determine the state of the robots at the start of a
+    /// chunk: the last Moved of each robot, and the last Switched of each robot that was switched
+    /// on or off.
     void for_each_before(std::uint32_t chunk,
                          const std::function<void(const Record&)>& visit) const;
-    /// Whether airtimes are known: else chunks_of() and chunks_between() miss frames. Traces of
-    /// formats 1 and 2 lack them.
+    /// Whether the trace contains the airtimes of frames; formats 1 and 2 do not. Without airtimes,
+    /// chunks_of() and chunks_between() miss some frames.
     bool knows_airtimes() const { return knows_airtimes_; }
 
   private:
@@ -60,7 +62,7 @@ class RecordedIndex {
         std::size_t chunk;  // index in chunks_
         Time first, last;
     };
-    /// Value that holds from a chunk on.
+    /// Value that is valid from the start of a chunk on.
     template <class T>
     struct From {
         std::uint32_t chunk;
@@ -75,13 +77,14 @@ class RecordedIndex {
     static void for_each(const Values<T>& all, std::uint32_t chunk, const Visit& visit);
     void append(std::vector<Range>& ranges, std::size_t& end, std::size_t first,
                 std::size_t last) const;
-    /// Longest time from the begin of a frame at its sender to its end at a receiver.
+    /// Longest time from the start of a frame at its sender to its end at a receiver.
     Duration longest_on_air() const;
     void mention(std::uint64_t uid, MessageId slot);
 
     std::vector<Chunk> chunks_;
-    std::vector<Mention> mentions_;     // in the order of the chunks
-    std::vector<std::size_t> last_of_;  // by MessageId: index of its last mention
+    std::vector<Mention> mentions_;     // mentions of all messages, in the order of the chunks
+    std::vector<std::size_t> last_of_;  // index in mentions_ of the last mention of each message,
+                                        // by MessageId
     Values<Leg> legs_;
     Values<bool> switched_;
     Duration longest_airtime_{0};

@@ -66,7 +66,8 @@ class RecordedReader {
     explicit RecordedReader(const std::string& path);
 
     const RecordedRun& run() const { return run_; }
-    /// Format of the trace (recorded_format): data that a later format added are 0.
+    /// Format number of the trace, see recorded_format. Fields that only later formats store have
+    /// their default values.
     unsigned format() const { return format_; }
     /// Next record, valid until the next call; null at the end.
     /// @throws InputError for a robot that the trace does not name, or for too many flows
@@ -85,8 +86,9 @@ class RecordedReader {
     Time now() const { return now_; }
     /// Number of the chunk of the last record; the first chunk of the file is 0.
     std::uint32_t chunk() const { return chunks_ - 1; }
-    /// Goes on at the begin of a chunk, which is not before the last one. Legs are then those of
-    /// before; messages are correct. The trace must be free of damage.
+    /// Continues reading at the start of a chunk, which must not precede the current chunk. The
+    /// messages of the context are then correct, but its legs are still the legs of the previous
+    /// position. The trace must be free of damage.
     void go_to_chunk(std::uint32_t chunk);
 
   private:

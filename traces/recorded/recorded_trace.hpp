@@ -69,7 +69,7 @@ class RecordedTrace {
 
     bool links_;
     std::size_t chunk_size_;
-    std::uint32_t chunks_ = 0;  // that were handed over
+    std::uint32_t chunks_ = 0;  // number of chunks handed over to the writing thread
     std::unique_ptr<Packer> packer_;
     std::unique_ptr<Batch> batch_;
 };
