@@ -83,18 +83,37 @@ struct Crowd {
         medium.add(radio, radios.size(), propagation);
     }
     NodeId node(std::size_t i) const { return {static_cast<std::uint32_t>(i)}; }
-    bool link(std::size_t i, std::size_t j, Time t) const {
-        return medium.links().path_loss(node(i), node(j), t, legs) <=
-               link_budget(radios[i], radios[j]);
+    static constexpr auto hears = [](const Radio& from, const Radio& to) {
+        return link_budget(from, to);
+    };
+    static constexpr auto senses = [](const Radio& from, const Radio& to) {
+        return sensing_budget(from, to);
+    };
+    /// Path losses from robot i to each robot [dB]; that to itself is infinite.
+    std::vector<Db> losses(std::size_t i, Time t) const {
+        std::vector<Db> all(radios.size(), Db{std::numeric_limits<double>::infinity()});
+        for (std::size_t j = 0; j < radios.size(); ++j)
+            if (j != i) all[j] = medium.links().path_loss(node(i), node(j), t, legs);
+        return all;
+    }
+    /// Robots other than i that are on and whose losses from i are at most their budgets.
+    template <class Budget>
+    std::vector<NodeId> within(std::size_t i, const std::vector<Db>& losses,
+                               const Budget& budget) const {
+        std::vector<NodeId> out;
+        for (std::size_t j = 0; j < radios.size(); ++j)
+            if (medium.stations().is_on(node(j)) && losses[j] <= budget(radios[i], radios[j]))
+                out.push_back(node(j));
+        return out;
     }
     /// What find_receivers() must say.
-    std::vector<Reception> brute_force(std::size_t i, Time start, Time end) const {
+    std::vector<Reception> brute_force(std::size_t i, const std::vector<Db>& losses, Time start,
+                                       Time end) const {
         std::vector<Reception> all;
-        for (std::size_t j = 0; j < radios.size(); ++j) {
-            if (j == i || !medium.stations().is_on(node(j)) || !link(i, j, start)) continue;
+        for (const NodeId j : within(i, losses, hears)) {
             const double d = distance(medium.stations().antenna(node(i), start, legs),
-                                      medium.stations().antenna(node(j), start, legs));
-            all.push_back({end + from_seconds(d / speed_of_light), node(j)});
+                                      medium.stations().antenna(j, start, legs));
+            all.push_back({end + from_seconds(d / speed_of_light), j});
         }
         std::stable_sort(all.begin(), all.end(),
                          [](const auto& a, const auto& b) { return a.time < b.time; });
@@ -105,28 +124,26 @@ struct Crowd {
         std::size_t links = 0;
         for (std::size_t i = 0; i < radios.size(); ++i) {
             const Time end = t + 238'545ns;
-            const auto expected = brute_force(i, t, end);
+            const std::vector<Db> from_here = losses(i, t);
+            const auto expected = brute_force(i, from_here, t, end);
             const auto heard = receivers(medium, node(i), t, end, legs);
             REQUIRE(heard.size() == expected.size());
             for (std::size_t k = 0; k < heard.size(); ++k) {
                 CHECK(heard[k].node == expected[k].node);
                 CHECK(heard[k].time == expected[k].time);
             }
-            check_sensors(i, t);
+            check_sensors(i, from_here, t);
             links += heard.size();
         }
         return links;
     }
     /// Who senses robot i without hearing it.
-    void check_sensors(std::size_t i, Time t) {
+    void check_sensors(std::size_t i, const std::vector<Db>& losses, Time t) {
+        const std::vector<NodeId> hearing = within(i, losses, hears);
         std::vector<NodeId> expected, sensing;
-        for (std::size_t j = 0; j < radios.size(); ++j) {
-            const bool senses = medium.links().path_loss(node(i), node(j), t, legs) <=
-                                sensing_budget(radios[i], radios[j]);
-            if (j != i && medium.stations().is_on(node(j)) && senses && !link(i, j, t)) {
-                expected.push_back(node(j));
-            }
-        }
+        for (const NodeId j : within(i, losses, senses))
+            if (std::find(hearing.begin(), hearing.end(), j) == hearing.end())
+                expected.push_back(j);
         Medium::Receivers heard;
         for (const auto& s : medium.find_sensors(node(i), Coding{}, t, t, legs, heard)) {
             sensing.push_back(s.node);

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -26,23 +27,11 @@ class ViewReader {
 
     const Table& head() const { return *head_.table(); }
     bool has(const std::string& name) const { return find(name) != nullptr; }
-    /// Numbers of a column.
-    std::vector<double> numbers(const std::string& name) const {
-        const Table& section = need(name);
-        const std::string type = *section.find("type")->string();
-        const std::string bytes = unpacked(section);
-        if (type == "u8") return as<std::uint8_t>(bytes);
-        if (type == "u16") return as<std::uint16_t>(bytes);
-        if (type == "u32") return as<std::uint32_t>(bytes);
-        if (type == "f32") return as<float>(bytes);
-        if (type == "f64") return as<double>(bytes);
-        if (type != "time") throw std::runtime_error(name + ": no numbers");
-        const std::vector<double> words = as<std::uint32_t>(bytes);
-        std::vector<double> times(words.size() / 2);
-        double t = 0;
-        for (std::size_t i = 0; i < times.size(); ++i)
-            times[i] = t += words[i] + 4294967296.0 * words[times.size() + i];
-        return times;
+    /// Numbers of a column, which is unpacked once.
+    const std::vector<double>& numbers(const std::string& name) const {
+        const auto [at, is_new] = known_.try_emplace(name);
+        if (is_new) at->second = read_numbers(name);
+        return at->second;
     }
     std::vector<std::string> texts(const std::string& name) const {
         const std::string bytes = unpacked(need(name));
@@ -62,6 +51,23 @@ class ViewReader {
     }
 
   private:
+    std::vector<double> read_numbers(const std::string& name) const {
+        const Table& section = need(name);
+        const std::string type = *section.find("type")->string();
+        const std::string bytes = unpacked(section);
+        if (type == "u8") return as<std::uint8_t>(bytes);
+        if (type == "u16") return as<std::uint16_t>(bytes);
+        if (type == "u32") return as<std::uint32_t>(bytes);
+        if (type == "f32") return as<float>(bytes);
+        if (type == "f64") return as<double>(bytes);
+        if (type != "time") throw std::runtime_error(name + ": no numbers");
+        const std::vector<double> words = as<std::uint32_t>(bytes);
+        std::vector<double> times(words.size() / 2);
+        double t = 0;
+        for (std::size_t i = 0; i < times.size(); ++i)
+            times[i] = t += words[i] + 4294967296.0 * words[times.size() + i];
+        return times;
+    }
     template <class T>
     static std::vector<double> as(const std::string& bytes) {
         std::vector<T> numbers(bytes.size() / sizeof(T));
@@ -81,14 +87,19 @@ class ViewReader {
         const auto at = static_cast<std::size_t>(integer(section, "offset"));
         std::string packed = data_.substr(at, static_cast<std::size_t>(integer(section, "bytes")));
         if (section.find("raw")) return packed;
-        std::string out(64 + 200 * packed.size() + 16'000'000, '\0');
+        std::string out;
         z_stream stream{};
         inflateInit2(&stream, -15);
         stream.next_in = reinterpret_cast<Bytef*>(packed.data());
         stream.avail_in = static_cast<uInt>(packed.size());
-        stream.next_out = reinterpret_cast<Bytef*>(out.data());
-        stream.avail_out = static_cast<uInt>(out.size());
-        const int end = inflate(&stream, Z_FINISH);
+        int end = Z_OK;
+        while (end == Z_OK) {
+            constexpr std::size_t part = 65'536;
+            out.resize(stream.total_out + part);
+            stream.next_out = reinterpret_cast<Bytef*>(out.data() + stream.total_out);
+            stream.avail_out = part;
+            end = inflate(&stream, Z_NO_FLUSH);
+        }
         out.resize(stream.total_out);
         inflateEnd(&stream);
         if (end != Z_STREAM_END) throw std::runtime_error("a section is broken");
@@ -97,6 +108,7 @@ class ViewReader {
 
     Value head_;
     std::string data_;
+    mutable std::map<std::string, std::vector<double>> known_;
 };
 
 }  // namespace rovernet::test

@@ -49,7 +49,7 @@ struct Recorded {
 
 /// Place of a robot by the columns, as the page computes it.
 Vec3 place(const test::ViewReader& view, std::size_t robot, double t) {
-    const auto first = view.numbers("legs.first"), start = view.numbers("legs.start");
+    const auto &first = view.numbers("legs.first"), &start = view.numbers("legs.start");
     auto leg = static_cast<std::size_t>(first[robot]);
     while (leg + 1 < static_cast<std::size_t>(first[robot + 1]) && start[leg + 1] <= t) ++leg;
     const double passed = (std::min(t, view.numbers("legs.end")[leg]) - start[leg]) / 1e9;
@@ -71,14 +71,14 @@ struct SeenFrame {
 
 std::vector<SeenFrame> frames_of(const test::ViewReader& view) {
     std::vector<SeenFrame> frames;
-    const auto uids = view.numbers("messages.uid");
+    const auto& uids = view.numbers("messages.uid");
     for (std::size_t block = 0; view.has(fmt::format("{}/flights.start", block)); ++block) {
-        const auto of = [&](const char* name) {
+        const auto of = [&](const char* name) -> const std::vector<double>& {
             return view.numbers(fmt::format("{}/{}", block, name));
         };
-        const auto start = of("flights.start"), sender = of("flights.sender"),
-                   message = of("flights.message"), count = of("flights.count"),
-                   robot = of("receptions.robot"), outcome = of("receptions.outcome");
+        const auto &start = of("flights.start"), &sender = of("flights.sender"),
+                   &message = of("flights.message"), &count = of("flights.count"),
+                   &robot = of("receptions.robot"), &outcome = of("receptions.outcome");
         std::size_t reception = 0;
         for (std::size_t i = 0; i < start.size(); ++i) {
             const auto index = static_cast<std::size_t>(message[i]);
