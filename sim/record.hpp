@@ -193,8 +193,7 @@ struct RecordContext {
     /// Routing protocol, which describes its control packets; null without one, and for records
     /// that were read from a file.
     const Router* router = nullptr;
-    /// Header of the frame of an AirSent that was read from a file; null if the frame has none. In
-    /// a run, Router::header_bytes has it.
+    /// Header of the frame of an AirSent from a file; null: none. In a run: Router::header_bytes.
     const FrameHeader* header = nullptr;
 };
 

@@ -91,9 +91,8 @@ std::string_view text_of(boost::string_view view) { return {view.data(), view.si
 /// Reason why the admission rule of a gate rejects a request; empty if it is accepted.
 std::string refusal(const Gate& gate, const Request& request) {
     WebRequest asked{text_of(request.target()), text_of(request[http::field::host])};
-    if (const auto origin = request.find(http::field::origin); origin != request.end()) {
+    if (const auto origin = request.find(http::field::origin); origin != request.end())
         asked.origin = text_of(origin->value());
-    }
     return gate.admission.refusal(asked);
 }
 
@@ -152,9 +151,8 @@ struct WebSockets::State {
     /// Admits a client, or sends it the reason for the rejection.
     void answer(const Shared& client) {
         const auto& request = client->request.get();
-        if (const std::string fault = fault_of(request); !fault.empty()) {
+        if (const std::string fault = fault_of(request); !fault.empty())
             return refuse(client, http::status::bad_request, fault);
-        }
         const bool is_upgrade = websocket::is_upgrade(request);
         if (!is_upgrade && client->gate.pages.empty()) {
             return refuse(client, http::status::upgrade_required,
@@ -203,9 +201,8 @@ struct WebSockets::State {
     }
 
     void refuse(const Shared& client, http::status status, const std::string& why) {
-        if (status == http::status::upgrade_required) {
+        if (status == http::status::upgrade_required)
             client->response.set(http::field::upgrade, "websocket");
-        }
         respond(client, status, {"text/plain", why + "\n"}, false);
     }
 
@@ -245,9 +242,8 @@ struct WebSockets::State {
         const std::string_view message{static_cast<const char*>(input.cdata().data()),
                                        input.size()};
         // Beast does not see that an empty last frame leaves a character cut.
-        if (client->stream.got_text() && !simdjson::validate_utf8(message)) {
+        if (client->stream.got_text() && !simdjson::validate_utf8(message))
             return send_close(client, close_code::bad_payload);
-        }
         client->gate.users.received(client->id, message);
         if (client->gate.users.has_rate) client->rate.add(1, input.size(), Clock::now());
         input.clear();
@@ -278,9 +274,8 @@ struct WebSockets::State {
         if (client.output.size() > most_messages) return true;
         if (client.waiting <= most_waiting) return false;
         std::size_t longest = 0;
-        for (auto each = client.output.begin() + 1; each != client.output.end(); ++each) {
+        for (auto each = client.output.begin() + 1; each != client.output.end(); ++each)
             longest = std::max(longest, each->bytes.size());
-        }
         return client.waiting - longest > most_waiting;
     }
 
@@ -395,9 +390,8 @@ void WebSockets::close(std::chrono::milliseconds most) {
         gate.users = {};
     }
     const auto clients = state_->clients;  // remove() takes them off the table
-    for (const auto& [id, client] : clients) {
+    for (const auto& [id, client] : clients)
         client->is_open ? state_->leave(client, close_code::going_away) : state_->remove(client);
-    }
     const auto until = Clock::now() + most;
     while (!state_->clients.empty() && Clock::now() < until) {
         state_->io.run_one_for(std::chrono::milliseconds(10));

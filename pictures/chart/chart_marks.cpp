@@ -185,9 +185,8 @@ std::vector<double> shifts(const ChartView& view, const ChartFrame& frame) {
             all_x.insert(frame.at(p.x, p.y).x);
         }
     }
-    for (auto it = all_x.begin(); it != all_x.end() && std::next(it) != all_x.end(); ++it) {
+    for (auto it = all_x.begin(); it != all_x.end() && std::next(it) != all_x.end(); ++it)
         room = std::min(room, *std::next(it) - *it);
-    }
     if (!has_whiskers) return out;
     bool hidden = false;
     for (std::size_t i = 0; i < covers.size() && !hidden; ++i) {
@@ -199,9 +198,8 @@ std::vector<double> shifts(const ChartView& view, const ChartFrame& frame) {
     if (!hidden) return out;
     const auto count = static_cast<double>(view.series.size());
     const double step = std::min(beside, 0.6 * room / count);
-    for (std::size_t i = 0; i < out.size(); ++i) {
+    for (std::size_t i = 0; i < out.size(); ++i)
         out[i] = step * (static_cast<double>(i) - (count - 1) / 2);
-    }
     return out;
 }
 
