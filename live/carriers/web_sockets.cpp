@@ -61,6 +61,8 @@ bool is_base64(char c) {
            c == '/';
 }
 
+std::string_view text_of(boost::string_view view) { return {view.data(), view.size()}; }
+
 /// Error of a request, independent of the client; empty if valid.
 std::string fault_of(const Request& request) {
     const auto& fields = request.base();
@@ -71,8 +73,7 @@ std::string fault_of(const Request& request) {
     for (const http::field each : {http::field::origin, http::field::sec_websocket_key,
                                    http::field::sec_websocket_version}) {
         if (fields.count(each) <= 1) continue;
-        const auto name = http::to_string(each);
-        return fmt::format("expected one {}", std::string_view(name.data(), name.size()));
+        return fmt::format("expected one {}", text_of(http::to_string(each)));
     }
     if (!websocket::is_upgrade(request)) return {};
     // RFC 6455, 4.1: the base64 of 16 bytes.
@@ -82,11 +83,8 @@ std::string fault_of(const Request& request) {
     const std::string_view key(field.data(), field.size());
     const bool is_key = key.size() == letters + ending.size() && key.ends_with(ending) &&
                         std::all_of(key.begin(), key.begin() + letters, is_base64);
-    if (is_key) return {};
-    return "Sec-WebSocket-Key: expected 16 bytes in base64";
+    return is_key ? "" : "Sec-WebSocket-Key: expected 16 bytes in base64";
 }
-
-std::string_view text_of(boost::string_view view) { return {view.data(), view.size()}; }
 
 /// Reason why the admission rule of a gate rejects a request; empty if it is accepted.
 std::string refusal(const Gate& gate, const Request& request) {
