@@ -135,6 +135,12 @@ bool is_movement(const std::string& path) {
 Value movement_alone(const std::string& path) {
     Table movement, scenario, document;
     const MovementFile file(path, MovementSyntax::tolerant);
+    if (file.robots().empty()) {
+        throw InputError({path},
+                         "no line places or moves a robot; expected a movement file with "
+                         "lines such as $node_(0) set X_ 10.0; rovernet help "
+                         "coming-from-ns shows what replaces a script of ns-2");
+    }
     const Time end = file.end();
     if (end > last_of_run) {
         throw InputError(

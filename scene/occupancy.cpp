@@ -97,7 +97,9 @@ class MapFile {
         const InputKind kind = input_kind(path_);
         if (is_no_path(kind))
             fail(YAML::Mark::null_mark(),
-                 fmt::format("{}; expected a map's YAML file; check the path", fault_of(kind)));
+                 fmt::format("{}; expected a map's YAML file; check the path, which is "
+                             "relative to the scenario's folder",
+                             fault_of(kind)));
         if (kind != InputKind::file)
             fail(YAML::Mark::null_mark(),
                  "is not a regular file; expected a map's YAML file; name a file");

@@ -160,6 +160,16 @@ void check_margin(const CompareArguments& a, const std::string& metric) {
                                  *range.high, metric));
 }
 
+/// Prints the study's notices, and that one run of each value shows no difference.
+void tell_notices(const Study& study) {
+    for (const std::string& text : study.base().notices) notice(text);
+    const StudyTable& table = study.table();
+    if (table.replications > 1 || table.precision) return;
+    notice(
+        "one replication of each: how sure the differences are cannot be seen from it; "
+        "--replications 30 repeats the runs with other random numbers");
+}
+
 /// Prints where intervals do not use the requested method.
 void tell_other_methods(const Comparison& c, std::optional<IntervalMethod> wish) {
     std::vector<IntervalMethod> methods;
@@ -201,7 +211,7 @@ void compare(const CompareArguments& a) {
     ScenarioOptions options = study_options(a);
     if (std::ranges::count(metrics, "reach") > 0) options.set.push_back("metrics.reach=true");
     Study study(a.file, options, std::vector<Vary>{vary});
-    for (const std::string& text : study.base().notices) notice(text);
+    tell_notices(study);
     const std::string baseline = baseline_of(a, vary);
     for (const std::string& metric : metrics) {
         check_metric(metric, study.base(), {"--metric " + metric, 0, 0, true});

@@ -63,7 +63,8 @@ void print_man_page(const ManualArguments& a) { fmt::print("{}", man_page(a.prog
 
 void add_verbosity(Command command) {
     Option quiet = command.add_flag(
-        "-q,--quiet", [] { set_verbosity(Verbosity::errors); }, "print only errors");
+        "-q,--quiet", [] { set_verbosity(Verbosity::errors); },
+        "print results and errors only: no notices, no progress");
     command
         .add_flag(
             "-v,--verbose", [] { set_verbosity(Verbosity::everything); },

@@ -43,14 +43,15 @@ ChartLimits limits_of(const std::string& metric) {
 
 std::string percent(double share) { return fmt::format("{:.4g} %", 100 * share); }
 
-/// Number of replications that the values are from: "30", or "5 to 30".
+/// Number of replications that the values are from: "30 replications", or "5 to 30 replications".
 std::string replications_text(const std::vector<Answer>& list) {
     std::size_t least = SIZE_MAX, most = 0;
     for (const Answer& answer : list) {
         least = std::min(least, answer.values.size());
         most = std::max(most, answer.values.size());
     }
-    return least == most ? fmt::format("{}", most) : fmt::format("{} to {}", least, most);
+    if (least < most) return fmt::format("{} to {} replications", least, most);
+    return fmt::format("{} replication{}", most, most == 1 ? "" : "s");
 }
 
 /// " by betting", or how else the intervals of means were made; nothing for those of quantiles.
@@ -74,11 +75,10 @@ std::string note_of(const Answers& all, const ChartQuestion& q, double confidenc
     const std::string of = replications_text(all.list);
     const std::string covered = coverage_text(all);
     const std::string rest = covered.empty() ? "" : "; " + covered;
-    if (q.kind == ChartKind::cdf) return fmt::format("{}of {} replications{}", where, of, rest);
-    if (q.kind == ChartKind::heat_map)
-        return fmt::format("{} of {} replications{}", what, of, rest);
-    return fmt::format("{} of {} replications, with {} intervals{}{}", what, of,
-                       percent(confidence), methods_text(all.list), rest);
+    if (q.kind == ChartKind::cdf) return fmt::format("{}of {}{}", where, of, rest);
+    if (q.kind == ChartKind::heat_map) return fmt::format("{} of {}{}", what, of, rest);
+    return fmt::format("{} of {}, with {} intervals{}{}", what, of, percent(confidence),
+                       methods_text(all.list), rest);
 }
 
 /// Checks that a kind of chart has the keys that its axes need.
@@ -264,9 +264,8 @@ std::vector<Chart> comparison_charts(const Comparison& comparison) {
                                .label = m.model,
                                .n = m.error_n});
     }
-    values.note =
-        fmt::format("means of {} replications, with {} intervals{}", replications_text(list),
-                    percent(comparison.confidence), methods_text(list));
+    values.note = fmt::format("means of {}, with {} intervals{}", replications_text(list),
+                              percent(comparison.confidence), methods_text(list));
     for (const std::string& text : {comparison.held, incompleteness(comparison.runs)}) {
         if (!text.empty()) values.note += "; " + text;
     }
@@ -294,10 +293,11 @@ Chart protocol_chart(const Store& store, const std::string& held) {
             without.push_back(std::move(mark.label));
         }
     }
-    chart.note =
-        fmt::format("means of {} replications, with {} intervals: of deliveries{}, of airtimes{}",
-                    replications_text(deliveries), percent(confidence_of(store)),
-                    methods_text(deliveries), methods_text(airtimes));
+    chart.note = fmt::format("means of {}, with {} intervals: of deliveries{}",
+                             replications_text(deliveries), percent(confidence_of(store)),
+                             methods_text(deliveries));
+    const std::string of_airtimes = methods_text(airtimes);
+    if (!of_airtimes.empty()) chart.note += ", of airtimes" + of_airtimes;
     if (!without.empty()) {
         chart.note += fmt::format("; without deliveries: {}", fmt::join(without, ", "));
     }
