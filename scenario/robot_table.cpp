@@ -121,6 +121,7 @@ void read_radio(const Value& value, const std::string& name, Radio& out, RadioPl
     const auto find = [&](std::string_view key, Location& where) {
         if (const Value* key_value = table.take(key)) where = key_value->where;
     };
+    find("power", places.power);
     find("sensitivity", places.sensitivity);
     find("frequency", places.frequency);
     find("rate", places.rate);

@@ -57,7 +57,7 @@ struct EnumNames<PlaceTable::Model> {
 /// File positions of the keys of a robot's radio, for errors that are found after reading. A key
 /// that the robot's table lacks has its position in [radio].
 struct RadioPlaces {
-    Location sensitivity = {}, frequency = {}, rate = {};
+    Location power = {}, sensitivity = {}, frequency = {}, rate = {};
     Location ip = {}, netmask = {}, mac = {};
 };
 /// Reads [radio], or the `radio` table of a robot, into `out` and `places`. A missing key changes

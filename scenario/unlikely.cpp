@@ -11,6 +11,7 @@
 #include "scene/faces.hpp"
 #include "scene/scene.hpp"
 #include "sim/geometry.hpp"
+#include "sim/math.hpp"
 
 #include <fmt/format.h>
 
@@ -33,6 +34,19 @@ void check_sensitivity(const Radio& radio, const RadioPlaces& places) {
                      fmt::format("sensitivity: found {0} dBm, with which a receiver gets nothing; "
                                  "expected at most 0 dBm; did you mean \"-{0} dBm\"?",
                                  dbm));
+}
+
+/// Notices a power that looks like dBm, but was given as a bare number, which is in watts.
+void note_power(Scenario& out, const Radio& radio, const RadioPlaces& places) {
+    constexpr double usual = 37;       // [dBm] robots' radios send with less
+    constexpr double unmistaken = 50;  // [W] nobody means as many dBm
+    if (radio.power.value <= usual) return;
+    const double watts = math::exp10(radio.power.value / 10 - 3);
+    if (watts > unmistaken) return;
+    add_notice(out.notices,
+               fmt::format("{}: power: {:.4g} W are {:.4g} dBm, more than robots' radios "
+                           "send with; did you mean \"{:.4g} dBm\"?",
+                           places.power.text(), watts, radio.power.value, watts));
 }
 
 void note_frequency(Scenario& out, const Radio& radio, const RadioPlaces& places) {
@@ -183,6 +197,7 @@ void add_notice(std::vector<std::string>& notices, std::string notice) {
 void note_unlikely(Scenario& scenario) {
     const auto look = [&](const Radio& radio, const RadioPlaces& places) {
         check_sensitivity(radio, places);
+        note_power(scenario, radio, places);
         note_frequency(scenario, radio, places);
         note_rate(scenario, "rate", radio.rate, places.rate);
     };

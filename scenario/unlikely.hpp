@@ -14,9 +14,9 @@
 namespace rovernet {
 
 /// Adds notices about valid but unlikely values of radios, switching times, payloads and message
-/// starts: a frequency of 2.45 MHz, a bit rate that the standard lacks, a robot switched on while
-/// it is on, a payload "64 B", robots that transmit at the same instants so that their frames
-/// collide.
+/// starts: a power of 20 W, a frequency of 2.45 MHz, a bit rate that the standard lacks, a robot
+/// switched on while it is on, a payload "64 B", robots that transmit at the same instants so that
+/// their frames collide.
 /// @throws InputError for a sensitivity above 0 dBm, surely a mistake: such a receiver receives
 /// nothing
 void note_unlikely(Scenario& scenario);

@@ -103,6 +103,19 @@ void print_parameters(const Table& model) {
     }
 }
 
+/// Entry of list_models() with this name. @throws InputError if there is none
+Value model_called(const std::string& name) {
+    std::vector<std::string> names;
+    for (const Value& model : list_models()) {
+        names.push_back(text_of(*model.table()->find("name")));
+        if (names.back() == name) return model;
+    }
+    const std::string near = did_you_mean(name, names);
+    throw InputError({name, 0, 0, true},
+                     fmt::format("no propagation model; expected one of {}{}{}",
+                                 fmt::join(names, ", "), near.empty() ? "" : "; ", near));
+}
+
 }  // namespace
 
 void link(const LinkArguments& a) {
@@ -122,8 +135,9 @@ void link(const LinkArguments& a) {
     }
 }
 
-void models(const PrintArguments& a) {
-    const Array list = list_models(), variations = list_variations();
+void models(const ModelsArguments& a) {
+    const Array list = a.name.empty() ? list_models() : Array{model_called(a.name)};
+    const Array variations = a.name.empty() ? list_variations() : Array{};
     if (a.json) {
         Table table;
         table.set("models", list);

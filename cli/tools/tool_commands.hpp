@@ -50,11 +50,16 @@ struct HelpArguments {
 };
 void help(const HelpArguments& arguments);
 
+struct ModelsArguments {
+    std::string name;  ///< model to print; empty: all
+    bool json = false;
+};
+void models(const ModelsArguments& arguments);
+
 /// Arguments of a command whose only option is --json.
 struct PrintArguments {
     bool json = false;
 };
-void models(const PrintArguments& arguments);
 void print_schema(const PrintArguments& arguments);
 void print_version(const PrintArguments& arguments);
 

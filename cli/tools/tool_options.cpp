@@ -8,7 +8,8 @@ namespace {
 void add_models(Command app) {
     const auto [models, a] =
         add_command(app, "models", "List the propagation models and their parameters", cli::models);
-    models.add_examples({"rovernet models"});
+    models.add_examples({"rovernet models", "rovernet models log_distance"});
+    models.add_option("NAME", a.name, "print only this propagation model");
     add_json(models, a.json);
 }
 

@@ -2,11 +2,24 @@
 #include "cli/terminal/options.hpp"
 #include "cli/traces/trace_commands.hpp"
 
+#include <filesystem>
+#include <string>
+
 namespace rovernet::cli {
 namespace {
 
 constexpr const char* any_trace =
-    "ns-2 trace (.tr, also compressed by gzip or zstd) or recorded trace (.mcap)";
+    "ns-2 trace (.tr, also compressed by gzip or zstd), recorded trace (.mcap), or folder of a run "
+    "with one of them";
+
+/// Path of the trace in the folder of a run: the recorded one, or else that of ns-2. Any other text
+/// stays.
+std::string trace_of_run(const std::string& text) {
+    namespace fs = std::filesystem;
+    if (!fs::is_directory(text)) return text;
+    const fs::path recorded = fs::path(text) / "trace.mcap", ns2 = fs::path(text) / "trace.tr";
+    return (fs::exists(recorded) || !fs::exists(ns2) ? recorded : ns2).string();
+}
 
 void add_strict(Command command, bool& strict) {
     command.add_flag("--strict", strict, "stop at the first line that is not an ns-2 trace line");
@@ -17,7 +30,7 @@ void add_trace_stats(Command trace) {
         add_command(trace, "stats", "Print the metrics of a trace", cli::trace_stats);
     stats.add_examples({"rovernet trace stats runs/patrol-s3/trace.tr",
                         "rovernet trace stats runs/patrol-s3/trace.tr --by robot --csv"});
-    stats.add_option("FILE", a.file, any_trace).required();
+    stats.add_option("FILE", a.file, any_trace).required().transform(trace_of_run);
     stats.add_option("--by", a.by, "also print the counts of each robot, flow or second")
         .one_of({"robot", "flow", "second"});
     add_strict(stats, a.strict);
@@ -34,7 +47,7 @@ void add_trace_convert(Command trace) {
          "rovernet trace convert runs/rescue-s1/trace.mcap rescue.tr --to ns2-old --mac",
          "rovernet trace convert runs/rescue-s1/trace.mcap rescue.pcapng --to pcapng",
          "rovernet trace convert runs/rescue-s1/trace.mcap rescue.mcap --to foxglove"});
-    convert.add_option("IN", a.in, any_trace).required();
+    convert.add_option("IN", a.in, any_trace).required().transform(trace_of_run);
     convert.add_option("OUT", a.out, "file to write").required();
     convert
         .add_option(
@@ -54,7 +67,7 @@ void add_trace_cut(Command trace) {
     cut.add_examples(
         {"rovernet trace cut runs/patrol-s3/trace.tr piece.tr --from \"10 s\" --to \"20 s\"",
          "rovernet trace cut runs/rescue-s1/trace.mcap piece.tr --message 3"});
-    cut.add_option("IN", a.in, any_trace).required();
+    cut.add_option("IN", a.in, any_trace).required().transform(trace_of_run);
     cut.add_option("OUT", a.out, "file to write").required();
     cut.add_option("--from", a.from, "time of the first packet");
     cut.add_option("--to", a.to, "time at which the piece ends; events at this time are left out");
@@ -70,8 +83,8 @@ void add_trace_diff(Command trace) {
     diff.add_examples({"rovernet trace diff runs/rescue-s1/trace.tr runs/rescue-s1/trace.mcap",
                        "rovernet trace diff runs/rescue-s1/trace.tr runs/rescue-s1/trace.mcap "
                        "--time-tolerance \"1 us\""});
-    diff.add_option("A", a.a, any_trace).required();
-    diff.add_option("B", a.b, any_trace).required();
+    diff.add_option("A", a.a, any_trace).required().transform(trace_of_run);
+    diff.add_option("B", a.b, any_trace).required().transform(trace_of_run);
     diff.add_option("--time-tolerance", a.time_tolerance,
                     "largest difference of two times that count as equal")
         .shows_default();
@@ -83,7 +96,7 @@ void add_trace_follow(Command trace) {
         add_command(trace, "follow", "Follow a message from robot to robot", cli::trace_follow);
     follow.add_examples({"rovernet trace follow runs/rescue-s1/trace.tr --message 3",
                          "rovernet trace follow runs/rescue-s1/trace.mcap --message 0 --robot E"});
-    follow.add_option("FILE", a.file, any_trace).required();
+    follow.add_option("FILE", a.file, any_trace).required().transform(trace_of_run);
     follow.add_option("--message", a.message, "id of the message").required();
     follow.add_option("--robot", a.robot,
                       "name or number of a robot: print only the message's path to this robot, and "

@@ -395,6 +395,16 @@ TEST_CASE("models --json lists every model, shadowing and fading with their para
     }
 }
 
+TEST_CASE("models NAME prints one model, and suggests one for a name that there is not") {
+    const TemporaryFolder folder;
+    const Json listed = json_of(folder, {"models", "friis"});
+    REQUIRE(listed["models"].size() == 1);
+    CHECK(listed["models"][0]["name"] == "friis");
+    const Ended wrong = command(folder, {"models", "fris"});
+    CHECK(wrong.exit == 2);
+    CHECK(wrong.err.find("did you mean \"friis\"?") != std::string::npos);
+}
+
 TEST_CASE("version and --version print the version") {
     const TemporaryFolder folder;
     const std::string version = json_of(folder, {"version"})["version"];

@@ -69,6 +69,13 @@ TEST_CASE("unlikely: a usual scenario gives no notice") {
     CHECK(notices_of("[radio]\nfrequency = \"868 MHz\"\n" + robot_a).empty());
 }
 
+TEST_CASE("unlikely: a power of so many watts as one says dBm gives a notice") {
+    check_notice("[radio]\npower = \"17 W\"\n" + robot_a,
+                 {"s.toml:2:9: power: 17 W are 42.3 dBm", "did you mean \"17 dBm\"?"});
+    for (const char* power : {"37 dBm", "5 W", "100 W"})
+        CHECK(notices_of("[radio]\npower = \"" + std::string(power) + "\"\n" + robot_a).empty());
+}
+
 TEST_CASE("unlikely: a frequency with a wrong unit gives a notice with a suggestion") {
     check_notice("[radio]\nfrequency = \"2.4 MHz\"\n" + robot_a,
                  {"s.toml:2:13: frequency: ", "did you mean \"2400 MHz\"?"});

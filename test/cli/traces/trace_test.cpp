@@ -74,6 +74,22 @@ TEST_CASE("trace follow prints what an ns-2 trace has about a robot without a sc
     CHECK(ended.out.find("within reach") == std::string::npos);
 }
 
+TEST_CASE("trace takes the folder of a run for the trace in it, the recorded one first") {
+    const Run run;
+    const std::string folder = run.folder.path("run");
+    const auto stats = [&](const std::string& trace) {
+        return command(run.folder, {"trace", "stats", trace}).out;
+    };
+    CHECK(stats(folder) == stats(run.recorded));
+    CHECK(stats(folder) != "");
+    std::filesystem::remove(run.recorded);
+    CHECK(stats(folder) == stats(run.text));
+    std::filesystem::remove(run.text);
+    const Ended none = command(run.folder, {"trace", "stats", folder});
+    CHECK(none.exit != 0);
+    CHECK(none.err.find("trace.mcap") != std::string::npos);
+}
+
 TEST_CASE("trace stats names the kind of a recorded trace") {
     const Run run;
     CHECK(json_of(run.folder, {"trace", "stats", run.recorded})["format"] == "recorded");
