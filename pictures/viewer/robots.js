@@ -103,9 +103,7 @@ const robots = (() => {
         const size = Math.min(2 * least_radius - 2, Math.max(1.5, 0.35 * Math.sqrt(shown / at.x.length)));
         for (const on of [1, 0]) {
             const color = pixels.word(on ? theme.colors().muted : theme.colors().off);
-            for (let i = 0; i < at.x.length; i++) {
-                if (at.on[i] === on && at.storey[i] === state.storey) pixels.square(at.x[i], at.y[i], size, color);
-            }
+            pixels.squares(at.x, at.y, i => at.on[i] === on && at.storey[i] === state.storey, size, color);
         }
     }
 
