@@ -116,7 +116,7 @@ const robots = (() => {
         c.textBaseline = "middle";
         c.lineJoin = "round";
         for (const i of shown) {
-            const text = words.shortened(words.visible(r.name(i)), 24), width = c.measureText(text).width, reach = radius(r, i) + 6, half = size / 2 + 1;
+            const text = words.short(r.name(i), 24), width = c.measureText(text).width, reach = radius(r, i) + 6, half = size / 2 + 1;
             const { [i]: x } = at.x, { [i]: y } = at.y;
             const places = [[x + reach, y], [x - reach - width, y], [x - width / 2, y - reach - half], [x - width / 2, y + reach + half]];
             const inside = places.filter(([left]) => left >= 0 && left + width <= camera.now.width);
@@ -153,7 +153,7 @@ const robots = (() => {
             }
             c.closePath();
             c.stroke();
-            if (++named <= most_named / 4) c.fillText(`${words.shortened(words.visible(r.name(i)), 24)}, storey ${at.storey[i] + 1}`, at.x[i] + size + 4, at.y[i]);
+            if (++named <= most_named / 4) c.fillText(`${words.short(r.name(i), 24)}, storey ${at.storey[i] + 1}`, at.x[i] + size + 4, at.y[i]);
         }
         c.globalAlpha = 1;
     }
