@@ -41,14 +41,13 @@ const blocks = (() => {
         const there = r.file.sections.has(`${number}/${queue}`) ? [...names, queue] : names;
         const columns = await Promise.all(there.map(name => rvw.column(r.file, `${number}/${name}`)));
         const flights = columns[0]?.length ?? 0, count = columns[8] ?? new Uint32Array(0);
-        if (columns.slice(1, 9).some(c => c.length !== flights)) rvw.damaged(`block ${number} has frames of different numbers.`);
+        if ([...columns.slice(1, 9), ...columns.slice(11)].some(c => c.length !== flights)) rvw.damaged(`block ${number} has frames of different numbers.`);
         const first = new Uint32Array(flights + 1);
         for (let i = 0; i < flights; i++) first[i + 1] = first[i] + count[i];
         const receptions = columns[9]?.length ?? 0;
         if (first[flights] !== receptions || columns[10]?.length !== receptions) {
             rvw.damaged(`block ${number} has another number of receptions than its frames.`);
         }
-        if (columns[11] && columns[11].length !== flights) rvw.damaged(`block ${number} has queues of other frames.`);
         const block = new Block(number, columns, first);
         run.check_below(block.sender, r.robots, "flights.sender");
         run.check_below(block.kind, r.head.frame_kinds.length, "flights.kind");

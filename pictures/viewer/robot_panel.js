@@ -33,7 +33,7 @@ const robot_panel = (() => {
             ["state", [on ? "on" : "off", word].filter(Boolean).join(", ")]
         ]);
         const queue = on && own.blocks.queue(robot, state.t);
-        if (queue) out.push(["queue", `${queue.frames < 255 ? words.counted(queue.frames, "frame") : "255 frames or more"}, as it sent at ${words.seconds(queue.since, 6)} s`]);
+        if (queue) out.push(["queue", `${words.counted(queue.frames, "frame")}${queue.frames < 255 ? "" : " or more"}, as it sent at ${words.seconds(queue.since, 6)} s`]);
         if (r.head.map.floors.length > 1) out.splice(1, 0, ["storey", `${r.storey(pose.z) + 1} of ${r.head.map.floors.length}`]);
         return out;
     }
