@@ -24,12 +24,14 @@ Time Mac::transmit(const AirFrame& air) {
     if (data) world_.emit(Transmitted{world_.now, air.frame, air.heard_from});
     const Transmission how = transmission(air);  // a copy: others are made meanwhile
     if (world_.records.wants<AirSent>()) {
-        world_.emit(AirSent{.time = world_.now,
-                            .air = air,
-                            .bytes = how.bytes,
-                            .header = data ? header_ : 0,
-                            .airtime = how.airtime(),
-                            .rate = how.rate});
+        world_.emit(
+            AirSent{.time = world_.now,
+                    .air = air,
+                    .bytes = how.bytes,
+                    .header = data ? header_ : 0,
+                    .airtime = how.airtime(),
+                    .rate = how.rate,
+                    .queue = static_cast<std::uint32_t>(access_->queued(air.frame.sender))});
     }
     const auto receptions = channel_.transmit(air, how, audience_of(air.frame));
     const Time end = world_.now + how.airtime();

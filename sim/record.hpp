@@ -153,13 +153,15 @@ struct AirSent {
     std::uint32_t header = 0;  ///< bytes that the access model adds to a frame of a message
     Duration airtime{0};       ///< airtime of the frame [ns]
     BitRate rate{0};           ///< bit rate of the payload [bit/s]
+    std::uint32_t queue = 0;   ///< frames in the sender's queue, with the one that it sends
 
     static constexpr std::string_view name = "AirSent";
     static constexpr auto fields() {
         return describe(
             field("time", &AirSent::time), field("air", &AirSent::air),
             field("bytes", &AirSent::bytes), field<since(2)>("header", &AirSent::header),
-            field<since(3)>("airtime", &AirSent::airtime), field<since(4)>("rate", &AirSent::rate));
+            field<since(3)>("airtime", &AirSent::airtime), field<since(4)>("rate", &AirSent::rate),
+            field<since(4)>("queue", &AirSent::queue));
     }
 };
 
@@ -167,8 +169,7 @@ struct AirSent {
 /// that overhear the frame have no record.
 struct ControlReceived {
     AirFrame air;
-    /// Reception at the destination; its fate is `waiting` if the frame was decoded, otherwise the
-    /// reason of the loss.
+    /// Reception at the destination; its fate is `waiting` if decoded, else the reason of the loss.
     Reception reception;
     std::uint32_t bytes;  ///< size of the control frame [bytes]
 
@@ -187,9 +188,8 @@ using Record = decltype(variant_of(RecordKinds{}));
 
 /// State of the network that a sink may read while it handles a record.
 struct RecordContext {
-    const Legs& legs;  ///< current legs of all robots
-    /// Messages in use, including the messages that the record refers to.
-    const MessageTable& messages;
+    const Legs& legs;              ///< current legs of all robots
+    const MessageTable& messages;  ///< messages in use, including those of the record
     /// Routing protocol, which describes its control packets; null without one, and for records
     /// that were read from a file.
     const Router* router = nullptr;

@@ -10,6 +10,7 @@
 #include "sim/time.hpp"
 
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -83,6 +84,8 @@ class Access {
     /// Clears the queue of a node that was switched off; its frames are lost.
     virtual void switch_off(Air& /*air*/, NodeId /*node*/) {}
 
+    /// Number of frames in the node's queue, with the one that is being sent; 0 without a queue.
+    virtual std::size_t queued(NodeId /*node*/) const { return 0; }
     /// Whether frames wait in a queue for channel access. Saturated traffic needs a queue: without
     /// one, a node would send without limit.
     virtual bool queues() const { return true; }

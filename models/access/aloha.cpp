@@ -19,6 +19,7 @@ class AlohaAccess final : public Access {
     void send(Air& air, const QueuedFrame& frame) override;
     void on_timer(Air& air, NodeId node, std::uint32_t tag) override;
     std::vector<QueuedFrame> take(NodeId node, NodeId next_hop) override;
+    std::size_t queued(NodeId node) const override { return stations_[node.index()].queue.size(); }
     void switch_off(Air& air, NodeId node) override;
     Phy phy() const override { return Wifi{}; }
     bool has_priority() const override { return settings_.priority; }
@@ -67,8 +68,9 @@ void AlohaAccess::on_timer(Air& air, NodeId node, std::uint32_t /*tag*/) {
     Station& s = stations_[node.index()];
     // Frames may have been taken since, or another timer was earlier.
     if (s.queue.empty() || air.now() < s.free_from) return;
-    const QueuedFrame frame = s.queue.pop();
+    const QueuedFrame frame = s.queue.front();
     s.free_from = air.transmit({.frame = frame.frame, .heard_from = frame.heard_from});
+    s.queue.pop();
     if (!s.queue.empty()) expect(air, node);
     air.sent(frame);
 }

@@ -54,6 +54,7 @@ class Dcf final : public Access {
     void send(Air& air, const QueuedFrame& frame) override;
     void on_timer(Air& air, NodeId node, std::uint32_t tag) override;
     std::vector<QueuedFrame> take(NodeId node, NodeId next_hop) override;
+    std::size_t queued(NodeId node) const override { return stations_[node.index()].queue.size(); }
     void switch_off(Air& air, NodeId node) override;
 
     bool listens() const override { return true; }

@@ -22,6 +22,7 @@ const blocks = (() => {
             this.hops = c[7] ?? none;
             this.robot = c[9] ?? none;
             this.outcome = c[10] ?? none;
+            this.queue = c[11] ?? none;
             this.first = first;
             this.flights = this.start.length;
             this.longest = 0;
@@ -33,17 +34,19 @@ const blocks = (() => {
 
     const names = ["flights.start", "flights.airtime", "flights.sender", "flights.to", "flights.message", "flights.kind",
         "flights.ttl", "flights.hops", "flights.count", "receptions.robot", "receptions.outcome"];
+    const queue = "flights.queue";  // not in every run
 
     /** @param {Run} r @param {number} number */
     async function read(r, number) {
-        const columns = await Promise.all(names.map(name => rvw.column(r.file, `${number}/${name}`)));
+        const there = r.file.sections.has(`${number}/${queue}`) ? [...names, queue] : names;
+        const columns = await Promise.all(there.map(name => rvw.column(r.file, `${number}/${name}`)));
         const flights = columns[0]?.length ?? 0, count = columns[8] ?? new Uint32Array(0);
-        if (columns.slice(1, 9).some(c => c.length !== flights)) rvw.refuse(`The view file is damaged: block ${number} has frames of different numbers.`);
+        if ([...columns.slice(1, 9), ...columns.slice(11)].some(c => c.length !== flights)) rvw.damaged(`block ${number} has frames of different numbers.`);
         const first = new Uint32Array(flights + 1);
         for (let i = 0; i < flights; i++) first[i + 1] = first[i] + count[i];
         const receptions = columns[9]?.length ?? 0;
         if (first[flights] !== receptions || columns[10]?.length !== receptions) {
-            rvw.refuse(`The view file is damaged: block ${number} has another number of receptions than its frames.`);
+            rvw.damaged(`block ${number} has another number of receptions than its frames.`);
         }
         const block = new Block(number, columns, first);
         run.check_below(block.sender, r.robots, "flights.sender");
@@ -66,7 +69,7 @@ const blocks = (() => {
         first.set(one.first);
         for (let i = 1; i <= more.flights; i++) first[one.flights + i] = n + more.first[i];
         const columns = /** @type {const} */ (["start", "airtime", "sender", "to", "message", "kind", "ttl", "hops"]).map(name => both(one[name], more[name]));
-        return new Block(one.number, [...columns, first, both(one.robot, more.robot), both(one.outcome, more.outcome)], first);
+        return new Block(one.number, [...columns, first, both(one.robot, more.robot), both(one.outcome, more.outcome), both(one.queue, more.queue)], first);
     }
 
     /** The blocks of a run; the last ones used are kept. */
@@ -145,6 +148,18 @@ const blocks = (() => {
                 if (this.info[middle].begin_ns <= t) low = middle + 1; else high = middle;
             }
             return Math.max(0, low - 1);
+        }
+
+        /** Queue of a robot when it last began to send, and that time. Searched in the block of the time, if it is there, and in the one before. @param {number} robot @param {number} t */
+        queue(robot, t) {
+            for (let n = this.at(t), last = Math.max(0, n - 1); n >= last; n--) {
+                const block = this.info[n] && this.get(n);
+                if (!block || !block.queue.length) return null;
+                for (let i = run.count_until(block.start, t) - 1; i >= 0; i--) {
+                    if (block.sender[i] === robot) return { frames: block.queue[i], since: block.start[i] };
+                }
+            }
+            return null;
         }
 
         /** Visits the frames on air between two times; true if all blocks were there. @param {number} from @param {number} to @param {(block: Block, flight: number) => boolean|void} visit returns false to stop */

@@ -19,7 +19,7 @@ const compare = (() => {
         if (![told?.gained, told?.lost, told?.same].every(Number.isSafeInteger) || told.runs?.length !== 2) rvw.refuse("The second view file has no comparison.");
         const columns = await Promise.all(["messages", "robot", "first", "second", "gained", "outcome", "time"].map(name => rvw.column(b.file, `compare.${name}`)));
         const [messages, robot, first, second, gained, outcome, time] = columns;
-        if (messages.length !== b.messages || columns.slice(1).some(c => c.length !== time.length)) rvw.refuse("The view file is damaged: its comparison has wrong lengths.");
+        if (messages.length !== b.messages || columns.slice(1).some(c => c.length !== time.length)) rvw.damaged("its comparison has wrong lengths.");
         run.check_below(robot, Math.min(a.robots, b.robots), "compare.robot");
         run.check_below(gained, 2, "compare.gained");
         own.changes = { told, time, robot, message: [first, second], gained, outcome };
@@ -37,7 +37,7 @@ const compare = (() => {
     function row(all, i) {
         const gained = all.gained[i], mark = dom.icon(16, c => sign(c, 8, 8, gained)), { run: r } = sides.own.all[gained];
         const other = all.outcome[i] === no_frame ? "no frame in reach" : signs.kinds[signs.of(all.outcome[i])].text, both = gained ? [other, "delivered"] : ["delivered", other];
-        const name = `${r.message_text(all.message[gained][i])} at ${words.shortened(words.visible(r.name(all.robot[i])), 24)}`;
+        const name = `${r.message_text(all.message[gained][i])} at ${words.short(r.name(all.robot[i]), 24)}`;
         return dom.make("li", "", mark, dom.make("span", "", dom.button(name, "link", () => go(all, i)), dom.make("span", "muted", ` ${words.seconds(all.time[i], 3)} s`),
             dom.make("p", "muted", `run A: ${both[0]}, run B: ${both[1]}`)));
     }

@@ -103,7 +103,9 @@ void FrameColumns::take(const AirSent& sent, const RecordContext& context) {
                         .before = last_flights_[sender],
                         .kind = frame_kinds_.index_of(air.kind()),
                         .ttl = air.control ? std::uint8_t{0} : up_to_255(air.frame.ttl),
-                        .hops = air.control ? std::uint8_t{0} : up_to_255(air.frame.hops)});
+                        .hops = air.control ? std::uint8_t{0} : up_to_255(air.frame.hops),
+                        .queue = up_to_255(sent.queue)});
+    has_queues_ |= sent.queue > 0;
     last_flights_[sender] = static_cast<std::uint32_t>(flights_.size() - 1);
 }
 
@@ -353,6 +355,7 @@ Table FrameColumns::write_block(ViewFile& file, const std::string& name, const B
     file.add(name + "flights.kind", of(small, &Flight::kind));
     file.add(name + "flights.ttl", of(small, &Flight::ttl));
     file.add(name + "flights.hops", of(small, &Flight::hops));
+    if (has_queues_) file.add(name + "flights.queue", of(small, &Flight::queue));
     std::vector<std::uint32_t> counts;
     for (std::size_t f = block.begin; f < block.end; ++f) counts.push_back(first[f + 1] - first[f]);
     file.add(name + "flights.count", counts);

@@ -97,7 +97,7 @@ class FrameColumns {
         std::int64_t start;  // start of the transmission [ns]
         std::uint32_t airtime, sender, to, message;
         std::uint32_t before;  // index of the sender's previous flight; no_index: none
-        std::uint8_t kind, ttl, hops;
+        std::uint8_t kind, ttl, hops, queue;
         std::int64_t end() const { return start + airtime; }
     };
     struct RobotReception {
@@ -162,6 +162,7 @@ class FrameColumns {
     std::vector<Reason> reasons_;  // reasons in losses_, in the order of first use
     Names frame_kinds_{{"DATA"}}, message_kinds_{{""}};
     std::size_t left_out_ = 0;
+    bool has_queues_ = false;  // whether some sender has a queue, and the records tell its length
 };
 
 }  // namespace rovernet

@@ -40,7 +40,7 @@ const legend = (() => {
                     c.fillRect(0.5, 3.5, 17, 9);
                     c.strokeStyle = theme.colors().line;
                     c.strokeRect(0.5, 3.5, 17, 9);
-                }, words.shortened(words.visible(name), 24)));
+                }, words.short(name, 24)));
             }
         }
         if (place.doors.length) {

@@ -2,10 +2,11 @@
 // List of events: only the rows that are in sight are elements. Its first row is the last event until now.
 const list = (() => {
     "use strict";
-    const row_height = 22, spare = 3, most_kept = 3, moment_ms = 120, pause_ms = 100;
+    const row_height = 22, spare = 3, most_kept = 3, moment_ms = 120;
+    const pause_ms = 100, long_pause_ms = 250;  // between two pictures of a run that plays; the long one if nobody can follow its rows
     const highest = 8e6;  // [px] that browsers lay out exactly
-    /** @type {{run: Run, blocks: Blocks, window: EventList|null, rows: Uint32Array, filter: Filter|null, kept: Map<number, EventList>, filtered: WeakMap<EventList, {filter: Filter, rows: Uint32Array}>, timer: number, awaited: number, height: number, top: number, drawn: number}} */
-    const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), window: null, rows: new Uint32Array(0), filter: null, kept: new Map(), filtered: new WeakMap(), timer: 0, awaited: -1, height: 0, top: 0, drawn: 0 };
+    /** @type {{run: Run, blocks: Blocks, window: EventList|null, rows: Uint32Array, filter: Filter|null, kept: Map<number, EventList>, filtered: WeakMap<EventList, {filter: Filter, rows: Uint32Array}>, timer: number, awaited: number, height: number, top: number, drawn: number, chosen: number}} */
+    const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), window: null, rows: new Uint32Array(0), filter: null, kept: new Map(), filtered: new WeakMap(), timer: 0, awaited: -1, height: 0, top: 0, drawn: 0, chosen: -1 };
 
     /** @param {EventList} window */
     function keep(window) {
@@ -64,29 +65,39 @@ const list = (() => {
         return low - 1;
     }
 
-    const rendered = { first: -1, current: -2, followed: -2, shift: 0 };
+    const rendered = { first: -1, current: -2, followed: -2, shift: 0, leaps: false };
 
-    /** @param {number} i row @param {number} current @param {number} shift [px] */
-    function row(i, current, shift) {
-        const { run: r, rows } = own, w = /** @type {EventList} */ (own.window), event = rows[i];
-        const { sign } = events.about(r, w, event);
-        const mark = dom.make("span", "mark", sign >= 0 ? signs.kinds[sign].mark : w.kind[event] === events.frame ? "\u2197" : "");
-        if (sign >= 0) mark.style.color = signs.color(sign);
-        const text = events.text(r, w, event), out = dom.make("div", "row", dom.make("span", "when", words.seconds(w.time[event])), mark,
-            dom.make("span", "what", text));
+    /** A row without an event. */
+    function row() {
+        const out = dom.make("div", "row", ...["when", "mark", "what"].map(kind => dom.make("span", kind, " ")));
         out.setAttribute("role", "option");
-        out.id = `event${i}`;
-        out.setAttribute("aria-selected", String(i === current));
-        out.title = `${words.seconds(w.time[event], 9)} s: ${text}`;
-        out.style.transform = `translateY(${i * row_height - shift}px)`;
-        if (w.time[event] > selection.state.t) out.classList.add("later");
         return out;
     }
 
-    /** Rows follow a run that plays ten times a second. */
+    /** Rows are made once and filled again and again. @param {HTMLElement} out @param {number} i row @param {number} current @param {number} shift [px] */
+    function fill(out, i, current, shift) {
+        const { run: r, rows } = own, w = /** @type {EventList} */ (own.window), event = rows[i], { sign } = events.about(r, w, event);
+        const [when, mark, what] = /** @type {any} */ (out.children), text = events.text(r, w, event);
+        when.firstChild.data = words.seconds(w.time[event]);
+        mark.firstChild.data = sign >= 0 ? signs.kinds[sign].mark : w.kind[event] === events.frame ? "\u2197" : "";
+        mark.style.color = sign >= 0 ? signs.color(sign) : "";
+        what.firstChild.data = text;
+        out.id = `event${i}`;
+        out.ariaSelected = String(i === current);
+        out.style.transform = `translateY(${i * row_height - shift}px)`;
+    }
+
+    /** @param {HTMLElement} space @param {number} first @param {number} count @param {number} current @param {number} shift [px] */
+    function fill_all(space, first, count, current, shift) {
+        while (space.childElementCount > count) space.lastChild?.remove();
+        while (space.childElementCount < count) space.append(row());
+        let i = first;
+        for (const each of space.children) fill(/** @type {HTMLElement} */ (each), i++, current, shift);
+    }
+
+    /** Rows follow a run that plays. */
     function play() {
-        const now = performance.now();
-        if (!selection.state.playing || now - own.drawn >= pause_ms) draw(true);
+        if (!selection.state.playing || performance.now() - own.drawn >= (rendered.leaps ? long_pause_ms : pause_ms)) draw(true);
     }
 
     /** @param {boolean} follow whether the current event comes to the top */
@@ -113,8 +124,8 @@ const list = (() => {
         const first = Math.max(0, Math.floor(offset / row_height) - spare);
         const last = Math.min(own.rows.length, first + Math.ceil(height / row_height) + 2 * spare);
         if (first !== rendered.first || current !== rendered.current || shift !== rendered.shift) {
-            space.replaceChildren(...Array.from({ length: Math.max(0, last - first) }, (_, i) => row(first + i, current, shift)));
-            Object.assign(rendered, { first, current, shift });
+            fill_all(space, first, Math.max(0, last - first), current, shift);
+            Object.assign(rendered, { leaps: Math.abs(first - rendered.first) > last - first, first, current, shift });
         }
         if (current >= first && current < last) box.setAttribute("aria-activedescendant", `event${current}`);
         else box.removeAttribute("aria-activedescendant");
@@ -139,11 +150,24 @@ const list = (() => {
         if (direction > 0) live.step();
     }
 
+    /** Event of the row that the pointer is on, or -1. @param {MouseEvent} event */
+    function event_at({ target }) {
+        const row = target instanceof Element ? target.closest(".row") : null;
+        return row && own.window ? own.rows[Number(row.id.slice(5))] : -1;
+    }
+
+    /** The exact time of a row, and its text, of which the end may be cut off. @param {MouseEvent} event */
+    function pointed(event) {
+        const at = event_at(event), w = own.window;
+        dom.by_id("events-space").title = at >= 0 && w ? `${words.seconds(w.time[at], 9)} s: ${events.text(own.run, w, at)}` : "";
+    }
+
     /** @param {MouseEvent} event */
     function clicked(event) {
-        const target = event.target instanceof Element ? event.target.closest(".row") : null;
-        if (!target || !own.window) return;
-        const at = own.rows[Number(target.id.slice(5))], { message, who } = events.about(own.run, own.window, at);
+        if (event.detail !== 2) own.chosen = event_at(event);  // the first click has moved the rows
+        const at = own.chosen;
+        if (at < 0 || !own.window) return;
+        const { message, who } = events.about(own.run, own.window, at);
         clock.seek(own.window.time[at]);
         if (event.detail === 2 && message >= 0 && message < own.run.messages) selection.set({ message, panel: "message" });
         else if (who >= 0) selection.choose(who);
@@ -165,6 +189,7 @@ const list = (() => {
             draw(true);
         }).observe(dom.by_id("events"));
         dom.by_id("events").addEventListener("click", clicked);
+        dom.by_id("events").addEventListener("mouseover", pointed);
     }
 
     /** The events of the last block are more than before. */

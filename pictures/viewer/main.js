@@ -78,6 +78,7 @@ const main = (() => {
         camera.aim(state, r.head);
         flights.begin();
         compare.update(state);
+        list.play();  // first of all panels: it asks where it is scrolled to, which is costly once others have changed the page
         const maps = sides.shown(), c = dom.sized(dom.canvas("map"), sides.left(maps.length) - sides.left(1) + camera.now.width, camera.now.height);
         const whole = maps.map((i, nth) => draw_map(c, i, nth)).every(Boolean);
         if (maps.length > 1) {
@@ -91,7 +92,6 @@ const main = (() => {
         controls.status(whole);
         if (live.is_live()) introduce();
         filters.update(state);
-        list.play();
         message_panel.update(state);
         robot_panel.update(state);
         links.update(state);
@@ -122,7 +122,7 @@ const main = (() => {
         const { all } = sides.own, [{ run: { head, duration } }] = all, is_one = all.length === 1;
         const title = all.map(side => side.label).join(" | ");
         document.title = `${title} \u00b7 rovernet`;
-        dom.by_id("name").textContent = title;
+        dom.by_id("name").textContent = dom.by_id("name").title = title;
         /** @param {Side} side @param {string} text */
         const of_run = (side, text) => is_one ? text : `${side.label[0]}: ${text}`;
         dom.by_id("caption").textContent = [words.counted(head.robots.length, "robot"), `${words.number(duration / run.nanoseconds)} s`,

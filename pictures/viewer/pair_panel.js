@@ -44,7 +44,7 @@ const pair_panel = (() => {
         }
         const answer = dom.make("div", "");
         answer.id = "pair-answer";
-        panel.replaceChildren(dom.make("h2", "", `${words.shortened(words.visible(own.run.name(a)), 24)} and ${words.shortened(words.visible(own.run.name(b)), 24)}`), between(a, b, state.t),
+        panel.replaceChildren(dom.make("h2", "", `${words.short(own.run.name(a), 24)} and ${words.short(own.run.name(b), 24)}`), between(a, b, state.t),
             server.is_served() ? dom.make("p", "actions", dom.button("budget at this time", "", () => ask(a, b))) : dom.make("p", "muted", server.how), answer);
     }
 

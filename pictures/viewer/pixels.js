@@ -46,11 +46,17 @@ const pixels = (() => {
         if (y - reach < box.top) box.top = y - reach;
         if (x + reach >= box.right) box.right = x + reach + 1;
         if (y + reach >= box.bottom) box.bottom = y + reach + 1;
-        const inside = x >= reach && y >= reach && x + reach < width && y + reach < height;
+        if (x >= reach && y >= reach && x + reach < width && y + reach < height) {
+            for (let i = 0; i < n; i++) {
+                const at = middle + offset[i], part = cover[i];
+                if (part > words[at] >>> 24) words[at] = part << 24 | color;
+            }
+            return;
+        }
         for (let i = 0; i < n; i++) {
             const at = middle + offset[i], part = cover[i];
             if (part <= words[at] >>> 24) continue;
-            if (inside || x + dx[i] >= 0 && x + dx[i] < width && y + dy[i] >= 0 && y + dy[i] < height) words[at] = part << 24 | color;
+            if (x + dx[i] >= 0 && x + dx[i] < width && y + dy[i] >= 0 && y + dy[i] < height) words[at] = part << 24 | color;
         }
     }
 
@@ -90,12 +96,15 @@ const pixels = (() => {
         return red | green << 8 | blue << 16;
     }
 
-    /** Square around a place. @param {number} x [px] @param {number} y @param {number} size @param {number} color */
-    function square(x, y, size, color) {
+    /** Squares around places. @param {Float64Array} xs [px] @param {Float64Array} ys @param {(i: number) => boolean} wanted @param {number} size @param {number} color */
+    function squares(xs, ys, wanted, size, color) {
         const { ratio } = own;
         if (size * ratio !== own.size) [own.size, own.squares] = [size * ratio, squares_of(size * ratio)];
-        const left = Math.floor(x * ratio), top = Math.floor(y * ratio);
-        put(own.squares[Math.floor((y * ratio - top) * parts) * parts + Math.floor((x * ratio - left) * parts)], left, top, color);
+        for (let i = 0; i < xs.length; i++) {
+            if (!wanted(i)) continue;
+            const x = xs[i] * ratio, y = ys[i] * ratio, left = Math.floor(x), top = Math.floor(y);
+            put(own.squares[Math.floor((y - top) * parts) * parts + Math.floor((x - left) * parts)], left, top, color);
+        }
     }
 
     /** Ring around a place; false if it is too large. @param {number} x [px] @param {number} y @param {number} radius @param {number} color */
@@ -129,5 +138,5 @@ const pixels = (() => {
         for (let i = 0; i < ends.length; i += 2) put(stamp, Math.floor((ends[i] + 9) * ratio), Math.floor((ends[i + 1] - 9) * ratio), color);
     }
 
-    return { begin, square, ring, marks, paint, word };
+    return { begin, squares, ring, marks, paint, word };
 })();

@@ -32,6 +32,8 @@ const robot_panel = (() => {
             ["speed", `${speed.toFixed(2)} m/s`],
             ["state", [on ? "on" : "off", word].filter(Boolean).join(", ")]
         ]);
+        const queue = on && own.blocks.queue(robot, state.t);
+        if (queue) out.push(["queue", `${words.counted(queue.frames, "frame")}${queue.frames < 255 ? "" : " or more"}, as it sent at ${words.seconds(queue.since, 6)} s`]);
         if (r.head.map.floors.length > 1) out.splice(1, 0, ["storey", `${r.storey(pose.z) + 1} of ${r.head.map.floors.length}`]);
         return out;
     }
@@ -75,7 +77,7 @@ const robot_panel = (() => {
         own.messages = key;
         const r = own.run, rows = some.map(message => dom.make("li", "",
             dom.button(r.message_text(message), "link", () => selection.set({ message, panel: "message" })),
-            dom.make("span", "muted", ` of ${words.shortened(words.visible(r.name(r.col("messages.origin")[message])), 20)}, ${words.seconds(r.col("messages.created")[message], 3)} s`)));
+            dom.make("span", "muted", ` of ${words.short(r.name(r.col("messages.origin")[message]), 20)}, ${words.seconds(r.col("messages.created")[message], 3)} s`)));
         dom.by_id("robot-messages").replaceChildren(...(rows.length ? rows : [dom.make("li", "muted", "none until now")]));
     }
 
@@ -83,7 +85,7 @@ const robot_panel = (() => {
     function facts_of_air(air) {
         /** @param {number} share */
         const percent = share => typeof share === "number" ? `${words.number(100 * share, 3)}\u2009%` : "\u2013";
-        const senders = air.senders.map((/** @type {any} */ one) => `${words.shortened(words.visible(one.robot), 16)} ${percent(one.share)}`);
+        const senders = air.senders.map((/** @type {any} */ one) => `${words.short(one.robot, 16)} ${percent(one.share)}`);
         return [["busy", `${percent(air.busy)} of ${words.span((air.to_s - air.from_s) * run.nanoseconds)}`],
             ["its own", `${percent(air.sending)}, ${words.counted(air.frames_sent, "frame")}`],
             ["of others", [words.counted(air.frames_heard, "frame"), ...senders].join(", ")]];
@@ -114,7 +116,7 @@ const robot_panel = (() => {
         const actions = dom.make("p", "actions", dom.button("its events", "", () => selection.set({ filter: { ...selection.state.filter, robot }, panel: "events" })),
             dom.button("coverage", "", () => coverage.toggle(robot)));
         if (server.is_served()) actions.append(coverage.choice());
-        dom.by_id("robot-panel").replaceChildren(dom.make("h2", "", words.shortened(words.visible(own.run.name(robot)), 60)), place, actions,
+        dom.by_id("robot-panel").replaceChildren(dom.make("h2", "", words.short(own.run.name(robot), 60)), place, actions,
             ...drive.parts(robot), dom.make("h3", "", live.is_live() ? "Until now" : "In the whole run"), counters(robot),
             dom.make("h3", "", "Radio"), dom.facts(radio(robot)), ...asked("Neighbours", "robot-neighbours", "robot", robot, neighbours),
             ...asked("Air", "robot-air", "air", robot, answer => dom.facts(facts_of_air(answer))),

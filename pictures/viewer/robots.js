@@ -103,9 +103,7 @@ const robots = (() => {
         const size = Math.min(2 * least_radius - 2, Math.max(1.5, 0.35 * Math.sqrt(shown / at.x.length)));
         for (const on of [1, 0]) {
             const color = pixels.word(on ? theme.colors().muted : theme.colors().off);
-            for (let i = 0; i < at.x.length; i++) {
-                if (at.on[i] === on && at.storey[i] === state.storey) pixels.square(at.x[i], at.y[i], size, color);
-            }
+            pixels.squares(at.x, at.y, i => at.on[i] === on && at.storey[i] === state.storey, size, color);
         }
     }
 
@@ -118,7 +116,7 @@ const robots = (() => {
         c.textBaseline = "middle";
         c.lineJoin = "round";
         for (const i of shown) {
-            const text = words.shortened(words.visible(r.name(i)), 24), width = c.measureText(text).width, reach = radius(r, i) + 6, half = size / 2 + 1;
+            const text = words.short(r.name(i), 24), width = c.measureText(text).width, reach = radius(r, i) + 6, half = size / 2 + 1;
             const { [i]: x } = at.x, { [i]: y } = at.y;
             const places = [[x + reach, y], [x - reach - width, y], [x - width / 2, y - reach - half], [x - width / 2, y + reach + half]];
             const inside = places.filter(([left]) => left >= 0 && left + width <= camera.now.width);
@@ -155,7 +153,7 @@ const robots = (() => {
             }
             c.closePath();
             c.stroke();
-            if (++named <= most_named / 4) c.fillText(`${words.shortened(words.visible(r.name(i)), 24)}, storey ${at.storey[i] + 1}`, at.x[i] + size + 4, at.y[i]);
+            if (++named <= most_named / 4) c.fillText(`${words.short(r.name(i), 24)}, storey ${at.storey[i] + 1}`, at.x[i] + size + 4, at.y[i]);
         }
         c.globalAlpha = 1;
     }

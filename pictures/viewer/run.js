@@ -21,7 +21,7 @@ const run = (() => {
     /** @param {Numbers} column @param {number} below @param {string} what */
     function check_below(column, below, what) {
         for (let i = 0; i < column.length; i++) {
-            if (column[i] >= below) rvw.refuse(`The view file is damaged: ${what} ${i} is out of range.`);
+            if (column[i] >= below) rvw.damaged(`${what} ${i} is out of range.`);
         }
     }
 
@@ -54,7 +54,7 @@ const run = (() => {
 
         /** @param {string} name @returns {Numbers} */
         col(name) {
-            return this.columns[name] ?? rvw.refuse(`The view file is damaged: the column ${name} is missing.`);
+            return this.columns[name] ?? rvw.damaged(`the column ${name} is missing.`);
         }
 
         /** Sorts changes of states by robot. @param {number} from number of the first one */
@@ -156,7 +156,7 @@ const run = (() => {
         /** @param {string[]} names */
         const same_length = names => {
             for (const name of names) {
-                if (r.col(name).length !== r.col(names[0]).length) rvw.refuse(`The view file is damaged: ${name} has a wrong length.`);
+                if (r.col(name).length !== r.col(names[0]).length) rvw.damaged(`${name} has a wrong length.`);
             }
         };
         for (const group of ["legs.", "states.", "doors.", "messages.", "drops.", "links."]) {
@@ -164,12 +164,12 @@ const run = (() => {
         }
         const walls = r.col("walls.material").length;
         if (r.col("walls.x").length !== 4 * walls || r.col("walls.y").length !== 4 * walls || r.col("walls.storey").length !== walls) {
-            rvw.refuse("The view file is damaged: its walls have wrong lengths.");
+            rvw.damaged("its walls have wrong lengths.");
         }
         const first = r.col("legs.first"), legs = r.col("legs.x").length;
-        if (first.length !== r.robots + 1) rvw.refuse("The view file is damaged: legs.first has a wrong length.");
+        if (first.length !== r.robots + 1) rvw.damaged("legs.first has a wrong length.");
         for (let i = 0; i < r.robots; i++) {
-            if (first[i] >= first[i + 1] || first[i + 1] > legs) rvw.refuse(`The view file is damaged: robot ${i} has no legs.`);
+            if (first[i] >= first[i + 1] || first[i + 1] > legs) rvw.damaged(`robot ${i} has no legs.`);
         }
         check_below(r.col("states.robot"), r.robots, "states.robot");
         check_below(r.col("doors.door"), r.head.map.doors.length, "doors.door");
@@ -179,7 +179,7 @@ const run = (() => {
         if (r.columns["links.time"]) for (const end of ["links.from", "links.to"]) check_below(r.col(end), r.robots, end);
         check_below(r.col("drops.robot"), r.robots, "drops.robot");
         for (const { message, robot } of r.head.follow) {
-            if (message >= r.messages || robot >= r.robots) rvw.refuse("The view file is damaged: follow names nobody.");
+            if (message >= r.messages || robot >= r.robots) rvw.damaged("follow names nobody.");
         }
     }
 
@@ -194,13 +194,13 @@ const run = (() => {
             columns[name] = await rvw.column(file, name, "u32");
             if (file.head.live && columns[name].length === 0) columns[name] = new Uint32Array(file.head.density[level].bins * head_check.outcomes);
             if (columns[name].length !== file.head.density[level].bins * head_check.outcomes) {
-                rvw.refuse(`The view file is damaged: ${name} has a wrong length.`);
+                rvw.damaged(`${name} has a wrong length.`);
             }
         }
         for (let i = 0; i < file.head.series.length; i++) {
             const name = `series.${i}`;
             columns[name] = await rvw.column(file, name, "f64");
-            if (columns[name].length !== file.head.series[i].points || columns[name].length === 0) rvw.refuse(`The view file is damaged: ${name} has a wrong length.`);
+            if (columns[name].length !== file.head.series[i].points || columns[name].length === 0) rvw.damaged(`${name} has a wrong length.`);
         }
         const out = new Run(file, columns, await rvw.texts(file, "messages.payload"));
         check(out);

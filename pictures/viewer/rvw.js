@@ -27,6 +27,9 @@ const rvw = (() => {
     /** @param {string} sentence @returns {never} */
     function refuse(sentence) { throw new ViewError(sentence); }
 
+    /** @param {string} what @returns {never} */
+    function damaged(what) { return refuse(`The view file is damaged: ${what}`); }
+
     /** @param {Uint8Array} packed @param {number} bytes most that may come out */
     async function inflate(packed, bytes) {
         const out = new Uint8Array(bytes);
@@ -61,19 +64,19 @@ const rvw = (() => {
         try {
             head = JSON.parse(new TextDecoder().decode(bytes.subarray(8, 8 + length)));
         } catch {
-            refuse("The view file is damaged: its head is no JSON.");
+            damaged("its head is no JSON.");
         }
         if (!head || head.rvw !== version) {
             refuse(`The view file has format ${head && head.rvw}; this page reads ${version}.`);
         }
         const body = bytes.subarray(8 + length);
         const wrong = fault(head);
-        if (wrong) refuse(`The view file is damaged: its head has no usable ${wrong}.`);
+        if (wrong) damaged(`its head has no usable ${wrong}.`);
         const sections = new Map();
         for (const s of head.sections) {
             const good = s && typeof s.name === "string" && Object.hasOwn(sizes, s.type) &&
                 is_count(s.count) && is_count(s.offset) && is_count(s.bytes);
-            if (!good) refuse("The view file is damaged: its list of columns is broken.");
+            if (!good) damaged("its list of columns is broken.");
             if (s.offset + s.bytes > body.length) refuse(`The view file is cut off: ${s.name} lies beyond its end.`);
             sections.set(s.name, s);
         }
@@ -83,23 +86,23 @@ const rvw = (() => {
     /** @param {ViewFile} file @param {string} name @returns {Promise<{section: Section, bytes: Uint8Array}>} */
     async function unpacked(file, name) {
         const section = file.sections.get(name);
-        if (!section) return refuse(`The view file is damaged: the column ${name} is missing.`);
+        if (!section) return damaged(`the column ${name} is missing.`);
         const size = sizes[section.type] ?? 1;
         if (section.raw) {
-            if (section.type !== "text" && section.bytes !== size * section.count) return refuse(`The view file is damaged: ${name} has ${section.bytes} bytes.`);
+            if (section.type !== "text" && section.bytes !== size * section.count) return damaged(`${name} has ${section.bytes} bytes.`);
             return { section, bytes: file.body.slice(section.offset, section.offset + section.bytes) };
         }
         const most = section.type === "text" ? best_ratio * section.bytes + 64 : size * section.count;
-        if (most > best_ratio * section.bytes + 64) return refuse(`The view file is damaged: ${name} is too short.`);
+        if (most > best_ratio * section.bytes + 64) return damaged(`${name} is too short.`);
         const packed = file.body.subarray(section.offset, section.offset + section.bytes);
         let bytes;
         try {
             bytes = await file.inflate(packed, most);
         } catch (error) {
-            return refuse(`The view file is damaged: the column ${name} cannot be unpacked.`);
+            return damaged(`the column ${name} cannot be unpacked.`);
         }
         if (section.type !== "text" && bytes.length !== most) {
-            return refuse(`The view file is damaged: ${name} has ${bytes.length} bytes, expected ${most}.`);
+            return damaged(`${name} has ${bytes.length} bytes, expected ${most}.`);
         }
         return { section, bytes: bytes.byteOffset % 8 ? bytes.slice() : bytes };
     }
@@ -113,13 +116,13 @@ const rvw = (() => {
             t += parts[i] + 4294967296 * parts[count + i];
             out[i] = t;
         }
-        return t <= Number.MAX_SAFE_INTEGER ? out : refuse("The view file is damaged: a time is too large.");
+        return t <= Number.MAX_SAFE_INTEGER ? out : damaged("a time is too large.");
     }
 
     /** Column of numbers. @param {ViewFile} file @param {string} name @param {string} [type] that it must have @returns {Promise<Numbers>} */
     async function column(file, name, type) {
         const { section, bytes } = await unpacked(file, name);
-        if (type && section.type !== type) return refuse(`The view file is damaged: ${name} is of type ${section.type}.`);
+        if (type && section.type !== type) return damaged(`${name} is of type ${section.type}.`);
         const n = section.count;
         switch (section.type) {
             case "u8": return bytes;
@@ -128,7 +131,7 @@ const rvw = (() => {
             case "f32": return new Float32Array(bytes.buffer, bytes.byteOffset, n);
             case "f64": return new Float64Array(bytes.buffer, bytes.byteOffset, n);
             case "time": return times(bytes, n);
-            default: return refuse(`The view file is damaged: ${name} is no column of numbers.`);
+            default: return damaged(`${name} is no column of numbers.`);
         }
     }
 
@@ -136,11 +139,11 @@ const rvw = (() => {
     async function texts(file, name) {
         const { section, bytes } = await unpacked(file, name);
         const start = 4 * (section.count + 1);
-        if (section.type !== "text" || bytes.length < start) return refuse(`The view file is damaged: ${name} holds no texts.`);
+        if (section.type !== "text" || bytes.length < start) return damaged(`${name} holds no texts.`);
         const offsets = new Uint32Array(bytes.buffer, bytes.byteOffset, section.count + 1);
         const decoder = new TextDecoder();
         return i => decoder.decode(bytes.subarray(start + offsets[i], start + offsets[i + 1]));
     }
 
-    return { ViewError, version, refuse, open, column, texts };
+    return { ViewError, version, refuse, damaged, open, column, texts };
 })();

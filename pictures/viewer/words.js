@@ -46,5 +46,8 @@ const words = (() => {
         return text.replace(/[\p{Cc}\p{Cf}\p{Zl}\p{Zp}]/gu, c => `\u27e8${(c.codePointAt(0) ?? 0).toString(16).toUpperCase().padStart(4, "0")}\u27e9`);
     }
 
-    return { seconds, span, number, count, counted, shortened, visible };
+    /** A foreign name, as it is shown. @param {string} name @param {number} most */
+    function short(name, most) { return shortened(visible(name), most); }
+
+    return { seconds, span, number, count, counted, shortened, visible, short };
 })();

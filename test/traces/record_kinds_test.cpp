@@ -251,7 +251,7 @@ TEST_CASE("kinds of records: layouts of recorded traces are pinned") {
         "node:v on:b",
         "from:v to:v",
         "from:v to:v",
-        air + " bytes:v header:v airtime:z rate:d",
+        air + " bytes:v header:v airtime:z rate:d queue:v",
         air + " node:v fate:b(2 fate + delivered) bytes:v",
         frame + " heard_from:node?",
     };

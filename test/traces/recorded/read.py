@@ -119,7 +119,7 @@ def lines(number, time, m, uids):
     elif number in (10, 11):
         yield f"{time} {'LinkUp' if number == 10 else 'LinkDown'} {m.v()} {m.v()}"
     elif number == 12:
-        yield f"{time} AirSent {air(m, uids)} {m.v()} {m.v()} {m.z()} {m.d()}"
+        yield f"{time} AirSent {air(m, uids)} {m.v()} {m.v()} {m.z()} {m.d()} {m.v()}"
     elif number == 13:
         yield f"{time} ControlReceived {air(m, uids)} {m.v()} {fate(m.b())} {m.v()}"
     elif number == 30:
