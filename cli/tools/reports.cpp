@@ -103,7 +103,7 @@ void print_parameters(const Table& model) {
     }
 }
 
-/// Entry of list_models() with this name. @throws InputError if there is none
+/// Entry of list_models() with this name. @throws std::invalid_argument if there is none
 Value model_called(const std::string& name) {
     std::vector<std::string> names;
     for (const Value& model : list_models()) {
@@ -111,9 +111,9 @@ Value model_called(const std::string& name) {
         if (names.back() == name) return model;
     }
     const std::string near = did_you_mean(name, names);
-    throw InputError({name, 0, 0, true},
-                     fmt::format("no propagation model; expected one of {}{}{}",
-                                 fmt::join(names, ", "), near.empty() ? "" : "; ", near));
+    throw std::invalid_argument(
+        fmt::format("unknown propagation model \"{}\"; expected one of {}{}{}", name,
+                    fmt::join(names, ", "), near.empty() ? "" : "; ", near));
 }
 
 }  // namespace

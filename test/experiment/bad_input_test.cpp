@@ -563,7 +563,7 @@ TEST_CASE("bad input: a typing error on the command line gets a suggestion") {
           std::pair{"run s.toml --sede 3", "option \"--sede\"; did you mean \"--seed\"?"},
           std::pair{"--verison", "option \"--verison\"; did you mean \"--version\"?"},
           std::pair{"run s.toml --xyz", "unknown option \"--xyz\"; run with --help for more"},
-          std::pair{"models extra", "rovernet: unexpected \"extra\"; run with"}}) {
+          std::pair{"version extra", "rovernet: unexpected \"extra\"; run with"}}) {
         const Ended ended = command(folder, arguments);
         CAPTURE(ended.err);
         CHECK(ended.exit == 2);
