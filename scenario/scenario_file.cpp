@@ -135,7 +135,7 @@ bool is_movement(const std::string& path) {
 Value movement_alone(const std::string& path) {
     Table movement, scenario, document;
     const MovementFile file(path, MovementSyntax::tolerant);
-    if (file.robots().empty()) {
+    if (begins_as_tcl(path) && file.robots().empty()) {
         throw InputError({path},
                          "no line places or moves a robot; expected a movement file with "
                          "lines such as $node_(0) set X_ 10.0; rovernet help "
