@@ -37,9 +37,10 @@ void copy_runs(const Store& from, Store& to, std::uint32_t below) {
 void merge(Store& store, const std::string& path) {
     const Store shard = Store::open(path);
     if (shard.property("version") != store.property("version")) {
-        throw InputError({path}, fmt::format("runs of version {}, but {} has those of {}",
-                                             shard.property("version"), store.path(),
-                                             store.property("version")));
+        throw InputError(
+            {path},
+            fmt::format("its runs are of version {}, but the runs in {} are of version {}",
+                        shard.property("version"), store.path(), store.property("version")));
     }
     std::set<std::string> ours;
     for (const StoredPoint& point : store.points()) ours.insert(point.id);

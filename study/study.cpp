@@ -137,7 +137,9 @@ std::vector<Table> study_points(const StudyTable& study, const Location& where) 
         }
         if (!is_excluded(study, settings)) points.push_back(std::move(settings));
     }
-    if (points.empty()) throw InputError(where, "exclude: leaves no point; expected fewer of them");
+    if (points.empty())
+        throw InputError(where,
+                         "exclude: excludes every point of the study; remove some of its tables");
     return points;
 }
 

@@ -55,9 +55,8 @@ void check_options_of_table(const PlotArguments& a) {
                                                   {"--beside", !a.beside.empty()}};
     for (const auto& [option, is_given] : given) {
         if (is_given) {
-            throw std::invalid_argument(
-                fmt::format("{}: expected a store of a study; the table {} has numbers and no runs",
-                            option, a.store));
+            throw std::invalid_argument(fmt::format(
+                "{}: expected a store of a study; the table {} has no runs", option, a.store));
         }
     }
 }

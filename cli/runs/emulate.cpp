@@ -146,13 +146,12 @@ void add_emulate(Command app) {
     a.view.add_to(command);
     command.add_option("--speed", a.speed, "speed relative to real time (default: 1)")
         .check(above_zero());
-    command
-        .add_option("--late", a.late, "longest real time by which the run may lag behind the clock")
+    command.add_option("--late", a.late, "longest time by which the run may lag behind real time")
         .shows_default();
     command
-        .add_option(
-            "--on-late", a.on_late,
-            "what to do when the run lags further behind: warn (once), or fail (end the run)")
+        .add_option("--on-late", a.on_late,
+                    "what to do when the run lags behind by more than --late: warn (once), or fail "
+                    "(end the run)")
         .one_of({"warn", "fail"})
         .shows_default();
     command.add_option("--out", a.out, "folder for the results (default: as for rovernet run)");

@@ -63,7 +63,8 @@ void add_scene(Command app) {
 
 void add_where(Command app) {
     const auto [where, a] = add_command(
-        app, "where", "Print where every robot is, or where one has no link", cli::where);
+        app, "where",
+        "Print the position of every robot, or the places where one robot has no link", cli::where);
     where.add_examples({"rovernet where examples/rescue/rescue.toml --at 10s,31.25s",
                         "rovernet where examples/patrol/patrol.toml --robot guard --to desk"});
     add_file(where, a, any_file);

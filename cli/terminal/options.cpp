@@ -107,10 +107,11 @@ void add_json(Command command, bool& json) {
 
 void add_interval(Command command, std::optional<std::string>& interval) {
     command
-        .add_option("--interval", interval,
-                    "method of the confidence intervals of means: t, betting or star (default: "
-                    "t; for metrics with a smallest and a largest possible value star, or betting "
-                    "if the study has a precision)")
+        .add_option(
+            "--interval", interval,
+            "method of the confidence intervals of means: t, betting or star (default: "
+            "star for metrics with a smallest and a largest possible value, betting for these "
+            "metrics if the study has a precision, t for other metrics)")
         .one_of({"t", "betting", "star"});
 }
 

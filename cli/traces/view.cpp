@@ -292,8 +292,7 @@ void add_view(Command app) {
             "KEY=VALUE of a different radio or model (several are separated by \";\"): show a "
             "second run with it, in which robots move and send messages as in the first run")
         .one_word();
-    view.add_option("--movements", a.movements,
-                    "of an ns-2 trace: the movement file that moved its robots");
+    view.add_option("--movements", a.movements, "for an ns-2 trace: movement file of its robots");
     view.add_option("-o,--output", a.out,
                     "write the page to this file, which needs no server, instead of serving it");
     view.add_flag("--open", a.opens, "open the page in a browser, by xdg-open");

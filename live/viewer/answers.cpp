@@ -109,8 +109,8 @@ Table ViewerAnswers::why(const JsonElement& question) const {
     const IndexedTrace trace = running_ ? history_.of_message(uid) : trace_;
     if (trace.path.empty()) {
         throw RequestError("not_kept", "uid",
-                           fmt::format("what happened to message {} is not kept: it was sent "
-                                       "before pages looked on, or too long ago",
+                           fmt::format("there are no records of message {}: it was sent "
+                                       "before a page was connected, or too long ago",
                                        uid));
     }
     return document_of(message_at_robot(trace.path, uid, node, trace.index.get()));

@@ -58,7 +58,7 @@ class WaypointLine {
                 .first = !before_,
                 .column = n.word().column};
         if (before_ && now_.time < before_->time) {
-            fail_at(n.line(), n.word(), "a later time than that of the waypoint before");
+            fail_at(n.line(), n.word(), "a later time than that of the previous waypoint");
         }
     }
     std::optional<Waypoint> complete(const BonnMotionNumbers& n) {
@@ -67,7 +67,7 @@ class WaypointLine {
             Location where = n.line();
             where.column = now_.column;
             throw InputError(where,
-                             "found another place at the time of the waypoint before, "
+                             "found a different place at the time of the previous waypoint, "
                              "expected a time at least 1 ns later");
         }
         before_ = now_;

@@ -221,7 +221,7 @@ KnownLinks LinkSample::grow(std::uint32_t replications, const std::function<void
     if (pairs.empty()) {
         throw InputError(
             {s.played.file, 0, 0},
-            fmt::format("no two robots come within reach of {}; there are no links to look at",
+            fmt::format("no two robots come within the range of {}, so there are no links",
                         s.reference.name()));
     }
     KnownLinks out;

@@ -203,7 +203,8 @@ std::string decision_sentence(const ValidationPanel& panel) {
     const ValidationPoint &truth = panel.points[0], &ours = panel.points[1];
     const double flipped = detail_of(ours, "flipped");
     std::string out = fmt::format(
-        "{} {} decides as the true way does in {}, at {:.2g} of its cost.", panel.title, ours.label,
+        "{} {} makes the same decisions as the exact method in {}, at {:.2g} of its cost.",
+        panel.title, ours.label,
         flipped == 0 ? "every case" : fmt::format("all but {:g} cases", flipped),
         ours.cost.median / truth.cost.median);
     for (std::size_t i = 2; i < panel.points.size(); ++i) {
@@ -223,7 +224,8 @@ ValidationChart decisions_chart(const ValidationSize& size, Promises& promises) 
         .name = "decisions",
         .title = "Is the link up, without its loss?",
         .truth =
-            "True is the loss itself, by logarithms, against a budget of 90 dB at 2450 MHz: "
+            "The reference is the loss itself, by logarithms, against a budget of 90 dB at 2450 "
+            "MHz: "
             "distances within 1 % of the range of friis; log_distance with 6 dB of shadowing, "
             "0.1 to 1.9 times its median range; two frames from anywhere within 300 m.",
         .panels = {by_distance(size), by_pair(size), by_level(size)},

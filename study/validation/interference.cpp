@@ -102,7 +102,7 @@ ValidationChart interference_cut_chart(const ValidationSize& size) {
             .title = "How weak may a frame be and still interfere?",
             .truth =
                 fmt::format("60 robots send at random, a message each 10 ms, {} replications under "
-                            "`sinr`. True is a cut of "
+                            "`sinr`. The reference is a cut of "
                             "{:g} dB, which leaves out only frames that are 10 dB below the noise. "
                             "CPU of the whole run.",
                             replications, complete_cut),
@@ -123,7 +123,7 @@ ValidationChart reception_chart(const ValidationSize& size) {
     ValidationChart chart{
         .name = "reception",
         .title = "Which model of reception?",
-        .truth = fmt::format("60 robots send at random, {} replications. True is `sinr` "
+        .truth = fmt::format("60 robots send at random, {} replications. The reference is `sinr` "
                              "with all interference. CPU of the whole run.",
                              replications),
         .panels = {delivery_panel("a message each 100 ms", storm("100 ms"), variants, replications),

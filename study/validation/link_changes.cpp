@@ -251,7 +251,8 @@ ValidationChart link_changes_chart(const ValidationSize& size, Promises& promise
             .title = "When does a link come up or go down?",
             .truth = fmt::format(
                 "Two robots cross straight in {:g} s: {} times on an open field, {} times in an "
-                "office. True is where two straight lines come within range of one another; in "
+                "office. The reference is where two straight lines come within range of one "
+                "another; in "
                 "the office, a look every {:g} ms, then halved down to a nanosecond.",
                 seconds(passing), open.all.size(), walled.all.size(), 1e3 * seconds(fine)),
             .panels = {by_distance, by_walls},

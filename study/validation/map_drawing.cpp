@@ -155,7 +155,8 @@ ValidationChart map_drawing_chart(const ValidationSize& size) {
         .title = "How fine must a map be, and drawn how?",
         .truth = fmt::format(
             "{} links in an office at 20 degrees to the cells of its maps; each model with its "
-            "defaults. True is the same model on the walls as they stand; outline: only those "
+            "defaults. The reference is the same model on the walls as they stand; outline: only "
+            "those "
             "cells of a wall are drawn that touch a free one.",
             links.size())};
     for (const Propagation& model : models_that_see(exact, links)) {

@@ -119,7 +119,7 @@ ValidationChart shadowing_chart(const ValidationSize& size) {
         .name = "shadowing",
         .title = "How often does shadowing flip a link?",
         .truth = fmt::format("{} walks of {:g} m at 1 m/s, the peer at rest, at a margin of 0 dB. "
-                             "True is the rate of a normal process whose correlation is "
+                             "The reference is the rate of a normal process whose correlation is "
                              "exp(-D / {:g} m).",
                              seeds, walk, decorrelation),
         .panels = {flips_panel(1, seeds, size), flips_panel(0.1, seeds, size)}};

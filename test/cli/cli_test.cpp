@@ -144,7 +144,7 @@ TEST_CASE("run: the printed scenario and scenario.toml in the folder give the sa
     CHECK(fingerprint(folder.path("again.toml")) == expected);
 }
 
-TEST_CASE("run --seed and --set change the run; the same seed again gives the same") {
+TEST_CASE("run: --seed and --set change the run; the same seed gives the same run") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", relay), out = folder.path("out");
     const auto fingerprint = [&](const std::string& option, const std::string& value) {

@@ -77,7 +77,7 @@ TEST_CASE("input: an endless file is refused without reading all of it") {
         contains(ended.err, "/dev/zero: cannot read the file: it is a device, not a regular file"));
 }
 
-TEST_CASE("input: a file of a wrong kind is named with its kind, and with the right command") {
+TEST_CASE("input: for a file of the wrong kind the error states its kind and the right command") {
     const TemporaryFolder folder;
     const auto said = [&](const std::string& name, const std::string& text) {
         const Ended ended = command(folder, {"run", folder.write(name, text)});

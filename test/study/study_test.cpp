@@ -83,7 +83,7 @@ TEST_CASE("study: a point is skipped if all keys of an exclusion have one of its
     CHECK(points_of("vary.a = [1, 2]\nvary.b = [7, 8]\nexclude = [{ a = 1 }, { b = 8 }]") ==
           Texts{"a=2, b=7"});
     CHECK_THROWS_WITH_AS(points_of("vary.a = [1]\nexclude = [{ a = 1 }]"),
-                         doctest::Contains("leaves no point"), InputError);
+                         doctest::Contains("excludes every point"), InputError);
 }
 
 TEST_CASE("study: a range includes both ends, without rounding digits") {

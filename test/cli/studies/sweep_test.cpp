@@ -512,7 +512,7 @@ TEST_CASE("compare: uses the values that a store has, and runs the missing ones"
     CHECK(joined["rows"].size() == 7);
 }
 
-TEST_CASE("compare: of a store with more replications, uses the requested ones") {
+TEST_CASE("compare: uses only the requested replications of a store that has more") {
     const Place place;
     CHECK(command(place.folder, {"sweep", place.file, "--replications", "6"}).exit == 0);
     const auto with = [&](const std::vector<std::string>& more) {

@@ -99,7 +99,7 @@ TEST_CASE("fcd: a robot in a first timestep after the start appears at that time
     CHECK(near(p.position("a", 1.5), {7, 0, 0}));
 }
 
-TEST_CASE("fcd: persons and containers are robots; z counts; a parked car stays") {
+TEST_CASE("fcd: persons and containers are robots; z is read; a parked car stays") {
     const auto p = played(
         fcd(step("0",
                  "<person id='p' y='1' x='2' z='3.5' edge='e'/><container id='c' x='0' "

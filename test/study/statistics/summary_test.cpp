@@ -178,7 +178,7 @@ TEST_CASE("replications needed: equals the bank example in Law's book, 16 for 0.
     CHECK(replications_needed(ten(2.03, 0.31), 0.25, 0.90) == 16);
 }
 
-TEST_CASE("replications needed: is the first sufficient number of all numbers") {
+TEST_CASE("replications needed: is the smallest sufficient number") {
     for (const double wanted : {3.0, 0.7, 0.5, 0.2, 0.1, 0.07}) {
         const auto enough = [&](std::size_t n) {
             Summary more = ten(0, 1);
