@@ -203,14 +203,15 @@ std::string decision_sentence(const ValidationPanel& panel) {
     const ValidationPoint &truth = panel.points[0], &ours = panel.points[1];
     const double flipped = detail_of(ours, "flipped");
     std::string out = fmt::format(
-        "{} {} decides as the true way does in {}, at {:.2g} of its cost.", panel.title, ours.label,
-        flipped == 0 ? "every case" : fmt::format("all but {:g} cases", flipped),
+        "{} {} decides like the exact computation in {}, at {:.2g} of its cost.", panel.title,
+        ours.label, flipped == 0 ? "every case" : fmt::format("all but {:g} cases", flipped),
         ours.cost.median / truth.cost.median);
     for (std::size_t i = 2; i < panel.points.size(); ++i) {
         const ValidationPoint& p = panel.points[i];
         if (p.error > 0 && p.cost.median >= ours.cost.median) {
-            return out + fmt::format(" A {} is slower than that, and flips {:.2g} %.", p.label,
-                                     100 * p.error);
+            return out +
+                   fmt::format(" \"{}\" is slower, and decides {:.2g} % of the cases wrongly.",
+                               p.label, 100 * p.error);
         }
     }
     return out;
@@ -221,17 +222,18 @@ std::string decision_sentence(const ValidationPanel& panel) {
 ValidationChart decisions_chart(const ValidationSize& size, Promises& promises) {
     ValidationChart chart{
         .name = "decisions",
-        .title = "Is the link up, without its loss?",
+        .title = "Is the link up? Decided without the loss",
         .truth =
-            "True is the loss itself, by logarithms, against a budget of 90 dB at 2450 MHz: "
-            "distances within 1 % of the range of friis; log_distance with 6 dB of shadowing, "
-            "0.1 to 1.9 times its median range; two frames from anywhere within 300 m.",
+            "The true decision is by the loss itself, with logarithms, and a budget of 90 dB at "
+            "2450 MHz. The cases are distances within 1 % of the range of friis; log_distance "
+            "with 6 dB of shadowing, at 0.1 to 1.9 times its median range; and two frames from "
+            "random places within 300 m.",
         .panels = {by_distance(size), by_pair(size), by_level(size)},
         .for_contributors = true};
     for (const ValidationPanel& panel : chart.panels) {
         const ValidationPoint& ours = panel.points[1];
-        promises.push_back({fmt::format("decisions flipped: {} {}", panel.title, ours.label), "", 0,
-                            detail_of(ours, "flipped"), size.of(200'000, 5'000)});
+        promises.push_back({fmt::format("wrong decisions of {}: {}", ours.label, panel.title), "",
+                            0, detail_of(ours, "flipped"), size.of(200'000, 5'000)});
         chart.sentences.push_back(decision_sentence(panel));
     }
     return chart;

@@ -216,8 +216,9 @@ std::string step_sentence(const ValidationPanel& panel) {
     const ValidationPoint& exact = point_of(panel, "rovernet");
     const ValidationPoint& slow = point_of(panel, "a look each 100 ms");
     return fmt::format(
-        "{}: looking at each link every 100 ms costs {:.2g} times as much, misses {:.2g} % of the "
-        "changes and has a state wrong for {:.2g} ms per change; changes found ahead: {:.2g} ms.",
+        "{}: checking each link every 100 ms costs {:.2g} times as much as finding changes ahead, "
+        "misses {:.2g} % of the "
+        "changes, and has a wrong state for {:.2g} ms per change; changes found ahead: {:.2g} ms.",
         panel.title, slow.cost.median / exact.cost.median, detail_of(slow, "changes missed [%]"),
         slow.error, exact.error);
 }
@@ -251,8 +252,8 @@ ValidationChart link_changes_chart(const ValidationSize& size, Promises& promise
             .title = "When does a link come up or go down?",
             .truth = fmt::format(
                 "Two robots cross straight in {:g} s: {} times on an open field, {} times in an "
-                "office. True is where two straight lines come within range of one another; in "
-                "the office, a look every {:g} ms, then halved down to a nanosecond.",
+                "office. The true time is computed from the two straight motions; in the office it "
+                "is found by checks every {:g} ms, and then by halving, to a nanosecond.",
                 seconds(passing), open.all.size(), walled.all.size(), 1e3 * seconds(fine)),
             .panels = {by_distance, by_walls},
             .sentences = {step_sentence(by_distance), step_sentence(by_walls)}};

@@ -126,8 +126,9 @@ std::string cell_sentence(const ValidationPanel& panel) {
                           &coarse = point_of(panel, "20 cm", "filled"),
                           &outline = point_of(panel, "5 cm", "outline");
     return fmt::format(
-        "{}: cells of 5 cm are {:.2g} dB off ({:+.2g} dB on average), those of 20 cm, wider than a "
-        "wall, {:.2g} dB; the 5 cm map drawn as outlines is {:.2g} dB off.",
+        "{}: with cells of 5 cm the error is {:.2g} dB ({:+.2g} dB on average), with cells of 20 "
+        "cm, "
+        "which are wider than a wall, {:.2g} dB; with the 5 cm map drawn as outlines {:.2g} dB.",
         panel.title, fine.error, detail_of(fine, "bias [dB]"), coarse.error, outline.error);
 }
 
@@ -155,8 +156,8 @@ ValidationChart map_drawing_chart(const ValidationSize& size) {
         .title = "How fine must a map be, and drawn how?",
         .truth = fmt::format(
             "{} links in an office at 20 degrees to the cells of its maps; each model with its "
-            "defaults. True is the same model on the walls as they stand; outline: only those "
-            "cells of a wall are drawn that touch a free one.",
+            "defaults. The true loss is that of the same model with the exact walls; outline: only "
+            "the cells of a wall that touch a free cell are drawn.",
             links.size())};
     for (const Propagation& model : models_that_see(exact, links)) {
         chart.panels.push_back(drawing_panel(model, drawings, exact, links, size));

@@ -97,7 +97,7 @@ std::string nearest_text(const Nearest& nearest, const std::function<std::string
     constexpr std::size_t most_named = 3;
     if (nearest.alike.empty())
         return fmt::format("{} is nearest, {}", name_of(*nearest.point), off(nearest.point->error));
-    std::string out = fmt::format("{} ({}) is not told apart from ", name_of(*nearest.point),
+    std::string out = fmt::format("{} ({}) cannot be distinguished from ", name_of(*nearest.point),
                                   off(nearest.point->error));
     const std::size_t named = std::min(most_named, nearest.alike.size());
     for (std::size_t i = 0; i < named; ++i) {

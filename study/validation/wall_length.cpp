@@ -165,11 +165,10 @@ std::string naive_sentence(const ValidationPanel& panel) {
     });
     const ValidationPoint& best = *naive.point;
     return fmt::format(
-        "Of the approximations {}. {} costs {} times as much as the exact length and flips "
+        "Of the approximations, {}. It costs {} times as much as the exact length and changes "
         "{:.2g} % of the decisions.",
         nearest_text(naive, [](double error) { return fmt::format("{:.2g} dB off (rms)", error); }),
-        best.label, two_digits(best.cost.median / exact.cost.median),
-        detail_of(best, "flipped decisions [%]"));
+        two_digits(best.cost.median / exact.cost.median), detail_of(best, "flipped decisions [%]"));
 }
 
 }  // namespace
@@ -195,9 +194,9 @@ ValidationChart wall_length_chart(const ValidationSize& size, Promises& promises
     return {.name = "wall_length",
             .title = "How long is the wall on a link?",
             .truth = fmt::format(
-                "{} links in an office of 32 rooms that stands at 20 degrees to the axes. True is "
-                "the sum over all its walls, each clipped by itself; brick takes {:g} dB per "
-                "metre; a decision is whether {:g} dB bear the loss at 2450 MHz.",
+                "{} links in an office of 32 rooms that stands at 20 degrees to the axes. The true "
+                "length is the sum over all walls, each clipped by itself. Brick costs {:g} dB per "
+                "metre. A decision is whether the loss at 2450 MHz is at most {:g} dB.",
                 links.size(), rate, budget),
             .panels = {panel},
             .sentences = {naive_sentence(panel)},

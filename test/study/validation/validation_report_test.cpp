@@ -148,7 +148,7 @@ TEST_CASE("validation: a best method is named only if it is significantly better
     const Nearest nearest = nearest_to_truth(many, all);
     CHECK(nearest.point == &many.points[0]);
     CHECK(nearest.alike == std::vector<const ValidationPoint*>{&many.points[1]});
-    CHECK(nearest_text(nearest, words) == "a (2.00 dB) is not told apart from b (2.10 dB)");
+    CHECK(nearest_text(nearest, words) == "a (2.00 dB) cannot be distinguished from b (2.10 dB)");
     // Five parts tell nothing apart, however far the means are.
     CHECK(nearest_to_truth(few, all).alike.size() == 3);
     // A candidate alone, and against one that is always worse, is the nearest.
