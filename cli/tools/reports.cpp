@@ -102,8 +102,8 @@ void loss(const LossArguments& a) {
     const Meters wall = a.wall ? option_length("--wall", *a.wall) : Meters{0};
     if (a.heights.size() > 2) {
         throw InputError({"--heights", 0, 0, true},
-                         fmt::format("found {} heights; expected that of both antennas, or those "
-                                     "of the sender and of the receiver: 1.5,0.3",
+                         fmt::format("found {} heights; expected one height for both antennas, or "
+                                     "two, for the sender and the receiver: 1.5,0.3",
                                      a.heights.size()));
     }
     const Meters standard = Radio{}.antenna_height;

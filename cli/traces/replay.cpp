@@ -81,7 +81,7 @@ void verify(const ReplayArguments& a) {
     if (v.difference) throw CommandEnd(failed, a.file + ": the run differs from its trace");
     if (!v.is_identical()) {
         throw CommandEnd(failed, a.file +
-                                     ": the trace is damaged or incomplete, so that it is unknown "
+                                     ": the trace is damaged or incomplete, so it is unknown "
                                      "whether the run is the same");
     }
 }
@@ -264,8 +264,8 @@ void print_radios(const ReplayArguments& a, const Radios& radios, const std::vec
     print_rows(radios, rows);
     print_robots(radios.day, rows);
     fmt::print(
-        "\nRobots move and speak as they did; what they would decide otherwise is not "
-        "decided anew.\n");
+        "\nRobots move and send as in the trace; they do not react to the messages of the new "
+        "radio.\n");
     if (!radios.plays_first) return;
     fmt::print(
         "{}: the protocol of the trace is not simulated. Differences are to the row \"{}\".\n",

@@ -109,8 +109,8 @@ Table ViewerAnswers::why(const JsonElement& question) const {
     const IndexedTrace trace = running_ ? history_.of_message(uid) : trace_;
     if (trace.path.empty()) {
         throw RequestError("not_kept", "uid",
-                           fmt::format("what happened to message {} is not kept: it was sent "
-                                       "before pages looked on, or too long ago",
+                           fmt::format("message {} is no longer stored: it was sent before a page "
+                                       "was opened, or too long ago",
                                        uid));
     }
     return document_of(message_at_robot(trace.path, uid, node, trace.index.get()));
@@ -187,7 +187,8 @@ std::optional<Propagation> ViewerAnswers::other_model(const JsonElement& questio
     }
     const std::string with(member(question, "with").text());
     if (!with.starts_with("propagation."))
-        throw RequestError("bad_value", "with", "expected such as \"propagation.model=friis\"");
+        throw RequestError("bad_value", "with",
+                           "expected KEY=VALUE, such as \"propagation.model=friis\"");
     const auto network = network_at(replayed_->with({with}), start_of_run);
     return network->medium().stations().model(robot).median();
 }

@@ -45,8 +45,8 @@ class WaypointLine {
         in_line_ = 0;
         before_.reset();
         if (++nodes_ > most_file_robots) {
-            throw InputError(
-                n.line(), fmt::format("found another node, expected at most {}", most_file_robots));
+            throw InputError(n.line(), fmt::format("found one node too many, expected at most {}",
+                                                   most_file_robots));
         }
     }
     std::uint64_t waypoints() const { return waypoints_; }
@@ -67,7 +67,7 @@ class WaypointLine {
             Location where = n.line();
             where.column = now_.column;
             throw InputError(where,
-                             "found another place at the time of the waypoint before, "
+                             "found a different place at the same time as the waypoint before, "
                              "expected a time at least 1 ns later");
         }
         before_ = now_;

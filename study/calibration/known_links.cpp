@@ -221,8 +221,9 @@ KnownLinks LinkSample::grow(std::uint32_t replications, const std::function<void
     if (pairs.empty()) {
         throw InputError(
             {s.played.file, 0, 0},
-            fmt::format("no two robots come within reach of {}; there are no links to look at",
-                        s.reference.name()));
+            fmt::format(
+                "no two robots come within the range of {}, so there are no links to compare",
+                s.reference.name()));
     }
     KnownLinks out;
     out.seed = s.played.scenario.seed;

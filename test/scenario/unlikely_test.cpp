@@ -169,7 +169,7 @@ TEST_CASE("unlikely: pixels of a material that are not walls give a notice") {
         on_map + robot + "[scene.materials]\npane = { grey = 140, per_crossing = \"3 dB\" }\n",
         {":8:1: material \"pane\": 1 of its 1 pixels in m.png are not walls"});
     check_notice(on_map + robot + "[scene.materials]\nx = { grey = 7, per_crossing = \"3 dB\" }\n",
-                 {"material \"x\" fits no pixel of m.png"});
+                 {"material \"x\" matches no pixel of m.png"});
     check_notice(
         on_map + robot + "[scene.materials]\nx = { color = \"red\", per_crossing = \"3 dB\" }\n",
         {"material \"x\" is not used, because it has no grey"});
@@ -266,8 +266,8 @@ TEST_CASE("memory: more robots than the memory can hold are refused before any i
     CHECK(s.notices[0] == "s.toml:1:1: robots take about 2.8 GB of memory");
     const std::string refused = error_of([&] { check_memory(s, 2'000'000'000); });
     CHECK(refused ==
-          "s.toml:1:1: count: robots take about 2.8 GB of memory, and this process may have 2.0 "
-          "GB; expected fewer robots");
+          "s.toml:1:1: count: robots take about 2.8 GB of memory, but this process may use only "
+          "2.0 GB; expected fewer robots");
     CHECK(available_memory() > 100'000'000);
 }
 

@@ -84,7 +84,7 @@ TEST_CASE("probe: robots out of range and invalid counts are errors in words") {
     const std::string file = folder.write("rim.toml", rim);
     const Ended alone = command(folder, {"probe", file, "--set", "propagation.range=\"1 m\""});
     CHECK(alone.exit == 3);
-    CHECK(alone.err.find("no two robots come within reach of disc") != std::string::npos);
+    CHECK(alone.err.find("no two robots come within the range of disc") != std::string::npos);
     CHECK(command(folder, {"probe", file, "--links", "0"}).exit == 2);
 }
 

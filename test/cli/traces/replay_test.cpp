@@ -202,7 +202,7 @@ TEST_CASE("replay --store writes rows for results, and adds the rows of a second
     other.insert(other.end(), {"radio.power=0 dBm", "--routing", "direct"});
     const Ended refused = command(folder, other);
     CHECK(refused.exit == 3);
-    CHECK(refused.err.find("expected another --store") != std::string::npos);
+    CHECK(refused.err.find("expected a different --store") != std::string::npos);
     const std::string picture = folder.path("radios.svg");
     CHECK(command(folder, {"plot", store, "-x", "radio", "-y", "delivery_ratio", "-o", picture})
               .exit == 0);

@@ -204,8 +204,8 @@ TEST_CASE("bonnmotion: an invalid list of waypoints is an error with its positio
         error_of("0 1 1 5 1 1 4 2 1\n") ==
         "scen.movements:1:13: found \"4\", expected a later time than that of the waypoint before");
     CHECK(error_of("0 1 1 5 1 1 5 2 1\n") ==
-          "scen.movements:1:13: found another place at the time of the waypoint before, expected a "
-          "time at least 1 ns later");
+          "scen.movements:1:13: found a different place at the same time as the waypoint before, "
+          "expected a time at least 1 ns later");
     CHECK(error_of("-1 1 1\n") ==
           "scen.movements:1:1: found \"-1\", expected a time from 0 to 9e9 "
           "[s]");

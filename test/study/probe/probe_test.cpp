@@ -189,7 +189,7 @@ TEST_CASE("probe: robots out of range are an error") {
     CHECK_THROWS_WITH_AS(
         probe(scenario_from(two_robots(50, "[propagation]\nmodel = \"disc\"\nrange = \"1 m\"\n")),
               {}),
-        doctest::Contains("no two robots come within reach of disc"), InputError);
+        doctest::Contains("no two robots come within the range of disc"), InputError);
 }
 
 TEST_CASE("probe: reports progress from 0 to 1") {
