@@ -345,7 +345,7 @@ void replay(const ReplayArguments& a) {
 
 void add_replay(Command app) {
     const auto [replay, a] = add_command(
-        app, "replay", "Play a trace again, as it was or with a different radio", cli::replay);
+        app, "replay", "Play a trace again, unchanged or with a different radio", cli::replay);
     replay.add_examples(
         {"rovernet run examples/patrol/patrol.toml --record",
          "rovernet replay runs/patrol-s3/trace.mcap --verify",
@@ -385,11 +385,12 @@ void add_replay(Command app) {
     };
     add("--map", a.map, "map (.yaml, .png) to use instead of the recorded map");
     add("--as", a.as,
-        "for an ns-2 trace: radio with which the others are compared, given as for --with");
+        "for an ns-2 trace: radio with which the radios of --with are compared, given in the same "
+        "form");
     add("--routing", a.routing,
         "for an ns-2 trace: routing of its messages, flood or direct (default: flood)")
         .one_of({"flood", "direct"});
-    add("--movements", a.movements, "for an ns-2 trace: movement file from which its robots moved");
+    add("--movements", a.movements, "for an ns-2 trace: movement file that its robots followed");
     add("--store", a.store, "also write the rows to this store, for rovernet results and plot");
     add_json(replay, a.json);
 }
