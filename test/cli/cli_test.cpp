@@ -243,7 +243,7 @@ TEST_CASE("loss --wall: half a metre at 2 dB per centimetre costs 100 dB") {
     CHECK(command(folder, {"loss", "friis", "--distance", "1", "--wall", "2"}).exit == 2);
 }
 
-TEST_CASE("loss --heights: antennas 1.5 m high over a field lose what the vectors say (two_ray)") {
+TEST_CASE("loss --heights: the loss between antennas 1.5 m high equals the vectors (two_ray)") {
     const TemporaryFolder folder;
     const auto loss = [&](const std::string& heights) {
         return json_of(

@@ -457,7 +457,8 @@ TEST_CASE("bad input: every mistake is reported with line, column and a helpful 
     }
 }
 
-TEST_CASE("bad input: the schema sees what depends on no other key and no other file") {
+TEST_CASE(
+    "bad input: the schema finds every mistake that is visible without other keys and files") {
     const Table schema = scenario_schema();
     const TemporaryFolder folder;
     write_maps(folder);

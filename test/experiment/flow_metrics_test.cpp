@@ -98,7 +98,7 @@ TEST_CASE("flows: equal names, and names that cannot end a metric's name, are re
     CHECK_THROWS_AS(loaded(folder, three + flow + "\"x,y\"\n"), InputError);
 }
 
-TEST_CASE("random sources: all sources are chosen equally, in any order of the file") {
+TEST_CASE("random sources: all robots are chosen equally often, in any order of the file") {
     const std::string traffic =
         "[[traffic]]\nfrom = \"random\"\npayload = \"F\"\nevery = \"10 ms\"\ncount = 300\n"
         "[metrics]\nrobots = true\n[scenario]\nduration = \"4 s\"\n";

@@ -305,7 +305,8 @@ TEST_CASE("size: a frame may have a different size at each hop") {
     CHECK(row.net.metrics().deliveries == 1);
 }
 
-TEST_CASE("headers: the last frame with a header releases it, and packets allocate nothing") {
+TEST_CASE(
+    "headers: the memory of a header is freed after its last frame, and packets allocate none") {
     Row row;
     std::vector<std::uint32_t> forgotten;
     row.script->send = [](LinkLayer& link, NodeId node, MessageId m) {
@@ -444,7 +445,8 @@ TEST_CASE("snr: is a reception's level over the noise floor of its receiver") {
 }
 
 #ifndef NDEBUG
-TEST_CASE("references: a debug build names a message released or held too often") {
+TEST_CASE(
+    "references: a debug build reports a message released too often or still held at the end") {
     SUBCASE("released") {
         Row row;
         row.script->send = [](LinkLayer& link, NodeId, MessageId m) { link.release(m); };

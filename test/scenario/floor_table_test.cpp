@@ -142,7 +142,7 @@ TEST_CASE("floors: a link report counts the floors of the model, with their loss
     CHECK(near(by_model.ceiling_loss.value, 18.3));
 }
 
-TEST_CASE("floors: an antenna that only its height puts on another storey gives a notice") {
+TEST_CASE("floors: an antenna whose height puts it on a different storey gives a notice") {
     const Building building;
     const auto notices = [&](const std::string& text) { return building.scenario(text).notices; };
     const auto robot = [](const char* z, const char* antenna) {

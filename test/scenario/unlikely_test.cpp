@@ -147,7 +147,7 @@ TEST_CASE("unlikely: a metre-thick wall without a material gives a notice with r
     CHECK(notices_of(on_map + given + robot + rays).empty());
 }
 
-TEST_CASE("unlikely: walls both in the map and in N give a notice") {
+TEST_CASE("unlikely: a coefficient N that already includes walls gives a notice with a map") {
     const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n";
     const std::string own = "propagation = { model = \"raytrace_2007\" }\n";
     const std::string rays = "[propagation]\nmodel = \"raytrace_2007\"\n";
@@ -252,7 +252,7 @@ TEST_CASE("unlikely: a robot that chooses a model has only that model's paramete
     CHECK(loss("propagation = { coefficient = 30 }\n") == office);
 }
 
-TEST_CASE("memory: more robots than the memory can hold are refused before any is created") {
+TEST_CASE("memory: more robots than fit into memory are refused before any is created") {
     Scenario s;
     s.robots.resize(1);
     s.robots[0].name = "r";
@@ -387,7 +387,7 @@ TEST_CASE("traffic: robots that send simultaneously give a notice if their frame
     CHECK(noted(csma, each_second + "count = 5\n", "start = \"5 s\"\n") == 1);
 }
 
-TEST_CASE("words: a suggestion has the same type, and no word is suggested for off") {
+TEST_CASE("words: a suggestion has the type of the value, and `off` gets no suggestion") {
     const TemporaryFolder folder;
     const auto error = [&](const std::string& text) {
         return error_of([&] { loaded(folder, text + robot_a); });

@@ -90,7 +90,7 @@ TEST_CASE("replay of an ns-2 trace compares radios with the first given radio, n
           std::string::npos);
 }
 
-TEST_CASE("replay --as sets the radio with which the others are compared") {
+TEST_CASE("replay --as sets the radio with which the radios of --with are compared") {
     const TemporaryFolder folder;
     const std::vector<std::string> words = {"replay", sample,         "--as", "radio.power=40 dBm",
                                             "--with", "routing.ttl=2"};

@@ -56,7 +56,7 @@ RouteState broken(RouteState route) {
 
 }  // namespace
 
-TEST_CASE("route path: leads from table to table, with the ages of the routes") {
+TEST_CASE("route path: follows the table of each robot on it, with the ages of the routes") {
     const Row row({{0, {route(3, 1, 3)}}, {1, {route(3, 2, 2, 1s)}}, {2, {route(3, 3, 1)}}});
     const RouteWay way = row.way(3);
     REQUIRE(way.hops.size() == 3);

@@ -51,7 +51,7 @@ struct Rings {
 
 }  // namespace
 
-TEST_CASE("link changes: of a disc are at the first nanosecond inside and the first outside") {
+TEST_CASE("link changes: the link of a disc is up from the first to the last nanosecond inside") {
     const Scene field;
     MovingPair pair{&field};
     pair.add(Disc{.range = 10_m}, resting({}));
@@ -83,7 +83,8 @@ TEST_CASE("link changes: with models that use only the distance, times are exact
     CHECK(seen > 100);
 }
 
-TEST_CASE("link changes: a tangent gives none, a nanometre further inside gives two") {
+TEST_CASE(
+    "link changes: a path that touches the range gives none, one a nanometre inside gives two") {
     const Scene field;
     for (const double miss : {10.0, 10.0 - 1e-9}) {
         MovingPair pair{&field};

@@ -84,7 +84,7 @@ constexpr std::array both{RayDiffraction::knife_edge, RayDiffraction::utd};
 
 }  // namespace
 
-TEST_CASE("edge pair: at grazing it is asin(rho) / pi, without a face 1/4 + asin(rho) / (2 pi)") {
+TEST_CASE("edge pair: on the line it is asin(rho) / pi, without a face 1/4 + asin(rho) / (2 pi)") {
     for (const double along : {0.01, 0.5, 1.0, 4.0, 50.0}) {
         const double rho = std::sqrt(7.0 * 9 / ((7 + along) * (9 + along)));
         const math::Complex field = pair_field({7, along, 9, 0, 0}, wavelength);

@@ -55,7 +55,7 @@ TEST_CASE("fit chart: costs have one digit, as fractions of the reference or mul
     CHECK(cost_text(10) == "10 times");
 }
 
-TEST_CASE("fit chart: a hollow dot for what is given, a filled one for what is fitted, one scale") {
+TEST_CASE("fit chart: hollow dots are given models, filled dots fitted ones, on one scale") {
     const std::string svg = fit_chart_svg(two_scenes());
     const auto given = places(svg, "as-given"), fitted = places(svg, "fitted");
     REQUIRE(given.size() == 3);

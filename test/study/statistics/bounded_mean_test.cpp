@@ -33,7 +33,7 @@ bool near(double a, double b, double within) { return std::abs(a - b) <= within;
 
 }  // namespace
 
-TEST_CASE("bounded mean: one value leaves the means that the average gambler cannot reject") {
+TEST_CASE("bounded mean: the interval from one value equals its closed form") {
     // He stakes half: (1 + x / m) / 2 = 40 at m = x / 79.
     for (const double x : {0.0, 0.25, 0.5, 1.0}) {
         const auto mean = bounded_mean(std::vector{x}, share, 0.95);
@@ -93,7 +93,7 @@ TEST_CASE("bounded mean: the interval narrows with every value and never widens"
     }
 }
 
-TEST_CASE("bounded mean: mirrored values have the mirrored interval, scaled ones the scaled") {
+TEST_CASE("bounded mean: mirroring or scaling the values mirrors or scales the interval") {
     const auto values = uniforms(40);
     const auto plain = bounded_mean(values, share, 0.95);
     std::vector<double> mirrored, scaled;

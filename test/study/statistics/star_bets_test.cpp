@@ -106,7 +106,7 @@ TEST_CASE("STaR-Bets: every cell below the interval is rejected, and no other") 
     }
 }
 
-TEST_CASE("STaR-Bets: mirrored values have the mirrored interval, scaled ones the scaled") {
+TEST_CASE("STaR-Bets: mirroring or scaling the values mirrors or scales the interval") {
     const auto values = normals(30, 0.7, 0.2, 2);
     const auto plain = star_mean(values, share, 0.95);
     std::vector<double> mirrored, scaled;

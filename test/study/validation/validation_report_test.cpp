@@ -101,7 +101,8 @@ TEST_CASE("validation: a limit includes its value, and one exceeded limit fails 
     CHECK(count(promises_page(validation), "| broken one | 1 | 2 ns | 2.5 ns | NO |") == 1);
 }
 
-TEST_CASE("validation: the picture joins fitted methods, and shows errors of 0 at its edge") {
+TEST_CASE(
+    "validation: the chart lists methods from cheap to dear, with errors of 0 at the left end") {
     const std::string svg = validation_svg(small_validation().charts[0]);
     CHECK(count(svg, "class=\"guide\"") == 2);  // cheap, on both scales
     for (const char* name : {">cheap</text>", ">slow &amp; poor</text>", ">exact</text>"})
@@ -183,7 +184,8 @@ TEST_CASE(
     CHECK(count(page, "True is `exact`.") == 1);
 }
 
-TEST_CASE("headline: models in the order of cost, the nearest that is no form of the reference") {
+TEST_CASE(
+    "headline: models are in order of cost, and forms of the reference are never the best one") {
     const auto point = [](const char* label, const char* series, double cost, double error) {
         return ValidationPoint{.label = label,
                                .series = series,
