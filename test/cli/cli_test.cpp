@@ -154,7 +154,7 @@ TEST_CASE("run --seed and --set change the run; the same seed again gives the sa
     CHECK(fingerprint("--seed", "5") != fingerprint("--set", "robot.B.off=[1]"));
 }
 
-TEST_CASE("trace stats: the metrics of the summary to the last digit, in both formats") {
+TEST_CASE("trace stats: prints the metrics of the summary to the last digit, in both formats") {
     std::string routed =
         "[scenario]\nduration = \"4 s\"\n[routing]\nprotocol = \"aodv\"\n"
         "[propagation]\nmodel = \"disc\"\nrange = \"250 m\"\n"
@@ -257,7 +257,7 @@ TEST_CASE("loss --heights: the loss between antennas 1.5 m high equals the vecto
     CHECK(command(folder, {"loss", "friis", "--distance", "1", "--heights", "1,2,3"}).exit == 2);
 }
 
-TEST_CASE("link --json: the budget and its walls") {
+TEST_CASE("link --json prints the budget and its walls") {
     const TemporaryFolder folder;
     const png_byte w = 255;
     folder.write(

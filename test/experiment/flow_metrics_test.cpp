@@ -117,7 +117,7 @@ TEST_CASE("random sources: all robots are chosen equally often, in any order of 
     }
 }
 
-TEST_CASE("topology: metrics of a robot that passes another robot, compared with manual values") {
+TEST_CASE("topology: metrics of a robot that passes another robot equal manual values") {
     // b passes a at 2 m/s, from 20 m before it to 20 m behind it: in range of 10 m from 5 s to 15
     // s.
     const Table table = summary(R"(

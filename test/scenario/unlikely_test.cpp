@@ -298,7 +298,7 @@ TEST_CASE("unlikely: coherent sums with walls oblique to the cells give a notice
     CHECK(notices("power", room(0.4)).empty());
 }
 
-TEST_CASE("unlikely: [access] eifs is a word; true and false of earlier files mean two of them") {
+TEST_CASE("unlikely: [access] eifs still accepts true and false, which are standard and none") {
     const TemporaryFolder folder;
     const auto csma = [&](const std::string& keys) {
         return *loaded(folder, "[access]\nmodel = \"csma\"\n" + keys + robot_a).access.as<Csma>();

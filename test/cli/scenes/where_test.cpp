@@ -61,7 +61,7 @@ TEST_CASE("links: the history has the places of both robots, also for one robot 
           2);
 }
 
-TEST_CASE("where: the gaps of a robot's link, as text, CSV and JSON") {
+TEST_CASE("where: prints the gaps of a robot's link as text, CSV and JSON") {
     const TemporaryFolder folder;
     folder.write("pair.toml", pair);
     std::vector<std::string> asked = {"where", folder.path("pair.toml"), "--robot", "B", "--to",

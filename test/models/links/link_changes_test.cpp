@@ -183,7 +183,8 @@ TEST_CASE("link changes: steps below a nanosecond are refused") {
         CHECK_THROWS_AS(pair.changes(a, b, start_of_run, never, search), std::invalid_argument);
 }
 
-TEST_CASE("link changes: of a model by heights are exact between robots at constant height") {
+TEST_CASE(
+    "link changes: with a model that uses heights, times are exact for robots of constant height") {
     const Scene field;
     MovingPair pair{&field};
     const Leg away = moving({10, 0, 0}, {20, 0, 0}, 100s);
@@ -213,7 +214,8 @@ TEST_CASE(
     CHECK(pair.up(a, b, found[0]));
 }
 
-TEST_CASE("link changes: of a model of unknown shape are found if they last for min_dwell") {
+TEST_CASE(
+    "link changes: with a model of unknown shape, changes that last for min_dwell are found") {
     const Scene field;
     MovingPair pair{&field};
     pair.add(Rings{}, resting({}));

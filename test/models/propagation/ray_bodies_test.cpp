@@ -102,7 +102,8 @@ double row_loss(std::vector<RowCorner> corners, double length) {
 
 }  // namespace
 
-TEST_CASE("edge row: n screens in the line give 1 / (n + 1); two equal a pair") {
+TEST_CASE(
+    "edge row: behind n screens in a line 1 / (n + 1) of the field is left; two equal a pair") {
     const std::array limits{0.001, 0.05, 0.3, 0.7, 1.2, 1.75};
     std::vector<RowCorner> corners;
     for (std::size_t n = 1; n <= limits.size(); ++n) {

@@ -231,7 +231,7 @@ std::map<std::string, std::vector<Series>> series_of(const test::ViewReader& vie
 }  // namespace
 
 TEST_CASE(
-    "view of a run: the last values of chart series equal the metrics, and their sums the counts") {
+    "view of a run: series of charts end at the metrics, or add up to the counts of the run") {
     for (const char* example : {"rescue/rescue.toml", "detour/detour.toml", "patrol/patrol.toml"}) {
         CAPTURE(example);
         const Recorded run(example, {"trace.links=true"});

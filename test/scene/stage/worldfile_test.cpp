@@ -113,7 +113,7 @@ TEST_CASE("worldfile: the last of several values counts") {
     CHECK(value(read("a 1\na 2\na 3\n").root, "a") == "3000");
 }
 
-TEST_CASE("worldfile: a macro's use is its entity with the properties and children appended") {
+TEST_CASE("worldfile: a use of a macro adds its own keys and children to those of the macro") {
     const WorldFile world = read(
         "define base position ( size [1 1] color \"red\" laser() )\n"
         "define robot base\n( color \"blue\" mass 3 sonar() )\n"

@@ -53,7 +53,8 @@ TEST_CASE("bounded mean: the wealth after three values equals a manual computati
     CHECK(near(wealth, enough, 1e-8));
 }
 
-TEST_CASE("bounded mean: n times 1 leaves Jeffreys' mixture of (1 - f + f / m)^n = 40") {
+TEST_CASE(
+    "bounded mean: for n values of 1 it ends where Jeffreys' mixture of (1 - f + f / m)^n is 40") {
     for (const std::size_t n : {2U, 5U, 30U}) {
         const auto mean = bounded_mean(ones(n), share, 0.95);
         CHECK(mean.high == 1);

@@ -136,7 +136,7 @@ TEST_CASE("comparison: an interval of a family is that of one comparison at a di
     CHECK(together->confidence == 0.95);
 }
 
-TEST_CASE("comparison: equal differences are certain if not 0, and no evidence if 0") {
+TEST_CASE("comparison: if all differences are equal, p is 0, or 1 if they are all 0") {
     const std::array a{1.0, 2.0, 4.0}, less{0.5, 1.5, 3.5}, constant{3.0, 3.0, 3.0};
     const auto apart = compare_pairs(a, less);
     CHECK(apart->difference.mean == 0.5);

@@ -121,7 +121,7 @@ TEST_CASE("validation: a panel without errors is a sentence, not an empty pictur
     validation.charts[0].panels.push_back(right);
     CHECK(count(validation_svg(validation.charts[0]), "class=\"panel\"") == 1);
     const std::string page = accuracy_page(validation);
-    CHECK(count(page, "No picture of: hall; every error is 0.") == 1);
+    CHECK(count(page, "No picture, because every error is 0: \"hall\".") == 1);
     CHECK(count(page, "[small.csv](accuracy/small.csv)") == 1);  // its numbers are there
 }
 
