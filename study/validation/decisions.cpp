@@ -203,8 +203,9 @@ std::string decision_sentence(const ValidationPanel& panel) {
     const ValidationPoint &truth = panel.points[0], &ours = panel.points[1];
     const double flipped = detail_of(ours, "flipped");
     std::string out = fmt::format(
-        "{} {} decides like the exact computation in {}, at {:.2g} of its cost.", panel.title,
-        ours.label, flipped == 0 ? "every case" : fmt::format("all but {:g} cases", flipped),
+        "Question \"{}\": {} decides like the exact computation in {}, at {:.2g} of its cost.",
+        panel.title, ours.label,
+        flipped == 0 ? "every case" : fmt::format("all but {:g} cases", flipped),
         ours.cost.median / truth.cost.median);
     for (std::size_t i = 2; i < panel.points.size(); ++i) {
         const ValidationPoint& p = panel.points[i];
