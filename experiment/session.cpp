@@ -81,7 +81,7 @@ ClientId Session::attach(const std::vector<NodeId>& robots, std::string name, bo
         const std::string robot_name = network_->name(robot);
         if (drivers_.contains(robot)) {
             throw std::invalid_argument(
-                fmt::format("robot {} is driven by another client already", robot_name));
+                fmt::format("robot {} is already driven by a different client", robot_name));
         }
         if (std::count(robots.begin(), robots.end(), robot) > 1) {
             throw std::invalid_argument(fmt::format("robot {} is listed twice", robot_name));
@@ -126,8 +126,8 @@ const Session::Client& Session::client_of(ClientId client) const {
 void Session::check_robot(ClientId client, NodeId robot) const {
     client_of(client);
     if (driver(robot) == client) return;
-    throw std::invalid_argument(
-        fmt::format("robot {} is not the client's: attach it first", network_->name(robot)));
+    throw std::invalid_argument(fmt::format(
+        "robot {} is not attached to this client: attach it first", network_->name(robot)));
 }
 
 std::optional<std::uint64_t> Session::carry_out(ClientId client, NodeId robot,

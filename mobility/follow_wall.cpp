@@ -39,7 +39,8 @@ Step FollowWall::next_leg(Mover& mover) {
     if (!progress.begun) {
         check_fields(*this, name);
         if (mover.scene().open_field())
-            throw std::invalid_argument("follow_wall: there is no map, so no wall to follow");
+            throw std::invalid_argument(
+                "follow_wall: there is no map, so there is no wall to follow");
         progress.begun = true;
     }
     const double sign = side == WallSide::left ? 1 : -1;  // of the turn to the wall

@@ -12,7 +12,8 @@ namespace rovernet {
 RecordedLegs::RecordedLegs(std::vector<Leg> legs) {
     const auto is_late = [](const Leg& a, const Leg& b) { return a.start >= b.start; };
     if (std::adjacent_find(legs.begin(), legs.end(), is_late) != legs.end()) {
-        throw std::invalid_argument("recorded legs: each has to begin later than the one before");
+        throw std::invalid_argument(
+            "recorded legs: each leg has to begin later than the leg before");
     }
     for (std::size_t i = 0; i + 1 < legs.size(); ++i) {
         const Time end = legs[i + 1].start;

@@ -54,7 +54,7 @@ Step Wander::next_leg(Mover& mover) {
     if (!begun) {
         check_fields(*this, name);
         if (mover.scene().open_field())
-            throw std::invalid_argument("wander: there is no map, so nothing to avoid");
+            throw std::invalid_argument("wander: there is no map, so there is nothing to avoid");
         begun = true;
     }
     if (has_turned) {

@@ -23,10 +23,11 @@ void check_times(const DoorTable& door, TableReader& table) {
     }
     for (const Duration t : door.opens) {
         if (std::find(door.closes.begin(), door.closes.end(), t) == door.closes.end()) continue;
-        throw InputError(table.take("opens")->where,
-                         fmt::format("opens: found {} s, at which the door closes, too; expected "
-                                     "other times",
-                                     seconds(t)));
+        throw InputError(
+            table.take("opens")->where,
+            fmt::format(
+                "opens: found {} s, at which the door also closes; expected a different time",
+                seconds(t)));
     }
 }
 

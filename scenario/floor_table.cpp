@@ -39,11 +39,10 @@ void check_order(const std::vector<FloorTable>& floors, const Array& list) {
     for (std::size_t i = 1; i < floors.size(); ++i) {
         const double below = floors[i - 1].height.value, height = floors[i].height.value;
         if (height > below) continue;
-        throw InputError(
-            list[i].table()->find("height")->where,
-            fmt::format("height: found {} m, and the floor before is at {} m; expected the floors "
-                        "from the lowest up",
-                        height, below));
+        throw InputError(list[i].table()->find("height")->where,
+                         fmt::format("height: found {} m after a floor at {} m; expected the "
+                                     "floors in order, from the lowest to the highest",
+                                     height, below));
     }
 }
 

@@ -53,9 +53,10 @@ void check_memory(Scenario& scenario, std::uint64_t available) {
         [](const RobotTable& a, const RobotTable& b) { return memory_of(a) < memory_of(b); });
     const std::string need = fmt::format("robots take about {:.1f} GB of memory", gigabytes(bytes));
     if (bytes > available) {
-        throw InputError(most->where, fmt::format("count: {}, and this process may have {:.1f} GB; "
-                                                  "expected fewer robots",
-                                                  need, gigabytes(available)));
+        throw InputError(
+            most->where,
+            fmt::format("count: {}, but this process may use only {:.1f} GB; expected fewer robots",
+                        need, gigabytes(available)));
     }
     scenario.notices.push_back(fmt::format("{}: {}", most->where.text(), need));
 }

@@ -14,8 +14,8 @@ void check_receiver(const ReactionTable& reaction, TableReader& table) {
     if (!reaction.send) table.missing("send", "send = \"F\": to needs it");
     if (*reaction.to != ReactionTable::sender || reaction.trigger == Trigger::on_receive) return;
     throw InputError(reaction.to_where,
-                     fmt::format("to: found \"sender\" in {}, where no message came; expected the "
-                                 "name of a robot, or on_receive",
+                     fmt::format("to: found \"sender\" in {}, which has no received message; "
+                                 "expected the name of a robot, or the table on_receive",
                                  name_of(reaction.trigger)));
 }
 

@@ -31,7 +31,7 @@ void check_run_name(TableReader& document, const std::string& name) {
     if (!name.empty() && name.front() != '.' && name.find('/') == std::string::npos) return;
     const Value* given = document.take("scenario")->table()->find("name");
     throw InputError(given->where, fmt::format("name: found {}; expected a name for a folder: not "
-                                               "empty, no \"/\", no \".\" in front",
+                                               "empty, without \"/\", and not beginning with \".\"",
                                                given->description()));
 }
 
@@ -69,7 +69,7 @@ void check_sinr(const Scenario& scenario) {
         if (propagation.make().name() == Disc::name) {
             throw InputError(propagation_where,
                              "model: \"disc\" has no levels for [reception] model = \"sinr\"; "
-                             "expected another, such as \"friis\"");
+                             "expected a different model, such as \"friis\"");
         }
         check_coding(phy, "rate", radio.rate, rate_where);
     };

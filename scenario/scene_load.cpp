@@ -41,7 +41,7 @@ OccupancyGrid load_grid(const FloorTable& floor, const fs::path& path,
     const bool yaml = extension == ".yaml" || extension == ".yml";
     if (yaml && floor.size) {
         throw InputError(floor.map_where,
-                         "map: a map.yaml has its own size; leave out the key size");
+                         "map: a map.yaml contains its own size; leave out the key size");
     }
     if (!yaml && input_kind(path.string()) == InputKind::file && !floor.size) {
         throw InputError(floor.map_where,
@@ -73,8 +73,8 @@ void note_pixels(const MaterialTable& material, Pixels pixels, std::string_view 
     }
     if (pixels.all == 0) {
         return notices.push_back(
-            fmt::format("{}: material \"{}\" fits no pixel of {}; the first material "
-                        "that fits counts",
+            fmt::format("{}: material \"{}\" matches no pixel of {}; if several materials match a "
+                        "pixel, the first one counts",
                         material.where.text(), material.name, map));
     }
     notices.push_back(fmt::format(
@@ -176,7 +176,9 @@ void check_place(const Door& door, const DoorTable& table, const Scene& scene) {
     const std::string name = table.name ? fmt::format("door \"{}\"", *table.name) : "door";
     const Storeys& storeys = scene.storeys();
     if (storeys.number_at(door.from.z) != storeys.number_at(door.to.z)) {
-        throw InputError(table.where, name + ": its ends are on two storeys; expected both on one");
+        throw InputError(
+            table.where,
+            name + ": its ends are on two storeys; expected both ends on the same storey");
     }
     const Scene& storey = scene.storey_at(door.from.z);
     for (const Vec3 corner : door.corners()) {

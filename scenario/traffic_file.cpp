@@ -50,10 +50,10 @@ class TrafficReader {
         TrafficFile file;
         for (const std::string& name : order_) add_flow(apps_.find(name)->second, file);
         if (random_ > 0) {
-            file.notices.push_back(fmt::format(
-                "{}: random_ of {} flow{} is left out: ns-2 makes each interval up to half longer "
-                "or shorter, here all are alike",
-                lines_.where().source, random_, random_ == 1 ? "" : "s"));
+            file.notices.push_back(
+                fmt::format("{}: random_ of {} flow{} is left out: ns-2 makes each interval up to "
+                            "half longer or shorter, but here all intervals are equal",
+                            lines_.where().source, random_, random_ == 1 ? "" : "s"));
         }
         return file;
     }
@@ -148,7 +148,7 @@ void TrafficReader::make() {
         "Agent/UDP, Agent/Null, Agent/LossMonitor or Application/Traffic/CBR";
     const std::string name(word(1).text);
     const Word kind = word(3);
-    if (word(2).text != "new") fail(word(2), "[new ...]; TCP is not known here, only CBR over UDP");
+    if (word(2).text != "new") fail(word(2), "[new ...]; TCP is not supported, only CBR over UDP");
     if (kind.text == "Application/Traffic/CBR") {
         order_.push_back(name);
         apps_[name].where = here(word(1));

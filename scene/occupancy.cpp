@@ -119,9 +119,8 @@ class MapFile {
         for (const auto& entry : root_) {
             const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "(not a word)";
             if (!seen.insert(key).second)
-                fail(entry.first.Mark(), fmt::format("key \"{}\" a second time; expected it once; "
-                                                     "remove one",
-                                                     key));
+                fail(entry.first.Mark(),
+                     fmt::format("key \"{}\" is given twice; expected it once; remove one", key));
             if (std::find(keys().begin(), keys().end(), key) == keys().end())
                 strangers_.emplace_back(key, entry.first.Mark());
         }

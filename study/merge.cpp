@@ -45,7 +45,7 @@ void merge(Store& store, const std::string& path) {
     std::set<std::string> ours;
     for (const StoredPoint& point : store.points()) ours.insert(point.id);
     for (const StoredPoint& point : shard.points()) {
-        if (!ours.contains(point.id)) throw InputError({path}, "a store of another study");
+        if (!ours.contains(point.id)) throw InputError({path}, "the store of a different study");
     }
     copy_runs(shard, store);
 }

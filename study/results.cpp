@@ -71,8 +71,9 @@ void check_balanced(const Rows& rows, const Cells& cells, const std::string& met
     const std::string lines = cells.unbalanced();
     if (lines.empty()) return;
     throw std::invalid_argument(fmt::format(
-        "{} cannot be averaged over {}: rows would be means of different cells (a cell is a "
-        "replication at one value of each of these keys), and differ by that alone\n{}\nexpected "
+        "{} cannot be averaged over {}: each row would be a mean of different cells, so the rows "
+        "cannot be compared (a cell is a replication at one value of each of these "
+        "keys)\n{}\nexpected "
         "--where KEY=VALUE for points that all rows have, or --common for the mean over the {} of "
         "{} cells that every row has",
         metric, fmt::join(rows.averaged, ", "), lines, cells.common(), cells.count()));

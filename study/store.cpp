@@ -79,8 +79,8 @@ auto told(const std::string& path, auto&& act) {
             case SQLITE_CANTOPEN:
             case SQLITE_PERM:
                 throw RunError(path +
-                               ": cannot be written; check the permissions of the file and "
-                               "of its folder, or give another with --store");
+                               ": cannot be written; check the permissions of the file and of its "
+                               "folder, or give a different store with --store");
             default:
                 throw RunError(fmt::format("{}: {} (SQLite {}); finished runs are kept", path,
                                            error.what(), error.getExtendedErrorCode()));

@@ -139,8 +139,8 @@ bool take_whole(const FileNumber& file, const std::string& path) {
         if (answer != LockAnswer::held) return answer == LockAnswer::yes;
         if (i == most_tries)
             throw RunError(path +
-                           ": another sweep is writing to this store; wait for its end, or give "
-                           "another with --store");
+                           ": a different sweep is writing to this store; wait for its end, or "
+                           "give a different store with --store");
         std::this_thread::sleep_for(between_tries);
     }
 }
@@ -162,8 +162,8 @@ FileNumber::~FileNumber() {
 WriteLock::WriteLock(const std::string& path) : path_(path), file_(path, O_RDWR | O_CREAT) {
     if (file_.number() < 0) {
         throw RunError(
-            fmt::format("{}: cannot be written ({}); check the folder and its permissions, or "
-                        "give another with --store",
+            fmt::format("{}: cannot be written ({}); check the folder and its permissions, or give "
+                        "a different store with --store",
                         path, std::strerror(errno)));
     }
     const bool has_whole = take_whole(file_, path);
@@ -221,8 +221,8 @@ void need_no_writer(const std::string& path) {
     const FileNumber file(path, O_RDONLY);
     if (file.number() >= 0 && lock_whole(file, LOCK_SH) == LockAnswer::held)
         throw RunError(path +
-                       ": a sweep is writing to this store, and this file system has no locks by "
-                       "which others could read meanwhile; wait for its end");
+                       ": a sweep is writing to this store, and on this file system, which has no "
+                       "locks, it cannot be read meanwhile; wait for the end of the sweep");
     const auto writer = writer_in(lock_file(path));
     if (writer && !writer->has_ended()) refuse(path, *writer);
 }

@@ -111,11 +111,11 @@ void add_plot(Command app) {
         "--x-title", p.x_title,
         "title of the x axis, such as 'robots on a square kilometre' (default: the key)");
     plot.add_option("--y-title", p.y_titles,
-                    "title of the y axis (default: the metric); for several metrics as often as "
-                    "there are metrics")
+                    "title of the y axis (default: the metric); for several metrics, give one "
+                    "title for each, in their order")
         .one_word();
-    plot.add_flag("--log-x", p.log_x, "a logarithmic axis");
-    plot.add_flag("--log-y", p.log_y, "a logarithmic axis");
+    plot.add_flag("--log-x", p.log_x, "give the x axis a logarithmic scale");
+    plot.add_flag("--log-y", p.log_y, "give the y axis a logarithmic scale");
     plot.add_option(
             "--width", p.width,
             "width of the picture in pixels, of a PDF in points; the text is scaled with it "

@@ -104,8 +104,9 @@ WantedRun wanted_run(const InArguments& a) {
     const auto number = whole_number_of(*a.run);
     if (number && (*number < 1 || *number > largest)) {
         throw CommandEnd(
-            usage, fmt::format("--run {}: expected a process, from 1 to {}, or a folder", *a.run,
-                               largest));
+            usage,
+            fmt::format("--run {}: expected the number of a process, from 1 to {}, or a folder",
+                        *a.run, largest));
     }
     if (number) {
         wanted.process = static_cast<pid_t>(*number);

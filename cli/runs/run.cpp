@@ -76,10 +76,10 @@ void print_result(const Scenario& scenario, const RunResult& result) {
     }
     fmt::print("fingerprint        {}\n", result.fingerprint);
     if (const auto db = result.interference_left_out) {
-        notice(fmt::format(
-            "sinr ignores frames far below the sensitivity; with them the SINR would be at most "
-            "{:.2f} dB lower",
-            db->value));
+        notice(
+            fmt::format("sinr ignores frames far below the sensitivity; if it counted them, the "
+                        "SINR would be at most {:.2f} dB lower",
+                        db->value));
     }
     if (const std::string text = result.network->routing_notice(); !text.empty()) notice(text);
     notice(fmt::format("{} events, {:.2f} s; results in {}", result.events, result.wall_s,

@@ -31,7 +31,7 @@ void Reach::add_to(Command command) {
         "(0.0.0.0: at all its addresses); they need the printed token");
     command
         .add_flag("--insecure", insecure,
-                  "with --listen: also serve protocols that have no token to other machines")
+                  "with --listen: also serve other machines by protocols that have no token")
         .needs(option);
 }
 

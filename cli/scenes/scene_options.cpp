@@ -28,7 +28,7 @@ void add_links(Command app) {
                         "rovernet links examples/rescue/rescue.toml --history --places"});
     add_file(links, a, any_file);
     links.add_option("--at", a.at, "simulated time, such as 12.5s").shows_default();
-    links.add_option("--robot", a.robot, "of this robot only");
+    links.add_option("--robot", a.robot, "list only the robots that this robot hears");
     Option history =
         links.add_flag("--history", a.history, "print all link changes of the run, as CSV");
     history.excludes(links.option("--at"));
@@ -44,7 +44,7 @@ void add_routes(Command app) {
                          "rovernet routes examples/detour/detour.toml --at 20s --csv"});
     add_file(routes, a, any_file);
     routes.add_option("--at", a.at, "simulated time, such as 12.5s").required();
-    routes.add_option("--robot,--node", a.robot, "of this robot only");
+    routes.add_option("--robot,--node", a.robot, "print only the table of this robot");
     Option csv = routes.add_flag("--csv", a.csv, "print CSV, with a line for each route");
     routes.add_flag("--json", a.json, "print the result as one JSON document").excludes(csv);
 }

@@ -48,10 +48,10 @@ DecisionRule rule_for(const AdviseArguments& a, const StudyTable& study, std::si
                                      a.metric));
     }
     if (range.closed() && rule.tolerance >= *range.high) {
-        throw InputError({fmt::format("--tolerance {}", rule.tolerance), 0, 0, true},
-                         fmt::format("expected a value below {}, as no two values of {} differ by "
-                                     "more",
-                                     *range.high, a.metric));
+        throw InputError(
+            {fmt::format("--tolerance {}", rule.tolerance), 0, 0, true},
+            fmt::format("expected a value below {}, because no two values of {} differ by more",
+                        *range.high, a.metric));
     }
     return rule;
 }
@@ -95,7 +95,7 @@ bool make_block(const AdviseArguments& a, Study& study, Store& store, const Budg
         const StoredRun& run = *result.failure;
         throw CommandEnd(
             partly_failed,
-            fmt::format("a run failed, so that no advice is possible: {}\n  {}", run.error,
+            fmt::format("a run failed, so no advice is possible: {}\n  {}", run.error,
                         run_command(store, store.points().at(run.point), run.replication)));
     }
     return result.progress.left == 0;
@@ -119,10 +119,10 @@ void tell_time(const AdviseArguments& a, const AdviceCandidates& candidates, std
     const double all = run_s * static_cast<double>(most);
     if (all < long_time) return;
     notice(
-        fmt::format("a run with the reference, {}, takes about {:.2g} s of CPU time; verdicts may "
-                    "need {} to {} such runs, which take {} to {} on one worker, and also runs of "
-                    "the candidates. --budget {} ends the command with a preliminary verdict; a "
-                    "cheaper --reference takes less time",
+        fmt::format("a run with the reference, {}, takes about {:.2g} s of CPU time. The verdicts "
+                    "may need {} to {} such runs, {} to {} on one worker, and also runs of the "
+                    "candidates. --budget {} ends the command earlier, with a preliminary verdict; "
+                    "a cheaper --reference takes less time",
                     candidates.path_losses[top].name, run_s, std::min(least, most), most,
                     duration_text(run_s * static_cast<double>(std::min(least, most))),
                     duration_text(all), a.budget));

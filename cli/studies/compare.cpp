@@ -155,9 +155,10 @@ void take_part_of(const std::string& path, const Study& study, Store& store) {
 void check_margin(const CompareArguments& a, const std::string& metric) {
     const Bounds range = difference_bounds(bounds_of(metric));
     if (!a.margin || !range.closed() || *a.margin < *range.high) return;
-    throw InputError({fmt::format("--margin {}", *a.margin), 0, 0, true},
-                     fmt::format("expected a value below {}, as no two values of {} differ by more",
-                                 *range.high, metric));
+    throw InputError(
+        {fmt::format("--margin {}", *a.margin), 0, 0, true},
+        fmt::format("expected a value below {}, because no two values of {} differ by more",
+                    *range.high, metric));
 }
 
 /// Prints the study's notices, and that one run of each value shows no difference.

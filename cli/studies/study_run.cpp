@@ -119,9 +119,9 @@ void check_precision(const Study& study, const SweepResult& result) {
                             reached_text(point));
     }
     if (list.size() > most) text += fmt::format("\n  and {} more", list.size() - most);
-    throw CommandEnd(
-        partly_failed,
-        text + "\nexpected a larger --max-replications, or a larger precision (half-width)");
+    throw CommandEnd(partly_failed, text +
+                                        "\nexpected a larger --max-replications, or a larger "
+                                        "--precision (half-width of the intervals)");
 }
 
 }  // namespace rovernet::cli

@@ -81,7 +81,7 @@ void verify(const ReplayArguments& a) {
     if (v.difference) throw CommandEnd(failed, a.file + ": the run differs from its trace");
     if (!v.is_identical()) {
         throw CommandEnd(failed, a.file +
-                                     ": the trace is damaged or incomplete, so that it is unknown "
+                                     ": the trace is damaged or incomplete, so it is unknown "
                                      "whether the run is the same");
     }
 }
@@ -264,8 +264,8 @@ void print_radios(const ReplayArguments& a, const Radios& radios, const std::vec
     print_rows(radios, rows);
     print_robots(radios.day, rows);
     fmt::print(
-        "\nRobots move and speak as they did; what they would decide otherwise is not "
-        "decided anew.\n");
+        "\nRobots move and send as in the trace; they do not react to the messages of the new "
+        "radio.\n");
     if (!radios.plays_first) return;
     fmt::print(
         "{}: the protocol of the trace is not simulated. Differences are to the row \"{}\".\n",
@@ -345,7 +345,7 @@ void replay(const ReplayArguments& a) {
 
 void add_replay(Command app) {
     const auto [replay, a] = add_command(
-        app, "replay", "Play a trace again, as it was or with a different radio", cli::replay);
+        app, "replay", "Play a trace again, unchanged or with a different radio", cli::replay);
     replay.add_examples(
         {"rovernet run examples/patrol/patrol.toml --record",
          "rovernet replay runs/patrol-s3/trace.mcap --verify",
@@ -385,7 +385,8 @@ void add_replay(Command app) {
     };
     add("--map", a.map, "map (.yaml, .png) to use instead of the recorded map");
     add("--as", a.as,
-        "for an ns-2 trace: radio with which the others are compared, given as for --with");
+        "for an ns-2 trace: radio with which the radios of --with are compared, given in the same "
+        "form");
     add("--routing", a.routing,
         "for an ns-2 trace: routing of its messages, flood or direct (default: flood)")
         .one_of({"flood", "direct"});

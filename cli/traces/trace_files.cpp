@@ -99,7 +99,7 @@ void trace_cut(const TraceCutArguments& a) {
     if (made.written > 0) return;
     const bool is_by_time = !a.robot && !a.message;
     notice(fmt::format("{}: {} has no event {}", a.out, a.in,
-                       is_by_time ? "between --from and --to" : "that fits the options"));
+                       is_by_time ? "between --from and --to" : "that matches the options"));
 }
 
 void trace_diff(const TraceDiffArguments& a) {

@@ -69,7 +69,7 @@ void add_trace_cut(Command trace) {
          "rovernet trace cut runs/rescue-s1/trace.mcap piece.tr --message 3"});
     cut.add_option("IN", a.in, any_trace).required().transform(trace_of_run);
     cut.add_option("OUT", a.out, "file to write").required();
-    cut.add_option("--from", a.from, "time of the first packet");
+    cut.add_option("--from", a.from, "time at which the piece begins");
     cut.add_option("--to", a.to, "time at which the piece ends; events at this time are left out");
     cut.add_option("--robot", a.robot, "number of a robot; write only its lines");
     cut.add_option("--message", a.message, "id of a message; write only its packets");

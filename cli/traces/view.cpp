@@ -303,11 +303,11 @@ void add_view(Command app) {
     view.add_option("--listen", a.listen,
                     "serve the page to other machines, too, at this IP address of this machine "
                     "(0.0.0.0: at all its addresses); they need the token in the printed address");
-    view.add_option("--from", a.from, "time of the first frame");
-    view.add_option("--to", a.to, "time of the last frame");
+    view.add_option("--from", a.from, "show only frames from this time of the run on");
+    view.add_option("--to", a.to, "show only frames up to this time of the run");
     view.add_option(
         "--limit", a.limit,
-        "largest size of the page, such as \"5 MB\"; the last frames are left out if necessary");
+        "largest size of the page, such as \"5 MB\"; later frames are left out if necessary");
     view.add_flag("--no-payloads", a.no_payloads, "leave out the contents of messages");
     view.add_flag("--no-map", a.no_map, "leave out walls, doors and stairs");
 }

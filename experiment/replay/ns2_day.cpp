@@ -137,7 +137,9 @@ void check_places(const std::string& path, const Ns2DayOptions& options, const D
         if (log.legs[i].empty()) unknown.push_back(i);
         for (const Leg& leg : log.legs[i]) {
             if (!is_far(leg.from) && !is_far(leg.to)) continue;
-            throw InputError({path}, fmt::format("robot {} is put more than 1e9 m away", i));
+            throw InputError(
+                {path},
+                fmt::format("robot {} is at a position more than 1e9 m from the origin", i));
         }
     }
     if (unknown.empty()) return;

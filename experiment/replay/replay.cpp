@@ -130,8 +130,9 @@ Scenario scenario_beside(const std::string& trace) {
     }
     Scenario scenario = load_scenario(path.string(), {});
     if (scenario.trace.ns2 != Ns2Choice::none) return scenario;
-    throw InputError({path.string()},
-                     "its run writes no ns-2 trace; expected [trace] ns2 = \"old\" or \"new\"");
+    throw InputError(
+        {path.string()},
+        "the scenario of this run writes no ns-2 trace; expected [trace] ns2 = \"old\" or \"new\"");
 }
 
 Verification verify_ns2(const std::string& path, const std::function<bool(double)>& progress) {

@@ -135,7 +135,7 @@ std::vector<NodeId> partners_named(const Network& network, const std::vector<std
             throw InputError(
                 Location{fmt::format("{} {}", option, fmt::join(names, ",")), 0, 0, true},
                 is_twice ? fmt::format("\"{}\" twice; expected each robot once", name)
-                         : fmt::format("\"{}\" itself; expected other robots", name));
+                         : fmt::format("\"{}\" itself; expected different robots", name));
         }
         partners.push_back(node);
     }

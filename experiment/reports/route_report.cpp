@@ -43,10 +43,10 @@ void check_has_routes(const Scenario& scenario) {
     scenario.routing.for_each([&]<class P>(const P& each, bool) {
         if (Router(each).has_routes()) others.push_back(P::name);
     });
-    throw std::invalid_argument(fmt::format(
-        "{0} keeps no routes; expected a protocol that keeps them ({1}), such as by --set "
-        "routing.protocol={2}",
-        scenario.routing.name(), fmt::join(others, ", "), others.front()));
+    throw std::invalid_argument(
+        fmt::format("protocol {0} keeps no routes; expected a protocol that does ({1}), for "
+                    "example by --set routing.protocol={2}",
+                    scenario.routing.name(), fmt::join(others, ", "), others.front()));
 }
 
 void for_each_route_report(const Network& network, const std::optional<std::string>& robot,

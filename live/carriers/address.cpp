@@ -58,7 +58,7 @@ Address read_loopback(const std::string& text) {
     const Address address{host, read_port(text, text.substr(colon + 1))};
     if (!is_number(host)) fail(text, fmt::format("found the host \"{}\"", host));
     if (!address.is_loopback()) {
-        fail(text, "other machines can reach it only with the option --listen");
+        fail(text, "only with the option --listen can other machines connect");
     }
     return address;
 }

@@ -212,7 +212,7 @@ OwnDescriptor::~OwnDescriptor() {
 
 RobotNetwork find_network(const std::string& robot, const WantedRun& wanted) {
     if (wanted.user && *wanted.user != geteuid() && geteuid() != 0) {
-        throw std::invalid_argument("--user: only root may enter the runs of another user");
+        throw std::invalid_argument("--user: only root may enter the runs of a different user");
     }
     Visit found = Search(robot, wanted).find();
     return {robot, found.listener.run, std::move(found.folder), std::move(found.space),

@@ -96,19 +96,19 @@ bool Lockstep::come_back(Connection from, const HelloRequest& hello) {
 void Lockstep::check_claims(const HelloRequest& hello) {
     if (controllers_.named(hello.name)) {
         throw RequestError("taken", "name",
-                           fmt::format("there already is a controller {}", hello.name));
+                           fmt::format("there is already a controller named {}", hello.name));
     }
     for (std::size_t i = 0; i < hello.robots.size(); ++i) {
         if (!session_->driver(hello.robots[i])) continue;
         throw RequestError("taken", fmt::format("robots[{}]", i),
-                           fmt::format("robot {} is another controller's",
+                           fmt::format("robot {} belongs to a different controller",
                                        session_->network().name(hello.robots[i])));
     }
     const auto measures = [&](NodeId robot) { return !session_->range_finders(robot).empty(); };
     if (hello.observes_scan && std::ranges::none_of(hello.robots, measures)) {
         throw RequestError("bad_value", "observe",
-                           "no robot of this hello has a range finder; expected a scan = {...} of "
-                           "one in the scenario");
+                           "no robot of this hello has a range finder; expected a robot with scan "
+                           "= {...} in the scenario");
     }
     const bool is_free =
         !has_started_ && std::none_of(controllers_.begin(), controllers_.end(),

@@ -107,7 +107,7 @@ void DriversReader::join(const WorldEntity& driver, std::string_view name) {
     const auto opaque = std::find_if(provides.begin(), provides.end(),
                                      [](const auto& each) { return each.interface == "opaque"; });
     if (opaque == provides.end()) {
-        throw InputError(driver.where, fmt::format("{}: found no opaque device that it provides; "
+        throw InputError(driver.where, fmt::format("{}: found no opaque device in its provides; "
                                                    "expected provides [ \"6665:opaque:1\" ]",
                                                    name));
     }
@@ -187,11 +187,11 @@ std::vector<std::string> mapping_notices(const PlayerConfig& config,
                             fmt::join(strangers, ", "))));
         }
         if (!missing.empty()) {
-            notices.push_back(world_notice(
-                robot.comdriver->where,
-                fmt::format("mapping leaves out {}; every robot in range receives a radio "
-                            "message, so that these receive {} nevertheless",
-                            fmt::join(missing, ", "), robot.model)));
+            notices.push_back(
+                world_notice(robot.comdriver->where,
+                             fmt::format("mapping leaves out {}; but every robot in range receives "
+                                         "a radio message, so these robots also receive {}",
+                                         fmt::join(missing, ", "), robot.model)));
         }
     }
     return notices;

@@ -43,7 +43,7 @@ void PlayerRadio::command(std::uint32_t subtype, XdrReader payload) {
     if (subtype != opaque_bytes) return;
     const std::string_view bytes = payload.bytes();
     if (bytes.size() > longest_message)
-        throw MalformedMessage("the message is too long for the air");
+        throw MalformedMessage("the message is too long to be sent by radio");
     robot_.carry_out(SendCommand{.payload = std::string(bytes)});
 }
 

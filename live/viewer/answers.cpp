@@ -187,7 +187,8 @@ std::optional<Propagation> ViewerAnswers::other_model(const JsonElement& questio
     }
     const std::string with(member(question, "with").text());
     if (!with.starts_with("propagation."))
-        throw RequestError("bad_value", "with", "expected such as \"propagation.model=friis\"");
+        throw RequestError("bad_value", "with",
+                           "expected KEY=VALUE, such as \"propagation.model=friis\"");
     const auto network = network_at(replayed_->with({with}), start_of_run);
     return network->medium().stations().model(robot).median();
 }

@@ -85,7 +85,7 @@ void ViewFront::observe() {
 
 /// @throws RequestError if nothing was kept
 ViewHistory& ViewFront::history() {
-    if (!history_) throw RequestError("over", "op", "no page looked on when the run ended");
+    if (!history_) throw RequestError("over", "op", "no page was open when the run ended");
     return *history_;
 }
 
@@ -125,7 +125,7 @@ std::size_t ViewFront::received(Connection from, std::string_view question) {
 
 /// Series for the page's charts, and the metrics of a run that is over.
 Table ViewFront::series() const {
-    if (!stream_) throw RequestError("over", "op", "no page looked on when the run ended");
+    if (!stream_) throw RequestError("over", "op", "no page was open when the run ended");
     Table answer;
     answer.set("from_ns", (stream_->begin() - start_of_run).count());
     answer.set("series", stream_->series());

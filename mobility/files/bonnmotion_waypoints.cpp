@@ -45,8 +45,8 @@ class WaypointLine {
         in_line_ = 0;
         before_.reset();
         if (++nodes_ > most_file_robots) {
-            throw InputError(
-                n.line(), fmt::format("found another node, expected at most {}", most_file_robots));
+            throw InputError(n.line(), fmt::format("found one node too many, expected at most {}",
+                                                   most_file_robots));
         }
     }
     std::uint64_t waypoints() const { return waypoints_; }

@@ -172,10 +172,12 @@ void FcdReader::refuse_degrees() const {
     if (!is_told && !is_so) return;
     throw InputError(
         {.source = tags_.source()},
-        fmt::format("the places are in degrees: {}; expected metres, as SUMO writes them without "
-                    "--fcd-output.geo",
-                    is_told ? "fcd-output.geo is on, its head says"
-                            : "by its speeds the robots go over a thousand times further"));
+        fmt::format(
+            "the places are in degrees: {}; expected metres, as SUMO writes them without "
+            "--fcd-output.geo",
+            is_told
+                ? "the head of the file says that fcd-output.geo is on"
+                : "according to their speeds the robots go more than a thousand times farther"));
 }
 
 /// Adds the path from the previous position to both sums, if the speed is given.

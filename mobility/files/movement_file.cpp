@@ -70,7 +70,7 @@ std::string kept_notice(const std::string& file, std::uint64_t legs) {
 }
 
 void fail_changed(const std::string& file) {
-    throw InputError({.source = file}, "the file has changed while it was read");
+    throw InputError({.source = file}, "the file was changed while it was read");
 }
 
 MovementFile::MovementFile(const std::string& path, MovementSyntax syntax)

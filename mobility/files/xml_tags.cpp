@@ -225,7 +225,7 @@ void XmlTags::parse_open(std::string_view text) {
     name_ = name_in(text.substr(1));
     if (name_.empty()) fail(text, "the name of an element after <");
     if (open_.empty() && had_root_) fail(text, "the end of the file after its one element");
-    if (open_.size() == deepest) fail(text, "at most 64 elements in one another");
+    if (open_.size() == deepest) fail(text, "elements nested at most 64 levels deep");
     attributes_.clear();
     std::size_t at = 1 + name_.size();
     while (true) {

@@ -117,7 +117,7 @@ std::string converted(const std::string& svg, const std::string& format, const s
     const int status = convert(in.get(), format, out.get(), errors.get());
     if (status == 127) {
         throw RunError(
-            fmt::format("{}: a .{} needs the program {}, which is not there; install "
+            fmt::format("{}: a .{} needs the program {}, which is not installed; install "
                         "the package librsvg2-bin, or draw an .svg",
                         path, format, program));
     }

@@ -152,7 +152,7 @@ Value& descend(Value& at, const std::string& step, const Location& option) {
             names.push_back(*name->string());
         }
         if (names.empty()) {
-            throw InputError(option, fmt::format("\"{}\" leads into a list; expected the number of "
+            throw InputError(option, fmt::format("\"{}\" is inside a list; expected the number of "
                                                  "an item before it, from 0 to {}",
                                                  step, list->size() - 1));
         }
@@ -163,7 +163,7 @@ Value& descend(Value& at, const std::string& step, const Location& option) {
     Table* table = at.table();
     if (!table) {
         throw InputError(
-            option, fmt::format("\"{}\" leads into {}, which has no keys", step, at.description()));
+            option, fmt::format("\"{}\" is inside {}, which has no keys", step, at.description()));
     }
     if (!table->find(step)) {
         Value made{Table{}};

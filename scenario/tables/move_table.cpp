@@ -33,9 +33,10 @@ void check(const WaypointsTable& waypoints, TableReader& table) {
     if (!waypoints.times) return;
     const Value& times = *table.take("times");
     if (waypoints.times->size() != waypoints.path.size()) {
-        throw InputError(times.where,
-                         fmt::format("times: found {} for a path of {} places; expected one each",
-                                     waypoints.times->size(), waypoints.path.size()));
+        throw InputError(
+            times.where,
+            fmt::format("times: found {} for a path of {} places; expected one time for each place",
+                        waypoints.times->size(), waypoints.path.size()));
     }
     check_times(times, *waypoints.times);
 }
@@ -70,10 +71,11 @@ void settle_start(Model& model, TableReader& table, bool placed) {
         const Value* given = table.take("start");
         if (!given && placed) model.start = Start::here;
         if (given && placed && model.start != Start::here) {
-            throw InputError(given->where,
-                             fmt::format("start: found \"{}\" for a robot that has a place to "
-                                         "start from; expected \"here\"; leave out its at or place",
-                                         name_of(model.start)));
+            throw InputError(
+                given->where,
+                fmt::format("start: found \"{}\" for a robot with a given place; expected start = "
+                            "\"here\", or a robot without at and place",
+                            name_of(model.start)));
         }
         if (given && !placed && model.start == Start::here) {
             throw InputError(given->where,

@@ -183,10 +183,11 @@ void check_printable(const Value& value, std::string_view key, std::string_view 
     };
     const auto found = std::find_if(text.begin(), text.end(), control);
     if (found == text.end()) return;
-    throw InputError(value.where,
-                     fmt::format("{}: found the control character 0x{:02x} in it; expected a text "
-                                 "that can be printed",
-                                 key, static_cast<unsigned char>(*found)));
+    throw InputError(
+        value.where,
+        fmt::format("{}: found the control character 0x{:02x} in the text; expected a text "
+                    "that can be printed",
+                    key, static_cast<unsigned char>(*found)));
 }
 
 std::size_t read_choice(const Value& value, std::string_view key,

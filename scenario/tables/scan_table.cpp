@@ -31,7 +31,7 @@ void check_fan(const RangeFinder& fan, TableReader& table) {
     if (spread.value >= 0 && spread.value <= whole_turn) return;
     const Value* to = table.take("to");
     throw InputError(to ? to->where : table.where(),
-                     "scan: expected `to` not before `from`, and at most 360 degrees after it");
+                     "scan: expected `to` from 0 to 360 degrees after `from`");
 }
 
 void check_ring(const Scanner& ring, const Value& angles, TableReader& table) {

@@ -82,10 +82,11 @@ Array expand(const Value& range, std::string_view path) {
     constexpr double slack = 1e-9;  // of a step: where rounding has moved the end
     const double steps = std::floor((to.number - from.number) / step.number + slack);
     if (step.number == 0 || steps < 0) {
-        throw InputError(range.where,
-                         fmt::format("vary.\"{}\": no step leads from {} to {}; expected step > 0 "
-                                     "and from <= to, or step < 0 and from >= to",
-                                     path, from.number, to.number));
+        throw InputError(
+            range.where,
+            fmt::format("vary.\"{}\": the step never leads from {} to {}; expected step > 0 "
+                        "and from <= to, or step < 0 and from >= to",
+                        path, from.number, to.number));
     }
     if (steps >= most_values) {
         throw InputError(range.where, fmt::format("vary.\"{}\": more than {} values; expected a "
@@ -173,7 +174,7 @@ void read_zip(const Value& value, StudyTable& study) {
             const std::size_t first = varied(study, group.front(), where, "zip").values.size();
             if (n == first) continue;
             throw InputError(where, fmt::format("zip: \"{}\" has {} values and \"{}\" has {}; "
-                                                "expected as many of each",
+                                                "expected the same number of values",
                                                 group.front(), first, path, n));
         }
     }
@@ -217,8 +218,8 @@ void read_warmup(const Value& value, Duration duration, Warmup& warmup) {
     }
     if (warmup.given >= duration) {
         throw InputError(value.where,
-                         fmt::format("warmup: found {}; expected less than the run takes, "
-                                     "[scenario] duration = {}: no message would count",
+                         fmt::format("warmup: found {}; expected less than [scenario] duration = "
+                                     "{}, because otherwise no message would count",
                                      value.description(), to_toml(to_value(duration))));
     }
 }
@@ -227,8 +228,8 @@ void read_warmup(const Value& value, Duration duration, Warmup& warmup) {
 void check_interval(const TableReader& table, const StudyTable& study) {
     if (!study.precision || study.interval != IntervalMethod::star) return;
     throw InputError(table.table().find("interval")->where,
-                     "interval = \"star\" is for a number of replications that is fixed "
-                     "beforehand, and `precision` adds some; expected \"betting\" or \"t\"");
+                     "interval = \"star\" needs a number of replications that is fixed beforehand, "
+                     "but `precision` adds replications; expected \"betting\" or \"t\"");
 }
 
 }  // namespace

@@ -38,10 +38,11 @@ void read_payload_place(TrafficTable& traffic, TableReader& table) {
 /// Checks that traffic does not stop before it starts.
 void check_stop(const TrafficTable& traffic, TableReader& table) {
     if (!traffic.stop || !traffic.start || *traffic.stop > *traffic.start) return;
-    throw InputError(table.take("stop")->where,
-                     fmt::format("stop: found {} s, and start is {} s, so that nothing would be "
-                                 "sent; expected a later time",
-                                 seconds(*traffic.stop), seconds(*traffic.start)));
+    throw InputError(
+        table.take("stop")->where,
+        fmt::format(
+            "stop: found {} s, but start is {} s, so nothing would be sent; expected a later time",
+            seconds(*traffic.stop), seconds(*traffic.start)));
 }
 
 }  // namespace
@@ -55,7 +56,7 @@ TrafficTable read_traffic(const Value& value) {
     if (given("name") && !is_flow_name(traffic.name)) {
         throw InputError(given("name")->where,
                          fmt::format("name: found \"{}\"; expected a name without blanks and "
-                                     "commas, as it ends the names of metrics",
+                                     "commas, because it is a part of the names of metrics",
                                      traffic.name));
     }
     if (!given("from")) table.missing("from", "from = \"A\"");

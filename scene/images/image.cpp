@@ -101,8 +101,9 @@ Image read_png(const std::string& path, std::FILE* file) {
     const auto damaged = [&] {
         image_error(
             path,
-            fmt::format("damaged or truncated PNG ({}); expected a whole image; save it again",
-                        reader.error.data()));
+            fmt::format(
+                "damaged or truncated PNG ({}); expected a whole image; save the picture again",
+                reader.error.data()));
     };
     if (!read_header(reader, file)) damaged();
     const auto width = png_get_image_width(reader.png, reader.info);
@@ -126,8 +127,10 @@ void image_error(const std::string& path, const std::string& message) {
 void check_image_size(const std::string& path, std::int64_t width, std::int64_t height) {
     if (width < 1 || height < 1)
         image_error(
-            path, fmt::format("image of {} x {} pixels; expected at least one pixel; save it again",
-                              width, height));
+            path,
+            fmt::format(
+                "image of {} x {} pixels; expected at least one pixel; save the picture again",
+                width, height));
     if (width > max_image_pixels / height)
         image_error(path, fmt::format("image of {} x {} pixels; expected at most {} million "
                                       "pixels; scale it down or cut it",

@@ -21,7 +21,7 @@ class NetpbmReader {
         }
         max_value_ = number("a maxval from 1 to 65535", 65535);
         if (max_value_ == 0)
-            fail(fmt::format("{} maxval 0; expected 1 to 65535; save it again", name_));
+            fail(fmt::format("{} maxval 0; expected 1 to 65535; save the picture again", name_));
         for (std::uint8_t& sample : image.samples)
             sample = scaled(plain_ ? number_sample() : raw());
         return image;
@@ -34,7 +34,7 @@ class NetpbmReader {
 
     [[noreturn]] void fail(const std::string& message) const { image_error(path_, message); }
     [[noreturn]] void truncated() const {
-        fail(fmt::format("truncated {}; expected one {} per pixel; save it again", name_,
+        fail(fmt::format("truncated {}; expected one {} per pixel; save the picture again", name_,
                          name_ == "PPM" ? "red, green and blue" : "sample"));
     }
 
@@ -53,7 +53,8 @@ class NetpbmReader {
         return c;
     }
     [[noreturn]] void unexpected(int c, const char* what) const {
-        fail(fmt::format("byte 0x{:02x} in {}; expected {}; save it again", c, name_, what));
+        fail(fmt::format("byte 0x{:02x} in {}; expected {}; save the picture again", c, name_,
+                         what));
     }
 
     /// Skips white space, then reads a decimal number and one white space after it.
@@ -65,8 +66,8 @@ class NetpbmReader {
             digits = true;
             value = 10 * value + (c - '0');
             if (value > limit)
-                fail(fmt::format("number above {} in {}; expected {}; save it again", limit, name_,
-                                 what));
+                fail(fmt::format("number above {} in {}; expected {}; save the picture again",
+                                 limit, name_, what));
         }
         if (!digits || !(white(c) || c == EOF)) unexpected(c, what);
         return static_cast<int>(value);
@@ -83,10 +84,9 @@ class NetpbmReader {
         const int high = max_value_ > 255 ? byte() : 0;
         const int value = 256 * high + byte();
         if (value > max_value_)
-            fail(
-                fmt::format("{} sample {} above the maxval {}; expected at most that; "
-                            "save it again",
-                            name_, value, max_value_));
+            fail(fmt::format(
+                "{} sample {} above the maxval {}; expected at most that; save the picture again",
+                name_, value, max_value_));
         return value;
     }
     std::uint8_t scaled(int value) const {

@@ -68,7 +68,9 @@ std::string to_png(const Image& image) {
                            image.samples.size() == static_cast<std::size_t>(image.width) *
                                                        static_cast<std::size_t>(image.height) *
                                                        static_cast<std::size_t>(image.channels);
-    if (!sizes_fit) throw std::invalid_argument("to_png: the samples do not fit the sizes");
+    if (!sizes_fit)
+        throw std::invalid_argument(
+            "to_png: the number of samples does not match the width and the height");
     PngWriter writer;
     if (!writer.info) throw std::bad_alloc();
     if (!write_pixels(writer, image)) {

@@ -78,7 +78,9 @@ Image read_by_library(const std::string& path, std::FILE* file, std::string_view
         pixels.reset(stbi_load_from_callbacks(&callbacks, &source, &width, &height, &channels, 0));
     }
     if (source.ended)
-        image_error(path, fmt::format("truncated {}; expected a whole image; save it again", kind));
+        image_error(
+            path,
+            fmt::format("truncated {}; expected a whole image; save the picture again", kind));
     if (!known || !pixels)
         image_error(path, fmt::format("damaged {0}, or a kind of {0} that is not read ({1}); "
                                       "expected a whole image; save it as PNG",

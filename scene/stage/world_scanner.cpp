@@ -157,8 +157,8 @@ WorldToken WorldScanner::quoted() {
     const std::size_t end = text_.find_first_of("\"\r\n", begin);
     if (end == text_.npos || text_[end] != '"') {
         fail(at_,
-             "found a text without its end; expected \" at both ends of it, on one line; add "
-             "the second");
+             "found a text without its end; expected \" at both ends of a text, on one line; add "
+             "the second \"");
     }
     const std::string_view found = text_.substr(begin, end - begin);
     if (const std::size_t bad = first_bad(found); bad != found.npos) {
@@ -196,9 +196,9 @@ void WorldScanner::reject_number(std::string_view found) const {
     constexpr std::size_t longest = 60;
     fail(at_, fmt::format("found \"{}{}\"; expected a number, such as -0.5; {}",
                           found.substr(0, longest), found.size() > longest ? "..." : "",
-                          is_letter(found.back()) ? "units stand nowhere in a world file: remove "
-                                                    "the letters"
-                                                  : "check its signs, points and digits"));
+                          is_letter(found.back())
+                              ? "numbers in a world file have no units: remove the letters"
+                              : "check its signs, points and digits"));
 }
 
 void WorldScanner::reject_character() const {

@@ -77,10 +77,9 @@ const WorldToken& Parser::take(std::size_t& at) {
     if (taken.kind != Kind::file_end) ++at;
     constexpr std::size_t most = 2 * most_world_tokens;  // each is also looked at in its macro
     if (++taken_ > most) {
-        fail(taken,
-             fmt::format("macros make more than {} words, values and lines; expected fewer; do "
-                         "macros use one another many times?",
-                         most_world_tokens));
+        fail(taken, fmt::format("macros make more than {} words, values and lines; expected fewer; "
+                                "do macros use each other many times?",
+                                most_world_tokens));
     }
     return taken;
 }
@@ -226,8 +225,8 @@ WorldEntity Parser::entity(std::size_t& at, const WorldToken& type, int depth) {
 /// Fills an entity with the content of its macro, if its type is a macro.
 void Parser::start(WorldEntity& entity, const std::string& type, const WorldToken& use, int depth) {
     if (depth > deepest) {
-        fail(use, fmt::format("\"{}\" is more than {} deep in others; expected less; does a macro "
-                              "use itself?",
+        fail(use, fmt::format("\"{}\" is nested more than {} levels deep; expected fewer levels; "
+                              "does a macro use itself?",
                               use.text, deepest));
     }
     const auto macro = checking_ ? macros_.end() : macros_.find(type);

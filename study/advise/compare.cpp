@@ -19,7 +19,7 @@ namespace {
 /// The one key that varies, and its value.
 const Entry& setting_of(const Answer& answer) {
     if (answer.settings.entries.size() == 1) return answer.settings.entries.front();
-    throw std::invalid_argument("compare: the store's study does not vary one key alone");
+    throw std::invalid_argument("compare: expected a store whose study varies exactly one key");
 }
 
 /// The values of two models in the replications in which both have one.

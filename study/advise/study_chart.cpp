@@ -84,9 +84,11 @@ std::string note_of(const Answers& all, const ChartQuestion& q, double confidenc
 /// Checks that a kind of chart has the keys that its axes need.
 void check_axes(const ChartQuestion& q) {
     const bool cdf = q.kind == ChartKind::cdf;
-    if (q.x.empty() && !cdf) throw std::invalid_argument("-x: expected a key that varies");
+    if (q.x.empty() && !cdf)
+        throw std::invalid_argument("-x: no key is given; expected a key that varies in the study");
     if (cdf && !q.x.empty())
-        throw std::invalid_argument("-x: a cdf has its metric on the x axis; give it with -y");
+        throw std::invalid_argument(
+            "-x: a cdf takes no -x, because its x axis is the metric of -y; leave -x out");
     if (q.kind == ChartKind::heat_map && q.by.empty()) {
         throw std::invalid_argument("--by: a heat map needs a key for its rows");
     }
@@ -159,7 +161,7 @@ std::string varied_path(const std::vector<std::string>& paths, const std::string
     throw std::invalid_argument(fmt::format(
         "the key \"{}\" {} in this study; expected {}{}{}", word,
         found.empty() ? "does not vary" : "means several", paths.empty() ? "" : "one of ",
-        paths.empty() ? "none, as nothing varies" : fmt::format("{}", fmt::join(paths, ", ")),
+        paths.empty() ? "none, because nothing varies" : fmt::format("{}", fmt::join(paths, ", ")),
         near.empty() ? "" : "; " + near));
 }
 

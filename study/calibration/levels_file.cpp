@@ -74,7 +74,9 @@ class LevelsReader {
                 fmt::format("no column \"{}\"; expected at least from_x_m, from_y_m, to_x_m, "
                             "to_y_m{} and level_dbm",
                             needed,
-                            receivers == Receivers::known ? "" : " (or place in their place)"));
+                            receivers == Receivers::known
+                                ? ""
+                                : " (or the column place in place of the last two)"));
         }
     }
 

@@ -95,9 +95,9 @@ std::vector<NodeId> anchors_in(const Network& network, const std::vector<std::st
             (medium.stations().model(*robot) != medium.stations().model(out.front()) ||
              medium.stations().radio(*robot).frequency !=
                  medium.stations().radio(out.front()).frequency))
-            throw InputError(typed,
-                             "another propagation model or frequency than that of the "
-                             "first anchor");
+            throw InputError(
+                typed,
+                "a propagation model or frequency that differs from that of the first anchor");
         out.push_back(*robot);
     }
     return out;

@@ -210,8 +210,9 @@ std::string decision_sentence(const ValidationPanel& panel) {
     for (std::size_t i = 2; i < panel.points.size(); ++i) {
         const ValidationPoint& p = panel.points[i];
         if (p.error > 0 && p.cost.median >= ours.cost.median) {
-            return out + fmt::format(" A {} is slower than that, and flips {:.2g} %.", p.label,
-                                     100 * p.error);
+            return out +
+                   fmt::format(" \"{}\" is slower, and decides {:.2g} % of the cases wrongly.",
+                               p.label, 100 * p.error);
         }
     }
     return out;
@@ -222,7 +223,7 @@ std::string decision_sentence(const ValidationPanel& panel) {
 ValidationChart decisions_chart(const ValidationSize& size, Promises& promises) {
     ValidationChart chart{
         .name = "decisions",
-        .title = "Is the link up, without its loss?",
+        .title = "Is the link up? Decided without the loss",
         .truth =
             "The reference is the loss itself, by logarithms, against a budget of 90 dB at 2450 "
             "MHz: "
@@ -232,8 +233,8 @@ ValidationChart decisions_chart(const ValidationSize& size, Promises& promises) 
         .for_contributors = true};
     for (const ValidationPanel& panel : chart.panels) {
         const ValidationPoint& ours = panel.points[1];
-        promises.push_back({fmt::format("decisions flipped: {} {}", panel.title, ours.label), "", 0,
-                            detail_of(ours, "flipped"), size.of(200'000, 5'000)});
+        promises.push_back({fmt::format("wrong decisions of {}: {}", ours.label, panel.title), "",
+                            0, detail_of(ours, "flipped"), size.of(200'000, 5'000)});
         chart.sentences.push_back(decision_sentence(panel));
     }
     return chart;

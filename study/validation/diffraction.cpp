@@ -131,8 +131,8 @@ ValidationChart diffraction_chart(const ValidationSize& size, Promises& promises
         .name = "diffraction",
         .title = "How deep is the shadow of an edge?",
         .truth = fmt::format("{} places behind a screen and {} behind a right-angled corner of "
-                             "metal, 1.6 and 8 wavelengths from the edge, both polarisations. True "
-                             "are Sommerfeld's exact solutions.",
+                             "metal, 1.6 and 8 wavelengths from the edge, both polarisations. The "
+                             "true fields are Sommerfeld's exact solutions.",
                              std::size(behind_screen), std::size(behind_corner)),
         .panels = {shadow_panel("screen", behind_screen, 2, size, screen),
                    shadow_panel("right-angled corner", behind_corner, 1.5, size, corner)}};
@@ -145,7 +145,7 @@ ValidationChart diffraction_chart(const ValidationSize& size, Promises& promises
                               &utd = point_of(panel, "UTD");
         chart.sentences.push_back(fmt::format(
             "Behind a {} UTD is {:.2g} dB off, at {} times the cost of the knife edge of "
-            "P.526, which is {:.2g} dB off; to take the shadow as lit is {:.2g} dB off.",
+            "P.526, which is {:.2g} dB off; without any shadow the error is {:.2g} dB.",
             panel.title, utd.error, two_digits(utd.cost.median / edge.cost.median), edge.error,
             panel.points.front().error));
     }

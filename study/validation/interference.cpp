@@ -109,7 +109,8 @@ ValidationChart interference_cut_chart(const ValidationSize& size) {
             .panels = {panel},
             .sentences = {fmt::format(
                 "The usual cut of 20 dB changes the delivery ratio of a run by {:.2g} on average; "
-                "counting only what can be decoded (0 dB) changes it by {:.2g}, for {:.2g} of the "
+                "counting only frames that can be decoded (0 dB) changes it by {:.2g}, at {:.2g} "
+                "of the "
                 "CPU time.",
                 usual.error, none.error, none.cost.median / panel.points.back().cost.median)}};
 }
@@ -128,8 +129,7 @@ ValidationChart reception_chart(const ValidationSize& size) {
                              replications),
         .panels = {delivery_panel("a message each 100 ms", storm("100 ms"), variants, replications),
                    delivery_panel("a message each 10 ms", storm("10 ms"), variants, replications)}};
-    chart.sentences = {
-        "`sinr` is taken as true: how wrong it is itself no measurement here tells."};
+    chart.sentences = {"`sinr` is taken as true; its own error is not measured here."};
     for (const ValidationPanel& panel : chart.panels) {
         const ValidationPoint &threshold = panel.points[0], &collision = panel.points[1];
         chart.sentences.push_back(fmt::format(

@@ -216,8 +216,9 @@ std::string step_sentence(const ValidationPanel& panel) {
     const ValidationPoint& exact = point_of(panel, "rovernet");
     const ValidationPoint& slow = point_of(panel, "a look each 100 ms");
     return fmt::format(
-        "{}: looking at each link every 100 ms costs {:.2g} times as much, misses {:.2g} % of the "
-        "changes and has a state wrong for {:.2g} ms per change; changes found ahead: {:.2g} ms.",
+        "{}: checking each link every 100 ms costs {:.2g} times as much as finding changes ahead, "
+        "misses {:.2g} % of the "
+        "changes, and has a wrong state for {:.2g} ms per change; changes found ahead: {:.2g} ms.",
         panel.title, slow.cost.median / exact.cost.median, detail_of(slow, "changes missed [%]"),
         slow.error, exact.error);
 }

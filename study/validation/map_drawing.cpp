@@ -126,8 +126,9 @@ std::string cell_sentence(const ValidationPanel& panel) {
                           &coarse = point_of(panel, "20 cm", "filled"),
                           &outline = point_of(panel, "5 cm", "outline");
     return fmt::format(
-        "{}: cells of 5 cm are {:.2g} dB off ({:+.2g} dB on average), those of 20 cm, wider than a "
-        "wall, {:.2g} dB; the 5 cm map drawn as outlines is {:.2g} dB off.",
+        "{}: with cells of 5 cm the error is {:.2g} dB ({:+.2g} dB on average), with cells of 20 "
+        "cm, "
+        "which are wider than a wall, {:.2g} dB; with the 5 cm map drawn as outlines {:.2g} dB.",
         panel.title, fine.error, detail_of(fine, "bias [dB]"), coarse.error, outline.error);
 }
 

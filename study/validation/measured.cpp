@@ -166,9 +166,9 @@ ValidationPanel building_panel(const MeasuredBuilding& building, const Validatio
 std::string best_sentence(const ValidationPanel& panel, const Repeatability& repeated) {
     const Nearest nearest = nearest_to_truth(panel, [](const ValidationPoint&) { return true; });
     return fmt::format(
-        "{}: {}, by the levels of {} receivers. Free space (friis) is {:.2f} dB off. The same "
-        "places measured again differ by {:.2f} dB, so that a model that is right would be {:.2f} "
-        "dB off.",
+        "{}: {}, with the levels of {} receivers. Free space (friis) is {:.2f} dB off. Repeated "
+        "measurements of the same places differ by {:.2f} dB, so even the right model would be "
+        "{:.2f} dB off.",
         panel.title,
         nearest_text(nearest, [](double error) { return fmt::format("{:.2f} dB off", error); }),
         nearest.point->parts.size(), point_of(panel, "friis", with_defaults).error, repeated.rms,
@@ -185,10 +185,10 @@ std::string rays_sentence(const ValidationPanel& panel) {
         fmt::format("{}: rays are {:.2f} dB {} than the fitted multi_wall, at {} times its cost.",
                     panel.title, std::abs(excess), excess <= 0 ? "better" : "worse",
                     two_digits(best.cost.median / walls.cost.median));
-    if (best.series == with_defaults) return out + " Nothing of them was fitted but one constant.";
+    if (best.series == with_defaults) return out + " Only one constant of the rays was fitted.";
     return out + fmt::format(
-                     " With walls of concrete they are {:.2f} dB off, with the wall loss "
-                     "that the fit estimates {:.2f} dB.",
+                     " With walls of concrete the rays are {:.2f} dB off; with the wall loss "
+                     "that the fit estimates they are {:.2f} dB off.",
                      point_of(panel, "rays", with_defaults).error, best.error);
 }
 
@@ -225,8 +225,8 @@ ValidationChart measured_chart(const std::string& folder, const ValidationSize& 
             "Local means of levels in a furnished flat (a robot's drive; Kolakowski, Sensors "
             "21, 2021, CC BY 4.0) and medians in an open laboratory (Danis et al., Pervasive "
             "and Mobile Computing 81, 2022, CC0), fitted on one drive or day and judged on "
-            "another. As given: the defaults, and the one constant that nobody knows (power "
-            "and gains) fitted. Bars: each receiver predicted without its own levels."};
+            "another. As given: the defaults; only the one unknown constant (power and gains) "
+            "is fitted. Bars: the error if each receiver is predicted without its own levels."};
     for (const auto& building : {measured_flat(folder), measured_lab(folder)}) {
         const ValidationPanel panel = building_panel(building, size);
         check_anchors(panel, promises);

@@ -114,9 +114,10 @@ void check_arcs(Promises& promises) {
             }
         }
     }
-    promises.push_back({"place of a driven robot, against its circle", "m", 0.00101, free, cases});
-    promises.push_back({"place of a driven robot that turns at a wall, against its circles", "m",
-                        0.0011, at_wall, cases});
+    promises.push_back(
+        {"place of a driven robot, against the exact circle", "m", 0.00101, free, cases});
+    promises.push_back({"place of a driven robot that turns at a wall, against the exact circles",
+                        "m", 0.0011, at_wall, cases});
 }
 
 }  // namespace

@@ -198,14 +198,15 @@ std::string nearest_sentence(const ValidationPanel& panel,
 std::string truth_sentence(const ValidationPanel& panel, const Truth& truth,
                            const std::function<std::string(double)>& off) {
     if (!truth.own_error) {
-        return fmt::format("{}: {} is taken as true; how wrong it is itself is not known here.",
-                           panel.title, truth.model.label);
+        return fmt::format("{}: {} is taken as true; its own error is not known here.", panel.title,
+                           truth.model.label);
     }
     return fmt::format(
-        "{}: {} is taken as true, and is {:.1f} dB off itself in a measured {}, beyond what the "
-        "levels are. Such an error "
-        "makes it {}: what is nearer agrees with the model, not with a building.",
-        panel.title, truth.model.label, truth.own_error->value, truth.building,
+        "{}: {} is taken as true. In a measured {} its own error is {:.1f} dB, beyond the errors "
+        "of "
+        "the measurement. With such an error the result is {}: a model that is nearer agrees with "
+        "the reference, not with a building.",
+        panel.title, truth.model.label, truth.building, truth.own_error->value,
         off(*panel.unknowable));
 }
 
@@ -217,7 +218,7 @@ std::string convergence_sentence(const ValidationPanel& panel,
         if (p.series == fewer_paths) forms.push_back(fmt::format("{} {}", p.label, off(p.error)));
     }
     if (forms.empty()) return "";
-    return fmt::format("{}: forms of the truth itself, with fewer paths: {}.", panel.title,
+    return fmt::format("{}: the reference with fewer paths: {}.", panel.title,
                        fmt::join(forms, "; "));
 }
 
@@ -239,7 +240,7 @@ std::string reach_sentence(const ValidationPanel& panel) {
         }
     }
     if (models.empty()) return "";
-    return fmt::format("{}: a fit changes the cost by the reach, not by the model, of {}.",
+    return fmt::format("{}: the fit changes the number of receivers, and so the cost, of {}.",
                        panel.title, fmt::join(models, ", "));
 }
 
@@ -335,11 +336,13 @@ std::vector<ValidationChart> path_loss_charts(const ValidationSize& size,
     scenes.push_back(panels_of(office_scene(), truths.among_walls, replications, size));
     scenes.push_back(panels_of(cave_scene(), truths.among_walls, replications, size));
     const std::string truth = fmt::format(
-        "Robots on the move flood a message every two seconds, {} replications of each scene. True "
-        "is the exact sum of two rays on the open field, and in the office and in the cave rays of "
-        "three reflections with diffraction by UTD. Fitted: to losses of the true model on other "
-        "replications, as `rovernet advise` does. Grey: what the truth would be off by if its "
-        "losses had the error that it has against measured levels. CPU of the medium alone.",
+        "Robots on the move flood a message every two seconds, {} replications of each scene. The "
+        "true loss is the exact sum of two rays on the open field; in the office and in the cave "
+        "it "
+        "is that of rays with three reflections and diffraction by UTD. Fitted: to losses of the "
+        "true model on other replications, as `rovernet advise` does. Grey: the error of the "
+        "reference if its losses had the error that it has against measured levels. CPU of the "
+        "medium alone.",
         replications);
     ValidationChart delivery{.name = "path_loss",
                              .title = "How near do cheap models come to a detailed one?",

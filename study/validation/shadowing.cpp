@@ -123,21 +123,24 @@ ValidationChart shadowing_chart(const ValidationSize& size) {
                              "exp(-D / {:g} m).",
                              seeds, walk, decorrelation),
         .panels = {flips_panel(1, seeds, size), flips_panel(0.1, seeds, size)}};
-    for (const ValidationPanel& panel : chart.panels) {
+    for (const double step : {1.0, 0.1}) {
+        const ValidationPanel& panel = chart.panels[step == 1 ? 0 : 1];
         const ValidationPoint &redrawn = panel.points.front(), &field = panel.points.back();
-        chart.sentences.push_back(fmt::format(
-            "With {} shadowing that is redrawn flips a link {:.2g} times a second instead of "
-            "{:.2g}; as a field of both places it flips {:.2g} times, for {:.3g} ns a look and "
-            "without any state.",
-            panel.title, detail_of(redrawn, "flips per second"), detail_of(redrawn, "true"),
-            detail_of(field, "flips per second"), field.cost.median));
+        chart.sentences.push_back(
+            fmt::format("Sampled every {:g} s, shadowing that is redrawn for each sample flips a "
+                        "link {:.2g} times "
+                        "a second instead of {:.2g}. As a field of both places it flips a link "
+                        "{:.2g} times, at "
+                        "{:.3g} ns a sample and without any state.",
+                        step, detail_of(redrawn, "flips per second"), detail_of(redrawn, "true"),
+                        detail_of(field, "flips per second"), field.cost.median));
     }
     chart.sentences.push_back(
-        "The true process has no rate of its own: it flips the more often the more often one "
-        "looks, "
-        "without end. So give the look with every number of flips; choose `field`, whose flips "
-        "hardly "
-        "grow from 1 s to 0.1 s; and fit its decorrelation distance by levels, not by flips.");
+        "The true process has no rate of its own: the finer it is sampled, the more often it "
+        "flips, "
+        "without a limit. So report the sampling interval with every number of flips. Choose "
+        "`field`, whose flips hardly grow from 1 s to 0.1 s, and fit its decorrelation distance to "
+        "levels, not to flips.");
     return chart;
 }
 

@@ -125,7 +125,8 @@ double detail_of(const ValidationPoint& point, const std::string& name) {
     for (const auto& [key, value] : point.details) {
         if (key == name) return value;
     }
-    throw std::out_of_range(fmt::format("no detail {} of {}", name, point.label));
+    throw std::out_of_range(
+        fmt::format("the point {1} has no detail named {0}", name, point.label));
 }
 
 }  // namespace rovernet

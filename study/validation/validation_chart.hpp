@@ -111,8 +111,8 @@ Nearest nearest_to_truth(const ValidationPanel& panel,
 
 /// Sentence that names the method with the smallest error, such as "multi_wall fitted is nearest,
 /// 4.01 dB off". If errors of other methods do not differ significantly, the sentence names up to
-/// three of these methods: "disc fitted (0.012 off) is not told apart from friis as given (0.013
-/// off)".
+/// three of these methods: "disc fitted (0.012 off) cannot be distinguished from friis as given
+/// (0.013 off)".
 /// @param nearest  result of nearest_to_truth() that has a point
 /// @param off      function that returns an error as a text, such as "4.01 dB off"
 std::string nearest_text(const Nearest& nearest, const std::function<std::string(double)>& off);

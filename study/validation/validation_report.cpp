@@ -77,10 +77,10 @@ bool all_right(const ValidationPanel& panel) {
 std::string not_drawn(const ValidationChart& chart) {
     std::vector<std::string> titles;
     for (const ValidationPanel& panel : chart.panels) {
-        if (all_right(panel)) titles.push_back(panel.title);
+        if (all_right(panel)) titles.push_back("\"" + panel.title + "\"");
     }
     if (titles.empty()) return "";
-    return fmt::format(" No picture of: {}; every error is 0.", fmt::join(titles, ", "));
+    return fmt::format(" No picture, because every error is 0: {}.", fmt::join(titles, ", "));
 }
 
 std::string csv_cell(const std::string& text) {

@@ -165,11 +165,10 @@ std::string naive_sentence(const ValidationPanel& panel) {
     });
     const ValidationPoint& best = *naive.point;
     return fmt::format(
-        "Of the approximations {}. {} costs {} times as much as the exact length and flips "
+        "Of the approximations, {}. It costs {} times as much as the exact length and changes "
         "{:.2g} % of the decisions.",
         nearest_text(naive, [](double error) { return fmt::format("{:.2g} dB off (rms)", error); }),
-        best.label, two_digits(best.cost.median / exact.cost.median),
-        detail_of(best, "flipped decisions [%]"));
+        two_digits(best.cost.median / exact.cost.median), detail_of(best, "flipped decisions [%]"));
 }
 
 }  // namespace

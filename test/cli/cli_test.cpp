@@ -155,7 +155,7 @@ TEST_CASE("run: --seed and --set change the run; the same seed gives the same ru
     CHECK(fingerprint("--seed", "5") != fingerprint("--set", "robot.B.off=[1]"));
 }
 
-TEST_CASE("trace stats: the metrics of the summary to the last digit, in both formats") {
+TEST_CASE("trace stats: prints the metrics of the summary to the last digit, in both formats") {
     std::string routed =
         "[scenario]\nduration = \"4 s\"\n[routing]\nprotocol = \"aodv\"\n"
         "[propagation]\nmodel = \"disc\"\nrange = \"250 m\"\n"
@@ -244,7 +244,7 @@ TEST_CASE("loss --wall: half a metre at 2 dB per centimetre costs 100 dB") {
     CHECK(command(folder, {"loss", "friis", "--distance", "1", "--wall", "2"}).exit == 2);
 }
 
-TEST_CASE("loss --heights: antennas 1.5 m high over a field lose what the vectors say (two_ray)") {
+TEST_CASE("loss --heights: the loss between antennas 1.5 m high equals the vectors (two_ray)") {
     const TemporaryFolder folder;
     const auto loss = [&](const std::string& heights) {
         return json_of(

@@ -155,8 +155,7 @@ TEST_CASE("input kinds: movements beyond the longest run are an error with its p
     CHECK(in.run({"where", part, "--at", "1s"}).exit == 0);  // a scenario has its own end
 }
 
-TEST_CASE(
-    "sweep --merge: a file that is not a store is refused before any change, and not changed") {
+TEST_CASE("sweep --merge: a file that is not a store is refused, and no file is changed") {
     const Inputs in;
     const std::string notes = in.path("notes.txt"), store = in.path("s.db");
     check_told(in.run({"sweep", in.path("one.toml"), "--store", store, "--merge", notes}),

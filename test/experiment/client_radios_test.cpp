@@ -26,7 +26,8 @@ struct Three {
 
 }  // namespace
 
-TEST_CASE("client radios: a client that stays at a shared radio still hears, with hop and level") {
+TEST_CASE(
+    "client radios: of two clients at one radio, the one that stays still receives messages") {
     Three robots;
     ClientRadios radios(robots.net);
     radios.join(1, {robots.b, robots.c}, true);
@@ -59,7 +60,7 @@ TEST_CASE("client radios: simultaneous messages are in the order of robots, not 
     CHECK(heard[1].at == robots.c);
 }
 
-TEST_CASE("client radios: a message of a robot that is off gets no uid and leaves no port") {
+TEST_CASE("client radios: a robot that is off sends no message, and its message gets no uid") {
     Three robots;
     ClientRadios radios(robots.net);
     radios.join(1, {robots.a, robots.b}, true);

@@ -98,7 +98,7 @@ TEST_CASE("flows: equal names, and names that cannot end a metric's name, are re
     CHECK_THROWS_AS(loaded(folder, three + flow + "\"x,y\"\n"), InputError);
 }
 
-TEST_CASE("random sources: all sources are chosen equally, in any order of the file") {
+TEST_CASE("random sources: all robots are chosen equally often, in any order of the file") {
     const std::string traffic =
         "[[traffic]]\nfrom = \"random\"\npayload = \"F\"\nevery = \"10 ms\"\ncount = 300\n"
         "[metrics]\nrobots = true\n[scenario]\nduration = \"4 s\"\n";
@@ -117,7 +117,7 @@ TEST_CASE("random sources: all sources are chosen equally, in any order of the f
     }
 }
 
-TEST_CASE("topology: metrics of a robot that passes another robot, compared with manual values") {
+TEST_CASE("topology: metrics of a robot that passes another robot equal manual values") {
     // b passes a at 2 m/s, from 20 m before it to 20 m behind it: in range of 10 m from 5 s to 15
     // s.
     const Table table = summary(R"(

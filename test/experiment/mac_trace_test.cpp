@@ -126,7 +126,7 @@ const AccessModel accesses[] = {NoAccess{}, Aloha{}, asking};
 
 }  // namespace
 
-TEST_CASE("MAC trace: bytes do not depend on serving receptions together or one by one") {
+TEST_CASE("MAC trace: receptions served together or one by one give the same bytes") {
     for (const ReceptionModel& reception : receptions) {
         for (const AccessModel& access : accesses) {
             for (const Db shadowing : {Db{0}, Db{4}}) {
@@ -144,7 +144,7 @@ TEST_CASE("MAC trace: bytes do not depend on serving receptions together or one 
     }
 }
 
-TEST_CASE("MAC trace: it adds lines to the other lines, and reading back gives the same arrivals") {
+TEST_CASE("MAC trace: adds lines to the trace, from which the same arrivals are read back") {
     for (const Ns2Format format : {Ns2Format::old_format, Ns2Format::new_format}) {
         for (const AccessModel& access : accesses) {
             CAPTURE(access.name());

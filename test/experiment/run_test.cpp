@@ -125,7 +125,7 @@ TEST_CASE("run: a run beyond the event limit fails and leaves no files") {
     CHECK(std::filesystem::is_empty(folder.path("out")));
 }
 
-TEST_CASE("link report: free space over 10 m, and the margin is power less loss less sensitivity") {
+TEST_CASE("link report: over 10 m the loss is that of free space, and the margin follows from it") {
     Scenario scenario = three_robots("none");
     scenario.propagation.model = 1;
     const auto report = report_link(scenario, "A", "C", start_of_run);

@@ -42,7 +42,7 @@ warmup = ")" + warmup + "\"\n";
 
 }  // namespace
 
-TEST_CASE("warm-up: messages sent before its end do not count, nor do their copies") {
+TEST_CASE("warm-up: messages sent before its end, and their copies, do not count") {
     Network net({.propagation = Disc{.range = Meters{10}}, .warmup = 2s});
     net.route(Flood{.ttl = 3});
     const NodeId a = net.add({.name = "a", .at = {}});

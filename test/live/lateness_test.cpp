@@ -115,7 +115,7 @@ TEST_CASE("lateness: while a front pauses the time, the run is not late") {
     CHECK(result.fault.empty());
 }
 
-TEST_CASE("lateness: a front that pauses later lets the run be late until then") {
+TEST_CASE("lateness: a run is late until a front pauses the time") {
     const LiveResult result = run({.limit = start_of_run + 10min});
     CHECK(result.lateness->most > 9min);
     CHECK(result.lateness->most < 11min);
@@ -133,7 +133,7 @@ TEST_CASE("lateness: a front that writes slowly delays messages that arrive mean
     CHECK_FALSE(result.fault.empty());
 }
 
-TEST_CASE("lateness: input on time is not counted without a request") {
+TEST_CASE("lateness: a look at the clock counts only if it is late, an event always counts") {
     Lateness lateness;
     lateness.add_look(999us);
     CHECK(lateness.most == 999us);

@@ -165,7 +165,7 @@ TEST_CASE("paced run: simultaneous commands are replayed in order, whatever they
     CHECK(paced.replay().now == result.run.fingerprint);
 }
 
-TEST_CASE("paced run: also if it is late, commands take effect at their arrival") {
+TEST_CASE("paced run: commands take effect when they arrive, also in a late run") {
     Scenario scenario = three_in_a_row();
     scenario.scenario.duration = 1h;
     constexpr int speed = 100;
@@ -207,7 +207,7 @@ TEST_CASE("paced run: without a speed it runs as fast as its front allows, alway
     CHECK(fingerprints[0] == fingerprints[1]);
 }
 
-TEST_CASE("paced run: time paused by a front is not caught up") {
+TEST_CASE("paced run: after a pause by a front, time continues without catching up") {
     Paced<Patient> paced(2, three_in_a_row());
     LineClient client(paced.port());
     client.line();                        // the port

@@ -153,9 +153,11 @@ TEST_CASE("wander, follow_wall: refuse a scene without a map") {
     LoneMover robot(planners);
     Wander wander;
     FollowWall follow;
-    CHECK_THROWS_WITH_AS(robot.walk(wander), "wander: there is no map, so nothing to avoid",
+    CHECK_THROWS_WITH_AS(robot.walk(wander),
+                         "wander: there is no map, so there is nothing to avoid",
                          std::invalid_argument);
-    CHECK_THROWS_WITH_AS(robot.walk(follow), "follow_wall: there is no map, so no wall to follow",
+    CHECK_THROWS_WITH_AS(robot.walk(follow),
+                         "follow_wall: there is no map, so there is no wall to follow",
                          std::invalid_argument);
 }
 

@@ -148,7 +148,7 @@ TEST_CASE("cell search: paths over random maps are as long as those of Boost") {
     CHECK(compare_with_boost(0.05, 0.08, 42) > 100);
 }
 
-TEST_CASE("cell search: a step may be longer than all buckets together") {
+TEST_CASE("cell search: a step longer than the range of all buckets is handled") {
     CHECK(compare_with_boost(0.01, 1, 43) > 100);
     CHECK(compare_with_boost(1, 0.01, 44) > 100);
 }

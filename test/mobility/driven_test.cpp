@@ -136,7 +136,7 @@ TEST_CASE("driven: stops at a wall, turns there, and continues when possible") {
     CHECK(scene.clearance(drive.net.position(drive.robot)) >= 0.2 - 1e-9);
 }
 
-TEST_CASE("driven: a thousand commands during chords deviate no more from the arc than one") {
+TEST_CASE("driven: a thousand commands cause no larger deviation from the arc than one command") {
     Drive drive;
     const auto arc = std::make_shared<DrivenArc>();
     double worst = 0;

@@ -41,9 +41,7 @@ TEST_CASE("follow: reaches its distance from a resting leader, and stays there")
     CHECK(net.events() < 700);
 }
 
-TEST_CASE(
-    "follow: the gap behind a steady leader is the distance plus the leader's way until the next "
-    "look") {
+TEST_CASE("follow: a steady leader is ahead by the distance plus its motion in one interval") {
     Network net;
     net.add({.name = "A", .at = {10, 0}, .move = ToGoal{.to = {1e4, 0}, .speed = {1.5}}});
     net.add(

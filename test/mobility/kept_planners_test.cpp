@@ -31,7 +31,7 @@ TEST_CASE("kept planners: each scene has its own planners, the same in each call
     CHECK(kept.of(nullptr) == nullptr);  // an open field
 }
 
-TEST_CASE("kept planners: a freed scene is not confused with a later one") {
+TEST_CASE("kept planners: a new scene at the address of a freed one gets its own planners") {
     KeptPlanners kept;
     for (std::size_t columns = 1; columns < 20; ++columns) {
         const auto scene = empty_map(columns, 1);

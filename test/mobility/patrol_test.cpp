@@ -44,7 +44,7 @@ TEST_CASE("patrol: goes around the walls") {
     CHECK(arrivals < 50);
 }
 
-TEST_CASE("patrol: a place without a path to it ends the patrol") {
+TEST_CASE("patrol: ends if there is no path to a place") {
     const Scene map(test::drawn_map({"...#...", "...#..."}));
     Planners planners(map);
     const Legs nobody;

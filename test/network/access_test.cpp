@@ -353,7 +353,7 @@ std::string flooded(const ReceptionModel& reception, const AccessModel& access, 
 
 }  // namespace
 
-TEST_CASE("grid and joint events give the same records as all pairs and single events") {
+TEST_CASE("the fast run gives the same records as a run over all pairs with single events") {
     for (const Db shadowing : {Db{0}, Db{4}}) {
         for (const ReceptionModel& model :
              {ReceptionModel{Threshold{}}, ReceptionModel{Collision{}}, ReceptionModel{Sinr{}}}) {

@@ -197,7 +197,8 @@ TEST_CASE("doors: have no effect on models that ignore walls") {
     CHECK(with(Friis{}) == 0);
 }
 
-TEST_CASE("doors: with shadowing, fading and reference mode, equal no door or a wall") {
+TEST_CASE(
+    "doors: with variation or in reference mode, a closed door is a wall and an open one nothing") {
     CHECK(compare([](NetworkSettings& settings) {
               settings.propagation = MultiWall{};
               settings.shadowing = {.model = ShadowingModel::link};

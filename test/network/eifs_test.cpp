@@ -170,7 +170,7 @@ TEST_CASE("eifs: a frame that ends while the station sends requires nothing") {
     }
 }
 
-TEST_CASE("eifs: a frame that is sensed but too weak to decode requires one as in ns-2") {
+TEST_CASE("eifs: a frame that is sensed but too weak to decode requires an EIFS only as in ns-2") {
     for (const auto& [rule, expected] : {std::pair{EifsRule::standard, difs},
                                          {EifsRule::ns2, eifs + difs},
                                          {EifsRule::none, difs}}) {

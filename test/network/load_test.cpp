@@ -298,7 +298,7 @@ TEST_CASE("load: with range 0 robots that pass through each other keep their lin
     CHECK(net.events() < 20);
 }
 
-TEST_CASE("load: of two frames at one nanosecond with threshold both are received, in order") {
+TEST_CASE("load: under threshold, two frames in the same nanosecond are both received, in order") {
     for (const std::uint32_t first : {0U, 1U}) {
         Watched world(disc(15));
         world.add({0, 20, 10, 10});
@@ -312,7 +312,7 @@ TEST_CASE("load: of two frames at one nanosecond with threshold both are receive
     }
 }
 
-TEST_CASE("load: two frames at one nanosecond with one level are both lost") {
+TEST_CASE("load: two frames in the same nanosecond with equal levels are both lost") {
     for (const ReceptionModel& model : {ReceptionModel{Collision{}}, ReceptionModel{Sinr{}}}) {
         CAPTURE(model.name());
         Watched hidden(disc(15, model));
@@ -332,7 +332,8 @@ TEST_CASE("load: two frames at one nanosecond with one level are both lost") {
     }
 }
 
-TEST_CASE("load: of two frames at one nanosecond the one stronger by the capture ratio survives") {
+TEST_CASE(
+    "load: of two frames in the same nanosecond, one stronger by the capture ratio survives") {
     for (const std::uint32_t stronger : {0U, 1U}) {
         NetworkSettings settings = disc(0, Collision{});
         settings.propagation = LogDistance{.exponent = 2, .sigma = Db{0}};

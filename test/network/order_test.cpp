@@ -93,7 +93,7 @@ std::shared_ptr<ReceptionLog> run(const Setting& setting, std::uint32_t seed) {
 
 }  // namespace
 
-TEST_CASE("order: records equal those with an event for each reception") {
+TEST_CASE("order: joint events for several receptions give the records of an event for each") {
     for (Setting setting : settings()) {
         for (std::uint32_t seed = 1; seed <= 4; ++seed) {
             CAPTURE(seed);

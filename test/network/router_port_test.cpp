@@ -178,7 +178,7 @@ TEST_CASE("router port: levels match their receptions if a robot is switched off
     CHECK(both[0] > both[1]);
 }
 
-TEST_CASE("router port: results of csma are acknowledged, given up, no room and switched off") {
+TEST_CASE("router port: csma reports acknowledged, given up, queue full or switched off") {
     const Csma one_place{.queue = 1};
     SUBCASE("acknowledged") {
         Row row(Csma{});

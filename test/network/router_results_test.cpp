@@ -241,7 +241,8 @@ TEST_CASE("take_queued: a station whose queue was emptied sends the next frame")
     CHECK(row.script->results == std::vector{SendResult::retries, SendResult::acked});
 }
 
-TEST_CASE("drops: a drop inside on_receive follows the reception of its node, at its time") {
+TEST_CASE(
+    "drops: a drop inside on_receive is recorded after the reception of its node, at its time") {
     Row row(NoAccess{}, 4);
     row.net.add({.name = {}, .at = {80, 20, 0}, .radio = {.rate = {1e6}}});
     row.script->send = [](LinkLayer& link, NodeId node, MessageId m) {
@@ -305,7 +306,7 @@ TEST_CASE("size: a frame may have a different size at each hop") {
     CHECK(row.net.metrics().deliveries == 1);
 }
 
-TEST_CASE("headers: the last frame with a header releases it, and packets allocate nothing") {
+TEST_CASE("headers: a header is freed after its last frame, and its packets allocate no memory") {
     Row row;
     std::vector<std::uint32_t> forgotten;
     row.script->send = [](LinkLayer& link, NodeId node, MessageId m) {
@@ -444,7 +445,8 @@ TEST_CASE("snr: is a reception's level over the noise floor of its receiver") {
 }
 
 #ifndef NDEBUG
-TEST_CASE("references: a debug build names a message released or held too often") {
+TEST_CASE(
+    "references: a debug build reports a message released too often or still held at the end") {
     SUBCASE("released") {
         Row row;
         row.script->send = [](LinkLayer& link, NodeId, MessageId m) { link.release(m); };

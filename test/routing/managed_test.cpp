@@ -95,7 +95,7 @@ TEST_CASE("managed, M1: a copy with hop limit 0 is delivered only; a mute node r
     CHECK(mute.link.sent.empty());
 }
 
-TEST_CASE("managed, M1: a message leaves its source at once with the hop limit, once") {
+TEST_CASE("managed, M1: a source sends its message at once, once, with the full hop limit") {
     Relay node;
     node.router.send(node.link, {1}, node.message);
     REQUIRE(node.link.sent.size() == 1);
@@ -164,7 +164,8 @@ TEST_CASE("managed, M4: a duplicate does not stop a router from relaying") {
     CHECK(node.slots() == slots);
 }
 
-TEST_CASE("managed, M4: a late router moves behind the slots of the others, once") {
+TEST_CASE(
+    "managed, M4: a late router waits behind the slots of all others after a duplicate, once") {
     Relay node("router_late");
     node.link.drawn = 0.1;
     node.hear(3, -8_dB);
@@ -340,7 +341,7 @@ TEST_CASE("managed on graphs: in a clique with r routers only the routers relay"
     }
 }
 
-TEST_CASE("managed on graphs: a late router also relays after a client that was first") {
+TEST_CASE("managed on graphs: a late router relays a message even after a client has relayed it") {
     int clients_first = 0;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         const Flooded run =

@@ -142,7 +142,7 @@ TEST_CASE("floors: a link report counts the floors of the model, with their loss
     CHECK(near(by_model.ceiling_loss.value, 18.3));
 }
 
-TEST_CASE("floors: an antenna that only its height puts on another storey gives a notice") {
+TEST_CASE("floors: an antenna whose height puts it on a different storey gives a notice") {
     const Building building;
     const auto notices = [&](const std::string& text) { return building.scenario(text).notices; };
     const auto robot = [](const char* z, const char* antenna) {
@@ -190,11 +190,11 @@ TEST_CASE("floors: materials of the scenario apply to all maps, those of a file 
     const Scenario sidecar = building.scenario(ground() + upper() + model + robots);
     CHECK(near(path_loss(sidecar), plain - 6.9 + 4));
     REQUIRE(sidecar.notices.size() == 1);
-    CHECK(sidecar.notices[0].find("material \"tin\" fits no pixel of upper.png") !=
+    CHECK(sidecar.notices[0].find("material \"tin\" matches no pixel of upper.png") !=
           std::string::npos);
 }
 
-TEST_CASE("floors: a map.yaml has its own size, and wall_height counts from each floor") {
+TEST_CASE("floors: a map.yaml contains its own size, and wall_height counts from each floor") {
     const Building building;
     const std::string yaml = "[[scene.floor]]\nheight = \"3 m\"\nmap = \"small.yaml\"\n";
     const Scenario low = building.scenario("[scene]\nwall_height = \"50 cm\"\n" + ground() + yaml +
@@ -243,8 +243,8 @@ TEST_CASE("floors: errors have a position and say what was expected") {
         {"[[scene.floor]]\nheight = \"0 m\"\nmap = \"small.yaml\"\nsize = [\"1 m\", \"1 m\"]\n",
          "3:7",
          {"its own size"}},
-        {upper() + ground(), "6:10", {"found 0 m", "at 3 m", "from the lowest up"}},
-        {ground() + ground(), "6:10", {"found 0 m", "from the lowest up"}},
+        {upper() + ground(), "6:10", {"found 0 m", "at 3 m", "from the lowest to the highest"}},
+        {ground() + ground(), "6:10", {"found 0 m", "from the lowest to the highest"}},
         {ground() + upper("ceiling = { per_crossing = \"9 dB\" }\n"), "9:11", {"highest storey"}},
         {ground("ceiling = { per_crossing = \"-9 dB\" }\n") + upper(), "5:28", {">= 0"}},
         {ground("ceiling = { itu = \"concrete\" }\n") + upper(), "5:11", {"thickness"}},

@@ -357,7 +357,7 @@ TEST_CASE("scenario: printed with every default, it reads back as the same scena
     }
 }
 
-TEST_CASE("scenario: every printed key was given in the scenario of every key") {
+TEST_CASE("scenario: the test scenario with every key has every key that is printed") {
     std::vector<std::string> given, shown;
     list_keys(parse_toml(every_key, ""), "", given);
     list_keys(Value(to_document(read(every_key))), "", shown);
@@ -372,7 +372,7 @@ TEST_CASE("scenario: every printed key was given in the scenario of every key") 
     }
 }
 
-TEST_CASE("scenario: no key in the scenario of every key has its default") {
+TEST_CASE("scenario: in the test scenario with every key no key has its default value") {
     const Table all = to_document(read(every_key));
     const Table usual = to_document(read(robot_a));
     for (const char* name : {"scenario", "scene", "radio", "medium", "routing", "trace", "study"}) {

@@ -154,7 +154,7 @@ TEST_CASE("unlikely: a metre-thick wall without a material gives a notice with r
     CHECK(notices_of(on_map + given + robot + rays).empty());
 }
 
-TEST_CASE("unlikely: walls both in the map and in N give a notice") {
+TEST_CASE("unlikely: a coefficient N that already includes walls gives a notice with a map") {
     const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n";
     const std::string own = "propagation = { model = \"raytrace_2007\" }\n";
     const std::string rays = "[propagation]\nmodel = \"raytrace_2007\"\n";
@@ -176,7 +176,7 @@ TEST_CASE("unlikely: pixels of a material that are not walls give a notice") {
         on_map + robot + "[scene.materials]\npane = { grey = 140, per_crossing = \"3 dB\" }\n",
         {":8:1: material \"pane\": 1 of its 1 pixels in m.png are not walls"});
     check_notice(on_map + robot + "[scene.materials]\nx = { grey = 7, per_crossing = \"3 dB\" }\n",
-                 {"material \"x\" fits no pixel of m.png"});
+                 {"material \"x\" matches no pixel of m.png"});
     check_notice(
         on_map + robot + "[scene.materials]\nx = { color = \"red\", per_crossing = \"3 dB\" }\n",
         {"material \"x\" is not used, because it has no grey"});
@@ -259,7 +259,7 @@ TEST_CASE("unlikely: a robot that chooses a model has only that model's paramete
     CHECK(loss("propagation = { coefficient = 30 }\n") == office);
 }
 
-TEST_CASE("memory: more robots than the memory can hold are refused before any is created") {
+TEST_CASE("memory: more robots than fit into memory are refused before any is created") {
     Scenario s;
     s.robots.resize(1);
     s.robots[0].name = "r";
@@ -273,8 +273,8 @@ TEST_CASE("memory: more robots than the memory can hold are refused before any i
     CHECK(s.notices[0] == "s.toml:1:1: robots take about 2.8 GB of memory");
     const std::string refused = error_of([&] { check_memory(s, 2'000'000'000); });
     CHECK(refused ==
-          "s.toml:1:1: count: robots take about 2.8 GB of memory, and this process may have 2.0 "
-          "GB; expected fewer robots");
+          "s.toml:1:1: count: robots take about 2.8 GB of memory, but this process may use only "
+          "2.0 GB; expected fewer robots");
     CHECK(available_memory() > 100'000'000);
 }
 
@@ -305,7 +305,7 @@ TEST_CASE("unlikely: coherent sums with walls oblique to the cells give a notice
     CHECK(notices("power", room(0.4)).empty());
 }
 
-TEST_CASE("unlikely: [access] eifs is a word; true and false of earlier files mean two of them") {
+TEST_CASE("unlikely: [access] eifs still accepts true and false, which are standard and none") {
     const TemporaryFolder folder;
     const auto csma = [&](const std::string& keys) {
         return *loaded(folder, "[access]\nmodel = \"csma\"\n" + keys + robot_a).access.as<Csma>();
@@ -394,7 +394,7 @@ TEST_CASE("traffic: robots that send simultaneously give a notice if their frame
     CHECK(noted(csma, each_second + "count = 5\n", "start = \"5 s\"\n") == 1);
 }
 
-TEST_CASE("words: a suggestion has the same type, and no word is suggested for off") {
+TEST_CASE("words: a suggestion has the type of the value, and `off` gets no suggestion") {
     const TemporaryFolder folder;
     const auto error = [&](const std::string& text) {
         return error_of([&] { loaded(folder, text + robot_a); });

@@ -68,7 +68,7 @@ TEST_CASE("door: a closed door is a wall of its length and thickness, in any dir
     }
 }
 
-TEST_CASE("scene changes: there is one for each time at which another set of doors is closed") {
+TEST_CASE("scene changes: there is one for each time at which the set of closed doors changes") {
     const auto open = room();
     const Door a{.from = {1, 2, 0}, .to = {2, 2, 0}, .closes = {1s, 5s}, .opens = {3s, 6s}};
     const Door b{.from = {2, 1, 0}, .to = {2, 2, 0}, .closes = {3s}, .opens = {5s}};
@@ -89,7 +89,7 @@ TEST_CASE("scene changes: there is one for each time at which another set of doo
     CHECK(scene_changes(open, {}).empty());
 }
 
-TEST_CASE("door: of a building exists only on its storey") {
+TEST_CASE("door: a door of a building exists only on its storey") {
     auto ground = test::drawn_map({"####", "#  #", "#  #", "####"});
     auto upper = ground;
     upper.origin.z = 3;

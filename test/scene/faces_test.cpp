@@ -138,7 +138,7 @@ TEST_CASE("faces: corners of rooms and doors stay in place, bumps of a cell do n
     CHECK(long_faces(scene, 0.5).size() == 2);
 }
 
-TEST_CASE("faces: close around each wall of any shape, with its cells on their left") {
+TEST_CASE("faces: form a closed line around each wall, with the wall's cells on the left") {
     test::Draw draw(3);
     for (int trial = 0; trial < 20; ++trial) {
         const Scene scene(test::random_map(draw, 40, 30, 10 + trial));

@@ -181,7 +181,7 @@ TEST_CASE("ROS map: errors name line and column, and say what to do") {
     CHECK(contains(error_of(good + "mode: trinry\n"), "did you mean \"trinary\"?"));
     CHECK(contains(error_of(good + "mode: [raw]\n"), "4:7 mode is a list"));
     CHECK(contains(error_of(good + "negate: maybe\n"), "4:9 negate is \"maybe\""));
-    CHECK(contains(error_of(good + "negate: 0\nnegate: 1\n"), "5:1 key \"negate\" a second time"));
+    CHECK(contains(error_of(good + "negate: 0\nnegate: 1\n"), "5:1 key \"negate\" is given twice"));
     CHECK(contains(error_of(good + "free_thresh: low\n"), "4:14 free_thresh is \"low\""));
     CHECK(contains(error_of(good + "free_thresh: .nan\n"), "4:14 free_thresh is \".nan\""));
     CHECK(contains(error_of(good + "free_thresh: -0.1\n"), "from 0 to 1"));
@@ -198,7 +198,7 @@ TEST_CASE("ROS map: a key of another program gives a notice, a misspelt key is a
     CHECK(notices_of("occupied_thresh: 0.65\noccupied_threshold: 0.9\n").size() == 1);
     CHECK(notices_of("{1: 2, [a]: b}: 3\n").size() == 1);
     CHECK(contains(error_of(good + "free_tresh: 0.1\n"), "did you mean \"free_thresh\"?"));
-    CHECK(contains(error_of(good + "map_type: a\nmap_type: b\n"), "a second time"));
+    CHECK(contains(error_of(good + "map_type: a\nmap_type: b\n"), "is given twice"));
     CHECK(contains(error_of("image: map.pgm\nresolutoin: 1\norigin: [0, 0, 0]"),
                    "2:1 unknown key \"resolutoin\""));
 }

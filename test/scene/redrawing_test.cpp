@@ -121,7 +121,7 @@ TEST_CASE("redrawing: an area that is open, or wider than a wall, is not filled"
     CHECK(drawing(fill_walls(room, Meters{3}))[2] == "#####");
 }
 
-TEST_CASE("redrawing: an outline that is filled again is the wall") {
+TEST_CASE("redrawing: an outlined wall that is filled is the original wall") {
     const OccupancyGrid wall = drawn_map({".......", ".#####.", ".#####.", ".#####.", "......."});
     CHECK(drawing(outline_walls(wall)) != drawing(wall));
     CHECK(drawing(fill_walls(outline_walls(wall), Meters{1})) == drawing(wall));
@@ -145,7 +145,7 @@ TEST_CASE("scene: its maps give the same walls again, of one map or several") {
     }
 }
 
-TEST_CASE("scene: with the walls of another, radio uses these and robots their own obstacles") {
+TEST_CASE("scene: given other walls for radio, robots keep the obstacles of the scene") {
     const Scene own(drawn_map({"...", ".#.", "..."}));
     const Scene other = with_metal(drawn_map({"#..", "#..", "#.."}));
     const Scene both = own.with_walls_of(other);

@@ -62,7 +62,7 @@ TEST_CASE("storeys: a horizontal link crosses the walls of its own storey") {
     }
 }
 
-TEST_CASE("storeys: a link between storeys crosses the walls of each on its part") {
+TEST_CASE("storeys: each part of a link between storeys crosses the walls of its storey") {
     const Scene scene = two_storeys();
     // It rises 1 m per metre and passes the ceiling at x = 3: both pillars stand in its way.
     const double slope = std::sqrt(2.0);

@@ -230,7 +230,7 @@ TEST_CASE("wall index: both directions give the same lengths to the last bit, mi
     });
 }
 
-TEST_CASE("wall index: with a limit, results are exact up to the limit and above it beyond") {
+TEST_CASE("wall index: with a limit, results below it are exact, and all others are above it") {
     for_random_rays(15, [](const World& world, const Ray& ray, test::Draw& draw) {
         const double all = std::numeric_limits<double>::infinity();
         const double exact = world.index.solid_length(ray.a, ray.b, length_of(ray), all);

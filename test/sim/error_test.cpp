@@ -16,7 +16,7 @@ const std::vector<std::string> models = {"disc", "friis", "two_ray", "itu_indoor
 
 }  // namespace
 
-TEST_CASE("location: a position in a file, a whole file and an option are printed") {
+TEST_CASE("location: a position in a file, a whole file and an option have their printed forms") {
     CHECK(Location{"rescue.toml", 9, 4}.text() == "rescue.toml:9:4");
     CHECK(Location{"office.png"}.text() == "office.png");
     CHECK(Location{.source = "--set radio.power=3", .is_option = true}.text() ==

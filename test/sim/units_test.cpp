@@ -27,7 +27,7 @@ concept AddsToItself = requires(T a) {
 
 }  // namespace
 
-TEST_CASE("power to level: published powers of radios") {
+TEST_CASE("power to level: powers of real radios have their published levels") {
     CHECK(near(to_dbm({45}).value, 16.532125137753436, one_ulp_at_16));
     CHECK(near(to_dbm({30}).value, 14.771212547196624, one_ulp_at_16));
 }

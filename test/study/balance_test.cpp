@@ -98,7 +98,8 @@ TEST_CASE(
     CHECK(has(text, "--common for the mean over the 4 of 8 cells"));
 }
 
-TEST_CASE("balance: means over common cells keep the order that failures would reverse") {
+TEST_CASE(
+    "balance: means over common cells are right where failed runs would reverse their order") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), biased);
     const Answers all = answers(store, {.group_by = by_ttl, .common = true});

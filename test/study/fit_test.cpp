@@ -210,7 +210,7 @@ TEST_CASE("disc fit: the range with the fewest wrong decisions equals the vector
     CHECK(near(fit.range.value, expected.number(0, "range_m"), 1e-9));
 }
 
-TEST_CASE("disc fit: works with all links up, or none") {
+TEST_CASE("disc fit: a sample with all links up, or with none, is fitted") {
     CHECK(fit_disc({{2, true}, {8, true}}).range.value == 8);
     CHECK(fit_disc({{2, false}, {8, false}}).range.value == 1);
     CHECK(fit_disc({{2, true}, {8, false}}).range.value == 4);

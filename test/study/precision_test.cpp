@@ -52,7 +52,7 @@ TEST_CASE("precision: with fewer than two values it requests twice as many runs"
     CHECK(replications_for(wanting(1, 100), std::vector<double>{0.5}, 5) == 10);
 }
 
-TEST_CASE("precision: two equal ratios are not enough by betting, as they would be by t") {
+TEST_CASE("precision: by betting two equal ratios do not reach it, by t they would") {
     const std::vector<double> two = {0.9759, 0.9759};
     const StudyTable study = wanting(0.01, 1000, "delivery_ratio");
     CHECK_FALSE(reached_precision(study, two).enough);

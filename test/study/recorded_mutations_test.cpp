@@ -249,9 +249,9 @@ TEST_CASE("missing, short, doubled or wrong names in a recorded trace are report
     CHECK(refusal(attachment("robots.txt", "B\nA\n")) ==
           "robot 0 is named \"B\" in the trace, but \"A\" in the scenario of the trace");
     CHECK(refusal(right + attachment("robots.txt", "A\nC\n")) ==
-          "two files robots.txt are inside, which differ");
+          "the file contains two different files robots.txt");
     CHECK(refusal(right + attachment("x/a", "1") + attachment("x/a", "2")) ==
-          "two files x/a are inside, which differ");
+          "the file contains two different files x/a");
     CHECK(refusal(right + attachment("x", "1") + attachment("x/a", "2")) ==
           "the attached file x/a cannot be decompressed");
 }

@@ -116,7 +116,7 @@ TEST_CASE("fingerprint: listeners, slots, keys and payloads do not change it") {
     CHECK(run.text() == Run{}.text());
 }
 
-TEST_CASE("fingerprint: does not depend on the division of receptions") {
+TEST_CASE("fingerprint: the same receptions in one record or in several give the same one") {
     Run whole;
     Stream stream;
     stream.messages.add(whole.message);
@@ -129,7 +129,7 @@ TEST_CASE("fingerprint: does not depend on the division of receptions") {
     CHECK(one->value() == two->value());
 }
 
-TEST_CASE("fingerprint: positions without bound have one, too") {
+TEST_CASE("fingerprint: infinite positions have a fingerprint, too") {
     Run a, b;
     a.moved.leg.to.x = 1e300;
     b.moved.leg.to.x = -1e300;

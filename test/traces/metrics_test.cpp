@@ -76,7 +76,8 @@ TEST_CASE("metrics: transmissions of the origin, and repeated ones, save nothing
     CHECK(run.values().saved_rebroadcasts == 0.0);
 }
 
-TEST_CASE("metrics: a new message in a reused slot has its own relays") {
+TEST_CASE(
+    "metrics: a new message that reuses a slot does not inherit the relays of the old message") {
     LineOfFour run;
     REQUIRE(run.messages.release(MessageId{0}));
     const auto m = run.send(at(9'000), a, 2);
@@ -139,7 +140,7 @@ TEST_CASE("metrics: request the number of reachable robots from the network") {
     CHECK(asks(false) == 0);
 }
 
-TEST_CASE("metrics: do not depend on the division of receptions, to the last digit") {
+TEST_CASE("metrics: the same receptions in one record or in several give the same metrics") {
     struct Cut {
         Sink target;
         KindMask kinds() const { return target.kinds(); }

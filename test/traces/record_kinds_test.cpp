@@ -159,7 +159,7 @@ std::size_t count_fields() {
 
 }  // namespace
 
-TEST_CASE("kinds of records: all members are described") {
+TEST_CASE("kinds of records: fields() describes every member") {
     struct Forgetful {
         Time time;
         std::optional<NodeId> node;
@@ -186,7 +186,7 @@ TEST_CASE(
         RecordKinds{});
 }
 
-TEST_CASE("kinds of records: bytes give back the record") {
+TEST_CASE("kinds of records: a record is read back from its bytes") {
     const World world;
     for_each_kind(
         [&]<class R>() {
@@ -207,7 +207,7 @@ TEST_CASE("kinds of records: bytes give back the record") {
         RecordKinds{});
 }
 
-TEST_CASE("kinds of records: rows, names and channels are those of the kind") {
+TEST_CASE("kinds of records: each kind has its rows in tables, its name and its channel") {
     const World world;
     const std::vector<RecordedKind> kinds = recorded_kinds();
     const std::vector<std::string> names = record_names();

@@ -53,7 +53,7 @@ McapReader::McapReader(const std::string& path) : file_(mapped(path)), at_(mcap_
     if (!kind.empty())
         throw InputError({.source = path}, kind + "; expected a recorded trace, unpacked");
     throw InputError({.source = path},
-                     "this is no recorded trace: expected a file that begins as MCAP does");
+                     "this is no recorded trace: expected a file in the format MCAP");
 }
 
 McapReader::~McapReader() { unmap(); }

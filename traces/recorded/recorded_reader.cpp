@@ -110,7 +110,7 @@ void RecordedReader::read_metadata(std::string_view content) {
         }
     }
     if (!before.empty() && before != run_.scenario) {
-        fail("two scenarios are inside, which differ; expected one");
+        fail("the file contains two different scenarios; expected one");
     }
 }
 
@@ -128,7 +128,7 @@ void RecordedReader::read_attachment(std::string_view content) {
         return;
     }
     const auto differ = [&](bool is_so) {
-        if (is_so) fail(fmt::format("two files {} are inside, which differ", file.name));
+        if (is_so) fail(fmt::format("the file contains two different files {}", file.name));
     };
     if (file.name == names_file) {
         std::vector<std::string> names = lines_of(file.content);

@@ -133,7 +133,7 @@ TEST_CASE("routes: an impossible request is an error that says what is possible"
     CHECK(command(folder, {"routes", file, "--at", "9s"}).exit == 0);
     CHECK(refusal({"--at", "5s", "--robot", "n5"}, 2).find("did you mean") != std::string::npos);
     const std::string flood = refusal({"--at", "5s", "--set", "routing.protocol=flood"}, 2);
-    CHECK(flood.find("flood keeps no routes; expected a protocol that keeps them (") !=
+    CHECK(flood.find("flood keeps no routes; expected a protocol that does (") !=
           std::string::npos);
     CHECK(flood.find("aodv") != std::string::npos);
     CHECK(refusal({}, 2).find("--at") != std::string::npos);

@@ -41,7 +41,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("links: the history has the places of both robots, of one robot, and as JSON") {
+TEST_CASE("links: the history has the places of both robots, also for one robot and as JSON") {
     const TemporaryFolder folder;
     folder.write("pair.toml", pair);
     const std::vector<std::string> asked = {
@@ -61,7 +61,7 @@ TEST_CASE("links: the history has the places of both robots, of one robot, and a
           2);
 }
 
-TEST_CASE("where: the gaps of a robot's link, as text, CSV and JSON") {
+TEST_CASE("where: prints the gaps of a robot's link as text, CSV and JSON") {
     const TemporaryFolder folder;
     folder.write("pair.toml", pair);
     std::vector<std::string> asked = {"where", folder.path("pair.toml"), "--robot", "B", "--to",
@@ -87,7 +87,7 @@ TEST_CASE("where: the gaps of a robot's link, as text, CSV and JSON") {
 }
 
 TEST_CASE(
-    "where: one robot's path is told leg by leg, and a question without a subject is refused") {
+    "where: one robot's path is printed leg by leg, and a call without robot and time is refused") {
     const TemporaryFolder folder;
     folder.write("pair.toml", pair);
     const Json times =

@@ -358,7 +358,7 @@ TEST_CASE("sweep: failed runs give exit code 4, and are listed with their comman
     CHECK(failures.out.find("--replication 1\n") != std::string::npos);
 }
 
-TEST_CASE("plot: axes have the titles that are asked for, one for each metric") {
+TEST_CASE("plot: --y-title gives each metric its title of the y axis") {
     const Place place;
     command(place.folder, {"sweep", place.file});
     const std::string picture = place.folder.path("p.svg");

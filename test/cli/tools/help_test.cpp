@@ -16,7 +16,7 @@ bool has(const std::string& text, const std::string& words) {
 
 }  // namespace
 
-TEST_CASE("help: lists the pages by shelf, and prints one without the comments of its check") {
+TEST_CASE("help: lists the pages by folder, and prints a page without its hidden comments") {
     const TemporaryFolder folder;
     const Ended all = command(folder, {"help"});
     CHECK(all.exit == 0);
@@ -30,7 +30,7 @@ TEST_CASE("help: lists the pages by shelf, and prints one without the comments o
     CHECK(!has(page.out, "-->\n"));
 }
 
-TEST_CASE("help: a topic that is not there is a mistake, with the nearest one") {
+TEST_CASE("help: an unknown topic is an error that suggests the nearest topic") {
     const TemporaryFolder folder;
     const Ended ended = command(folder, {"help", "frist-run"});
     CHECK(ended.exit == 2);

@@ -90,7 +90,7 @@ TEST_CASE("replay of an ns-2 trace compares radios with the first given radio, n
           std::string::npos);
 }
 
-TEST_CASE("replay --as sets the radio with which the others are compared") {
+TEST_CASE("replay --as sets the radio with which the radios of --with are compared") {
     const TemporaryFolder folder;
     const std::vector<std::string> words = {"replay", sample,         "--as", "radio.power=40 dBm",
                                             "--with", "routing.ttl=2"};
@@ -202,7 +202,7 @@ TEST_CASE("replay --store writes rows for results, and adds the rows of a second
     other.insert(other.end(), {"radio.power=0 dBm", "--routing", "direct"});
     const Ended refused = command(folder, other);
     CHECK(refused.exit == 3);
-    CHECK(refused.err.find("expected another --store") != std::string::npos);
+    CHECK(refused.err.find("expected a different --store") != std::string::npos);
     const std::string picture = folder.path("radios.svg");
     CHECK(command(folder, {"plot", store, "-x", "radio", "-y", "delivery_ratio", "-o", picture})
               .exit == 0);

@@ -135,7 +135,7 @@ TEST_CASE("trace: an empty file, or a file of an unknown packer, is refused with
     }
 }
 
-TEST_CASE("an ns-2 movement file is recognised if it is compressed or begins with set") {
+TEST_CASE("an ns-2 movement file is recognised, also if it is compressed or begins with set") {
     const TemporaryFolder folder;
     const std::string moves =
         "set opt(nn) 3\n$node_(0) set X_ 5.0\n$ns_ at 1.0 \"$node_(0) setdest 10.0 0.0 1.0\"\n";

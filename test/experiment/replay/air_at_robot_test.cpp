@@ -51,7 +51,7 @@ constexpr Duration airtime{1'192'000};
 }  // namespace
 
 TEST_CASE(
-    "the air of the last second is busy for ten airtimes, at the sender and at who hears it") {
+    "air at a robot: ten frames make it busy for ten airtimes, at the sender and at a receiver") {
     const Run run(traffic("A", "50 ms"));
     const AirAtRobot sender = run.at(0, 3s), receiver = run.at(1, 3s), far = run.at(2, 3s);
     CHECK(sender.busy == 10 * airtime);
@@ -74,7 +74,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "where frames overlap the air is busy once, and a sensitive carrier sense hears farther") {
+    "air at a robot: overlapping frames count once, and a sensitive robot senses more frames") {
     const Run run(traffic("A", "50 ms") + traffic("B", "50 ms"));
     const AirAtRobot there = run.at(0, 3s);
     CHECK(there.sending == 10 * airtime);
@@ -86,7 +86,7 @@ TEST_CASE(
     CHECK(sensing.at(2, 3s).busy == 10 * airtime);
 }
 
-TEST_CASE("with an index the air is the same, and of robots that are not there is an error") {
+TEST_CASE("air at a robot: with an index it is the same, and an unknown robot is an error") {
     const Run run(traffic("A", "50 ms") + traffic("B", "33 ms"));
     RecordedReader reader(run.path);
     RecordedIndex index;

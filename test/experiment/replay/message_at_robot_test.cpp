@@ -178,7 +178,7 @@ TEST_CASE("message at a robot: levels and walls in the rescue equal those of the
     CHECK(run.says(0, 4).find("wall") != std::string::npos);
 }
 
-TEST_CASE("an index answers alike from some chunks, whatever is in the others") {
+TEST_CASE("message at a robot: with an index, which skips chunks, the answer is the same") {
     // Robots walk and switch off; their frames overlap, and waiting makes messages long.
     const Run run({0, 100, 200, 300}, R"([access]
 model = "csma"

@@ -166,7 +166,7 @@ TEST_CASE("recorded air: knows which robots are off, and forgets frames that hav
     CHECK(most < 20);
 }
 
-TEST_CASE("recorded air: a robot's own frame arrives at once and hides all others") {
+TEST_CASE("recorded air: a robot's own frame arrives at its own antenna without delay") {
     const Run run("");
     RecordedReader trace(run.recorded);
     RecordedAir air(trace.run(), run.recorded);

@@ -78,7 +78,7 @@ TEST_CASE("run comparison: a run does not differ from itself") {
     CHECK(found.first.is_equal);
 }
 
-TEST_CASE("run comparison: the fate in the other run is that of its last frame") {
+TEST_CASE("run comparison: the outcome in the other run is that of the last frame of the message") {
     const test::TemporaryFolder folder;
     const std::string trace = record(folder, "relay/routes.toml", "run");
     const std::string other = folder.path("other.mcap");

@@ -46,7 +46,8 @@ Scenario read(const test::TemporaryFolder& folder, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("link gaps: a corridor is lost where both access points are too far, there and back") {
+TEST_CASE(
+    "link gaps: a gap is where both access points are too far away, on the way there and back") {
     const test::TemporaryFolder folder;
     const Scenario s = read(folder, corridor);
     const double heard = std::sqrt(40.0 * 40.0 - 3.0 * 3.0);  // [m] along the corridor
@@ -68,8 +69,7 @@ TEST_CASE("link gaps: a corridor is lost where both access points are too far, t
     CHECK(near(gaps.lost_path(), 200 - 4 * heard));
 }
 
-TEST_CASE(
-    "link gaps: one access point alone leaves one gap, which is not cut where the path turns") {
+TEST_CASE("link gaps: a gap that contains a turn of the path is one gap") {
     const test::TemporaryFolder folder;
     const LinkGaps gaps =
         link_gaps(read(folder, corridor), {.robot = "rover", .partners = {"west"}});
@@ -91,7 +91,7 @@ TEST_CASE("link gaps: a relay closes the gap in a mesh only, and only if it reac
     CHECK(near(seconds(link_gaps(with_relay("50"), mesh).lost()), 200 - 2 * heard));
 }
 
-TEST_CASE("link gaps: a link of one direction is none") {
+TEST_CASE("link gaps: a link in one direction only does not count") {
     const test::TemporaryFolder folder;
     const Scenario s =
         read(folder, corridor + "propagation = { model = \"disc\", range = \"10 m\" }\n");
@@ -100,8 +100,7 @@ TEST_CASE("link gaps: a link of one direction is none") {
     CHECK(near(gaps.gaps[0].from.x, std::sqrt(10.0 * 10.0 - 3.0 * 3.0)));
 }
 
-TEST_CASE(
-    "link gaps: the time without a link counts while the robot is off, and stops when it left") {
+TEST_CASE("link gaps: a gap continues while the robot is off, and ends when the robot leaves") {
     const test::TemporaryFolder folder;
     const Scenario off = read(folder, corridor + "off = [\"10 s\"]\non = [\"15 s\"]\n");
     const LinkGaps gaps = link_gaps(off, {.robot = "rover", .partners = {"west"}});

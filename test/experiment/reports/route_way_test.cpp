@@ -56,7 +56,7 @@ RouteState broken(RouteState route) {
 
 }  // namespace
 
-TEST_CASE("route path: leads from table to table, with the ages of the routes") {
+TEST_CASE("route path: follows the table of each robot on it, with the ages of the routes") {
     const Row row({{0, {route(3, 1, 3)}}, {1, {route(3, 2, 2, 1s)}}, {2, {route(3, 3, 1)}}});
     const RouteWay way = row.way(3);
     REQUIRE(way.hops.size() == 3);
@@ -83,7 +83,7 @@ TEST_CASE("route path: ends at a robot without a route, or with a broken one") {
     CHECK(two.text(2).find("r0 > r1 > r2, 2 hops") != std::string::npos);
 }
 
-TEST_CASE("route path: is broken where the next robot does not hear; the tables give its rest") {
+TEST_CASE("route path: breaks where the next robot does not hear; the tables give the rest of it") {
     const Row far({{0, {route(4, 2, 2)}}, {2, {route(4, 3, 2)}}, {3, {route(4, 4, 1)}}});
     const RouteWay way = far.way(4);
     REQUIRE(way.hops.size() == 3);

@@ -139,7 +139,7 @@ TEST_CASE("web sockets: fragments form one message, and a ping between them is a
     CHECK(client.message() == "one and two");
 }
 
-TEST_CASE("web sockets: a violation of protocol or limits is closed with the RFC's code") {
+TEST_CASE("web sockets: a client that violates protocol or limits is closed with the RFC's code") {
     const Echo echo;
     WebClient long_one(echo.port), no_text(echo.port), unmasked(echo.port);
     long_one.send(std::string(longest + 1, 'a'));

@@ -217,7 +217,7 @@ TEST_CASE("view front: answers are about the current time") {
     CHECK(ViewReader::integer(*pair.table(), "t_ns") == 10'000'000'000);
     CHECK(pair.table()->find("links")->array()->size() == 2);
     CHECK(viewed.ask(R"({"id": 1, "op": "robot", "robot": 0})").empty());
-    CHECK(viewed.ask(R"({"id": 1, "op": "why", "uid": 99, "robot": 4})").find("not kept") !=
+    CHECK(viewed.ask(R"({"id": 1, "op": "why", "uid": 99, "robot": 4})").find("no longer stored") !=
           std::string::npos);
 }
 
@@ -254,7 +254,7 @@ TEST_CASE("view front: why, and the air of the last second, are those of the rec
     CHECK(why[3].find(R"("answer":"E )") != std::string::npos);
 }
 
-TEST_CASE("view history: it begins late, keeps two files, and forgets what is older") {
+TEST_CASE("view history: begins with the first page, keeps two files, and deletes older records") {
     ScenarioRun run(rescue());
     Session& session = run.session();
     session.step(Time(11s));
@@ -272,8 +272,7 @@ TEST_CASE("view history: it begins late, keeps two files, and forgets what is ol
           to_json_line(document_of(message_at_robot(last.path, newest, NodeId{1}))));
 }
 
-TEST_CASE(
-    "view front: series for charts are those of the recorded trace, in the bins that are over") {
+TEST_CASE("view front: chart values of completed intervals equal those of the recorded trace") {
     Viewed viewed(rescue());
     viewed.front.opened(1, {});
     viewed.go(Time(30s));

@@ -51,7 +51,7 @@ struct Rings {
 
 }  // namespace
 
-TEST_CASE("link changes: of a disc are at the first nanosecond inside and the first outside") {
+TEST_CASE("link changes: the link of a disc is up from the first to the last nanosecond inside") {
     const Scene field;
     MovingPair pair{&field};
     pair.add(Disc{.range = 10_m}, resting({}));
@@ -83,7 +83,8 @@ TEST_CASE("link changes: with models that use only the distance, times are exact
     CHECK(seen > 100);
 }
 
-TEST_CASE("link changes: a tangent gives none, a nanometre further inside gives two") {
+TEST_CASE(
+    "link changes: a path that touches the range gives none, one a nanometre inside gives two") {
     const Scene field;
     for (const double miss : {10.0, 10.0 - 1e-9}) {
         MovingPair pair{&field};
@@ -182,7 +183,8 @@ TEST_CASE("link changes: steps below a nanosecond are refused") {
         CHECK_THROWS_AS(pair.changes(a, b, start_of_run, never, search), std::invalid_argument);
 }
 
-TEST_CASE("link changes: of a model by heights are exact between robots at constant height") {
+TEST_CASE(
+    "link changes: with a model that uses heights, times are exact for robots of constant height") {
     const Scene field;
     MovingPair pair{&field};
     const Leg away = moving({10, 0, 0}, {20, 0, 0}, 100s);
@@ -212,7 +214,8 @@ TEST_CASE(
     CHECK(pair.up(a, b, found[0]));
 }
 
-TEST_CASE("link changes: of a model of unknown shape are found if they last for min_dwell") {
+TEST_CASE(
+    "link changes: with a model of unknown shape, changes that last for min_dwell are found") {
     const Scene field;
     MovingPair pair{&field};
     pair.add(Rings{}, resting({}));

@@ -84,7 +84,7 @@ constexpr std::array both{RayDiffraction::knife_edge, RayDiffraction::utd};
 
 }  // namespace
 
-TEST_CASE("edge pair: at grazing it is asin(rho) / pi, without a face 1/4 + asin(rho) / (2 pi)") {
+TEST_CASE("edge pair: on the line it is asin(rho) / pi, without a face 1/4 + asin(rho) / (2 pi)") {
     for (const double along : {0.01, 0.5, 1.0, 4.0, 50.0}) {
         const double rho = std::sqrt(7.0 * 9 / ((7 + along) * (9 + along)));
         const math::Complex field = pair_field({7, along, 9, 0, 0}, wavelength);
@@ -102,7 +102,8 @@ double row_loss(std::vector<RowCorner> corners, double length) {
 
 }  // namespace
 
-TEST_CASE("edge row: n screens in the line give 1 / (n + 1); two equal a pair") {
+TEST_CASE(
+    "edge row: behind n screens in a line 1 / (n + 1) of the field is left; two equal a pair") {
     const std::array limits{0.001, 0.05, 0.3, 0.7, 1.2, 1.75};
     std::vector<RowCorner> corners;
     for (std::size_t n = 1; n <= limits.size(); ++n) {

@@ -337,7 +337,7 @@ TEST_CASE("first look: works with reach 0 and with infinite reach") {
     }
 }
 
-TEST_CASE("shadowed range: a model that offers it is decided by it with equal results") {
+TEST_CASE("shadowed range: links of a model that offers it are decided by it, with equal results") {
     for_each_model([]<class Model>() {
         const Propagation model{[] {
             if constexpr (std::same_as<Model, Disc>)

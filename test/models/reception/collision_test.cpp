@@ -47,7 +47,7 @@ TEST_CASE("collision: the first frame survives if it is stronger by exactly the 
     }
 }
 
-TEST_CASE("collision: of two frames that begin together the stronger captures") {
+TEST_CASE("collision: of two frames that begin together the stronger one is received") {
     const Arrival strong = frame(5, 100, -50), weak = frame(5, 100, -70);
     CHECK(survives({}, strong, weak));
     CHECK_FALSE(survives({}, weak, strong));
@@ -97,7 +97,7 @@ TEST_CASE("collision: a frame that begins under a frame stronger by the ratio is
     CHECK_FALSE(lets_pass(weak, own_frame(NodeId{0}, at(0), at(100))));
 }
 
-TEST_CASE("collision: levels are compared only where they decide") {
+TEST_CASE("collision: levels are compared only if the result of the comparison matters") {
     int asked = 0;
     const auto is_stronger = [&](const Arrival&, const Arrival&, Db by) {
         CHECK(by == Db{10});

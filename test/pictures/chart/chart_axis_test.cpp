@@ -65,7 +65,8 @@ TEST_CASE("chart axis: ends at a tick, or slightly beyond one") {
     CHECK((beyond.high > 1.01 && beyond.high < 1.05));
 }
 
-TEST_CASE("chart axis: of a ratio is 0 to 1, or a part of it if the values use little") {
+TEST_CASE(
+    "chart axis: the axis of a ratio is 0 to 1, or a part of it if all values are close together") {
     const ChartLimits share{.low = 0, .high = 1};
     const ChartAxis wide = number_axis(range({0.4, 0.7}), false, 6, share);
     CHECK((wide.low == 0 && wide.high == 1));

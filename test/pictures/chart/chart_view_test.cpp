@@ -117,7 +117,7 @@ TEST_CASE("chart view: bars begin at 0, and become dots if all would look equal"
     CHECK(view_of(log).dots);
 }
 
-TEST_CASE("chart view: few points or words have no band") {
+TEST_CASE("chart view: series with few points, or with words on x, have no band") {
     Chart lines = chart(ChartKind::lines, {});
     for (int i = 0; i < 6; ++i) {
         CHECK_FALSE(has_band(view_of(lines), 0));

@@ -63,7 +63,7 @@ bool has(std::string_view text, std::string_view word) { return text.find(word) 
 
 }  // namespace
 
-TEST_CASE("margins: the grades of a straight road change where free space says") {
+TEST_CASE("margins: on a straight road the colour changes at the distances of free space") {
     const auto pieces = pieces_of(road, false);
     constexpr double sampling = 100.0 / 4000 + 1e-9;  // [s], or 1 m/s times that [m]
     constexpr double sensitivity_digit = 0.006;       // [m] by 0.0005 dB of the road's sensitivity
@@ -110,7 +110,8 @@ TEST_CASE(
     CHECK_FALSE(has(draw_svg(read(road), options), "class=\"margins\""));
 }
 
-TEST_CASE("margins: the model disc gives a link or none, and many robots are not told one by one") {
+TEST_CASE(
+    "margins: the model disc shows a link or none, and the legend does not list many robots") {
     std::string text = road + "[propagation]\nmodel = \"disc\"\nrange = \"60 m\"\n";
     for (int i = 0; i < 4; ++i) {
         text +=

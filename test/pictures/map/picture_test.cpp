@@ -271,8 +271,7 @@ TEST_CASE("picture: ranges of the model disc are drawn together, but not with le
     CHECK(has(draw_svg(scenario(text), {.coverage = {"A", "B"}, .cells = 500}),
               "range of 20 m or 30 m"));
     CHECK_THROWS_WITH_AS(draw_svg(scenario(text), {.coverage = {"A", "C"}, .cells = 500}),
-                         doctest::Contains("the model disc gives no levels"),
-                         std::invalid_argument);
+                         doctest::Contains("the model disc has no levels"), std::invalid_argument);
 }
 
 TEST_CASE("picture: the heat map is lightest at the robot, and not upside down") {

@@ -230,7 +230,8 @@ std::map<std::string, std::vector<Series>> series_of(const test::ViewReader& vie
 
 }  // namespace
 
-TEST_CASE("view of a run: series end at the metrics, and add up to the counts") {
+TEST_CASE(
+    "view of a run: series of charts end at the metrics, or add up to the counts of the run") {
     for (const char* example : {"rescue/rescue.toml", "detour/detour.toml", "patrol/patrol.toml"}) {
         CAPTURE(example);
         const Recorded run(example, {"trace.links=true"});
@@ -295,7 +296,7 @@ TEST_CASE("view of a run: series of channel and topology equal the records") {
               .count("Neighbours of a robot mean") == 0);
 }
 
-TEST_CASE("view of a run: the choice limits the content") {
+TEST_CASE("view of a run: options leave out frames, payloads and the map") {
     const Recorded run("rescue/rescue.toml");
     const auto all = frames_of(run.trace());
     ViewChoice choice;

@@ -453,7 +453,8 @@ TEST_CASE("aodv 6.12: a route that has a new next hop meanwhile is not repaired"
     CHECK(n.link.drops.size() == 1);
 }
 
-TEST_CASE("aodv 6.12: routes far from the destination, and for own messages, are not repaired") {
+TEST_CASE(
+    "aodv 6.12: a node does not repair routes far from the destination or for its own messages") {
     AodvNode n({.local_repair = true});
     n.hear(2, request(7, 5), 3);
     n.hear(1, aodv::Reply{.hops = 10,

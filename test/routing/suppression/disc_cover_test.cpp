@@ -60,7 +60,7 @@ TEST_CASE(
     CHECK(uncovered({{0.5, 0, 0}, {0, 0, 0}}) == 0);
 }
 
-TEST_CASE("disc cover: two discs leave the disc without their lens, .609 at the distance r") {
+TEST_CASE("disc cover: a disc at distance r leaves .609 of the other disc uncovered") {
     for (const double d : {0.001, 0.1, 0.5, 1.0, 1.5, 1.999}) {
         for (const double angle : {0.0, 1.0, 2.5, pi, -2.0, -pi / 2}) {
             CAPTURE(d);
@@ -72,7 +72,7 @@ TEST_CASE("disc cover: two discs leave the disc without their lens, .609 at the 
     CHECK(std::abs(uncovered({{1, 0, 0}}) - (1.0 / 3 + std::sqrt(3) / (2 * pi))) < rounding);
 }
 
-TEST_CASE("disc cover: opposite discs that only touch leave the disc without two lenses") {
+TEST_CASE("disc cover: two discs on opposite sides cover two separate lenses") {
     CHECK(std::abs(uncovered({{1, 0, 0}, {-1, 0, 0}}) - (2 * outside_lens(1) - 1)) < rounding);
 }
 

@@ -48,7 +48,8 @@ struct Hearer {
 
 }  // namespace
 
-TEST_CASE("suppression, counter: the C-th copy heard before the send time suppresses") {
+TEST_CASE(
+    "suppression, counter: a robot that hears C copies before its send time does not forward") {
     for (const int c : {2, 3, 4}) {
         Hearer node({.threshold = c});
         for (int copies = 1; copies < c; ++copies) {
@@ -107,7 +108,9 @@ TEST_CASE("suppression: a copy waits for 1 us + U(0, delay)") {
     }
 }
 
-TEST_CASE("suppression, probability: a draw below P is forwarded, whatever is heard later") {
+TEST_CASE(
+    "suppression, probability: a message with a draw below P is forwarded, whatever is heard "
+    "later") {
     for (const double drawn : {0.1, 0.299, 0.301, 0.9}) {
         Hearer node({.scheme = Scheme::probability, .threshold = 0.3});
         node.link.drawn = drawn;
@@ -124,7 +127,7 @@ TEST_CASE("suppression, probability: the delay does not depend on the draw again
     CHECK(node.link.sent[0].at == start_of_run + 1us + 60ms);
 }
 
-TEST_CASE("suppression, distance: a first or later sender nearer than D suppresses") {
+TEST_CASE("suppression, distance: a robot that hears any sender nearer than D does not forward") {
     const Suppression within_50{.scheme = Scheme::distance, .threshold = 50};
     Hearer first(within_50);
     CHECK(first.hear({30, 39, 0}).fate == Fate::arrived);  // 49.2 m
@@ -140,7 +143,8 @@ TEST_CASE("suppression, distance: a first or later sender nearer than D suppress
     CHECK(later.link.sent.size() == 1);
 }
 
-TEST_CASE("suppression, location: an uncovered share of the disc below A suppresses") {
+TEST_CASE(
+    "suppression, location: a robot does not forward if less than the share A of its disc is new") {
     const auto run = [](double a) {
         Hearer node({.scheme = Scheme::location, .threshold = a, .range = Meters{100}});
         std::string sends;

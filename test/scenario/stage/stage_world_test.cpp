@@ -220,14 +220,14 @@ TEST_CASE("stage world: a wifi without a model follows [propagation], an unknown
           "a.world:1: model \"simple\" without a range has range 0, as in Stage");
 }
 
-TEST_CASE("stage world: freq is the frequency, and frequency too if it stands alone") {
+TEST_CASE("stage world: freq is the frequency; without freq the key frequency is") {
     const std::string friis = "model \"friis\" ";
     CHECK(value(read(robot_with + friis + "frequency 900 ) )").radio(0), "frequency") == "900 MHz");
     CHECK(value(read(robot_with + friis + "freq 5200 frequency 900 ) )").radio(0), "frequency") ==
           "5200 MHz");
 }
 
-TEST_CASE("stage world: success rates equal the share of draws from 0 to 100 that pass") {
+TEST_CASE("stage world: a success rate of r % accepts the draws 0 to r of 0 to 100") {
     const auto rate = [](const std::string& given) {
         const Read world = read(robot_with + "model \"friis\" link_success_rate " + given + " ) )");
         return std::get<double>(world.radio(0).find("success_rate")->data);

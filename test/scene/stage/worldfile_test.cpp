@@ -113,7 +113,7 @@ TEST_CASE("worldfile: the last of several values counts") {
     CHECK(value(read("a 1\na 2\na 3\n").root, "a") == "3000");
 }
 
-TEST_CASE("worldfile: a macro's use is its entity with the properties and children appended") {
+TEST_CASE("worldfile: a use of a macro adds its own keys and children to those of the macro") {
     const WorldFile world = read(
         "define base position ( size [1 1] color \"red\" laser() )\n"
         "define robot base\n( color \"blue\" mass 3 sonar() )\n"
@@ -221,8 +221,8 @@ TEST_CASE("worldfile: a syntax error has line, column, what was found and what t
           "2:1: found the number 5; expected a key or the type of a model; write \"name value\" or "
           "\"type ( ... )\"");
     CHECK(mistake("name \"abc\n\"\n") ==
-          "1:6: found a text without its end; expected \" at both ends of it, on one line; add the "
-          "second");
+          "1:6: found a text without its end; expected \" at both ends of a text, on one line; add "
+          "the second \"");
     CHECK(mistake("size[16 16]\n") ==
           "1:1: found \"size[16\"; expected a key, a blank and its value; write size [...]");
     CHECK(mistake("range 4m\n").starts_with("1:7: found \"4m\"; expected a number, such as -0.5"));
@@ -329,7 +329,7 @@ TEST_CASE("worldfile: an include must be last on its line and name a file") {
 TEST_CASE("worldfile: endless includes and macros are errors") {
     CHECK(contains(mistake("include \"a.world\"\n"), "1:9: "));
     CHECK(contains(mistake("include \"a.world\"\n"), "includes itself"));
-    const std::string deep = "is more than 64 deep in others";
+    const std::string deep = "is nested more than 64 levels deep";
     CHECK(contains(mistake("define a a ( )\na ( )\n"), "2:1: \"a\" " + deep));
     CHECK(contains(mistake("define a model ( a ( ) )\na ( )\n"), "1:18: \"a\" " + deep));
     CHECK(contains(mistake("define a b ( )\ndefine b a ( )\nb ( )\n"), deep));

@@ -243,7 +243,7 @@ TEST_CASE("event queue: many keys may be added before the key that was peeked") 
     CHECK(serves(queue, keys));
 }
 
-TEST_CASE("event queue: new keys around a lone key before a crowd are in order") {
+TEST_CASE("event queue: keys added around a single early key stay in order") {
     constexpr std::int64_t lone = std::int64_t{1} << 40;
     constexpr std::int64_t crowd = lone + (1 << 20);
     EventQueue queue;

@@ -219,7 +219,7 @@ TEST_CASE("scheduler: a requeued event keeps its place among equals") {
     CHECK(queue.runs_before_next(event.key.at(never)));
 }
 
-TEST_CASE("scheduler: payloads may be owners, and are released when popped or cancelled") {
+TEST_CASE("scheduler: a payload that owns memory is released when it is served or cancelled") {
     const auto shared = std::make_shared<int>(1);
     Scheduler<std::shared_ptr<int>> queue;
     const auto handle = queue.schedule(at(1), Priority::timer, shared);

@@ -112,7 +112,7 @@ TEST_CASE("decision: differences of both signs that cancel are equal only in the
     CHECK(*run.decided_at() < *mean.decided_at());
 }
 
-TEST_CASE("decision: for runs, `outside` needs only 1 / alpha, because one side can be false") {
+TEST_CASE("decision: the verdict `outside` for a run is tested on one side, at the level alpha") {
     // |D| = 1/2 against a tolerance of 1/4: the wealth "above" grows by the stakes of the formula.
     const DecisionRule rule{
         .criterion = ErrorCriterion::run, .tolerance = 0.25, .bounds = share, .family = 3};

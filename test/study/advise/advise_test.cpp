@@ -395,7 +395,7 @@ TEST_CASE("advise: a candidate near the tolerance does not use all replications"
     CHECK_FALSE(advice.stopped);
 }
 
-TEST_CASE("advise: after a stop the verdict is preliminary, and names open candidates") {
+TEST_CASE("advise: after a stop the verdict is preliminary, and names undecided candidates") {
     const auto metric = [](std::size_t p, std::size_t, std::uint32_t r) {
         return p == 0 ? (r % 2 == 0 ? 0.5 : 1.0) : p == 1 ? 0.0 : 0.5;
     };

@@ -161,7 +161,7 @@ at = ["0 m", "90 m"]
     CHECK(std::string(known.group_name) == "sender");
 }
 
-TEST_CASE("calibration: a grown sample equals one of its size, and computes no link twice") {
+TEST_CASE("calibration: a sample that is enlarged equals a new one, and computes no link twice") {
     const Scenario scenario = scenario_from(wanderers + "[[robot]]\nname = \"still\"\ncount = 2\n" +
                                             "at = [\"9 m\", \"9 m\"]\n");
     int asked = 0;

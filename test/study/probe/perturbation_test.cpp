@@ -214,7 +214,7 @@ TEST_CASE("displaced: keys use all four directions about equally") {
     CHECK(std::abs(north - n / 4) < 150);
 }
 
-TEST_CASE("displaced: beyond its reach the loss is more") {
+TEST_CASE("displaced: beyond the reach of the displaced model the loss is above the budget") {
     const Displaced model{Friis{}, Meters{0.5}};
     const Hertz frequency = Radio{}.frequency;
     const double reach = model.reach(Db{70}, frequency, Propagation::anything).value;

@@ -33,7 +33,7 @@ bool near(double a, double b, double within) { return std::abs(a - b) <= within;
 
 }  // namespace
 
-TEST_CASE("bounded mean: one value leaves the means that the average gambler cannot reject") {
+TEST_CASE("bounded mean: the interval from one value equals its closed form") {
     // He stakes half: (1 + x / m) / 2 = 40 at m = x / 79.
     for (const double x : {0.0, 0.25, 0.5, 1.0}) {
         const auto mean = bounded_mean(std::vector{x}, share, 0.95);
@@ -53,7 +53,8 @@ TEST_CASE("bounded mean: the wealth after three values equals a manual computati
     CHECK(near(wealth, enough, 1e-8));
 }
 
-TEST_CASE("bounded mean: n times 1 leaves Jeffreys' mixture of (1 - f + f / m)^n = 40") {
+TEST_CASE(
+    "bounded mean: for n values of 1 it ends where Jeffreys' mixture of (1 - f + f / m)^n is 40") {
     for (const std::size_t n : {2U, 5U, 30U}) {
         const auto mean = bounded_mean(ones(n), share, 0.95);
         CHECK(mean.high == 1);
@@ -93,7 +94,7 @@ TEST_CASE("bounded mean: the interval narrows with every value and never widens"
     }
 }
 
-TEST_CASE("bounded mean: mirrored values have the mirrored interval, scaled ones the scaled") {
+TEST_CASE("bounded mean: mirroring or scaling the values mirrors or scales the interval") {
     const auto values = uniforms(40);
     const auto plain = bounded_mean(values, share, 0.95);
     std::vector<double> mirrored, scaled;

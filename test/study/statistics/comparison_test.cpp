@@ -136,7 +136,7 @@ TEST_CASE("comparison: an interval of a family is that of one comparison at a di
     CHECK(together->confidence == 0.95);
 }
 
-TEST_CASE("comparison: equal differences are certain if not 0, and no evidence if 0") {
+TEST_CASE("comparison: if all differences are equal, p is 0, or 1 if they are all 0") {
     const std::array a{1.0, 2.0, 4.0}, less{0.5, 1.5, 3.5}, constant{3.0, 3.0, 3.0};
     const auto apart = compare_pairs(a, less);
     CHECK(apart->difference.mean == 0.5);
@@ -213,14 +213,14 @@ TEST_CASE("comparison: input that is not pairs of numbers is refused") {
                          std::invalid_argument);
 }
 
-TEST_CASE("sentence: states a significant difference") {
+TEST_CASE("comparison in words: states a significant difference") {
     CHECK(comparison_text("friis", "disc", comparison(0.2131, 0.0332, 1e-5)) ==
           "friis is 0.213 above disc (95 % 0.180 to 0.246, n = 30, p < 0.001, by Student's t)");
     CHECK(comparison_text("friis", "disc", comparison(-0.2131, 0.0332, 0.05)) ==
           "friis is 0.213 below disc (95 % 0.180 to 0.246, n = 30, p = 0.050, by Student's t)");
 }
 
-TEST_CASE("sentence: states that no difference is detectable, and the detectable size") {
+TEST_CASE("comparison in words: states that no difference is found, and the detectable size") {
     PairedComparison c = comparison(0.0021, 0.0119, 0.0501);
     CHECK(comparison_text("friis", "disc", c) ==
           "no detectable difference between friis and disc (0.002, 95 % -0.010 to 0.014, n = 30, "
@@ -235,7 +235,7 @@ TEST_CASE("sentence: states that no difference is detectable, and the detectable
           "at n = 30");
 }
 
-TEST_CASE("sentence: states that all replications agree") {
+TEST_CASE("comparison in words: states that two models are equal in all replications") {
     const std::array a{1.0, 2.0, 4.0}, less{0.9, 1.9, 3.9}, equal{1.0, 2.0, 4.0};
     CHECK(comparison_text("a", "b", *compare_pairs(a, equal)) ==
           "a and b are equal in each of 3 replications");
@@ -249,7 +249,7 @@ TEST_CASE("sentence: states that all replications agree") {
               .starts_with("a is 0.1 above b (95 % 0.1 to 0.1, n = 3, p < 0.001, by Student's t)"));
 }
 
-TEST_CASE("sentence: the half-width has two digits, without unnecessary decimals") {
+TEST_CASE("comparison in words: the half-width has two digits, without unnecessary decimals") {
     const auto found = [](double mean, double half_width) {
         return comparison_text("a", "b", comparison(mean, half_width, 0));
     };
@@ -260,14 +260,14 @@ TEST_CASE("sentence: the half-width has two digits, without unnecessary decimals
     CHECK(found(2e-5, 1.5e-6).starts_with("a is 0.0000200 above b (95 % 0.0000185 to 0.0000215,"));
 }
 
-TEST_CASE("sentence: a number that rounds to 0 has no sign") {
+TEST_CASE("comparison in words: a number that rounds to 0 has no sign") {
     CHECK(comparison_text("a", "b", comparison(-0.01, 0.5, 0.9))
               .starts_with("no detectable difference between a and b (-0.01, 95 % -0.51 to 0.49,"));
     CHECK(comparison_text("a", "b", comparison(-0.004, 0.5, 0.9))
               .starts_with("no detectable difference between a and b (0.00, 95 % -0.50 to 0.50,"));
 }
 
-TEST_CASE("sentence: states whether two models are equivalent") {
+TEST_CASE("comparison in words: states whether two models are equivalent") {
     PairedComparison c = comparison(0.01, 0.02, 0.5);
     EquivalenceVerdict verdict;
     verdict.method = IntervalMethod::betting;

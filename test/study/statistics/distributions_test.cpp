@@ -54,7 +54,8 @@ TEST_CASE("distributions: a power slightly above the level needs hardly any shif
     CHECK(*t_shift(9, 0.05, 0.05 + 1e-9) < 1e-3);  // the power grows with the square of it
 }
 
-TEST_CASE("distributions: there is no shift where t is too heavy-tailed to compute") {
+TEST_CASE(
+    "distributions: the shift is undefined where the tails of t are too heavy to compute it") {
     CHECK(t_shift(1, 6.5e-5, 0.8));
     CHECK(!t_shift(1, 6.3e-5, 0.8));
     CHECK(!t_shift(1, 1e-300, 0.8));

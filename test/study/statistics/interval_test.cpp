@@ -19,7 +19,8 @@ constexpr Bounds delay{0.0, std::nullopt};
 
 }  // namespace
 
-TEST_CASE("metric bounds: shares are in 0 to 1, also those of one flow, and times from 0") {
+TEST_CASE(
+    "metric bounds: shares have the bounds 0 and 1, also for one flow, and times the bound 0") {
     CHECK(bounds_of("delivery_ratio") == share);
     CHECK(bounds_of("delivery_ratio.a") == share);
     CHECK(bounds_of("reach") == share);
@@ -42,7 +43,7 @@ TEST_CASE("interval: values with two bounds use STaR-Bets, others Student's t") 
     CHECK(interval_of(std::vector{0.9, 1.1}, share)->method == IntervalMethod::t);
 }
 
-TEST_CASE("interval: of a ratio that was 1 in every replication extends below 1") {
+TEST_CASE("interval: the interval of a ratio that was 1 in every replication extends below 1") {
     const std::vector<double> ones(30, 1.0);
     const auto fixed = interval_of(ones, share);
     CHECK(std::abs(fixed->low - 0.8828) < 5e-5);  // as docs/methods/intervals.md says
@@ -52,7 +53,7 @@ TEST_CASE("interval: of a ratio that was 1 in every replication extends below 1"
     CHECK(betting->high == 1);
 }
 
-TEST_CASE("interval: one value of a ratio has a wide interval, one time has none") {
+TEST_CASE("interval: one value of a ratio has a wide interval, one value of a time has none") {
     CHECK(interval_of(std::vector{1.0}, share)->half_width() > 0.45);
     CHECK(!interval_of(std::vector{1.0}, delay));
     CHECK(!interval_of({}, share));

@@ -106,7 +106,7 @@ TEST_CASE("STaR-Bets: every cell below the interval is rejected, and no other") 
     }
 }
 
-TEST_CASE("STaR-Bets: mirrored values have the mirrored interval, scaled ones the scaled") {
+TEST_CASE("STaR-Bets: mirroring or scaling the values mirrors or scales the interval") {
     const auto values = normals(30, 0.7, 0.2, 2);
     const auto plain = star_mean(values, share, 0.95);
     std::vector<double> mirrored, scaled;
@@ -122,7 +122,8 @@ TEST_CASE("STaR-Bets: mirrored values have the mirrored interval, scaled ones th
     CHECK(std::abs(difference.high - (2 * plain.high - 1)) < 1e-9);
 }
 
-TEST_CASE("STaR-Bets: more confidence is wider, more values are narrower, and the mean is inside") {
+TEST_CASE(
+    "STaR-Bets: the interval contains the mean, and is wider for more confidence or fewer values") {
     const auto values = normals(120, 0.5, 0.2, 3);
     const auto at = [&](std::size_t n, double confidence) {
         return star_mean(std::span(values).first(n), share, confidence);

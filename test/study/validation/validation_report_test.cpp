@@ -101,7 +101,8 @@ TEST_CASE("validation: a limit includes its value, and one exceeded limit fails 
     CHECK(count(promises_page(validation), "| broken one | 1 | 2 ns | 2.5 ns | NO |") == 1);
 }
 
-TEST_CASE("validation: the picture joins fitted methods, and shows errors of 0 at its edge") {
+TEST_CASE(
+    "validation: the chart lists methods from cheap to dear, with errors of 0 at the left end") {
     const std::string svg = validation_svg(small_validation().charts[0]);
     CHECK(count(svg, "class=\"guide\"") == 2);  // cheap, on both scales
     for (const char* name : {">cheap</text>", ">slow &amp; poor</text>", ">exact</text>"})
@@ -120,7 +121,7 @@ TEST_CASE("validation: a panel without errors is a sentence, not an empty pictur
     validation.charts[0].panels.push_back(right);
     CHECK(count(validation_svg(validation.charts[0]), "class=\"panel\"") == 1);
     const std::string page = accuracy_page(validation);
-    CHECK(count(page, "No picture of: hall; every error is 0.") == 1);
+    CHECK(count(page, "No picture, because every error is 0: \"hall\".") == 1);
     CHECK(count(page, "[small.csv](accuracy/small.csv)") == 1);  // its numbers are there
 }
 
@@ -183,7 +184,8 @@ TEST_CASE(
     CHECK(count(page, "True is `exact`.") == 1);
 }
 
-TEST_CASE("headline: models in the order of cost, the nearest that is no form of the reference") {
+TEST_CASE(
+    "headline: models are in order of cost, and forms of the reference are never the best one") {
     const auto point = [](const char* label, const char* series, double cost, double error) {
         return ValidationPoint{.label = label,
                                .series = series,

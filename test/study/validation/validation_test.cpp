@@ -128,7 +128,7 @@ TEST_CASE("validation: predicted link changes are within the limits, and fixed s
     }
 }
 
-TEST_CASE("validation: decisions without logarithms are equal, except by a table") {
+TEST_CASE("validation: decisions without logarithms equal exact ones, except those by a table") {
     Promises promises;
     const ValidationChart chart = decisions_chart(few, promises);
     check_kept(promises);

@@ -317,7 +317,7 @@ TEST_CASE("trace follow: shows the tree of a message, its losses and robots with
     }
 }
 
-TEST_CASE("trace follow: all messages together have the deliveries and drops of the trace") {
+TEST_CASE("trace follow: deliveries and drops of all messages add up to those of the trace") {
     const TempFolder folder;
     write_file(folder / "run.tr", written(Ns2Format::new_format, MacTrace::on));
     const auto stats = ns2_stats(folder / "run.tr");

@@ -283,7 +283,7 @@ TEST_CASE("stats: M lines with the options of a script are a header, others are 
     CHECK(s.counts.refused == 2);
 }
 
-TEST_CASE("stats: a file without a trace line is refused, whatever its lines are") {
+TEST_CASE("stats: a file without any trace line is refused, whatever it contains") {
     const TempFolder folder;
     const std::vector<std::pair<std::string, std::string>> files = {
 

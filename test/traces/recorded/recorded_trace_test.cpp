@@ -289,9 +289,9 @@ TEST_CASE("a file that is not a recorded trace is refused with the reason") {
     };
     CHECK(refused("\x1f\x8b\x08 and more") ==
           "the file is packed by gzip; expected a recorded trace, unpacked");
-    CHECK(refused("") == "this is no recorded trace: expected a file that begins as MCAP does");
+    CHECK(refused("") == "this is no recorded trace: expected a file in the format MCAP");
     CHECK(refused("s 1.0 _0_ AGT") ==
-          "this is no recorded trace: expected a file that begins as MCAP does");
+          "this is no recorded trace: expected a file in the format MCAP");
     CHECK(refused(std::string(mcap_magic)) == "this MCAP file was not recorded by rovernet");
     CHECK_THROWS_AS(RecordedReader("/nowhere/at/all"), InputError);
     CHECK_THROWS_AS(RecordedReader("/tmp"), InputError);
