@@ -37,10 +37,11 @@ std::vector<MetricValue> metrics_of_row(const DayRow& row, const std::vector<std
 void check_property(const Store& store, const char* key, const std::string& expected) {
     const std::string found = store.property(key);
     if (found == expected || (found.empty() && store.points().empty())) return;
-    throw InputError({store.path()},
-                     fmt::format("its rows are of {} \"{}\", these of \"{}\"; expected another "
-                                 "--store",
-                                 key, found, expected));
+    throw InputError(
+        {store.path()},
+        fmt::format(
+            "its rows have the {} \"{}\", but the new rows have \"{}\"; expected another --store",
+            key, found, expected));
 }
 
 /// Number of the point of this radio, which is added if it is not there.

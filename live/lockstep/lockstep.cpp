@@ -101,7 +101,7 @@ void Lockstep::check_claims(const HelloRequest& hello) {
     for (std::size_t i = 0; i < hello.robots.size(); ++i) {
         if (!session_->driver(hello.robots[i])) continue;
         throw RequestError("taken", fmt::format("robots[{}]", i),
-                           fmt::format("robot {} is another controller's",
+                           fmt::format("another controller drives robot {}",
                                        session_->network().name(hello.robots[i])));
     }
     const auto measures = [&](NodeId robot) { return !session_->range_finders(robot).empty(); };

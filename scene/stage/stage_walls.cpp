@@ -277,9 +277,10 @@ std::uint8_t Builder::material(const WorldEntity& model) {
                                     [&](const Material& m) { return m.name == color; });
     const auto index = static_cast<std::size_t>(found - materials.begin());
     if (index == most) {
-        throw InputError(model.where, fmt::format("color \"{}\" is one too many; expected at most "
-                                                  "{} colours of walls; use one of the others",
-                                                  color, most));
+        throw InputError(model.where,
+                         fmt::format("too many colours of walls with color \"{}\"; expected at "
+                                     "most {}; use one of the other colours",
+                                     color, most));
     }
     if (found == materials.end()) materials.push_back({.name = color});
     return static_cast<std::uint8_t>(index);

@@ -197,7 +197,9 @@ TEST_CASE("doors: have no effect on models that ignore walls") {
     CHECK(with(Friis{}) == 0);
 }
 
-TEST_CASE("doors: with shadowing, fading and reference mode, equal no door or a wall") {
+TEST_CASE(
+    "doors: with shadowing, fading or reference mode, an open door equals a gap, a closed door a "
+    "wall") {
     CHECK(compare([](NetworkSettings& settings) {
               settings.propagation = MultiWall{};
               settings.shadowing = {.model = ShadowingModel::link};

@@ -313,9 +313,9 @@ TEST_CASE("stage walls: one material for each colour of the walls") {
     CHECK(used == std::vector<int>{0, 1, 0, 2, 3});
     std::string many;
     for (int i = 0; i < 257; ++i) many += "model ( color \"c" + std::to_string(i) + "\" )\n";
-    CHECK(
-        world.mistake(many).starts_with("257:1: color \"c256\" is one too many; expected at most "
-                                        "256"));
+    CHECK(world.mistake(many).starts_with(
+        "257:1: too many colours of walls with color \"c256\"; expected at most "
+        "256"));
 }
 
 TEST_CASE("stage walls: a missing bitmap lists the paths tried; with --lenient it is a notice") {
