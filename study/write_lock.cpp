@@ -102,8 +102,7 @@ std::string lock_file(const std::string& path) { return path + ".lock"; }
 [[noreturn]] void refuse(const std::string& path, const Writer& writer) {
     throw RunError(
         fmt::format("{}: process {} on {} writes to this store, according to {}; wait until it "
-                    "ends; if it has already "
-                    "ended, remove {} (this file system has no locks)",
+                    "ends; if it has already ended, remove {} (this file system has no locks)",
                     path, writer.process, writer.host.empty() ? "a host" : writer.host,
                     lock_file(path), lock_file(path)));
 }

@@ -198,7 +198,7 @@ TEST_CASE("doors: have no effect on models that ignore walls") {
 }
 
 TEST_CASE(
-    "doors: with shadowing, fading or reference mode, an open door equals a gap, a closed door a "
+    "doors: with shadowing, fading or reference mode, an open door is a gap, a closed door a "
     "wall") {
     CHECK(compare([](NetworkSettings& settings) {
               settings.propagation = MultiWall{};

@@ -314,8 +314,7 @@ TEST_CASE("stage walls: one material for each colour of the walls") {
     std::string many;
     for (int i = 0; i < 257; ++i) many += "model ( color \"c" + std::to_string(i) + "\" )\n";
     CHECK(world.mistake(many).starts_with(
-        "257:1: too many colours of walls with color \"c256\"; expected at most "
-        "256"));
+        "257:1: too many colours of walls with color \"c256\"; expected at most 256"));
 }
 
 TEST_CASE("stage walls: a missing bitmap lists the paths tried; with --lenient it is a notice") {
