@@ -127,7 +127,7 @@ void Session::check_robot(ClientId client, NodeId robot) const {
     client_of(client);
     if (driver(robot) == client) return;
     throw std::invalid_argument(
-        fmt::format("robot {} is not the client's: attach it first", network_->name(robot)));
+        fmt::format("the client does not drive robot {}: attach it first", network_->name(robot)));
 }
 
 std::optional<std::uint64_t> Session::carry_out(ClientId client, NodeId robot,

@@ -63,7 +63,7 @@ void check_udp_ports(const Address& first, std::size_t robots) {
     constexpr std::size_t after_last = 65'536;
     if (first.port == 0 || robots <= after_last - first.port) return;
     throw std::invalid_argument(
-        fmt::format("{}: found {} robots, each with a port of its own from {} on; expected {} at "
+        fmt::format("{}: found {} robots, each with its own port from {} on; expected {} at "
                     "most",
                     first.text(), robots, first.port, after_last - first.port));
 }

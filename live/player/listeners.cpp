@@ -34,7 +34,7 @@ FrontListeners player_ports(const Address& first, const std::vector<std::string>
     const std::size_t ports = first.port == 0 ? most_player_ports : 65'536U - first.port;
     if (robots.size() > std::min(ports, most_player_ports)) {
         throw std::invalid_argument(
-            fmt::format("found {} robots, each with a port of its own from {} on; expected {} at "
+            fmt::format("found {} robots, each with its own port from {} on; expected {} at "
                         "most, or --player-one-port",
                         robots.size(), first.port, std::min(ports, most_player_ports)));
     }

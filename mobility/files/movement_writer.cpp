@@ -40,8 +40,8 @@ std::vector<Piece> pieces_of(const Track& track, Time end) {
         const Time stop = std::min({leg.end, next, end});
         if (stop <= leg.start) continue;
         if (stop == never && leg.velocity != Vec3{}) {
-            throw std::invalid_argument(
-                "\"" + track.name + "\" moves on for ever: the end of its track has to be a time");
+            throw std::invalid_argument("\"" + track.name +
+                                        "\" moves without end: its track needs a last time");
         }
         rest_until(leg.start);
         const Vec3 to = stop == never ? leg.from : leg.position(stop);

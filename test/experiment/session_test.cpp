@@ -132,7 +132,8 @@ TEST_CASE("session: a robot has one driver; a client that leaves releases all it
     CHECK_THROWS_WITH_AS(session.attach({NodeId{1}}), "robot b is driven by another client already",
                          std::invalid_argument);
     CHECK_THROWS_WITH_AS(session.drive(first, {2}, {1}, {0}),
-                         "robot c is not the client's: attach it first", std::invalid_argument);
+                         "the client does not drive robot c: attach it first",
+                         std::invalid_argument);
     session.drive(first, {1}, {1}, {0.5});
     session.step(start_of_run + 1s);
     session.detach(first);
@@ -152,7 +153,8 @@ TEST_CASE("session: a radio client sends and receives beside the client that dri
     const ClientId radios = session.attach_radios({a, b, c}, "radios");
     session.drive(driver, b, {1}, {0});
     CHECK_THROWS_WITH_AS(session.drive(radios, b, {1}, {0}),
-                         "robot b is not the client's: attach it first", std::invalid_argument);
+                         "the client does not drive robot b: attach it first",
+                         std::invalid_argument);
     CHECK_THROWS_AS(session.send(driver, a, {}, "of another"), std::invalid_argument);
     session.send(radios, c, std::nullopt, "hello");
     session.step(start_of_run + 1s);

@@ -33,7 +33,8 @@ bool near(double a, double b, double within) { return std::abs(a - b) <= within;
 
 }  // namespace
 
-TEST_CASE("bounded mean: one value leaves the means that the average gambler cannot reject") {
+TEST_CASE(
+    "bounded mean: the interval of one value is the means that the average bet does not reject") {
     // He stakes half: (1 + x / m) / 2 = 40 at m = x / 79.
     for (const double x : {0.0, 0.25, 0.5, 1.0}) {
         const auto mean = bounded_mean(std::vector{x}, share, 0.95);
