@@ -263,9 +263,7 @@ void print_robots(const RecordedDay& day, const std::vector<DayRow>& rows) {
 void print_radios(const ReplayArguments& a, const Radios& radios, const std::vector<DayRow>& rows) {
     print_rows(radios, rows);
     print_robots(radios.day, rows);
-    fmt::print(
-        "\nRobots move and speak as they did; what they would decide otherwise is not "
-        "decided anew.\n");
+    fmt::print("\nRobots move and speak as in the trace; they do not react to the new messages.\n");
     if (!radios.plays_first) return;
     fmt::print(
         "{}: the protocol of the trace is not simulated. Differences are to the row \"{}\".\n",
