@@ -39,12 +39,13 @@ struct FollowWall {
     Meters range{8};             ///< largest distance that the robot's range finder measures, > 0
 
     static constexpr auto fields() {
-        return describe(field("side", &FollowWall::side, "side on which it has the wall"),
-                        field("speed", &FollowWall::speed, positive, "along the wall"),
-                        field("keep", &FollowWall::keep, positive, "from its body to the wall"),
-                        field("stride", &FollowWall::stride, positive, "way between two looks"),
-                        field("range", &FollowWall::range, positive,
-                              "farthest that its range finder measures"));
+        return describe(
+            field("side", &FollowWall::side, "side of the robot on which the wall is"),
+            field("speed", &FollowWall::speed, positive, "along the wall"),
+            field("keep", &FollowWall::keep, positive, "from its body to the wall"),
+            field("stride", &FollowWall::stride, positive, "distance between two measurements"),
+            field("range", &FollowWall::range, positive,
+                  "farthest that its range finder measures"));
     }
 
     /// @throws std::invalid_argument for a parameter out of its range, or without a map

@@ -32,9 +32,9 @@ struct Wander {
         return describe(
             field("speed", &Wander::speed, positive, "ahead"),
             field("turn_rate", &Wander::turn_rate, turn_rates, "in place"),
-            field("keep", &Wander::keep, positive, "free way that it keeps ahead of its body"),
+            field("keep", &Wander::keep, positive, "free distance that it keeps ahead of its body"),
             field("range", &Wander::range, positive, "farthest that its range finder measures"),
-            field("run", &Wander::run, positive, "longest way straight ahead"));
+            field("run", &Wander::run, positive, "longest distance straight ahead"));
     }
 
     /// @throws std::invalid_argument for a parameter out of its range, or without a map

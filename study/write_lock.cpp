@@ -100,11 +100,11 @@ std::optional<Writer> writer_in(const std::string& lock) {
 std::string lock_file(const std::string& path) { return path + ".lock"; }
 
 [[noreturn]] void refuse(const std::string& path, const Writer& writer) {
-    throw RunError(fmt::format(
-        "{}: process {} on {} writes to this store, according to {}; wait for its end; this file "
-        "system has no locks: if that process has ended, remove {}",
-        path, writer.process, writer.host.empty() ? "a host" : writer.host, lock_file(path),
-        lock_file(path)));
+    throw RunError(
+        fmt::format("{}: process {} on {} writes to this store, according to {}; wait until it "
+                    "ends; if it has already ended, remove {} (this file system has no locks)",
+                    path, writer.process, writer.host.empty() ? "a host" : writer.host,
+                    lock_file(path), lock_file(path)));
 }
 
 /// Removes a stale lock file. Another process may do the same and create its own lock file

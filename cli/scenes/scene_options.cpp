@@ -76,7 +76,9 @@ void add_where(Command app) {
         "--to", a.to,
         "print where the robot has no link to any of these, such as ap1,ap2: time, place, share");
     to.delimiter(',').needs(robot).excludes(at);
-    where.add_option("--over", a.over, "accept a link over these robots, too: the relays of a mesh")
+    where
+        .add_option("--over", a.over,
+                    "also accept links that these robots relay, such as the relays of a mesh")
         .delimiter(',')
         .needs(to);
     Option csv = where.add_flag("--csv", a.csv, "print a line for each gap, as CSV").needs(to);
@@ -113,10 +115,11 @@ void add_draw(Command app) {
                   "any robot");
     Option trails = draw.add_flag("--trails", a.trails, "draw the paths of the robots so far");
     Option margin_to = draw.add_option("--margin-to", a.margin_to,
-                                       "colour trails by the margin of the link to a robot, or to "
-                                       "the best of A,B, and mark the gaps");
+                                       "colour trails by the margin of the link to a robot (of "
+                                       "A,B: to the better one), and mark where there is no link");
     margin_to.delimiter(',').needs(trails);
-    draw.add_option("--over", a.over, "accept a link over these robots, too: the relays of a mesh")
+    draw.add_option("--over", a.over,
+                    "also accept links that these robots relay, such as the relays of a mesh")
         .delimiter(',')
         .needs(margin_to);
     draw.add_option("--storey", a.storey, "storey to draw; the lowest is 1").shows_default();

@@ -164,8 +164,9 @@ void add_locate(Command app) {
         "--unknown-power", a.unknown_power,
         "treat the transmit power of the anchors as unknown, but equal for all anchors");
     locate
-        .add_option("--margin", a.margin,
-                    "on an open field: distance around the anchors in which positions are searched")
+        .add_option(
+            "--margin", a.margin,
+            "on an open field: by how much the box around the anchors is widened for the search")
         .shows_default();
     add_json(locate, a.json);
 }

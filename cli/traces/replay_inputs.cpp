@@ -51,7 +51,8 @@ void tell_of_log(const InputReplay& replay) {
     }
     for (const std::string& other : replay.others) {
         notice(other +
-               ": a different run in this folder, which did not end; this file name replays it");
+               ": log of a different run in this folder, which did not end; give its name to "
+               "replay it");
     }
 }
 

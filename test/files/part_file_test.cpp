@@ -64,7 +64,7 @@ TEST_CASE("part file: has its final name only when complete") {
     CHECK(names_in(folder) == std::vector<std::string>{"f"});
 }
 
-TEST_CASE("part file: an unnamed file leaves the old file, and no partial file") {
+TEST_CASE("part file: without a name the old file stays unchanged, and no partial file remains") {
     const TemporaryFolder folder;
     const std::string path = folder.write("f", "yesterday's");
     { PartFile(path).write("half"); }

@@ -37,7 +37,7 @@ bool stands(const Leg& leg) {
 
 }  // namespace
 
-TEST_CASE("movement: the default is Fixed, and so are its copies") {
+TEST_CASE("movement: a default movement and its copies are Fixed") {
     Movement none;
     Movement copy = none;
     Movement fixed = Fixed{};

@@ -132,7 +132,8 @@ TEST_CASE("order: in reference mode receptions at different times are separate e
     CHECK(net.events() == 2);  // those of one time are one: no order of numbers is among them
 }
 
-TEST_CASE("order: few and many receivers are in order, spread, in rings or at one place") {
+TEST_CASE(
+    "order: few and many receivers receive in order of time: spread, in rings or at one place") {
     test::Draw draw(17);
     for (const bool delayed : {true, false}) {
         for (const int count : {2, 13, 60, 64, 65, 66, 67, 130, 400}) {

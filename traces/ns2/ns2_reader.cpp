@@ -163,7 +163,7 @@ bool Replay::sent(const Ns2Packet& p) {
     const auto [entry, is_new] = by_type_[std::string(p.type)].try_emplace(p.uid);
     if (!is_new) {
         file_.refuse(p.uid_column,
-                     fmt::format("{} {} is sent a second time; expected a number of its own for "
+                     fmt::format("{} {} is sent a second time; expected a different number for "
                                  "each message of a type",
                                  p.type, p.uid));
         return false;

@@ -111,7 +111,7 @@ TEST_CASE("probe: messages that a displaced robot misses are counted and named")
     CHECK(lost > 0);
 }
 
-TEST_CASE("probe: a link along the face of a wall is a cliff") {
+TEST_CASE("probe: a link along the face of a wall changes greatly with 1 um: a cliff") {
     // The face is the line y = 0, from x = 1 m to 2 m.
     const Probe found = probe(with_walls(4, rows_of(10, ".........."), walls), {.events = 0});
     CHECK(std::none_of(found.effects.begin(), found.effects.end(),

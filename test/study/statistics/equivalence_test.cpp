@@ -197,7 +197,7 @@ TEST_CASE("equivalence: by STaR-Bets an undecided test predicts the number of re
           Equivalence::undecided);
 }
 
-TEST_CASE("equivalence: without bounds Student's t is used, once") {
+TEST_CASE("equivalence: a metric without bounds is tested once, by Student's t") {
     const auto near = equivalence_of(normals(40, 0, 0.1, 1), 0.25, delay);
     CHECK(near.verdict == Equivalence::within);
     CHECK(near.method == IntervalMethod::t);

@@ -174,7 +174,8 @@ TEST_CASE("validation: charts for contributors are on the page of the promises, 
 }
 
 TEST_CASE(
-    "validation: another view of a chart is a part of its section, and repeats no reference") {
+    "validation: a chart that continues another one is in its section, and does not repeat the "
+    "reference") {
     Validation validation = small_validation();
     validation.charts.push_back(validation.charts[0]);
     validation.charts[1].title = "And then?";

@@ -299,7 +299,7 @@ TEST_CASE("reader: a broken line has its position, what was found and what was e
     CHECK(broken("r 1.0 _1_ RTR  --- 0 message 64 [0 ffffffff 0 800] ------- [0:0 -1:0 x 0] ") ==
           "run.tr:8:70: found \"x\", expected a ttl");
     CHECK(broken("s 1.0 _1_ AGT  --- 0 message 64 [0 0 0 0] ------- [0:0 -1:0 3 0] ") ==
-          "run.tr:8:20: message 0 is sent a second time; expected a number of its own for each "
+          "run.tr:8:20: message 0 is sent a second time; expected a different number for each "
           "message of a type");
     CHECK(broken("M 0.0 1 (3.00, 0.00, 1.00), (3.00, 4.00)") ==
           "run.tr:8:36: found \"4.00)\", expected a coordinate [m] as in (x, y, z), (x, y), speed");
