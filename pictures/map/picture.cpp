@@ -192,8 +192,8 @@ void Painter::check_levels() const {
         if (range_of(each.model).has_value() == range_of(transmitters_.front().model).has_value())
             continue;
         throw std::invalid_argument(
-            "picture: the model disc gives no levels, which the coverage of other robots has; "
-            "expected the coverage of robots with disc, or of robots with other models");
+            "picture: robots with the model disc have a range, the other robots have levels; "
+            "expected the coverage of robots with disc only, or of robots without disc only");
     }
 }
 

@@ -117,7 +117,7 @@ LinearCalibration::Solution LinearCalibration::by_least_squares(const Observatio
     for (std::size_t k = 0; k < data.columns; ++k) {
         if (!fit.coefficients[k]) {
             throw std::invalid_argument(
-                fmt::format("the links do not determine {} beside the other parameters",
+                fmt::format("the links do not determine {} separately from the other parameters",
                             k < used_.size() ? free_[used_[k]].key : "the gains"));
         }
         out.coefficients.push_back(*fit.coefficients[k]);

@@ -270,9 +270,10 @@ TEST_CASE("picture: ranges of the model disc are drawn together, but not with le
     const auto text = robot("A", 0, 0, disc(20)) + robot("B", 90, 9, disc(30)) + robot("C", 45, 0);
     CHECK(has(draw_svg(scenario(text), {.coverage = {"A", "B"}, .cells = 500}),
               "range of 20 m or 30 m"));
-    CHECK_THROWS_WITH_AS(draw_svg(scenario(text), {.coverage = {"A", "C"}, .cells = 500}),
-                         doctest::Contains("the model disc gives no levels"),
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(
+        draw_svg(scenario(text), {.coverage = {"A", "C"}, .cells = 500}),
+        doctest::Contains("robots with the model disc have a range, the other robots have levels"),
+        std::invalid_argument);
 }
 
 TEST_CASE("picture: the heat map is lightest at the robot, and not upside down") {
