@@ -44,7 +44,7 @@ TEST_CASE("rectangles: a full map is one rectangle, an empty map none") {
     CHECK(solid_rectangles(OccupancyGrid{}, Solid::walls).empty());
 }
 
-TEST_CASE("rectangles: the larger of wide first and tall first is used") {
+TEST_CASE("rectangles: the larger of the widest and the tallest rectangle is taken first") {
     CHECK(solid_rectangles(drawn_map({"#..", "#..", "#..", "##."}), Solid::walls) ==
           std::vector<CellRectangle>{{0, 0, 1, 4}, {1, 0, 2, 1}});
     CHECK(solid_rectangles(drawn_map({"#..", "###"}), Solid::walls) ==

@@ -50,7 +50,7 @@ TEST_CASE("distributions: half a deviation is found with 80 % power by 34 pairs,
     CHECK(*t_shift(33, 0.05, 0.8) / std::sqrt(34) < 0.5);
 }
 
-TEST_CASE("distributions: a power slightly above the level needs hardly any shift") {
+TEST_CASE("distributions: to reach a power slightly above the level, hardly any shift is needed") {
     CHECK(*t_shift(9, 0.05, 0.05 + 1e-9) < 1e-3);  // the power grows with the square of it
 }
 
