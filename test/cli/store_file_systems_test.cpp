@@ -41,7 +41,7 @@ struct Kind {
     bool has_readers;  // while one writes
     bool has_wal = false;
 };
-constexpr const char* flocked = "another sweep is writing";
+constexpr const char* flocked = "a different sweep is writing";
 constexpr const char* named = "writes to this store, according to";
 constexpr Kind kinds[] = {{"nothing", flocked, true, true},
                           {"shared", flocked, true},

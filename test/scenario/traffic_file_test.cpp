@@ -86,7 +86,7 @@ TEST_CASE("traffic file: content other than CBR over UDP is an error with its po
         error_of(with(good, "Agent/UDP", "Agent/TCP")).find("cbr.tcl:4:18: found \"Agent/TCP\"") !=
         std::string::npos);
     CHECK(error_of("set tcp_(0) [$ns_ create-connection TCP $node_(1) TCPSink $node_(2) 0]\n")
-              .find("cbr.tcl:1:14: found \"$ns_\", expected [new ...]; TCP is not known") !=
+              .find("cbr.tcl:1:14: found \"$ns_\", expected [new ...]; TCP is not supported") !=
           std::string::npos);
     CHECK(
         error_of(with(good, "$ns_ connect $udp_(0) $null_(0)\n", "")).find("has no destination") !=

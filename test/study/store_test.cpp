@@ -155,7 +155,8 @@ TEST_CASE("store: others may read during a write, and only one process writes") 
     CHECK(reader.values("reach").size() == 1);
     store.record(run("r1", 0, 1, 0.5));
     CHECK(reader.values("reach").size() == 2);
-    CHECK_THROWS_WITH_AS(Store::open_to_write(path), doctest::Contains("another sweep"), RunError);
+    CHECK_THROWS_WITH_AS(Store::open_to_write(path), doctest::Contains("a different sweep"),
+                         RunError);
 }
 
 TEST_CASE("store: a file that is not a store is refused") {
@@ -281,7 +282,7 @@ TEST_CASE("merge: runs of another version or study are refused") {
         other.set_property("version", "1");
         other.set_points({point(2, "xx")});
     }
-    CHECK_THROWS_WITH_AS(merge(store, shard), doctest::Contains("another study"), InputError);
+    CHECK_THROWS_WITH_AS(merge(store, shard), doctest::Contains("a different study"), InputError);
 }
 
 }  // namespace store_test

@@ -306,7 +306,7 @@ TEST_CASE("sweep: of two sweeps on one store, the second gets an error") {
     const TemporaryFolder other;
     const Ended second = command(other, {"sweep", place.file});
     CHECK(second.exit == 1);
-    CHECK(second.err.find("another sweep is writing") != std::string::npos);
+    CHECK(second.err.find("a different sweep is writing") != std::string::npos);
     CHECK(first.stop().exit == 130);
 }
 

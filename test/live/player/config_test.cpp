@@ -144,7 +144,7 @@ TEST_CASE("player configuration: errors have a position") {
               std::string::npos);
     }
     CHECK(fault(head + robots + "driver ( name \"relay\" )")
-              .find("no opaque device that it provides") != std::string::npos);
+              .find("no opaque device in its provides") != std::string::npos);
     CHECK_THROWS_AS(read_player_config("/nowhere/two.cfg"), InputError);
 }
 

@@ -206,7 +206,7 @@ TEST_CASE("fcd: tolerant reading skips unknown elements, also nested ones, and b
     CHECK(p.file.notices()[0].starts_with("4 elements are left out; the first: "));
     for (int i = 0; i < 20; ++i)
         deep = "<d" + std::to_string(i) + ">" + deep + "</d" + std::to_string(i) + ">";
-    CHECK(error_of(fcd(deep), MovementSyntax::tolerant).find("at most 64 elements") !=
+    CHECK(error_of(fcd(deep), MovementSyntax::tolerant).find("elements nested at most 64 levels") !=
           std::string::npos);
 }
 
