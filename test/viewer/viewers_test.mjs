@@ -67,6 +67,8 @@ test("V12: ten pages of a run have the same of it", () =>
         const seen = [];
         for (const each of pages) {
             await each.waitForFunction(() => window.rovernet?.ready && live.state().ended, undefined, { timeout: 60000 });
+            // The end is known before it is drawn: two frames later it is.
+            await each.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))));
             seen.push(await each.evaluate(() => JSON.stringify([document.getElementById("caption").textContent, [0, 1, 2, 3, 4].map(i => rovernet.position(i))])));
         }
         assert.equal(new Set(seen).size, 1);
