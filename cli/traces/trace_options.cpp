@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <system_error>
 
 namespace rovernet::cli {
 namespace {
@@ -16,9 +17,10 @@ constexpr const char* any_trace =
 /// stays.
 std::string trace_of_run(const std::string& text) {
     namespace fs = std::filesystem;
-    if (!fs::is_directory(text)) return text;
+    std::error_code error;  // of a path that leads nowhere: its reader tells
+    if (!fs::is_directory(text, error)) return text;
     const fs::path recorded = fs::path(text) / "trace.mcap", ns2 = fs::path(text) / "trace.tr";
-    return (fs::exists(recorded) || !fs::exists(ns2) ? recorded : ns2).string();
+    return (fs::exists(recorded, error) || !fs::exists(ns2, error) ? recorded : ns2).string();
 }
 
 void add_strict(Command command, bool& strict) {

@@ -151,7 +151,7 @@ TEST_CASE("emulate --udp: listens only to this machine, and reports a port in us
     CHECK(emulate({"--udp", "0.0.0.0:7100"}).exit == 2);
     const Ended narrow = emulate({"--udp", "127.0.0.1:65534"});
     CHECK(narrow.exit == 2);
-    CHECK(narrow.err.find("expected 2 at most") != std::string::npos);
+    CHECK(narrow.err.find("expected 2 robots at most") != std::string::npos);
     CHECK_FALSE(std::filesystem::exists(folder.path("out")));  // nothing is begun
     CHECK(emulate({"--udp", "127.0.0.1:0", "--late", "-1s"}).exit != 0);
     CHECK(emulate({"--udp", "127.0.0.1:0", "--on-late", "wait"}).exit == 2);
