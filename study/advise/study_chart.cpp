@@ -4,6 +4,7 @@
 #include "scenario/document/toml.hpp"
 #include "sim/error.hpp"
 #include "study/advise/marks_beside.hpp"
+#include "study/advise/table_numbers.hpp"
 #include "study/quotient.hpp"
 #include "study/statistics/metric_bounds.hpp"
 

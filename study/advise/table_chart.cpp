@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/advise/table_chart.hpp"
 
-#include "files/csv_table.hpp"
-#include "study/advise/marks_beside.hpp"
+#include "study/advise/table_numbers.hpp"
 
 #include <fmt/format.h>
 
