@@ -8,19 +8,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 
 namespace rovernet {
 namespace {
 
-/// Sizes of the drawing [px], and colours.
+/// Sizes of the drawing [px].
 struct BudgetStyle {
     static constexpr double width = 760, margin = 14;
     static constexpr double left = 220, right = 640;          // ends of the scale
     static constexpr double name_end = 208, value_end = 740;  // columns beside the scale
     static constexpr double head = 66, row = 24, bar = 14, foot = 30;
-    static constexpr Color gain{0x00, 0x9e, 0x73}, loss{0xd5, 0x5e, 0x00}, level{0x00, 0x72, 0xb2};
-    static constexpr Color quiet{0x66, 0x66, 0x66};
 };
+
+/// Kinds of bars, in the order of their colours: those of the first series of a chart.
+enum class Bar { margin, loss, gain };
 
 class BudgetDrawing {
   public:
@@ -40,22 +42,20 @@ class BudgetDrawing {
                          {"height", end() + BudgetStyle::foot},
                          {"fill", "#ffffff"}});
         svg.text(BudgetStyle::margin, 26, chart_.title, {.size = 16, .bold = true});
-        svg.text(BudgetStyle::margin, 46, chart_.subtitle, {.color = BudgetStyle::quiet});
+        svg.text(BudgetStyle::margin, 46, chart_.subtitle, {.color = chart_note_color});
         draw_scale(svg);
         draw_row(svg, "power", fmt::format("{:.1f} dBm", chart_.power), true);
         double level = chart_.power;
         for (const BudgetStep& step : chart_.steps) {
-            const double after = level + step.change;
-            const Color color = step.change < 0 ? BudgetStyle::loss : BudgetStyle::gain;
-            draw_bar(svg, step.change < 0 ? "loss" : "gain", level, after, color);
+            draw_join(svg, level);
+            draw_bar(svg, step.change < 0 ? Bar::loss : Bar::gain, level, level + step.change);
             draw_row(svg, step.name, fmt::format("{:+.1f} dB", step.change), false);
-            level = after;
+            level += step.change;
         }
-        draw_join(svg, level, BudgetStyle::row);
+        draw_join(svg, level);
         draw_row(svg, "received level", fmt::format("{:.1f} dBm", level), true);
         const double margin = level - chart_.sensitivity;
-        draw_bar(svg, "margin", chart_.sensitivity, level,
-                 margin < 0 ? BudgetStyle::loss : BudgetStyle::level);
+        draw_bar(svg, margin < 0 ? Bar::loss : Bar::margin, chart_.sensitivity, level);
         draw_row(svg, margin < 0 ? "missing" : "margin", fmt::format("{:+.1f} dB", margin), true);
         draw_sensitivity(svg);
         return svg.finish();
@@ -81,23 +81,23 @@ class BudgetDrawing {
         top_ += BudgetStyle::row;
     }
 
-    /// Bar of the next row, and the line down to it from the row above.
-    void draw_bar(Svg& svg, const char* what, double from, double to, Color color) const {
-        if (what != std::string("margin")) draw_join(svg, from, BudgetStyle::row);
+    /// Bar of the next row.
+    void draw_bar(Svg& svg, Bar bar, double from, double to) const {
+        constexpr const char* names[] = {"margin", "loss", "gain"};
+        const auto number = static_cast<std::size_t>(bar);
         const double low = at(std::min(from, to)), high = at(std::max(from, to));
-        svg.add("rect", {{"class", what},
+        svg.add("rect", {{"class", names[number]},
                          {"x", low},
                          {"y", top_ + 0.5 * (BudgetStyle::row - BudgetStyle::bar)},
                          {"width", std::max(high - low, 1.0)},
                          {"height", BudgetStyle::bar},
-                         {"fill", color}});
+                         {"fill", chart_style(number).color}});
     }
 
-    /// Vertical line at a level, from the middle of the row above on.
-    void draw_join(Svg& svg, double level, double length) const {
+    /// Vertical line at a level, from the middle of the row above to the middle of the next row.
+    void draw_join(Svg& svg, double level) const {
         SvgPath line;
-        line.move(at(level), top_ - 0.5 * BudgetStyle::row)
-            .vertical(top_ - 0.5 * BudgetStyle::row + length);
+        line.move(at(level), top_ - 0.5 * BudgetStyle::row).vertical(top_ + 0.5 * BudgetStyle::row);
         svg.add("path", {{"class", "level"}, {"d", line.text()}, {"stroke", chart_ink}});
     }
 
@@ -106,14 +106,13 @@ class BudgetDrawing {
         for (const ChartTick& tick : axis_.ticks) {
             if (tick.text.empty()) continue;
             grid.move(at(tick.value), BudgetStyle::head).vertical(end());
-            svg.text(at(tick.value), end() + 16, tick.text,
-                     {.size = chart_text_size,
-                      .anchor = TextAnchor::middle,
-                      .color = BudgetStyle::quiet});
+            svg.text(
+                at(tick.value), end() + 16, tick.text,
+                {.size = chart_text_size, .anchor = TextAnchor::middle, .color = chart_note_color});
         }
         svg.add("path", {{"class", "grid"}, {"d", grid.text()}, {"stroke", chart_grid}});
         svg.text(BudgetStyle::right + 12, end() + 16, "dBm",
-                 {.size = chart_text_size, .color = BudgetStyle::quiet});
+                 {.size = chart_text_size, .color = chart_note_color});
     }
 
     /// Dashed line at the sensitivity, with its text in the row of the power.
