@@ -30,6 +30,7 @@ CsvTable::CsvTable(const std::string& path) : path_(path) {
         const std::vector<Word> fields = csv_fields(lines_.emplace_back(*line));
         if (names_.empty()) {
             for (const Word& each : fields) names_.emplace_back(each.text);
+            names_where_ = lines.where();
             continue;
         }
         if (fields.size() != names_.size()) {
@@ -49,7 +50,7 @@ Word CsvTable::word(std::size_t row, std::string_view column) const {
     const auto found = std::find(names_.begin(), names_.end(), column);
     if (found == names_.end()) {
         const std::string near = did_you_mean(std::string(column), names_);
-        throw InputError({path_, 1, 0},
+        throw InputError(names_where_,
                          fmt::format("no column \"{}\"; expected one in {}{}{}", column,
                                      fmt::join(names_, ", "), near.empty() ? "" : "; ", near));
     }

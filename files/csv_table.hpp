@@ -50,6 +50,7 @@ class CsvTable {
     std::string path_;
     std::deque<std::string> lines_;  // lines of the fields; a deque does not move them
     std::vector<std::string> names_;
+    Location names_where_;  // place of the line of names
     std::vector<Row> rows_;
 };
 

@@ -60,7 +60,7 @@ TEST_CASE("table chart: x with units, words on x, and conditions") {
 
 TEST_CASE("table chart: what cannot be drawn is refused") {
     CHECK_THROWS_WITH_AS(draw(table, {.x = "robots", .y = "price"}),
-                         doctest::Contains("no column \"price\""), InputError);
+                         doctest::Contains("costs.csv:2:1: no column \"price\""), InputError);
     CHECK_THROWS_WITH_AS(draw("a,b\n1,x\n", {.x = "a", .y = "b"}),
                          doctest::Contains("costs.csv:2:3: b: found \"x\""), InputError);
     CHECK_THROWS_WITH_AS(draw(table, {.y = "cost"}), doctest::Contains("-x"),
