@@ -124,8 +124,7 @@ ValidationChart corridor_chart(const ValidationSize& size) {
         .truth = fmt::format(
             "{} links along corridors of 2 m and 2.5 m between walls of metal, at 914 and 2450 "
             "MHz, 3 to 40 m long. The reference is, for the coherent sum, the exact field (modal "
-            "series); "
-            "for the sum of powers, that of all images without end, in closed form.",
+            "series); for the sum of powers, that of all images without end, in closed form.",
             std::size(corridor_links)),
         .panels = {corridor_panel("sum of powers", RaySum::power, power_of_images_db, size),
                    corridor_panel(

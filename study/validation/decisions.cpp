@@ -226,8 +226,7 @@ ValidationChart decisions_chart(const ValidationSize& size, Promises& promises) 
         .title = "Is the link up? Decided without the loss",
         .truth =
             "The reference is the loss itself, by logarithms, against a budget of 90 dB at 2450 "
-            "MHz: "
-            "distances within 1 % of the range of friis; log_distance with 6 dB of shadowing, "
+            "MHz: distances within 1 % of the range of friis; log_distance with 6 dB of shadowing, "
             "0.1 to 1.9 times its median range; two frames from anywhere within 300 m.",
         .panels = {by_distance(size), by_pair(size), by_level(size)},
         .for_contributors = true};

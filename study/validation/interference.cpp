@@ -98,21 +98,19 @@ ValidationChart interference_cut_chart(const ValidationSize& size) {
     const std::size_t replications = size.of(60, 3);
     const ValidationPanel panel = delivery_panel("", storm("10 ms"), variants, replications);
     const ValidationPoint &usual = point_of(panel, "cut 20 dB"), &none = panel.points.front();
-    return {.name = "interference_cut",
-            .title = "How weak may a frame be and still interfere?",
-            .truth =
-                fmt::format("60 robots send at random, a message each 10 ms, {} replications under "
-                            "`sinr`. The reference is a cut of "
-                            "{:g} dB, which leaves out only frames that are 10 dB below the noise. "
-                            "CPU of the whole run.",
-                            replications, complete_cut),
-            .panels = {panel},
-            .sentences = {fmt::format(
-                "The usual cut of 20 dB changes the delivery ratio of a run by {:.2g} on average; "
-                "counting only frames that can be decoded (0 dB) changes it by {:.2g}, at {:.2g} "
-                "of the "
-                "CPU time.",
-                usual.error, none.error, none.cost.median / panel.points.back().cost.median)}};
+    return {
+        .name = "interference_cut",
+        .title = "How weak may a frame be and still interfere?",
+        .truth = fmt::format("60 robots send at random, a message each 10 ms, {} replications "
+                             "under `sinr`. The reference is a cut of {:g} dB, which leaves out "
+                             "only frames that are 10 dB below the noise. CPU of the whole run.",
+                             replications, complete_cut),
+        .panels = {panel},
+        .sentences = {fmt::format("The usual cut of 20 dB changes the delivery ratio of a run by "
+                                  "{:.2g} on average; counting only frames that can be decoded (0 "
+                                  "dB) changes it by {:.2g}, at {:.2g} of the CPU time.",
+                                  usual.error, none.error,
+                                  none.cost.median / panel.points.back().cost.median)}};
 }
 
 ValidationChart reception_chart(const ValidationSize& size) {

@@ -217,8 +217,8 @@ std::string step_sentence(const ValidationPanel& panel) {
     const ValidationPoint& slow = point_of(panel, "a look each 100 ms");
     return fmt::format(
         "{}: checking each link every 100 ms costs {:.2g} times as much as finding changes ahead, "
-        "misses {:.2g} % of the "
-        "changes, and has a wrong state for {:.2g} ms per change; changes found ahead: {:.2g} ms.",
+        "misses {:.2g} % of the changes, and has a wrong state for {:.2g} ms per change; changes "
+        "found ahead: {:.2g} ms.",
         panel.title, slow.cost.median / exact.cost.median, detail_of(slow, "changes missed [%]"),
         slow.error, exact.error);
 }
@@ -253,8 +253,7 @@ ValidationChart link_changes_chart(const ValidationSize& size, Promises& promise
             .truth = fmt::format(
                 "Two robots cross straight in {:g} s: {} times on an open field, {} times in an "
                 "office. The reference is where two straight lines come within range of one "
-                "another; in "
-                "the office, a look every {:g} ms, then halved down to a nanosecond.",
+                "another; in the office, a look every {:g} ms, then halved down to a nanosecond.",
                 seconds(passing), open.all.size(), walled.all.size(), 1e3 * seconds(fine)),
             .panels = {by_distance, by_walls},
             .sentences = {step_sentence(by_distance), step_sentence(by_walls)}};

@@ -127,8 +127,8 @@ std::string cell_sentence(const ValidationPanel& panel) {
                           &outline = point_of(panel, "5 cm", "outline");
     return fmt::format(
         "{}: with cells of 5 cm the error is {:.2g} dB ({:+.2g} dB on average), with cells of 20 "
-        "cm, "
-        "which are wider than a wall, {:.2g} dB; with the 5 cm map drawn as outlines {:.2g} dB.",
+        "cm, which are wider than a wall, {:.2g} dB; with the 5 cm map drawn as outlines {:.2g} "
+        "dB.",
         panel.title, fine.error, detail_of(fine, "bias [dB]"), coarse.error, outline.error);
 }
 
@@ -157,8 +157,7 @@ ValidationChart map_drawing_chart(const ValidationSize& size) {
         .truth = fmt::format(
             "{} links in an office at 20 degrees to the cells of its maps; each model with its "
             "defaults. The reference is the same model on the walls as they stand; outline: only "
-            "those "
-            "cells of a wall are drawn that touch a free one.",
+            "those cells of a wall are drawn that touch a free one.",
             links.size())};
     for (const Propagation& model : models_that_see(exact, links)) {
         chart.panels.push_back(drawing_panel(model, drawings, exact, links, size));

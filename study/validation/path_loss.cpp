@@ -203,9 +203,8 @@ std::string truth_sentence(const ValidationPanel& panel, const Truth& truth,
     }
     return fmt::format(
         "{}: {} is taken as true. In a measured {} its own error is {:.1f} dB, beyond the errors "
-        "of "
-        "the measurement. With such an error the result is {}: a model that is nearer agrees with "
-        "the reference, not with a building.",
+        "of the measurement. With such an error the result is {}: a model that is nearer agrees "
+        "with the reference, not with a building.",
         panel.title, truth.model.label, truth.building, truth.own_error->value,
         off(*panel.unknowable));
 }
@@ -338,9 +337,8 @@ std::vector<ValidationChart> path_loss_charts(const ValidationSize& size,
     const std::string truth = fmt::format(
         "Robots on the move flood a message every two seconds, {} replications of each scene. The "
         "true loss is the exact sum of two rays on the open field; in the office and in the cave "
-        "it "
-        "is that of rays with three reflections and diffraction by UTD. Fitted: to losses of the "
-        "true model on other replications, as `rovernet advise` does. Grey: the error of the "
+        "it is that of rays with three reflections and diffraction by UTD. Fitted: to losses of "
+        "the true model on other replications, as `rovernet advise` does. Grey: the error of the "
         "reference if its losses had the error that it has against measured levels. CPU of the "
         "medium alone.",
         replications);

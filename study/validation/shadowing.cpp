@@ -121,26 +121,22 @@ ValidationChart shadowing_chart(const ValidationSize& size) {
         .truth = fmt::format("{} walks of {:g} m at 1 m/s, the peer at rest, at a margin of 0 dB. "
                              "The reference is the rate of a normal process whose correlation is "
                              "exp(-D / {:g} m).",
-                             seeds, walk, decorrelation),
-        .panels = {flips_panel(1, seeds, size), flips_panel(0.1, seeds, size)}};
-    for (const double step : {1.0, 0.1}) {
-        const ValidationPanel& panel = chart.panels[step == 1 ? 0 : 1];
+                             seeds, walk, decorrelation)};
+    for (const double step : {1.0, 0.1}) {  // [s]
+        const ValidationPanel& panel = chart.panels.emplace_back(flips_panel(step, seeds, size));
         const ValidationPoint &redrawn = panel.points.front(), &field = panel.points.back();
-        chart.sentences.push_back(
-            fmt::format("Sampled every {:g} s, shadowing that is redrawn for each sample flips a "
-                        "link {:.2g} times "
-                        "a second instead of {:.2g}. As a field of both places it flips a link "
-                        "{:.2g} times, at "
-                        "{:.3g} ns a sample and without any state.",
-                        step, detail_of(redrawn, "flips per second"), detail_of(redrawn, "true"),
-                        detail_of(field, "flips per second"), field.cost.median));
+        chart.sentences.push_back(fmt::format(
+            "Sampled every {:g} s, shadowing that is redrawn for each sample flips a link {:.2g} "
+            "times a second instead of {:.2g}. As a field of both places it flips a link {:.2g} "
+            "times, at {:.3g} ns a sample and without any state.",
+            step, detail_of(redrawn, "flips per second"), detail_of(redrawn, "true"),
+            detail_of(field, "flips per second"), field.cost.median));
     }
     chart.sentences.push_back(
         "The true process has no rate of its own: the finer it is sampled, the more often it "
-        "flips, "
-        "without a limit. So report the sampling interval with every number of flips. Choose "
-        "`field`, whose flips hardly grow from 1 s to 0.1 s, and fit its decorrelation distance to "
-        "levels, not to flips.");
+        "flips, without a limit. So report the sampling interval with every number of flips. "
+        "Choose `field`, whose flips hardly grow from 1 s to 0.1 s, and fit its decorrelation "
+        "distance to levels, not to flips.");
     return chart;
 }
 

@@ -262,8 +262,7 @@ std::string accuracy_page(const Validation& validation) {
 std::string promises_page(const Validation& validation) {
     std::string out =
         "# What the code promises\n\nLimits of errors, checked by `rovernet validate`. A limit "
-        "that "
-        "is exceeded fails the command.\n\n";
+        "that is exceeded fails the command.\n\n";
     out += markdown_table(rows_of(validation.promises)) + "\n";
     for (const ValidationChart& chart : validation.charts)
         if (chart.for_contributors) out += chart_section(chart, "../methods/accuracy/");

@@ -195,9 +195,8 @@ ValidationChart wall_length_chart(const ValidationSize& size, Promises& promises
             .title = "How long is the wall on a link?",
             .truth = fmt::format(
                 "{} links in an office of 32 rooms that stands at 20 degrees to the axes. The "
-                "reference is "
-                "the sum over all its walls, each clipped by itself; brick takes {:g} dB per "
-                "metre; a decision is whether {:g} dB bear the loss at 2450 MHz.",
+                "reference is the sum over all its walls, each clipped by itself; brick takes {:g} "
+                "dB per metre; a decision is whether {:g} dB bear the loss at 2450 MHz.",
                 links.size(), rate, budget),
             .panels = {panel},
             .sentences = {naive_sentence(panel)},
