@@ -167,8 +167,8 @@ void tell_notices(const Study& study) {
     const StudyTable& table = study.table();
     if (table.replications > 1 || table.precision) return;
     notice(
-        "one replication of each: how sure the differences are cannot be seen from it; "
-        "--replications 30 repeats the runs with other random numbers");
+        "one replication of each value does not tell how sure the differences are; --replications "
+        "30 repeats the runs with other random numbers");
 }
 
 /// Prints where intervals do not use the requested method.

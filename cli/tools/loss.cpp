@@ -103,7 +103,7 @@ void print_losses(const std::vector<ModelLoss>& models) {
         return std::max(least, title.size());
     };
     const auto title = [&](const ModelLoss& m) {
-        if (models.size() > 1) return m.name() + " [dB]";
+        if (models.size() > 1) return m.name() + (m.has_levels() ? " [dB]" : "");
         return std::string(m.has_levels() ? "loss [dB]" : "link");
     };
     fmt::print("{:>14}", "distance [m]");
