@@ -217,8 +217,8 @@ TEST_CASE("view front: answers are about the current time") {
     CHECK(ViewReader::integer(*pair.table(), "t_ns") == 10'000'000'000);
     CHECK(pair.table()->find("links")->array()->size() == 2);
     CHECK(viewed.ask(R"({"id": 1, "op": "robot", "robot": 0})").empty());
-    CHECK(viewed.ask(R"({"id": 1, "op": "why", "uid": 99, "robot": 4})").find("no records of message 99") !=
-          std::string::npos);
+    CHECK(viewed.ask(R"({"id": 1, "op": "why", "uid": 99, "robot": 4})")
+              .find("no records of message 99") != std::string::npos);
 }
 
 /// Answer without the keys that the server adds.
