@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "cli/display/picture_output.hpp"
 #include "cli/results/result_commands.hpp"
-#include "cli/terminal/picture_output.hpp"
 #include "cli/terminal/stop.hpp"
 #include "pictures/draw/picture_file.hpp"
 #include "sim/error.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/runs/view_option.hpp"
 
-#include "cli/terminal/browser.hpp"
+#include "cli/display/browser.hpp"
 
 #include <utility>
 

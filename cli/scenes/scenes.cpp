@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include "cli/display/picture_output.hpp"
 #include "cli/scenes/presence_text.hpp"
 #include "cli/scenes/scene_commands.hpp"
 #include "cli/terminal/diagnostics.hpp"
-#include "cli/terminal/picture_output.hpp"
 #include "cli/terminal/playing.hpp"
 #include "cli/terminal/stop.hpp"
 #include "cli/terminal/waiting.hpp"

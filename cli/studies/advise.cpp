@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "study/advise/advise.hpp"
 
+#include "cli/display/picture_output.hpp"
+#include "cli/display/study_display.hpp"
 #include "cli/runs/run_commands.hpp"
 #include "cli/studies/advise_report.hpp"
 #include "cli/studies/study_run.hpp"
 #include "cli/terminal/diagnostics.hpp"
-#include "cli/terminal/picture_output.hpp"
 #include "cli/terminal/stop.hpp"
-#include "cli/terminal/study_display.hpp"
 #include "cli/terminal/waiting.hpp"
 #include "files/temporary_directory.hpp"
 #include "scenario/document/quantity.hpp"

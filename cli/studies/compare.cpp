@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "study/advise/compare.hpp"
 
+#include "cli/display/picture_output.hpp"
 #include "cli/runs/run_commands.hpp"
 #include "cli/studies/compare_report.hpp"
 #include "cli/studies/study_run.hpp"
 #include "cli/terminal/diagnostics.hpp"
-#include "cli/terminal/picture_output.hpp"
 #include "cli/terminal/stop.hpp"
 #include "files/temporary_directory.hpp"
 #include "scenario/document/toml.hpp"

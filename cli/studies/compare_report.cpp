@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/studies/compare_report.hpp"
 
-#include "cli/terminal/picture_output.hpp"
+#include "cli/display/picture_output.hpp"
 #include "cli/terminal/text_table.hpp"
 #include "files/csv_field.hpp"
 #include "scenario/document/json.hpp"

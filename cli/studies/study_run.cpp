@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "cli/studies/study_run.hpp"
 
+#include "cli/display/study_display.hpp"
 #include "cli/terminal/diagnostics.hpp"
 #include "cli/terminal/stop.hpp"
-#include "cli/terminal/study_display.hpp"
 #include "scenario/document/quantity.hpp"
 #include "scenario/scenario_file.hpp"
 #include "study/explain.hpp"

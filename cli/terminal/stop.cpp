@@ -2,7 +2,7 @@
 #include "cli/terminal/stop.hpp"
 
 #include "cli/terminal/commands.hpp"
-#include "live/carriers/left_behind.hpp"
+#include "files/left_behind.hpp"
 
 #include <csignal>
 #include <string_view>

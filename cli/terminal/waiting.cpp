@@ -2,7 +2,6 @@
 #include "cli/terminal/waiting.hpp"
 
 #include "cli/terminal/diagnostics.hpp"
-#include "cli/terminal/study_display.hpp"
 
 #include <fmt/format.h>
 
@@ -60,6 +59,13 @@ std::string share_text(double share, double elapsed_s) {
         fmt::format("[{:=<{}}{: <{}}] {:3.0f} %", "", full, "", width - full, 100 * share);
     if (share > 0) text += ", " + duration_text(elapsed_s * (1 - share) / share) + " to go";
     return text;
+}
+
+std::string duration_text(double seconds) {
+    if (seconds < 9.5) return fmt::format("{:.2g} s", seconds);
+    if (seconds < 100) return fmt::format("{:.0f} s", seconds);
+    if (seconds < 6000) return fmt::format("{:.0f} min", seconds / 60);
+    return fmt::format("{:.1f} h", seconds / 3600);
 }
 
 Waiting::~Waiting() {

@@ -39,4 +39,7 @@ class Waiting {
 /// the remaining time is omitted.
 std::string share_text(double share, double elapsed_s);
 
+/// Text of a duration [s]: "26 s", "4 min", "3.2 h".
+std::string duration_text(double seconds);
+
 }  // namespace rovernet::cli

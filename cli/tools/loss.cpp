@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/terminal/picture_output.hpp"
+#include "cli/display/picture_output.hpp"
 #include "cli/tools/tool_commands.hpp"
 #include "experiment/reports/loss_table.hpp"
 #include "models/propagation/disc.hpp"

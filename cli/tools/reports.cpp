@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "cli/display/picture_output.hpp"
 #include "cli/scenes/scene_commands.hpp"
-#include "cli/terminal/picture_output.hpp"
 #include "cli/terminal/playing.hpp"
 #include "cli/tools/tool_commands.hpp"
 #include "experiment/reports/link_report.hpp"

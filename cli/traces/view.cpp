@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/terminal/browser.hpp"
+#include "cli/display/browser.hpp"
 #include "cli/terminal/diagnostics.hpp"
 #include "cli/terminal/options.hpp"
 #include "cli/terminal/stop.hpp"

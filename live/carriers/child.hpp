@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "live/carriers/left_behind.hpp"
+#include "files/left_behind.hpp"
 
 #include <chrono>
 #include <optional>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "live/carriers/listeners.hpp"
 
+#include "files/left_behind.hpp"
 #include "live/carriers/acceptor.hpp"
 #include "live/carriers/child.hpp"
 #include "live/carriers/client_connection.hpp"
-#include "live/carriers/left_behind.hpp"
 
 #include <boost/asio.hpp>
 #include <fmt/format.h>

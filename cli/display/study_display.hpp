@@ -31,7 +31,4 @@ class SweepDisplay {
 /// @param elapsed_s  time since the start of the sweep [s]
 std::string progress_text(const SweepProgress& progress, double elapsed_s);
 
-/// Text of a duration [s]: "26 s", "4 min", "3.2 h".
-std::string duration_text(double seconds);
-
 }  // namespace rovernet::cli

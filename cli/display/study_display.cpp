@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "cli/terminal/study_display.hpp"
+#include "cli/display/study_display.hpp"
 
 #include "cli/terminal/diagnostics.hpp"
+#include "cli/terminal/waiting.hpp"
 
 #include <fmt/format.h>
 
@@ -20,13 +21,6 @@ std::string bar(const SweepProgress& p) {
 }
 
 }  // namespace
-
-std::string duration_text(double seconds) {
-    if (seconds < 9.5) return fmt::format("{:.2g} s", seconds);
-    if (seconds < 100) return fmt::format("{:.0f} s", seconds);
-    if (seconds < 6000) return fmt::format("{:.0f} min", seconds / 60);
-    return fmt::format("{:.1f} h", seconds / 3600);
-}
 
 std::string progress_text(const SweepProgress& p, double elapsed_s) {
     std::string text = fmt::format("{} runs finished, {} failed, {} left", p.before + p.finished,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/terminal/picture_output.hpp"
+#include "cli/display/picture_output.hpp"
 
 #include "cli/terminal/stop.hpp"
 #include "pictures/draw/picture_file.hpp"

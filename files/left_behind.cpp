@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "live/carriers/left_behind.hpp"
+#include "files/left_behind.hpp"
 
 #include <algorithm>
 #include <array>
