@@ -1,10 +1,10 @@
-# compile_by_room(TARGET HEADER...): all sources of a folder are compiled as one, and headers that most
-# of them include are read once for all (a precompiled header): less than half the time for the whole,
-# more after a change of one file. Names in anonymous namespaces then have to differ within a folder, and a
-# file may lack an include: the presets without ROVERNET_BY_ROOM find that. For Release the engine's own
-# rooms stay as they are: gcc inlines less in a large file, up to 2 % more instructions per reception.
-# The sockets of live/ stay apart, as Boost.Asio takes longer to read than all the rest of it; and so
-# does scene/images/stb_picture, whose library has short names.
+# compile_by_room(TARGET PRIVATE HEADER...), or compile_by_room(TARGET REUSE_FROM OTHER) with the headers of another
+# target: all sources of a folder are compiled as one, and headers that most of them include are read once for all
+# (a precompiled header): less than half the time for the whole, more after a change of one file. Names in anonymous
+# namespaces then have to differ within a folder, and a file may lack an include: the presets without
+# ROVERNET_BY_ROOM find that. For Release the engine's own rooms stay as they are: gcc inlines less in a large file,
+# up to 2 % more instructions per reception. The sockets of live/ stay apart, as Boost.Asio takes longer to read than
+# all the rest of it; and so does scene/images/stb_picture, whose library has short names.
 function(compile_by_room target)
   if(NOT ROVERNET_BY_ROOM)
     return()
@@ -26,5 +26,5 @@ function(compile_by_room target)
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${room})
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  target_precompile_headers(${target} PRIVATE ${ARGN})
+  target_precompile_headers(${target} ${ARGN})
 endfunction()

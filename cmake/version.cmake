@@ -18,7 +18,7 @@ add_custom_command(
   DEPFILE ${generated}/version_build.d
   COMMENT "Looking up the git commit"
   VERBATIM)
-target_sources(rovernet_upper PRIVATE ${generated}/version_build.hpp)
+target_sources(rovernet_scenarios PRIVATE ${generated}/version_build.hpp)
 set_source_files_properties(${PROJECT_SOURCE_DIR}/experiment/version.cpp PROPERTIES
                             INCLUDE_DIRECTORIES ${generated}
                             SKIP_UNITY_BUILD_INCLUSION ON)

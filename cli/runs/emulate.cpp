@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "cli/run/run.hpp"
 #include "cli/runs/fronts.hpp"
-#include "cli/runs/run_output.hpp"
 #include "cli/runs/serving.hpp"
 #include "cli/runs/view_option.hpp"
 #include "cli/terminal/diagnostics.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cli/run/run.hpp"
 #include "cli/runs/view_option.hpp"
 #include "cli/terminal/commands.hpp"
 #include "study/advise/advise_candidates.hpp"
@@ -14,18 +15,12 @@
 /// Commands that run a scenario, once or many times: run, sweep, compare, advise, fit, probe.
 namespace rovernet::cli {
 
-struct RunArguments : FileArguments {
-    std::optional<std::string> out;
-    std::optional<double> speed;
-    bool json = false;
-    bool print_scenario = false;
-    bool record = false;
+/// Arguments of the command `run`, which with --view serves a page that shows and paces the run.
+struct ViewedRunArguments : RunArguments {
     ViewOption view;
     Reach reach;
 };
-void run(const RunArguments& arguments);
-/// Runs a scenario that a page in a browser shows and paces, and serves the page until Ctrl-C.
-void run_viewed(const RunArguments& arguments, const Scenario& scenario);
+void run_or_view(const ViewedRunArguments& arguments);
 
 /// Arguments shared by the commands that run a study: sweep, compare, advise.
 struct StudyArguments : FileArguments {

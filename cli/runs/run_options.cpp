@@ -6,32 +6,13 @@ namespace rovernet::cli {
 namespace {
 
 void add_run(Command app) {
-    const auto [run, a] = add_command(app, "run", "Run a scenario", cli::run);
-    run.add_examples(
-        {"rovernet run examples/patrol/patrol.toml",
-         "rovernet run examples/rescue/rescue.toml --seed 7 --out rescue-7",
-         "rovernet run examples/rescue/rescue.toml --record",
-         "rovernet run examples/rescue/rescue.toml --set propagation.model=friis --json"});
-    add_file(run, a, any_file);
-    run.add_option(
-        "--out", a.out,
-        "folder for the results (default: runs/NAME-sSEED; with --set: runs/NAME-sSEED-KEY=VALUE)");
-    run.add_option("--speed", a.speed,
-                   "speed relative to real time: 1 is real time, 2 (or x2) is twice as fast "
-                   "(default: as fast as possible)")
-        .transform(
-            [](const std::string& text) { return text.starts_with('x') ? text.substr(1) : text; })
-        .check(above_zero());
-    run.add_flag("--record", a.record,
-                 "also write trace.mcap, a recorded trace with all records, for replay and view");
+    const auto [run, a] = add_command(app, "run", "Run a scenario", run_or_view);
+    add_run_options(run, a);
     const Option view = a.view.add_to(run);
     run.add_option("--listen", a.reach.listen,
                    "serve the page to other machines, too, at this IP address of this machine "
                    "(0.0.0.0: at all its addresses); they need the token in the printed address")
         .needs(view);
-    add_json(run, a.json);
-    run.add_flag("--print-scenario", a.print_scenario,
-                 "print the scenario with all defaults, without running it");
 }
 
 /// Options of how a study's runs are made.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "cli/run/run.hpp"
 #include "cli/runs/run_commands.hpp"
-#include "cli/runs/run_output.hpp"
 #include "cli/runs/serving.hpp"
 #include "cli/runs/view_option.hpp"
 #include "cli/terminal/diagnostics.hpp"
@@ -12,8 +12,10 @@
 #include <cstdio>
 
 namespace rovernet::cli {
+namespace {
 
-void run_viewed(const RunArguments& a, const Scenario& scenario) {
+/// Runs a scenario that a page in a browser shows and paces, and serves the page until Ctrl-C.
+void run_viewed(const ViewedRunArguments& a, const Scenario& scenario) {
     PacedOptions options;
     options.folder = a.out ? *a.out : run_folder(scenario, a.options.set);
     options.speed = a.speed.value_or(1);
@@ -33,6 +35,13 @@ void run_viewed(const RunArguments& a, const Scenario& scenario) {
     const LiveResult result = run_paced(scenario, options);
     if (!is_printed) print_run(result.scenario, result.run, a.json);
     if (!result.fault.empty()) throw CommandEnd(failed, result.fault);
+}
+
+}  // namespace
+
+void run_or_view(const ViewedRunArguments& a) {
+    if (!a.view.is_given()) return run(a);
+    if (const std::optional<Scenario> scenario = scenario_to_run(a)) run_viewed(a, *scenario);
 }
 
 }  // namespace rovernet::cli

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/run.hpp"
+#include "cli/run/run.hpp"
 
-#include "cli/runs/run_commands.hpp"
-#include "cli/runs/run_output.hpp"
 #include "cli/terminal/diagnostics.hpp"
 #include "cli/terminal/stop.hpp"
 #include "cli/terminal/waiting.hpp"
@@ -88,45 +86,19 @@ void print_result(const Scenario& scenario, const RunResult& result) {
 
 }  // namespace
 
-ScenarioOptions options_of(const FileArguments& a) {
-    ScenarioOptions options = a.options;
-    if (a.seed) options.set.push_back(fmt::format("scenario.seed={}", *a.seed));
-    if (a.replication) {
-        options.set.push_back(fmt::format("scenario.replication={}", *a.replication));
-    }
-    return options;
-}
-
-namespace {
-
-void tell_of(const Scenario& scenario) {
-    const Table document = to_document(scenario);
-    detail(fmt::format("{} tables of robots, model {}, {:g} s", scenario.robots.size(),
-                       *document.find("propagation")->table()->find("model")->string(),
-                       seconds(scenario.scenario.duration)));
-}
-
-}  // namespace
-
-Scenario scenario_of(const FileArguments& a) {
-    Scenario scenario = [&] {
-        const Waiting reading("reading " + a.file);
-        return load_scenario(a.file, options_of(a));
-    }();
-    if (tells_details()) tell_of(scenario);
-    for (const std::string& text : scenario.notices) notice(text);
-    return scenario;
+std::optional<Scenario> scenario_to_run(const RunArguments& a) {
+    FileArguments given = a;
+    if (a.record) given.options.set.push_back("trace.record=true");
+    Scenario scenario = scenario_of(given);
+    if (!a.print_scenario) return scenario;
+    fmt::print("{}", to_toml(to_document(scenario)));
+    return std::nullopt;
 }
 
 void run(const RunArguments& a) {
-    FileArguments given = a;
-    if (a.record) given.options.set.push_back("trace.record=true");
-    const Scenario scenario = scenario_of(given);
-    if (a.print_scenario) {
-        fmt::print("{}", to_toml(to_document(scenario)));
-        return;
-    }
-    if (a.view.is_given()) return run_viewed(a, scenario);
+    const std::optional<Scenario> read = scenario_to_run(a);
+    if (!read) return;
+    const Scenario& scenario = *read;
     std::optional<Waiting> waiting("setting up the network of " + a.file);
     std::optional<HeldStop> writing;  // not while the network is set up
     const RunResult result =
