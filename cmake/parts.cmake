@@ -1,7 +1,8 @@
 # The library and the command, compiled in parts. The program rovernet_run, the command `run` alone, consists of
 # the first three parts: tools/rovernet builds it first, and a fresh clone shows results after half of the time.
 #
-#   engine     the event loop, radio, motion, maps, traces, sessions  optimised: what a run spends its time in
+#   engine     the event loop, radio, motion, maps, traces, sessions  optimised: what a run spends its time in;
+#              statistics, which tests draw ten thousand times
 #   scenarios  from a scenario file to a run and its results         less so: two thirds of the time to compile
 #   terminal   the command line, and the command `run`               less so
 #   lockstep   clients that drive a run step by step                 optimised: bench/live is a fifth slower without
@@ -10,15 +11,15 @@
 include(cmake/rooms.cmake)
 include(cmake/python.cmake)
 
-set(session_files "/experiment/(session|client_radios|driven_robots)")
-set(scenario_files "/scenario/|/experiment/[^/]*$|/study/statistics/")
+set(engine_files "/experiment/(session|client_radios|driven_robots)|/study/statistics/")
+set(scenario_files "/scenario/|/experiment/[^/]*$")
 set(terminal_files "/cli/(terminal|run)/")
-set(session_sources ${ROVERNET_UPPER_SOURCES})
-list(FILTER session_sources INCLUDE REGEX ${session_files})
+set(engine_sources ${ROVERNET_UPPER_SOURCES})
+list(FILTER engine_sources INCLUDE REGEX ${engine_files})
 set(lockstep_sources ${ROVERNET_UPPER_SOURCES})
 list(FILTER lockstep_sources INCLUDE REGEX "/live/lockstep/")
 set(upper_sources ${ROVERNET_UPPER_SOURCES})
-list(REMOVE_ITEM upper_sources ${session_sources} ${lockstep_sources})
+list(REMOVE_ITEM upper_sources ${engine_sources} ${lockstep_sources})
 set(scenario_sources ${upper_sources})
 list(FILTER scenario_sources INCLUDE REGEX ${scenario_files})
 list(FILTER upper_sources EXCLUDE REGEX ${scenario_files})
@@ -50,7 +51,7 @@ function(add_part name kind)
   set(${kind}_headers REUSE_FROM ${part} PARENT_SCOPE)
 endfunction()
 
-add_part(engine fast ${ROVERNET_ENGINE_SOURCES} ${session_sources})
+add_part(engine fast ${ROVERNET_ENGINE_SOURCES} ${engine_sources})
 add_part(scenarios brief ${scenario_sources})
 add_part(lockstep fast ${lockstep_sources})
 add_part(upper brief ${upper_sources})

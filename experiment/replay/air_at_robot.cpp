@@ -40,7 +40,7 @@ Duration length_of(std::vector<Span> all) {
 class Listening {
   public:
     Listening(RecordedReader& trace, const std::string& path, NodeId robot, Time at)
-        : trace_(trace), air_(trace.run(), path), robot_(robot) {
+        : trace_(trace), air_(LoadedRun(trace.run(), path)), robot_(robot) {
         if (robot.index() >= air_.robots()) {
             throw InputError({.source = path},
                              fmt::format("found no robot {}; its robots are 0 to {}", robot.value,

@@ -57,7 +57,9 @@ struct Host {
 class Capturing {
   public:
     Capturing(RecordedReader& trace, const std::string& in, const std::string& out)
-        : trace_(trace), air_(trace.run(), in), file_(out, "rovernet " + trace.run().version) {
+        : trace_(trace),
+          air_(LoadedRun(trace.run(), in)),
+          file_(out, "rovernet " + trace.run().version) {
         std::uint32_t number = 0;
         for (const Device& device : devices(air_.medium(), air_.names())) {
             hosts_.emplace_back(device, ++number);

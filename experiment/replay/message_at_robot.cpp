@@ -31,8 +31,9 @@ Outcome outcome_of(Fate fate) {
 /// Reads a trace for one message at one robot.
 class Account {
   public:
-    Account(RecordedReader& trace, const std::string& path, std::uint64_t uid, NodeId robot)
-        : trace_(trace), air_(trace.run(), path), uid_(uid), robot_(robot) {
+    Account(RecordedReader& trace, const std::string& path, const LoadedRun& run, std::uint64_t uid,
+            NodeId robot)
+        : trace_(trace), air_(run), uid_(uid), robot_(robot) {
         if (robot.index() >= air_.robots()) {
             throw InputError({.source = path},
                              fmt::format("found no robot {}; its robots are 0 to {}", robot.value,
@@ -171,8 +172,13 @@ MessageAtRobot Account::result() && {
 
 MessageAtRobot message_at_robot(const std::string& path, std::uint64_t uid, NodeId robot,
                                 const RecordedIndex* index) {
+    return message_at_robot(path, LoadedRun(RecordedReader(path).run(), path), uid, robot, index);
+}
+
+MessageAtRobot message_at_robot(const std::string& path, const LoadedRun& run, std::uint64_t uid,
+                                NodeId robot, const RecordedIndex* index) {
     RecordedReader trace(path);
-    Account account(trace, path, uid, robot);
+    Account account(trace, path, run, uid, robot);
     if (index && index->knows_airtimes()) {
         account.read_chunks(*index);
     } else {

@@ -21,6 +21,7 @@
 namespace rovernet {
 
 class RecordedIndex;
+struct LoadedRun;
 
 /// Outcome of a frame at a robot other than its sender.
 enum class Outcome : std::uint8_t {
@@ -89,6 +90,9 @@ struct MessageAtRobot {
 /// no such robot
 MessageAtRobot message_at_robot(const std::string& path, std::uint64_t uid, NodeId robot,
                                 const RecordedIndex* index = nullptr);
+/// As above, with the scenario of the trace already loaded.
+MessageAtRobot message_at_robot(const std::string& path, const LoadedRun& run, std::uint64_t uid,
+                                NodeId robot, const RecordedIndex* index);
 
 /// Sentence that explains why the robot received the message or did not receive it. Example:
 ///

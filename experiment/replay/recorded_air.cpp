@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/replay/recorded_air.hpp"
 
-#include "experiment/build.hpp"
-#include "experiment/recorded_scenario.hpp"
 #include "sim/random.hpp"
 
 #include <algorithm>
@@ -54,36 +52,16 @@ void add_stations(Medium& medium, const std::vector<std::string>& names, const S
 
 }  // namespace
 
-/// Parts of the scenario in a trace.
-struct RecordedAir::Loaded {
-    Loaded(const RecordedRun& run, const std::string& path)
-        : replayed(run, path),
-          names(run.robots),
-          scenario(replayed.with({})),
-          settings(network_settings(scenario)) {
-        check_robots(run, scenario, path);
-        if (!settings.scene) settings.scene = std::make_shared<Scene>();
-    }
-
-    ReplayedScenario replayed;
-    std::vector<std::string> names;
-    Scenario scenario;
-    NetworkSettings settings;
-};
-
-RecordedAir::RecordedAir(const RecordedRun& run, const std::string& path)
-    : RecordedAir(Loaded(run, path)) {}
-
-RecordedAir::RecordedAir(Loaded loaded)
-    : names_(std::move(loaded.names)),
-      scene_(loaded.settings.scene),
-      scene_changes_(std::move(loaded.settings.scene_changes)),
-      medium_(medium_settings(loaded.settings, *scene_, scene_changes_)),
-      access_(loaded.settings.access.make_access()),
+RecordedAir::RecordedAir(const LoadedRun& run)
+    : names_(run.names),
+      scene_(run.settings.scene ? run.settings.scene : std::make_shared<Scene>()),
+      scene_changes_(run.settings.scene_changes),
+      medium_(medium_settings(run.settings, *scene_, scene_changes_)),
+      access_(run.settings.access.make_access()),
       phy_(access_->phy()),
-      fades_(fades_of(loaded.settings)),
+      fades_(fades_of(run.settings)),
       legs_(names_.size()) {
-    add_stations(medium_, names_, loaded.scenario, loaded.settings.propagation);
+    add_stations(medium_, names_, run.scenario, run.settings.propagation);
 }
 
 void RecordedAir::take(const Record& record, const RecordContext& context) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "experiment/replay/loaded_run.hpp"
 #include "models/access/access.hpp"
 #include "models/arrival.hpp"
 #include "models/link_gain.hpp"
@@ -9,7 +10,6 @@
 #include "scene/scene.hpp"
 #include "scene/scene_change.hpp"
 #include "sim/record.hpp"
-#include "traces/recorded/recorded_reader.hpp"
 
 #include <cstdint>
 #include <deque>
@@ -47,13 +47,11 @@ struct RecordedFrame {
 /// where L is the path loss with shadowing [dB] and g the fading gain of the frame [dB].
 ///
 ///     RecordedReader trace(path);
-///     RecordedAir air(trace.run(), path);
+///     RecordedAir air(LoadedRun(trace.run(), path));
 ///     while (const Record* record = trace.next()) air.take(*record, trace.context());
 class RecordedAir {
   public:
-    /// @param path  path of the trace, for errors
-    /// @throws InputError if the trace has no scenario, or the scenario cannot be loaded
-    RecordedAir(const RecordedRun& run, const std::string& path);
+    explicit RecordedAir(const LoadedRun& run);
     /// Copies are forbidden: the member `medium_` refers to the scene.
     RecordedAir(const RecordedAir&) = delete;
     RecordedAir& operator=(const RecordedAir&) = delete;
@@ -92,9 +90,7 @@ class RecordedAir {
         std::uint64_t record;
         Leg leg;
     };
-    struct Loaded;
 
-    explicit RecordedAir(Loaded loaded);
     void add(const RecordedFrame& frame, Time now);
     void place(NodeId node, const Leg& leg);
     BitRate rate_of(const AirFrame& air) const;

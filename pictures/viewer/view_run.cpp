@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/viewer/view_run.hpp"
 
-#include "experiment/build.hpp"
-#include "experiment/recorded_scenario.hpp"
+#include "experiment/replay/loaded_run.hpp"
 #include "experiment/replay/message_at_robot.hpp"
 #include "experiment/summary.hpp"
 #include "pictures/viewer/motion_columns.hpp"
@@ -54,11 +53,8 @@ class Viewed {
     explicit Viewed(const std::string& path)
         : path_(path),
           reader_(path),
-          replayed_(reader_.run(), path),
-          scenario_(replayed_.with({})),
-          settings_(network_settings(scenario_)),
-          columns_(reader_, start_of_run + scenario_.scenario.duration) {
-        check_robots(reader_.run(), scenario_, path);
+          run_(reader_.run(), path),
+          columns_(reader_, start_of_run + run_.scenario.scenario.duration) {
         follow_ = follow_list();
     }
     ViewedRun write(const ViewChoice& choice);
@@ -70,9 +66,7 @@ class Viewed {
 
     std::string path_;
     RecordedReader reader_;
-    ReplayedScenario replayed_;
-    Scenario scenario_;
-    NetworkSettings settings_;
+    LoadedRun run_;
     Columns columns_;
     Array follow_;  // entry `follow` of the head
 };
@@ -80,7 +74,7 @@ class Viewed {
 /// Entries of the head that describe the run, without those of columns.
 Table Viewed::head() const {
     const RecordedRun& run = reader_.run();
-    Table head = view_head(scenario_, run.robots, run.version);
+    Table head = view_head(run_.scenario, run.robots, run.version);
     // Flows of an ns-2 trace are in no table of its scenario.
     Array& flows = *head.find("flows")->array();
     while (flows.size() <= columns_.frames.last_flow())
@@ -102,7 +96,7 @@ Array Viewed::follow_list() const {
     if (columns_.frames.frames() > most_frames) return list;
     for (const auto& missed : columns_.frames.missed(reader_.run().robots.size(), most)) {
         const MessageAtRobot there =
-            message_at_robot(path_, missed.uid, NodeId{missed.robot}, columns_.index.get());
+            message_at_robot(path_, run_, missed.uid, NodeId{missed.robot}, columns_.index.get());
         Table entry;
         entry.set("message", missed.message);
         entry.set("robot", missed.robot);
@@ -125,18 +119,18 @@ std::vector<std::string> Viewed::left_out(const ViewChoice& choice) const {
 
 ViewedRun Viewed::write(const ViewChoice& choice) {
     const std::size_t robots = reader_.run().robots.size();
-    const Time end = start_of_run + scenario_.scenario.duration;
+    const Time end = start_of_run + run_.scenario.scenario.duration;
     const NetworkSettings field{};
     ViewFile file(choice.packs);
     Table head = this->head();
-    head.set("map",
-             view_map(scenario_, choice.map ? settings_ : field, columns_.motion.bounds(), file));
+    head.set("map", view_map(run_.scenario, choice.map ? run_.settings : field,
+                             columns_.motion.bounds(), file));
     columns_.motion.write(file, robots);
     columns_.series.write(file, head);
     columns_.frames.write(file, head, robots, end, choice.frames);
     const std::vector<MessageName>& names = columns_.frames.message_names();
     if (choice.comparison) write_comparison(*choice.comparison, names, robots, file, head);
-    ViewedRun view{.name = scenario_.scenario.name,
+    ViewedRun view{.name = run_.scenario.scenario.name,
                    .bytes = {},
                    .robots = robots,
                    .messages = columns_.frames.messages(),

@@ -153,7 +153,7 @@ std::string line_of(const RecordedAir& air, const RecordedFrame& frame, const Me
 /// The same of all packets that there should be, from the records.
 std::string lines_of(const std::string& trace) {
     RecordedReader reader(trace);
-    RecordedAir air(reader.run(), trace);
+    RecordedAir air(LoadedRun(reader.run(), trace));
     std::string lines;
     while (const Record* record = reader.next()) {
         air.take(*record, reader.context());

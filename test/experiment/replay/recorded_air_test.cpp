@@ -125,7 +125,7 @@ TEST_CASE("recorded air: levels and times of all receptions equal those of the r
         CAPTURE(radio.first);
         const Run run(radio.second);
         RecordedReader trace(run.recorded);
-        RecordedAir air(trace.run(), run.recorded);
+        RecordedAir air(LoadedRun(trace.run(), run.recorded));
         std::size_t compared = 0;
         while (const Record* record = trace.next()) {
             air.take(*record, trace.context());
@@ -151,7 +151,7 @@ TEST_CASE("recorded air: levels and times of all receptions equal those of the r
 TEST_CASE("recorded air: knows which robots are off, and forgets frames that have ended") {
     const Run run("");
     RecordedReader trace(run.recorded);
-    RecordedAir air(trace.run(), run.recorded);
+    RecordedAir air(LoadedRun(trace.run(), run.recorded));
     std::size_t most = 0;
     bool was_off = false;
     while (const Record* record = trace.next()) {
@@ -169,7 +169,7 @@ TEST_CASE("recorded air: knows which robots are off, and forgets frames that hav
 TEST_CASE("recorded air: a robot's own frame arrives at its own antenna without delay") {
     const Run run("");
     RecordedReader trace(run.recorded);
-    RecordedAir air(trace.run(), run.recorded);
+    RecordedAir air(LoadedRun(trace.run(), run.recorded));
     while (const Record* record = trace.next()) {
         air.take(*record, trace.context());
         if (!std::holds_alternative<AirSent>(*record)) continue;
