@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 namespace rovernet {
@@ -16,22 +18,30 @@ constexpr std::size_t most_counted = 64;
 
 /// Sorts up to 64 receptions, which only have time and node, by counting the earlier ones for each:
 /// more comparisons than other sorting algorithms, but without branches to mispredict.
-/// @param first  a time not after any of theirs, and less than 2^31 ns before all of them
-void sort_by_counting(std::span<Reception> all, Time first) {
-    std::array<std::int64_t, most_counted + 1> order;
-    order[all.size()] = std::numeric_limits<std::int64_t>::max();  // if they are odd, makes a pair
+/// @tparam Order  signed integer that holds the time since `first` [ns] and, below it, the node
+/// @param first      a time not after any of theirs
+/// @param node_bits  number of bits of the largest node
+template <class Order>
+void sort_by_counting(std::span<Reception> all, Time first, int node_bits) {
+    // What makes their number one that is compared at once, by one instruction for four or two.
+    constexpr std::size_t at_once = 16 / sizeof(Order);
+    std::array<Order, most_counted + at_once> order;
+    std::fill_n(order.begin() + static_cast<std::ptrdiff_t>(all.size()), at_once,
+                std::numeric_limits<Order>::max());
     for (std::size_t i = 0; i < all.size(); ++i) {
-        order[i] = (all[i].time - first).count() << 32 | all[i].node.value;
+        const auto after = static_cast<Order>((all[i].time - first).count());
+        order[i] = static_cast<Order>(after << node_bits | static_cast<Order>(all[i].node.value));
     }
+    const Order nodes = (Order{1} << node_bits) - 1;
     const auto reception = [&](std::size_t i) {
-        const Duration after{order[i] >> 32};
-        return Reception{first + after, NodeId{static_cast<std::uint32_t>(order[i])}};
+        return Reception{first + Duration{order[i] >> node_bits},
+                         NodeId{static_cast<std::uint32_t>(order[i] & nodes)}};
     };
     // Two receptions are counted at a time, which halves the loads.
-    const std::size_t even = (all.size() + 1) / 2 * 2;
-    for (std::size_t i = 0; i < even; i += 2) {
-        std::size_t before = 0, before_next = 0;
-        for (std::size_t k = 0; k < even; ++k) {
+    const std::size_t compared = (all.size() + at_once - 1) / at_once * at_once;
+    for (std::size_t i = 0; i < all.size(); i += 2) {
+        std::make_unsigned_t<Order> before = 0, before_next = 0;
+        for (std::size_t k = 0; k < compared; ++k) {
             before += order[k] < order[i];
             before_next += order[k] < order[i + 1];
         }
@@ -41,14 +51,19 @@ void sort_by_counting(std::span<Reception> all, Time first) {
 }
 
 /// Sorts the receptions of a frame.
-void sort(Medium::Receivers& receivers) {
+/// @param nodes  number of nodes of the network
+void sort(Medium::Receivers& receivers, std::size_t nodes) {
     const std::span<Reception> all = receivers.all();
     if (all.empty()) return;
-    constexpr Duration longest{std::numeric_limits<std::int32_t>::max()};
-    if (all.size() > most_counted || receivers.last - receivers.first > longest) {
+    const auto longest = static_cast<std::uint64_t>((receivers.last - receivers.first).count());
+    const auto node_bits = static_cast<int>(std::bit_width(nodes));
+    const int bits = static_cast<int>(std::bit_width(longest)) + node_bits;
+    if (all.size() > most_counted || bits > 63) {
         std::sort(all.begin(), all.end());
-    } else {
-        sort_by_counting(all, receivers.first);
+    } else if (bits > 31) {
+        sort_by_counting<std::int64_t>(all, receivers.first, node_bits);
+    } else {  // twice as many comparisons by one instruction
+        sort_by_counting<std::int32_t>(all, receivers.first, node_bits);
     }
 }
 
@@ -103,7 +118,7 @@ void Channel::find_receivers(Flight& flight, const Transmission& how, Audience a
                                            world_.legs, flight.receivers);
     }
     world_.medium.find_receivers(frame.sender, how.coding, now, end, world_.legs, flight.receivers);
-    sort(flight.receivers);
+    sort(flight.receivers, world_.size());
 }
 
 /// Finds the receivers, and reports all nodes that sense the frame to the user.
@@ -114,7 +129,7 @@ void Channel::find_sensors(Flight& flight, const Transmission& how) {
     const NodeId sender = flight.air.frame.sender;
     const auto sensors =
         medium.find_sensors(sender, how.coding, now, end, world_.legs, flight.receivers);
-    sort(flight.receivers);
+    sort(flight.receivers, world_.size());
     sensed_.clear();
     for (const Reception& r : flight.receivers.all()) {
         sensed_.push_back({r.node, true, how.coding, r.time - airtime, r.time});
