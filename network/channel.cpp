@@ -130,13 +130,15 @@ void Channel::find_sensors(Flight& flight, const Transmission& how) {
     const auto sensors =
         medium.find_sensors(sender, how.coding, now, end, world_.legs, flight.receivers);
     sort(flight.receivers, world_.size());
-    sensed_.clear();
-    for (const Reception& r : flight.receivers.all()) {
-        sensed_.push_back({r.node, true, how.coding, r.time - airtime, r.time});
+    const std::span<const Reception> receptions = flight.receivers.all();
+    sensed_.resize(receptions.size() + sensors.size());
+    Sensing* next = sensed_.data();
+    for (const Reception& r : receptions) {
+        *next++ = {r.node, true, how.coding, r.time - airtime, r.time};
     }
     for (const Medium::Found& s : sensors) {
         const Duration delay = medium.arrivals().delay(std::sqrt(s.squared_distance));
-        sensed_.push_back({s.node, false, how.coding, now + delay, end + delay});
+        *next++ = {s.node, false, how.coding, now + delay, end + delay};
     }
     user_.sensed(sensed_);
 }

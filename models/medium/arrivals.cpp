@@ -55,18 +55,18 @@ std::optional<Arrival> Arrivals::within_reach(const Emission& frame, double d2, 
     const Stations::Kind mine = sender_kind(frame), theirs = stations_.kind(to);
     if (!kinds.may_link(mine, theirs)) return std::nullopt;
     kinds.prepare(mine);
-    switch (kinds.decision(mine)) {
-        case Decision::by_range:
-            if (d2 > kinds.squared_range(mine, theirs, Strength::interfering)) return std::nullopt;
-            break;
-        case Decision::by_table: {
-            const auto& table = kinds.table(mine, theirs, Strength::interfering);
-            if (!table.in_range(d2, draws_.bits(stations_.key(frame.from), stations_.key(to))))
-                return std::nullopt;
-            break;
-        }
-        case Decision::by_loss: return by_loss(frame, d2, to, there, {});
-    }
+    if (kinds.decision(mine) != Decision::by_range) return of_pair(frame, d2, to, there);
+    if (d2 > kinds.squared_range(mine, theirs, Strength::interfering)) return std::nullopt;
+    return at_level(frame, d2, std::numeric_limits<double>::quiet_NaN());
+}
+
+std::optional<Arrival> Arrivals::of_pair(const Emission& frame, double d2, NodeId to, Vec3 there) {
+    RadioKinds& kinds = stations_.kinds();
+    const Stations::Kind mine = sender_kind(frame), theirs = stations_.kind(to);
+    if (kinds.decision(mine) == Decision::by_loss) return by_loss(frame, d2, to, there, {});
+    const auto& table = kinds.table(mine, theirs, Strength::interfering);
+    if (!table.in_range(d2, draws_.bits(stations_.key(frame.from), stations_.key(to))))
+        return std::nullopt;
     return at_level(frame, d2, std::numeric_limits<double>::quiet_NaN());
 }
 

@@ -46,13 +46,18 @@ std::optional<Arrival> Interference::arrival(const Emission& frame, NodeId node)
     Medium& medium = *settings_.medium;
     if (medium.stations().is_directional()) [[unlikely]]
         return directional_arrival(frame, node);
-    if (on_air_.has_changed(node)) {
-        if (const OnAir::Before* before = on_air_.before(node, frame)) {
-            if (!before->on) return std::nullopt;
-            return medium.arrivals().of(frame, node, before->leg.position(frame.begin));
-        }
-    }
+    if (on_air_.has_changed(node)) return arrival_before_change(frame, node);
     return medium.arrivals().of(frame, node, medium.position(node, frame.begin, *settings_.legs));
+}
+
+/// Like arrival(), at a node whose leg or radio may have changed since the frame began.
+std::optional<Arrival> Interference::arrival_before_change(const Emission& frame, NodeId node) {
+    Medium& medium = *settings_.medium;
+    const OnAir::Before* before = on_air_.before(node, frame);
+    if (before && !before->on) return std::nullopt;
+    const Vec3 at = before ? before->leg.position(frame.begin)
+                           : medium.position(node, frame.begin, *settings_.legs);
+    return medium.arrivals().of(frame, node, at);
 }
 
 /// Like arrival(), with the headings of both ends when the frame began.

@@ -110,7 +110,10 @@ class Interference {
     std::uint64_t key(NodeId node) const { return settings_.medium->stations().key(node); }
 
   private:
-    // Arrival of a frame at a node other than its sender, with directional antennas.
+    // Arrival of a frame at a node other than its sender whose leg or radio has changed recently
+    // ...
+    std::optional<Arrival> arrival_before_change(const Emission& frame, NodeId node);
+    // ... and with directional antennas.
     std::optional<Arrival> directional_arrival(const Emission& frame, NodeId node);
 
     Settings settings_;
