@@ -3,6 +3,7 @@
 
 #include "live/lockstep/stepped_run.hpp"
 #include "models/medium/medium.hpp"
+#include "python/arguments.hpp"
 #include "python/interruption.hpp"
 #include "python/record_arrays.hpp"
 #include "python/run_object.hpp"
@@ -60,16 +61,18 @@ class RecordCallback {
 /// from callbacks, during which the simulation stands still.
 class SessionObject {
   public:
-    SessionObject(const py::object& scenario, double step, const py::object& seed,
-                  const py::object& set, std::optional<std::vector<std::string>> robots,
-                  const py::object& out, std::vector<std::string> records)
-        : kinds_(std::move(records)),
-          run_(to_scenario(scenario, set, seed),
-               {.robots = std::move(robots),
-                .step = from_seconds(step),
-                .folder = out.is_none() ? std::nullopt : std::optional(path_in(out)),
-                .client = "python",
-                .prepare = [this](Network& network) { prepare(network); }}) {
+    SessionObject(const py::object& scenario, const StepArgument& step, const py::object& seed,
+                  const py::object& set, const RobotsArgument& robots, const py::object& out,
+                  const KindsArgument& records)
+        : kinds_(records.value),
+          run_(
+              to_scenario(scenario, set, seed),
+              {.robots = robots.value,
+               .step = from_seconds(step.value),
+               .folder = out.is_none() ? std::nullopt
+                                       : std::optional(path_in(out, "out", "the path of a folder")),
+               .client = "python",
+               .prepare = [this](Network& network) { prepare(network); }}) {
         const Network& network = run_.session().network();
         names_ = names_of(network);
         for (std::size_t row = 0; row < run_.robots().size(); ++row) {
@@ -77,11 +80,11 @@ class SessionObject {
         }
     }
 
-    void reset(const std::optional<std::uint64_t>& seed) {
+    void reset(const SeedArgument& seed) {
         const Working working(*this);
         {
             const py::gil_scoped_release others_run;
-            run_.reset(seed);
+            run_.reset(seed.value);
         }
         interruption_.raise();
     }
