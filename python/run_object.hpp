@@ -109,8 +109,7 @@ inline RunObject run(const py::object& given, const py::object& set, const py::o
                      const py::object& progress) {
     const auto scenario = std::make_shared<const Scenario>(to_scenario(given, set, seed));
     auto rows = rows_of(records.value);
-    const auto folder =
-        out.is_none() ? std::nullopt : std::optional(path_in(out, "out", "the path of a folder"));
+    const auto folder = folder_in(out);
     Interruption interruption;
     std::optional<RunResult> result;
     {

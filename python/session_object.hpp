@@ -11,7 +11,6 @@
 
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -65,14 +64,12 @@ class SessionObject {
                   const py::object& set, const RobotsArgument& robots, const py::object& out,
                   const KindsArgument& records)
         : kinds_(records.value),
-          run_(
-              to_scenario(scenario, set, seed),
-              {.robots = robots.value,
-               .step = from_seconds(step.value),
-               .folder = out.is_none() ? std::nullopt
-                                       : std::optional(path_in(out, "out", "the path of a folder")),
-               .client = "python",
-               .prepare = [this](Network& network) { prepare(network); }}) {
+          run_(to_scenario(scenario, set, seed),
+               {.robots = robots.value,
+                .step = from_seconds(step.value),
+                .folder = folder_in(out),
+                .client = "python",
+                .prepare = [this](Network& network) { prepare(network); }}) {
         const Network& network = run_.session().network();
         names_ = names_of(network);
         for (std::size_t row = 0; row < run_.robots().size(); ++row) {

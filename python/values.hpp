@@ -11,7 +11,9 @@
 #include <pybind11/pybind11.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 // Conversion between Python objects and the class Value: scenarios as dicts, metrics as dicts.
@@ -98,12 +100,16 @@ inline Value to_value(py::handle given, const std::string& place, int depth = 0)
 inline std::string path_in(const py::object& given, std::string_view argument,
                            std::string_view expected) {
     const auto name = py::reinterpret_steal<py::object>(PyOS_FSPath(given.ptr()));
-    if (!name) {
-        PyErr_Clear();
-        throw py::type_error(
-            fmt::format("{}: expected {}, got {}", argument, expected, shown(given)));
-    }
-    return py::cast<std::string>(name);
+    if (name) return py::cast<std::string>(name);
+    if (!PyErr_ExceptionMatches(PyExc_TypeError)) throw py::error_already_set();
+    PyErr_Clear();
+    throw py::type_error(fmt::format("{}: expected {}, got {}", argument, expected, shown(given)));
+}
+
+/// Folder of the argument `out`; none for None.
+inline std::optional<std::string> folder_in(const py::object& out) {
+    if (out.is_none()) return std::nullopt;
+    return path_in(out, "out", "the path of a folder, or None");
 }
 
 /// Scenario from the path of a file, or from a dict; notices become Python warnings.

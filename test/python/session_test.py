@@ -133,6 +133,7 @@ class Steps(unittest.TestCase):
                 (lambda: rn.Session(RESCUE, robots="A"), r'robots: expected a list of names, such as \["A", "B"\], or None'),
                 (lambda: rn.run(RESCUE, records="received"), "records: expected a list of kinds of records"),
                 (lambda: rn.run(None), "scenario: expected the path of a file or a dict, got None"),
+                (lambda: rn.run(RESCUE, out=3), "out: expected the path of a folder, or None, got 3"),
                 (lambda: session.go_to("A", list(range(1000)) + ["x"]), r"got \[0, 1, 2, [0-9, ]+\.\.\.$")):
             with self.assertRaisesRegex(TypeError, why):
                 call()
