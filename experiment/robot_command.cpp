@@ -29,6 +29,10 @@ void check(const Field& field, const Value& value, std::string_view robot) {
 
 }  // namespace
 
+std::string_view name_of(const RobotCommand& command) {
+    return std::visit([](const auto& each) { return each.name; }, command);
+}
+
 void check(const RobotCommand& command, std::string_view robot) {
     const auto check_all = [&]<class Command>(const Command& each) {
         for_each_field<Command>([&](const auto& f) { check(f, each.*f.member, robot); });

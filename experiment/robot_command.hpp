@@ -113,6 +113,9 @@ struct SendCommand {
 using RobotCommand =
     std::variant<DriveCommand, GoalCommand, StopCommand, PlaceCommand, SendCommand>;
 
+/// Name of a command, such as "goal".
+std::string_view name_of(const RobotCommand& command);
+
 /// Checks the fields of a command against their ranges.
 /// @param robot  name of the robot, for the error
 /// @throws std::invalid_argument that names field, robot, range and value

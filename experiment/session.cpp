@@ -17,6 +17,19 @@
 #include <thread>
 
 namespace rovernet {
+namespace {
+
+/// Sentence about a position off the map, with the extent of the map of its storey.
+std::string off_map_text(const Scene& scene, Vec3 at) {
+    const Scene& storey = scene.storey_at(at.z);
+    const Vec3 low = storey.lower_left(), high = storey.upper_right();
+    return fmt::format(
+        "({:g}, {:g}) m is off the map, which goes from ({:g}, {:g}) to "
+        "({:g}, {:g}) m",
+        at.x, at.y, low.x, low.y, high.x, high.y);
+}
+
+}  // namespace
 
 Session::Session(const Scenario& scenario, std::optional<Router> router)
     : Session(scenario, network_settings(scenario), std::move(router)) {}
@@ -164,6 +177,11 @@ void Session::set_hearing(ClientId client, bool hears) {
 }
 
 std::string Session::why_not(NodeId robot, const RobotCommand& command) const {
+    const Scene& scene = network_->scene();
+    if (const auto* goal = std::get_if<GoalCommand>(&command)) {
+        const bool is_reachable = scene.open_field() || scene.inside_map(goal->to);
+        return is_reachable ? "" : off_map_text(scene, goal->to);
+    }
     const auto* place = std::get_if<PlaceCommand>(&command);
     return place ? why_not_at(robot, place->at) : "";
 }
@@ -172,11 +190,7 @@ std::string Session::why_not_at(NodeId robot, Vec3 at) const {
     const Scene& storey = network_->scene().storey_at(at.z);
     const Vec3 low = storey.lower_left(), high = storey.upper_right();
     const bool is_on_map = at.x >= low.x && at.x <= high.x && at.y >= low.y && at.y <= high.y;
-    if (has_border_ && !is_on_map)
-        return fmt::format(
-            "({:g}, {:g}) m is off the map, which goes from ({:g}, {:g}) to "
-            "({:g}, {:g}) m",
-            at.x, at.y, low.x, low.y, high.x, high.y);
+    if (has_border_ && !is_on_map) return off_map_text(network_->scene(), at);
     const Storeys& storeys = network_->scene().storeys();
     if (const std::size_t top = storeys.size() - 1; top > 0) {
         const double lowest = storeys.floor(0), highest = storeys.floor(top);

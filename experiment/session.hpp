@@ -118,9 +118,10 @@ class Session {
     bool is_stalled(NodeId robot) const;
     /// Whether the robot stands still since no path reaches the goal of its command.
     bool has_no_way(NodeId robot) const;
-    /// Sentence that explains why a robot cannot carry out a command; empty if the robot can. The
-    /// only reason is a PlaceCommand to a position [m] at which the robot does not fit: off the
-    /// map, in a wall, or nearer to a wall than the robot's radius.
+    /// Sentence that explains why a robot cannot carry out a command; empty if the robot can. There
+    /// are two reasons: a GoalCommand to a position [m] off the map, which no path reaches, and a
+    /// PlaceCommand to a position at which the robot does not fit: off the map, in a wall, or
+    /// nearer to a wall than the robot's radius.
     std::string why_not(NodeId robot, const RobotCommand& command) const;
     /// Velocity of a robot in the robot's coordinate frame: the commanded velocity while a drive
     /// command is active; otherwise the velocity of the current leg (piece of movement).

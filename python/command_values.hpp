@@ -2,6 +2,7 @@
 #pragma once
 
 #include "experiment/command_keys.hpp"
+#include "python/arguments.hpp"
 #include "python/session_object.hpp"
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include <tuple>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 // Conversion of Python keyword arguments to robot commands. The function fields() of a command
 // lists its keywords.
@@ -53,6 +55,28 @@ void read_value(SessionObject& session, Value& value, std::string_view key,
     }
 }
 
+/// What a command's field of this type may be in Python.
+template <class Value>
+constexpr std::string_view expected_for() {
+    if constexpr (requires(Value value) { value.has_value(); }) {
+        return expected_for<typename Value::value_type>();
+    } else if constexpr (std::same_as<Value, NodeId>) {
+        return "the name of a robot, such as \"A\"";
+    } else if constexpr (std::same_as<Value, Duration>) {
+        return "a number of seconds";
+    } else if constexpr (std::same_as<Value, Vec3>) {
+        return "a place (x, y) or (x, y, z) in metres";
+    } else if constexpr (std::same_as<Value, std::string>) {
+        return "bytes, such as b\"F\"";
+    } else if constexpr (std::same_as<Value, bool>) {
+        return "True or False";
+    } else if constexpr (std::unsigned_integral<Value>) {
+        return "a whole number";
+    } else {
+        return "a number";
+    }
+}
+
 template <class Value>
 void read_given(SessionObject& session, Value& value, std::string_view key,
                 const py::handle& given) {
@@ -60,7 +84,7 @@ void read_given(SessionObject& session, Value& value, std::string_view key,
         read_value(session, value, key, given);
     } catch (const py::cast_error&) {
         throw py::type_error(
-            fmt::format("{}: found {}", key, std::string(py::str(py::type::of(given)))));
+            fmt::format("{}: expected {}, got {}", key, expected_for<Value>(), shown(given)));
     }
 }
 
@@ -104,7 +128,11 @@ RobotCommand command_of(std::tuple<std::type_identity<Commands>...> /*commands*/
             fmt::format("{}{}", known.empty() ? "" : "; or ", fmt::join(keys_of<Command>(), ", "));
     };
     (list(std::type_identity<Commands>{}), ...);
-    throw py::value_error("command: expected " + known);
+    std::vector<std::string> names;
+    for (const auto& [key, value] : given) names.push_back(key.template cast<std::string>());
+    throw py::value_error(
+        fmt::format("command: found {}; expected {}",
+                    names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, ", ")), known));
 }
 
 }  // namespace rovernet::python

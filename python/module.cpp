@@ -179,9 +179,8 @@ SessionClass session_class(py::module_& m) {
 
 void add_run(SessionClass& session) {
     session
-        .def(py::init<const py::object&, double, const py::object&, const py::object&,
-                      std::optional<std::vector<std::string>>, const py::object&,
-                      std::vector<std::string>>(),
+        .def(py::init<const py::object&, const StepArgument&, const py::object&, const py::object&,
+                      const RobotsArgument&, const py::object&, const KindsArgument&>(),
              "scenario"_a, py::kw_only(), "step"_a = 0.1, "seed"_a = py::none(),
              "set"_a = py::none(), "robots"_a = py::none(), "out"_a = py::none(),
              "records"_a = std::vector<std::string>())
@@ -206,8 +205,8 @@ void add_run(SessionClass& session) {
 }
 
 void add_commands(SessionClass& session) {
-    const auto stop = [](SessionObject& self, const std::string& robot) {
-        self.run().command(self.row(robot), StopCommand{});
+    const auto stop = [](SessionObject& self, const RobotArgument& robot) {
+        self.run().command(self.row(robot.value), StopCommand{});
     };
     session
         .def("drive", &drive, "vw"_a, "timeout"_a = py::none(),

@@ -5,6 +5,7 @@
 #include "experiment/session.hpp"
 #include "experiment/summary.hpp"
 #include "experiment/timeline.hpp"
+#include "python/arguments.hpp"
 #include "python/interruption.hpp"
 #include "python/record_arrays.hpp"
 #include "python/values.hpp"
@@ -104,11 +105,11 @@ class RunObject {
 
 /// Runs a scenario to its end: the Python function `rovernet.run`.
 inline RunObject run(const py::object& given, const py::object& set, const py::object& seed,
-                     const py::object& out, const std::vector<std::string>& records,
+                     const py::object& out, const KindsArgument& records,
                      const py::object& progress) {
     const auto scenario = std::make_shared<const Scenario>(to_scenario(given, set, seed));
-    auto rows = rows_of(records);
-    const auto folder = out.is_none() ? std::nullopt : std::optional(path_in(out));
+    auto rows = rows_of(records.value);
+    const auto folder = folder_in(out);
     Interruption interruption;
     std::optional<RunResult> result;
     {

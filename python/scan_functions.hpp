@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "python/arguments.hpp"
 #include "python/session_object.hpp"
 
 #include <pybind11/numpy.h>
@@ -46,14 +47,14 @@ inline std::size_t scanner_of(SessionObject& session, NodeId robot, const py::ob
 
 /// Distances measured by a range finder [m], as an array of shape (beams,) for one robot, or
 /// (robots, beams) for all robots of the session.
-inline py::array_t<double> scan(SessionObject& session, const std::optional<std::string>& robot,
+inline py::array_t<double> scan(SessionObject& session, const OptionalRobotArgument& robot,
                                 const py::object& scanner) {
     const Session& measured = session.run().session();
     const auto ranges_of = [&](NodeId each) {
         return measured.scan(each, scanner_of(session, each, scanner));
     };
-    if (robot) {
-        const auto ranges = ranges_of(robot_named(session.network(), *robot));
+    if (robot.value) {
+        const auto ranges = ranges_of(robot_named(session.network(), *robot.value));
         return py::array_t<double>(static_cast<py::ssize_t>(ranges.size()), ranges.data());
     }
     const auto& robots = session.run().robots();
@@ -75,9 +76,9 @@ inline py::array_t<double> scan(SessionObject& session, const std::optional<std:
 }
 
 /// Range finders of a robot, each as a dict.
-inline py::list scanners(SessionObject& session, const std::string& robot) {
+inline py::list scanners(SessionObject& session, const RobotArgument& robot) {
     py::list all;
-    const NodeId node = robot_named(session.network(), robot);
+    const NodeId node = robot_named(session.network(), robot.value);
     for (const Scanner& scanner : session.run().session().range_finders(node)) {
         const auto beams = static_cast<py::ssize_t>(scanner.size());
         py::array_t<double> angles(beams);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "experiment/summary.hpp"
+#include "python/arguments.hpp"
 #include "python/command_values.hpp"
 #include "python/session_object.hpp"
 
@@ -22,12 +23,25 @@ namespace rovernet::python {
 
 using namespace py::literals;
 
+using TimeoutArgument = Argument<std::optional<double>, "timeout", "a number of seconds, or None">;
+using PlaceArgument = Argument<std::vector<double>, "to", "a place (x, y) or (x, y, z) in metres">;
+using SpeedArgument = Argument<double, "speed", "a number of metres per second">;
+using XArgument = Argument<double, "x", "a number of metres">;
+using YArgument = Argument<double, "y", "a number of metres">;
+using ZArgument = Argument<std::optional<double>, "z", "a number of metres, or None">;
+using HeadingArgument = Argument<std::optional<double>, "heading", "a number of radians, or None">;
+using DataArgument = Argument<py::bytes, "data", "bytes, such as b\"F\"">;
+using ReceiverArgument = Argument<std::optional<std::string>, "to",
+                                  "the name of a robot, such as \"A\", or None for everyone">;
+using PortArgument = Argument<std::int64_t, "port", "a whole number">;
+using SizeArgument = Argument<std::optional<std::int64_t>, "size", "a number of bytes, or None">;
+
 inline std::optional<Duration> duration_in(const std::optional<double>& s) {
     return s ? std::optional(from_seconds(*s)) : std::nullopt;
 }
 
 inline void drive(SessionObject& session, const py::object& velocities,
-                  const std::optional<double>& timeout) {
+                  const TimeoutArgument& timeout) {
     using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
     const auto robots = static_cast<py::ssize_t>(session.run().robots().size());
     const auto numbers = Numbers::ensure(velocities);
@@ -38,30 +52,31 @@ inline void drive(SessionObject& session, const py::object& velocities,
                                           robots, std::string(py::str(shape))));
     }
     session.run().drive({numbers.data(), static_cast<std::size_t>(numbers.size())},
-                        duration_in(timeout));
+                        duration_in(timeout.value));
 }
 
 inline RobotState state_of(SessionObject& session, std::size_t row) {
     return session.network().robot(session.run().robots()[row]);
 }
 
-inline void go_to(SessionObject& session, const std::string& robot, const std::vector<double>& to,
-                  double speed) {
+inline void go_to(SessionObject& session, const RobotArgument& robot, const PlaceArgument& place,
+                  const SpeedArgument& speed) {
+    const std::vector<double>& to = place.value;
     if (to.size() != 2 && to.size() != 3) {
         throw py::value_error(
             fmt::format("go_to: expected a place (x, y) or (x, y, z), got {} numbers", to.size()));
     }
-    const std::size_t row = session.row(robot);
+    const std::size_t row = session.row(robot.value);
     const double z = to.size() == 3 ? to[2] : state_of(session, row).at.z;
-    session.run().command(row, GoalCommand{{to[0], to[1], z}, {speed}});
+    session.run().command(row, GoalCommand{{to[0], to[1], z}, {speed.value}});
 }
 
-inline void place(SessionObject& session, const std::string& robot, double x, double y,
-                  const std::optional<double>& heading, const std::optional<double>& z) {
-    const std::size_t row = session.row(robot);
+inline void place(SessionObject& session, const RobotArgument& robot, const XArgument& x,
+                  const YArgument& y, const HeadingArgument& heading, const ZArgument& z) {
+    const std::size_t row = session.row(robot.value);
     const RobotState now = state_of(session, row);
-    session.run().command(
-        row, PlaceCommand{{x, y, z.value_or(now.at.z)}, {heading.value_or(now.heading.value)}});
+    session.run().command(row, PlaceCommand{{x.value, y.value, z.value.value_or(now.at.z)},
+                                            {heading.value.value_or(now.heading.value)}});
 }
 
 inline std::int64_t whole_in(std::string_view what, std::int64_t number) {
@@ -69,18 +84,18 @@ inline std::int64_t whole_in(std::string_view what, std::int64_t number) {
     throw py::value_error(fmt::format("send: {} must be from 0 to 65535, got {}", what, number));
 }
 
-inline void send(SessionObject& session, const std::string& robot, const py::bytes& data,
-                 const std::optional<std::string>& to, std::int64_t port,
-                 const std::optional<std::int64_t>& size) {
-    SendCommand send{.port = static_cast<std::uint16_t>(whole_in("port", port)), .payload = data};
-    const std::size_t row = session.row(robot);
-    if (to) send.to = robot_named(session.network(), *to);
-    if (size) send.size = static_cast<std::uint32_t>(whole_in("size", *size));
+inline void send(SessionObject& session, const RobotArgument& robot, const DataArgument& data,
+                 const ReceiverArgument& to, const PortArgument& port, const SizeArgument& size) {
+    SendCommand send{.port = static_cast<std::uint16_t>(whole_in("port", port.value)),
+                     .payload = data.value};
+    const std::size_t row = session.row(robot.value);
+    if (to.value) send.to = robot_named(session.network(), *to.value);
+    if (size.value) send.size = static_cast<std::uint32_t>(whole_in("size", *size.value));
     session.run().command(row, std::move(send));
 }
 
-inline void command(SessionObject& session, const std::string& robot, const py::kwargs& fields) {
-    const std::size_t row = session.row(robot);
+inline void command(SessionObject& session, const RobotArgument& robot, const py::kwargs& fields) {
+    const std::size_t row = session.row(robot.value);
     session.run().command(row,
                           command_of(AllCommands{}, session, session.run().robots()[row], fields));
 }
@@ -125,7 +140,7 @@ struct NeighborRow {
     std::int32_t quality;
 };
 
-inline py::array neighbors(SessionObject& session, const std::string& robot) {
+inline py::array neighbors(SessionObject& session, const RobotArgument& robot) {
     static const auto* type =
         new py::dtype(  // never freed, since the interpreter may have ended before
             py::cast<py::list>(py::make_tuple("name", "rssi", "noise", "quality")),
@@ -135,7 +150,7 @@ inline py::array neighbors(SessionObject& session, const std::string& robot) {
                                offsetof(NeighborRow, noise), offsetof(NeighborRow, quality))),
             sizeof(NeighborRow));
     const Network& network = session.network();
-    const auto found = network.links(robot_named(network, robot), network.now());
+    const auto found = network.links(robot_named(network, robot.value), network.now());
     py::array all(*type, found.size());
     auto* row = static_cast<NeighborRow*>(all.mutable_data());
     for (const Neighbour& each : found) {

@@ -3,6 +3,7 @@
 
 #include "live/lockstep/stepped_run.hpp"
 #include "models/medium/medium.hpp"
+#include "python/arguments.hpp"
 #include "python/interruption.hpp"
 #include "python/record_arrays.hpp"
 #include "python/run_object.hpp"
@@ -10,7 +11,6 @@
 
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -60,14 +60,14 @@ class RecordCallback {
 /// from callbacks, during which the simulation stands still.
 class SessionObject {
   public:
-    SessionObject(const py::object& scenario, double step, const py::object& seed,
-                  const py::object& set, std::optional<std::vector<std::string>> robots,
-                  const py::object& out, std::vector<std::string> records)
-        : kinds_(std::move(records)),
+    SessionObject(const py::object& scenario, const StepArgument& step, const py::object& seed,
+                  const py::object& set, const RobotsArgument& robots, const py::object& out,
+                  const KindsArgument& records)
+        : kinds_(records.value),
           run_(to_scenario(scenario, set, seed),
-               {.robots = std::move(robots),
-                .step = from_seconds(step),
-                .folder = out.is_none() ? std::nullopt : std::optional(path_in(out)),
+               {.robots = robots.value,
+                .step = from_seconds(step.value),
+                .folder = folder_in(out),
                 .client = "python",
                 .prepare = [this](Network& network) { prepare(network); }}) {
         const Network& network = run_.session().network();
@@ -77,11 +77,11 @@ class SessionObject {
         }
     }
 
-    void reset(const std::optional<std::uint64_t>& seed) {
+    void reset(const SeedArgument& seed) {
         const Working working(*this);
         {
             const py::gil_scoped_release others_run;
-            run_.reset(seed);
+            run_.reset(seed.value);
         }
         interruption_.raise();
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "python/arguments.hpp"
 #include "scenario/document/value.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/scenario_file.hpp"
@@ -10,7 +11,9 @@
 #include <pybind11/pybind11.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 // Conversion between Python objects and the class Value: scenarios as dicts, metrics as dicts.
@@ -93,10 +96,20 @@ inline Value to_value(py::handle given, const std::string& place, int depth = 0)
 }
 
 /// Path as text, from a str or an object with __fspath__.
-inline std::string path_in(const py::object& given) {
+/// @param argument, expected  name of the Python argument and what it may be, for error messages
+inline std::string path_in(const py::object& given, std::string_view argument,
+                           std::string_view expected) {
     const auto name = py::reinterpret_steal<py::object>(PyOS_FSPath(given.ptr()));
-    if (!name) throw py::error_already_set();
-    return py::cast<std::string>(name);
+    if (name) return py::cast<std::string>(name);
+    if (!PyErr_ExceptionMatches(PyExc_TypeError)) throw py::error_already_set();
+    PyErr_Clear();
+    throw py::type_error(fmt::format("{}: expected {}, got {}", argument, expected, shown(given)));
+}
+
+/// Folder of the argument `out`; none for None.
+inline std::optional<std::string> folder_in(const py::object& out) {
+    if (out.is_none()) return std::nullopt;
+    return path_in(out, "out", "the path of a folder, or None");
 }
 
 /// Scenario from the path of a file, or from a dict; notices become Python warnings.
@@ -127,7 +140,7 @@ inline Scenario to_scenario(const py::object& given, const py::object& set,
     if (py::isinstance<py::dict>(given)) {
         document = to_value(given, "scenario");
     } else {
-        path = path_in(given);
+        path = path_in(given, "scenario", "the path of a file or a dict");
     }
     Scenario scenario = [&] {
         const py::gil_scoped_release others_run;

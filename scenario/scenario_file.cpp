@@ -8,6 +8,7 @@
 #include "scenario/stage/stage_world.hpp"
 #include "scenario/tables/read_value.hpp"
 #include "scenario/unlikely.hpp"
+#include "scenario/unlikely_walls.hpp"
 #include "scene/images/image.hpp"
 
 #include <fmt/format.h>

@@ -2,13 +2,9 @@
 #include "scenario/unlikely.hpp"
 
 #include "models/propagation/disc.hpp"
-#include "models/propagation/ray_materials.hpp"
-#include "models/propagation/rays.hpp"
-#include "models/propagation/raytrace_2007.hpp"
 #include "scenario/affected.hpp"
 #include "scenario/document/quantity.hpp"
 #include "scenario/equal_starts.hpp"
-#include "scene/faces.hpp"
 #include "scene/scene.hpp"
 #include "sim/geometry.hpp"
 #include "sim/math.hpp"
@@ -166,19 +162,6 @@ void note_broadcasts(Scenario& out) {
     broadcasts.note(out.notices);
 }
 
-/// Calls look(propagation, where) for each choice of a propagation model that some robot uses.
-template <class Look>
-void for_each_used_model(const Scenario& scenario, Look look) {
-    const auto& robots = scenario.robots;
-    const auto has_own = [](const RobotTable& robot) { return robot.propagation.has_value(); };
-    if (robots.empty() || !std::all_of(robots.begin(), robots.end(), has_own)) {
-        look(scenario.propagation, scenario.propagation_where);
-    }
-    for (const RobotTable& robot : robots) {
-        if (robot.propagation) look(*robot.propagation, robot.propagation_where);
-    }
-}
-
 }  // namespace
 
 void refuse_disc(const Propagation& model, const Location& where, std::string_view who) {
@@ -290,87 +273,6 @@ void note_antennas(Scenario& scenario, const Scene* scene) {
         });
     }
     elsewhere.note(scenario.notices);
-}
-
-void note_walls_twice(Scenario& scenario, const Scene* scene) {
-    if (!scene || scene->open_field()) return;
-    constexpr double largest_without_walls = 22;  // ITU-R P.1238: commercial, open-plan
-    Affected twice;
-    for_each_used_model(scenario, [&](const PropagationTable& propagation, const Location& where) {
-        const Propagation model = propagation.make();
-        const auto* rays = model.as<Raytrace2007>();
-        if (!rays || rays->coefficient <= largest_without_walls) return;
-        twice.add([&] {
-            return fmt::format(
-                "{}: coefficient: N = {} of raytrace_2007 already includes the walls of an average "
-                "building, so that the walls of the map count twice; did you mean coefficient = "
-                "20?",
-                where.text(), rays->coefficient);
-        });
-    });
-    twice.note(scenario.notices);
-}
-
-void note_coherent_slants(Scenario& scenario, const Scene* scene) {
-    if (!scene || !scene->faces()) return;
-    Affected off;
-    for_each_used_model(scenario, [&](const PropagationTable& propagation, const Location& where) {
-        const Propagation model = propagation.make();
-        const auto* rays = model.as<Rays>();
-        if (!rays || rays->sum != RaySum::coherent) return;
-        constexpr double least = 1;  // [m], of a face that counts
-        const auto slants = [](const Face& face) {
-            return face.deviation > 0 && face.length >= least;
-        };
-        const auto all = scene->faces()->all();
-        const auto slanting = std::count_if(all.begin(), all.end(), slants);
-        if (slanting == 0) return;
-        off.add([&] {
-            return fmt::format(
-                "{}: sum: {} faces of walls are oblique to the cells of the map, and therefore "
-                "inaccurate by some centimetres: levels with sum = \"coherent\" have errors of 3 "
-                "to 5 dB (rms), and up to 30 dB; did you mean sum = \"power\"?",
-                where.text(), slanting);
-        });
-    });
-    off.note(scenario.notices);
-}
-
-void note_thick_walls(Scenario& scenario, const Scene* scene) {
-    if (!scene || scene->open_field() || !scene->faces()) return;
-    const auto is_rays = [](const PropagationTable& table) {
-        const Propagation model = table.make();
-        const auto* rays = model.as<Rays>();
-        return rays && !rays->wall_loss;
-    };
-    const auto& robots = scenario.robots;
-    const bool traced = is_rays(scenario.propagation) ||
-                        std::any_of(robots.begin(), robots.end(), [&](const RobotTable& robot) {
-                            return robot.propagation && is_rays(*robot.propagation);
-                        });
-    if (!traced) return;
-    constexpr double limit = thickest_default_wall.value;
-    const Face* first = nullptr;
-    double thickest = 0;
-    for (const Face& face : scene->faces()->all()) {
-        if (face.thickness <= limit || !scene->materials()[face.material].follows_model()) continue;
-        const Vec3 inside =
-            0.5 * (face.from + face.to) - (face.deviation + limit / 2) * face.normal;
-        // The steps of a slanting wall are part of what is drawn.
-        const double thick = scene->wall_thickness(inside).value - 2 * face.deviation;
-        if (thick <= limit + 1e-6) continue;
-        if (!first) first = &face;
-        thickest = std::max(thickest, thick);
-    }
-    if (!first) return;
-    const Vec3 at = 0.5 * (first->from + first->to);
-    add_notice(
-        scenario.notices,
-        fmt::format("{}: the wall drawn behind x = {:.2f} m, y = {:.2f} m is thicker than {} m "
-                    "(walls of this scene: up to {:.2g} m), but rays treats walls without a given "
-                    "material as at most {} m thick; give furniture, pillars and shafts a colour "
-                    "and a material of their own in [scene.materials]",
-                    scenario.propagation_where.text(), at.x, at.y, limit, thickest, limit));
 }
 
 }  // namespace rovernet

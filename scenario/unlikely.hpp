@@ -30,21 +30,6 @@ void note_places(Scenario& scenario, const Scene* scene);
 /// @param scene  scene of the scenario; null: an open field
 void note_antennas(Scenario& scenario, const Scene* scene);
 
-/// Adds a notice if wall losses are counted twice: a coefficient N of the model raytrace_2007 above
-/// 22 includes the walls of an average building, but the losses of the map's walls are added.
-/// @param scene  scene of the scenario; null: an open field
-void note_walls_twice(Scenario& scenario, const Scene* scene);
-
-/// Adds a notice if the model `rays` adds the fields of paths with their phases (sum = "coherent")
-/// although walls are oblique to the map's grid, since the phases are wrong then.
-/// @param scene  scene of the scenario; null: an open field
-void note_coherent_slants(Scenario& scenario, const Scene* scene);
-
-/// Adds one notice about walls without a material that are thicker than 0.5 m, the limit of the
-/// model `rays`: thick walls may be furniture, pillars or shafts. The notice names the first one.
-/// @param scene  scene of the scenario; null: an open field
-void note_thick_walls(Scenario& scenario, const Scene* scene);
-
 /// Adds a notice if [study] varies [propagation] and some robots have a propagation model of their
 /// own, since the study does not change the models of these robots.
 void note_own_models(Scenario& scenario);

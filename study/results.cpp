@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -86,15 +87,15 @@ std::vector<StoredPoint> points_where(const Store& store, const std::vector<Cond
     std::vector<StoredPoint> points = store.points();
     for (const Condition& condition : where) {
         check_known(condition.path, varied, "the key");
-        std::vector<std::string> values;
+        std::vector<std::string> values;  // in the order of the study
+        std::set<std::string> listed;
         for (const StoredPoint& point : points) {
             const Value* value = point.settings.find(condition.path);
-            if (value) values.push_back(plain_text(*value));
+            if (!value || !listed.insert(plain_text(*value)).second) continue;
+            values.push_back(plain_text(*value));
         }
         std::erase_if(points, [&](const StoredPoint& p) { return !meets(p, condition); });
         if (!points.empty()) continue;
-        std::sort(values.begin(), values.end());
-        values.erase(std::unique(values.begin(), values.end()), values.end());
         throw std::invalid_argument(fmt::format("no point has {} = {}; there are {}",
                                                 condition.path, condition.value,
                                                 fmt::join(values, ", ")));

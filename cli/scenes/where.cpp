@@ -4,29 +4,33 @@
 #include "cli/terminal/playing.hpp"
 #include "cli/terminal/text_table.hpp"
 #include "experiment/reports/link_gaps.hpp"
+#include "experiment/reports/patrol_round.hpp"
 #include "experiment/reports/whereabouts.hpp"
 #include "scenario/document/json.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 namespace rovernet::cli {
 namespace {
 
+/// Legs of the robot until the end of the run; none for an unknown robot.
+Track track_of(const Scenario& scenario, const std::string& file, const std::string& robot) {
+    Playing playing(file, start_of_run + scenario.scenario.duration);
+    for (Track& track : tracks(scenario, playing.tell()))
+        if (track.name == robot) return std::move(track);
+    return {};
+}
+
 /// Times at which the robot begins a leg of its path, and the end of the run.
-std::vector<Time> leg_times(const Scenario& scenario, const std::string& file,
-                            const std::string& robot) {
-    const Time end = start_of_run + scenario.scenario.duration;
-    Playing playing(file, end);
+std::vector<Time> leg_times(const Scenario& scenario, const Track& track) {
     std::vector<Time> times;
-    for (const Track& track : tracks(scenario, playing.tell())) {
-        if (track.name != robot) continue;
-        for (const Leg& leg : track.legs) times.push_back(leg.start);
-    }
-    times.push_back(end);
+    for (const Leg& leg : track.legs) times.push_back(leg.start);
+    times.push_back(start_of_run + scenario.scenario.duration);
     times.erase(std::unique(times.begin(), times.end()), times.end());
     return times;
 }
@@ -44,7 +48,7 @@ Table robot_document(const Whereabouts::Row& robot) {
     return out;
 }
 
-void print_text(const std::vector<Whereabouts>& all) {
+void print_text(const std::vector<Whereabouts>& all, const std::optional<PatrolRound>& round) {
     for (const Whereabouts& now : all) {
         for (const auto& [name, p, v, heading, presence] : now.robots) {
             fmt::print(
@@ -54,9 +58,14 @@ void print_text(const std::vector<Whereabouts>& all) {
                 presence_text(name_of(presence)));
         }
     }
+    if (!round) return;
+    fmt::print(
+        "a round of the patrol, through all {} places, takes {:.6f} s (the last one from {:.6f} s "
+        "on)\n",
+        round->places, seconds(round->length), seconds(round->begin));
 }
 
-void print_json(const std::vector<Whereabouts>& all) {
+void print_json(const std::vector<Whereabouts>& all, const std::optional<PatrolRound>& round) {
     Array list;
     for (const Whereabouts& now : all) {
         Array robots;
@@ -68,6 +77,7 @@ void print_json(const std::vector<Whereabouts>& all) {
     }
     Table document;
     document.set("times", std::move(list));
+    if (round) document.set("round_s", seconds(round->length));
     fmt::print("{}", to_json(document));
 }
 
@@ -120,12 +130,17 @@ void where(const WhereArguments& a) {
     const Scenario scenario = scenario_of(a);
     std::vector<Time> times;
     for (const std::string& text : a.at) times.push_back(time_in(scenario, text));
-    if (times.empty()) times = leg_times(scenario, a.file, *a.robot);
+    std::optional<PatrolRound> round;
+    if (times.empty()) {
+        const Track track = track_of(scenario, a.file, *a.robot);
+        times = leg_times(scenario, track);
+        round = patrol_round(scenario, track);
+    }
     const auto all = [&] {
         Playing playing(a.file, *std::max_element(times.begin(), times.end()));
         return whereabouts(scenario, times, a.robot, playing.tell());
     }();
-    a.json ? print_json(all) : print_text(all);
+    a.json ? print_json(all, round) : print_text(all, round);
 }
 
 }  // namespace rovernet::cli

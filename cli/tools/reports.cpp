@@ -8,6 +8,7 @@
 #include "experiment/version.hpp"
 #include "pictures/chart/budget_chart.hpp"
 #include "scenario/document/json.hpp"
+#include "scenario/document/simulator_names.hpp"
 #include "scenario/model_names.hpp"
 #include "scenario/schema.hpp"
 
@@ -110,7 +111,8 @@ Value model_called(const std::string& name) {
         names.push_back(text_of(*model.table()->find("name")));
         if (names.back() == name) return model;
     }
-    const std::string near = did_you_mean(name, names);
+    const std::string known = simulator_name_hint(name, names);
+    const std::string near = known.empty() ? did_you_mean(name, names) : known;
     throw std::invalid_argument(
         fmt::format("unknown propagation model \"{}\"; expected one of {}{}{}", name,
                     fmt::join(names, ", "), near.empty() ? "" : "; ", near));

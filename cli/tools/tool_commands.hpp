@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cli/terminal/command_line.hpp"
 #include "cli/terminal/commands.hpp"
 #include "study/validation/flood_bench.hpp"
 
@@ -46,7 +47,9 @@ struct ValidateArguments {
 void validate(const ValidateArguments& arguments);
 
 struct HelpArguments {
-    std::optional<std::string> topic;  ///< name of a page without its ending; none: list of pages
+    /// Name of a page without its ending, or words to search for; empty: list of pages.
+    std::vector<std::string> words;
+    std::optional<Command> program;  ///< for the names of the commands
 };
 void help(const HelpArguments& arguments);
 

@@ -176,8 +176,10 @@ void Lockstep::handle(Connection from, StepRequest& step) {
     }
     for (const auto& [robot, command] : step.commands) {
         const std::string why = session_->why_not(robot, command);
-        if (!why.empty())
-            throw RequestError("no_room", "do." + session_->network().name(robot) + ".place", why);
+        if (why.empty()) continue;
+        throw RequestError(
+            "no_room", fmt::format("do.{}.{}", session_->network().name(robot), name_of(command)),
+            why);
     }
     controller.ask(*session_, step);
 }

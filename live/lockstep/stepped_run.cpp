@@ -72,7 +72,7 @@ ScenarioRun& SteppedRun::run() const {
 void SteppedRun::command(std::size_t row, RobotCommand command) {
     check(command, name(row));
     const std::string why = session().why_not(robots_[row], command);
-    if (!why.empty()) throw std::invalid_argument("place: " + why);
+    if (!why.empty()) throw std::invalid_argument(fmt::format("{}: {}", name_of(command), why));
     if (const auto* send = std::get_if<SendCommand>(&command)) {
         if (send->to == robots_[row]) {
             throw std::invalid_argument("send: expected another robot, or none for everyone");

@@ -32,7 +32,10 @@ void RosRobots::take(NodeId robot) {
 std::optional<std::uint64_t> RosRobots::carry_out(NodeId robot, const RobotCommand& command,
                                                   Front::Connection by) {
     const std::string why = session_.why_not(robot, command);
-    if (!why.empty()) throw RequestError("no_room", "args.pose.position", why);
+    if (!why.empty()) {
+        const bool is_topic = std::holds_alternative<GoalCommand>(command);
+        throw RequestError("no_room", is_topic ? "msg.pose.position" : "args.pose.position", why);
+    }
     take(robot);
     if (is_movement(command)) drivers_[robot] = by;
     return session_.carry_out(clients_.at(robot), robot, command, ++commands_);

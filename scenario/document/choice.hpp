@@ -27,8 +27,8 @@ struct ChoiceHelp {
 /// @param key  name of the value's key, for the error message
 /// @return index of the word in `choices`
 /// @throws InputError for an unknown word; the message lists all choices and suggests the most
-///         similar one. A word that differs from the unknown word in a digit (ns2, ns3) is not
-///         suggested
+///         similar one, also by names of other simulators (simulator_names.hpp). A word that
+///         differs from the unknown word in a digit (ns2, ns3) is not suggested
 std::size_t read_choice(const Value& value, std::string_view key,
                         const std::vector<std::string>& choices, const ChoiceHelp& help);
 

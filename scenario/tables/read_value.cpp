@@ -2,6 +2,7 @@
 #include "scenario/tables/read_value.hpp"
 
 #include "scenario/document/choice.hpp"
+#include "scenario/document/simulator_names.hpp"
 
 #include <fmt/format.h>
 
@@ -65,6 +66,8 @@ std::string choice_meant(std::string_view word, const std::vector<std::string>& 
         const bool is_listed = std::find(choices.begin(), choices.end(), meant) != choices.end();
         if (is_listed) return fmt::format("did you mean \"{}\"?", meant);
     }
+    const std::string known = simulator_name_hint(word, choices);
+    if (!known.empty()) return known;
     const std::string number = designation(word);
     std::vector<std::string> possible;
     for (const std::string& choice : choices)

@@ -112,6 +112,46 @@ class Steps(unittest.TestCase):
         session.step()
         np.testing.assert_allclose(session.pose[0, :2], [1.2, 1.6], atol=1e-9)
 
+    def test_an_argument_of_a_wrong_type_is_named_with_what_was_expected(self):
+        session = rn.Session(RESCUE, step=1)
+        robot = r'robot: expected the name of a robot, such as "A"'
+        for call, why in (
+                (lambda: session.go_to(0, (1, 2)), robot + ", got 0"),
+                (lambda: session.neighbors(0), robot),
+                (lambda: session.scan(0), robot + ", or None, got 0"),
+                (lambda: session.go_to("A", "1,2"), r"to: expected a place \(x, y\) or \(x, y, z\) in metres, got '1,2'"),
+                (lambda: session.go_to("A", (1, 2), speed="1 m/s"),
+                 "speed: expected a number of metres per second, got '1 m/s'"),
+                (lambda: session.place("A", "1 m", 2), "x: expected a number of metres, got '1 m'"),
+                (lambda: session.drive(np.zeros((5, 2)), timeout="1 s"), "timeout: expected a number of seconds, or None"),
+                (lambda: session.send("A", "hello"), "data: expected bytes, such as b\"F\", got 'hello'"),
+                (lambda: session.send("A", b"F", to=1), "to: expected the name of a robot"),
+                (lambda: session.command("A", v="1 m/s"), "v: expected a number, got '1 m/s'"),
+                (lambda: session.command("A", place=3), "place: expected a place"),
+                (lambda: session.reset(-1), "seed: expected a whole number >= 0, or None, got -1"),
+                (lambda: rn.Session(RESCUE, step="100 ms"), "step: expected a number of seconds, got '100 ms'"),
+                (lambda: rn.Session(RESCUE, robots="A"), r'robots: expected a list of names, such as \["A", "B"\], or None'),
+                (lambda: rn.run(RESCUE, records="received"), "records: expected a list of kinds of records"),
+                (lambda: rn.run(None), "scenario: expected the path of a file or a dict, got None"),
+                (lambda: rn.run(RESCUE, out=3), "out: expected the path of a folder, or None, got 3"),
+                (lambda: session.go_to("A", list(range(1000)) + ["x"]), r"got \[0, 1, 2, [0-9, ]+\.\.\.$")):
+            with self.assertRaisesRegex(TypeError, why):
+                call()
+        with self.assertRaisesRegex(ValueError, 'there is no robot "a"; .*; did you mean "A"'):
+            session.go_to("a", (1, 2))
+        with self.assertRaisesRegex(ValueError, "command: found vv, w; expected v, w, timeout; or goal"):
+            session.command("A", vv=1, w=2)
+
+    def test_a_goal_off_the_map_is_an_error_with_the_extent_of_the_map(self):
+        session = rn.Session(RESCUE, robots=["A"], step=1)
+        why = r"goal: \(48.1, 12\) m is off the map, which goes from \(0, 0\) to \(48, 24\) m"
+        with self.assertRaisesRegex(ValueError, why):
+            session.go_to("A", (48.1, 12))
+        with self.assertRaisesRegex(ValueError, why):
+            session.command("A", goal=[48.1, 12])
+        open_field = rn.Session(still(1), step=1)
+        open_field.go_to("r0", (1e6, -1e6))
+
     def test_a_place_without_room_is_an_error_and_a_goal_without_a_way_is_told(self):
         session = rn.Session(RESCUE, robots=["A", "B"], step=1)
         for x, y, why in ((-5, 3, r"off the map, which goes from \(0, 0\) to \(48, 24\) m"),

@@ -8,6 +8,7 @@
 #include "scenario/document/toml.hpp"
 #include "scenario/memory.hpp"
 #include "scenario/scenario_file.hpp"
+#include "scenario/unlikely_walls.hpp"
 #include "test/scene/drawn_map.hpp"
 #include "test/scene/png_writer.hpp"
 #include "test/scene/temporary_folder.hpp"
@@ -152,6 +153,37 @@ TEST_CASE("unlikely: a metre-thick wall without a material gives a notice with r
     const std::string given =
         "[scene.materials]\nshelf = { greys = [0, 100], per_crossing = \"3 dB\" }\n";
     CHECK(notices_of(on_map + given + robot + rays).empty());
+}
+
+TEST_CASE("unlikely: a thick wall without a material gives a notice with multi_wall") {
+    // A block 0.9 m thick in cells of 10 cm; on_map has cells of 1 m, and no thinner walls.
+    const TemporaryFolder folder;
+    test::PngPicture picture{.width = 40, .height = 20, .rows = {}};
+    picture.rows.assign(20, std::vector<std::uint8_t>(40, 255));
+    for (auto& row : picture.rows) std::fill(row.begin() + 20, row.begin() + 29, std::uint8_t{0});
+    folder.write("block.png", test::png_bytes(picture));
+    const std::string map = "[scene]\nmap = \"block.png\"\nsize = [\"4 m\", \"2 m\"]\n";
+    const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"1 m\"]\n";
+    const std::string walls = "model = \"multi_wall\"\n";
+    const auto notices = [&](const std::string& text) { return loaded(folder, text).notices; };
+    const auto noticed =
+        notices(map + robot + "[propagation]\n" + walls + "heavy_wall = \"9 dB\"\n");
+    REQUIRE(noticed.size() == 1);
+    CAPTURE(noticed[0]);
+    for (const char* part :
+         {":7:1: the wall drawn behind x = ", "is thicker than 0.8 m",
+          "(walls of this scene: up to 0.9 m)", "the loss of one wall, 9 dB, at any thickness"})
+        CHECK(noticed[0].find(part) != std::string::npos);
+    const std::string own = "propagation = { model = \"multi_wall\" }\n";
+    const auto of_robot = notices(map + robot + own);
+    REQUIRE(of_robot.size() == 1);
+    CHECK(of_robot[0].find(":7:15: the wall drawn") != std::string::npos);
+    const std::string given =
+        "[scene.materials]\nshelf = { greys = [0, 100], per_crossing = \"3 dB\" }\n";
+    CHECK(notices(map + given + robot + own).empty());
+    CHECK(notices(robot + own).empty());
+    CHECK(notices_of(on_map + "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n" + own)
+              .empty());
 }
 
 TEST_CASE("unlikely: a coefficient N that already includes walls gives a notice with a map") {

@@ -58,6 +58,27 @@ TEST_CASE("results: by default a row is one point, with mean and interval") {
     CHECK(std::abs(*list[2].low - (101 - half)) < rounding);
 }
 
+TEST_CASE("results: the error for a value of no point lists the values in the study's order") {
+    const TemporaryFolder folder;
+    Store store = Store::open_to_write(folder.path("s.db"));
+    std::vector<StoredPoint> points;
+    for (const char* robots : {"2", "10", "100", "30"}) {
+        for (const char* speed : {"9 m/s", "10 m/s"}) {
+            Table settings;
+            settings.set("robot.r.count", std::string(robots));
+            settings.set("speed", std::string(speed));
+            const auto number = static_cast<std::uint32_t>(points.size());
+            points.push_back({number, std::to_string(number), settings});
+        }
+    }
+    store.set_points(points);
+    CHECK_THROWS_WITH_AS(points_where(store, {{"robot.r.count", "3"}}),
+                         "no point has robot.r.count = 3; there are 2, 10, 100, 30",
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(points_where(store, {{"robot.r.count", "2"}, {"speed", "1"}}),
+                         "no point has speed = 1; there are 9 m/s, 10 m/s", std::invalid_argument);
+}
+
 TEST_CASE("results: a ratio has an interval by STaR-Bets within its bounds, or t on request") {
     const TemporaryFolder folder;
     Store store = Store::open_to_write(folder.path("s.db"));

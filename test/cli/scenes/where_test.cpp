@@ -102,4 +102,36 @@ TEST_CASE(
     CHECK(command(folder, {"where", folder.path("pair.toml"), "--robot", "C"}).exit == 2);
 }
 
+TEST_CASE("where: the path of a robot that patrols ends with the time of a round") {
+    const TemporaryFolder folder;
+    const std::string path = folder.write("patrol.toml", R"([scenario]
+duration = "100 s"
+[[robot]]
+name = "A"
+at = ["0 m", "5 m"]
+turn_rate = "90 deg/s"
+move = { model = "patrol", path = [["0 m", "0 m"], ["10 m", "0 m"], ["0 m", "0 m"], ["0 m", "5 m"]], speed = "2 m/s" }
+)");
+    // 30 m at 2 m/s. The robot turns by 90, 180, 90 and 180 degrees; at the start by 90 degrees.
+    const std::vector<std::string> asked = {"where", path, "--robot", "A"};
+    CHECK(
+        command(folder, asked)
+            .out.ends_with(
+                "a round of the patrol, through all 4 places, takes 21.000000 s (the last one from "
+                "62.000000 s on)\n"));
+    CHECK(near(json_of(folder, asked)["round_s"], 21, 1e-9));
+    const auto with = [&](const std::string& setting) {
+        std::vector<std::string> words = asked;
+        words.insert(words.end(), {"--set", setting});
+        return command(folder, words).out;
+    };
+    // From elsewhere a round begins at the first place, here after a turn by 90 degrees and 6 m.
+    const std::string place = "robot.A.at=[\"0 m\", \"-6 m\"]";
+    CHECK(with(place).ends_with("takes 21.000000 s (the last one from 67.000000 s on)\n"));
+    CHECK(with("scenario.duration=\"20 s\"")
+              .ends_with("takes 20.000000 s (the last one from 0.000000 s on)\n"));
+    CHECK(with("scenario.duration=\"19.9 s\"").find("round") == std::string::npos);
+    CHECK(command(folder, {"where", path, "--at", "9s"}).out.find("round") == std::string::npos);
+}
+
 }  // namespace where_test

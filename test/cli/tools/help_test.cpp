@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "test/cli/process.hpp"
 
+#include <algorithm>
 #include <string>
 
 namespace help_test {
@@ -30,12 +31,38 @@ TEST_CASE("help: lists the pages by folder, and prints a page without its hidden
     CHECK(!has(page.out, "-->\n"));
 }
 
-TEST_CASE("help: an unknown topic is an error that suggests the nearest topic") {
+TEST_CASE("help: words that are no topic are searched for, and a page named so comes first") {
+    const TemporaryFolder folder;
+    const Ended fading = command(folder, {"help", "Fading"});
+    CHECK(fading.exit == 0);
+    CHECK(fading.out.starts_with(
+        "Pages with \"Fading\", the best first:\n  variation          Shadowing, fading and"));
+    CHECK(fading.out.ends_with("\nrovernet help variation prints the first one.\n"));
+    const Ended lost = command(folder, {"help", "why are", "messages lost"});
+    CHECK(has(lost.out, "Pages with \"why are messages lost\", the best first:\n  traces "));
+    CHECK(std::count(lost.out.begin(), lost.out.end(), '\n') == 9);  // six pages
+    const Ended only = command(folder, {"help", "OLSR"});
+    CHECK(has(only.out, "  not-there          What is not there\n"));
+}
+
+TEST_CASE("help: words may name a topic, and a command refers to its --help") {
+    const TemporaryFolder folder;
+    CHECK(command(folder, {"help", "first", "run"}).out.starts_with("# Your first run\n"));
+    CHECK(command(folder, {"help", ""}).out == command(folder, {"help"}).out);
+    CHECK(command(folder, {"help", "run"})
+              .out.starts_with("rovernet run --help explains this command.\n"));
+}
+
+TEST_CASE("help: an unknown topic without a page that has the words suggests the nearest topic") {
     const TemporaryFolder folder;
     const Ended ended = command(folder, {"help", "frist-run"});
     CHECK(ended.exit == 2);
-    CHECK(has(ended.err, "there is no topic \"frist-run\"; did you mean \"first-run\"?"));
+    CHECK(has(ended.err,
+              "there is no topic \"frist-run\", and no page has this word; did you mean "
+              "\"first-run\"?"));
     CHECK(ended.out.empty());
+    CHECK(has(command(folder, {"help", "xyzzy", "plugh"}).err,
+              "no page has one of these words; rovernet help lists all topics"));
 }
 
 }  // namespace help_test

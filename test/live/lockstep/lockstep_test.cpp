@@ -307,7 +307,8 @@ TEST_CASE("lockstep: a robot is placed elsewhere, at rest, with a given or its o
 }
 
 TEST_CASE(
-    "lockstep: a place without room is an error; a goal without a path is reported in the state") {
+    "lockstep: a place without room and a goal off the map are errors; a goal without a path is "
+    "reported in the state") {
     Talk talk(load_scenario(ROVERNET_EXAMPLES "/rescue/rescue.toml", {}));
     talk.say(0, hello_a);
     for (const char* place : {"[-5,3]", "[24,100]", "[2,6]"}) {
@@ -315,6 +316,9 @@ TEST_CASE(
             talk.ask(0, step(1, std::string(R"(,"do":{"A":{"place":)") + place + "}}"));
         CHECK(fault(answer) == "no_room do.A.place");
     }
+    const std::string off = talk.ask(0, step(1, R"(,"do":{"A":{"goal":[448,12]}})"));
+    CHECK(fault(off) == "no_room do.A.goal");
+    CHECK(off.find("(448, 12) m is off the map, which goes from (0, 0) to (48, 24) m") != off.npos);
     const auto has_no_way = [](const std::string& answer) {
         return Json::parse(answer).at("robots").at("A").at("no_way").get<bool>();
     };

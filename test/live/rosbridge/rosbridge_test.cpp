@@ -326,6 +326,15 @@ TEST_CASE("rosbridge: a robot goes to a goal, and is placed elsewhere") {
     CHECK(std::abs(talk.session.network().heading({0}).value - std::numbers::pi / 2) < exact);
 }
 
+TEST_CASE("rosbridge: a goal off the map is answered with a status, with the extent of the map") {
+    RosTalk talk(office());
+    const auto told = talk.ask(
+        R"({"op":"publish","topic":"/A/goal_pose","msg":{"pose":{"position":{"x":448,"y":12}}}})");
+    REQUIRE(told.size() == 1);
+    CHECK(told[0]["msg"] ==
+          "msg.pose.position: (448, 12) m is off the map, which goes from (0, 0) to (48, 24) m");
+}
+
 TEST_CASE("rosbridge: a robot climbs stairs, and odometry and transforms have its height") {
     RosTalk talk(load_scenario(ROVERNET_EXAMPLES "/storeys/storeys.toml", {}));
     const NodeId courier = *talk.session.network().find("courier");
