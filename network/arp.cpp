@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "network/arp.hpp"
 
-#include "network/arp_packet.hpp"
 #include "network/world.hpp"
+#include "routing/arp_packet.hpp"
 
 #include <algorithm>
 #include <utility>

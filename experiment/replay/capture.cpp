@@ -5,7 +5,7 @@
 #include "experiment/replay/recorded_air.hpp"
 #include "experiment/reports/link_table.hpp"
 #include "experiment/reports/range_of_model.hpp"
-#include "network/arp_packet.hpp"
+#include "routing/arp_packet.hpp"
 #include "traces/pcapng/wifi_packet.hpp"
 
 #include <charconv>

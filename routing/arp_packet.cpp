@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "network/arp_packet.hpp"
+#include "routing/arp_packet.hpp"
 
 #include "routing/big_endian.hpp"
 
