@@ -60,8 +60,7 @@ const charts = (() => {
             if (begins) c.moveTo(x, y); else c.lineTo(x, y);
             c.lineTo(to_x((i + 1) * curve.width) + (begins && !Number.isFinite(curve.values[i + 1]) ? 2 : 0), y);
         }
-        c.strokeStyle = curve.color();
-        c.lineWidth = 1.5;
+        pen.take(c, curve.color(), 1.5);
         c.stroke();
     }
 
@@ -71,18 +70,14 @@ const charts = (() => {
         const scale = chart.unit === "s" ? most : Math.ceil(most / step - 1e-9) * step, colors = theme.colors(), { from, to } = span();
         /** @param {number} v */
         const to_y = v => height - axis - v / scale * (height - axis - top);
-        c.font = `10px ${robots.font}`;
+        c.font = pen.font(10);
         c.textBaseline = "middle";
         c.fillStyle = colors.muted;
-        c.strokeStyle = colors.faint;
-        c.lineWidth = 1;
         c.textAlign = "right";
         for (let v = 0; v <= scale * 1.001; v += step) {
             const y = Math.round(to_y(v)) + 0.5;
-            c.beginPath();
-            c.moveTo(left, y);
-            c.lineTo(wide, y);
-            c.stroke();
+            pen.take(c, colors.faint, 1);
+            pen.line(c, left, y, wide, y);
             c.fillText(text(v, chart.unit === "s" ? "s" : "").replace(/^0(?![.,]).*/, "0"), left - 4, y);
         }
         c.textAlign = "center";

@@ -60,7 +60,8 @@ const compare = (() => {
             dom.make("p", "muted", "A delivery is one message at one robot."),
             dom.make("h3", "", told.gained + told.lost > rows.length ? `The first ${rows.length} differences` : "Differences"), dom.make("ul", "plain", ...rows),
             dom.make("h3", "", "First record that differs"),
-            ...(first ? [dom.make("p", "", `It differs in: ${first.field}`), dom.facts([["run A", code(first.a)], ["run B", code(first.b)]])] : [dom.make("p", "", "None: all records are equal.")]));
+            ...(first ? [dom.make("p", "", `It differs in: ${first.field}`), dom.facts([["run A", code(first.a)], ["run B", code(first.b)]])] : [dom.make("p", "", "None: all records are equal.")]),
+            dom.make("h3", "", "Runs"), dom.facts(sides.own.all.map(side => [side.label, sides.counts(side.run.head).join(", ")])));
     }
 
     /** Takes the message chosen: who gains or loses it, and its way in the run that the panels do not tell of. @param {State} state */
@@ -85,8 +86,7 @@ const compare = (() => {
 
     /** @param {CanvasRenderingContext2D} c @param {number} x @param {number} y @param {number} gained */
     function sign(c, x, y, gained) {
-        c.beginPath();
-        c.arc(x, y, 6.5, 0, 2 * Math.PI);
+        pen.circle(c, x, y, 6.5);
         c.fillStyle = color(gained);
         c.fill();
         c.fillStyle = theme.colors().paper;
