@@ -48,5 +48,5 @@ const camera = (() => {
         return ([5, 2, 1].find(digit => digit * power <= v) ?? 1) * power;
     }
 
-    return { now, whole, aim, to_x, to_y, from_x, from_y, zoomed, moved, round_number };
+    return { now, aim, to_x, to_y, from_x, from_y, zoomed, moved, round_number };
 })();

@@ -126,7 +126,7 @@ const coverage = (() => {
     function legend(item) {
         const h = own.heat;
         if (!h) return [];
-        const who = words.short(h.run.name(h.robot), 24), when = `at ${words.seconds(h.t, 3)} s`, ends = `${words.number(h.low)} to ${words.number(h.high)}`;
+        const who = h.run.label(h.robot), when = `at ${words.seconds(h.t, 3)} s`, ends = `${words.number(h.low)} to ${words.number(h.high)}`;
         const bar = item(90, c => {
             for (let x = 0; x < 90; x++) {
                 c.fillStyle = theme.on_scale(scale(h), x / 89);

@@ -66,5 +66,5 @@ const files = (() => {
         }, error => controls.say(error.message));
     }
 
-    return { picture, drawing, table, rows };
+    return { picture, drawing, table };
 })();

@@ -193,7 +193,7 @@ const main = (() => {
         seek: clock.seek,
         select: selection.set,
         /** @param {number} robot */
-        position(robot) { return own.run?.pose(robot, selection.state.t, { x: 0, y: 0, z: 0, vx: 0, vy: 0, heading: 0 }); },
+        position(robot) { return own.run?.pose(robot, selection.state.t); },
         list: list.seen,
         density: timeline.columns,
         charts: charts.values, levels: coverage.levels,

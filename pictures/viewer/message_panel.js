@@ -8,7 +8,7 @@ const message_panel = (() => {
 
     /** @param {number} robot */
     function robot_button(robot) {
-        return dom.button(words.short(own.run.name(robot), 24), "link", () => selection.choose(robot));
+        return dom.button(own.run.label(robot), "link", () => selection.choose(robot));
     }
 
     /** Why a robot does not have the message, as far as the page knows. @param {Flood} flood @param {number} robot */
@@ -131,7 +131,7 @@ const message_panel = (() => {
         const r = own.run, missed = [...new Set(r.head.follow.map(a => a.message))].slice(0, 20);
         const some = missed.length ? missed : Array.from({ length: Math.min(20, r.messages) }, (_, i) => i);
         if (some.length === 0) return [dom.make("p", "", "No message was sent in this run.")];
-        const rows = some.map(message => dom.make("li", "", dom.button(`${r.message_text(message)} of ${words.short(r.name(r.col("messages.origin")[message]), 24)}`, "link",
+        const rows = some.map(message => dom.make("li", "", dom.button(`${r.message_text(message)} of ${r.label(r.col("messages.origin")[message])}`, "link",
             () => selection.set({ message, t: r.col("messages.created")[message] })), dom.make("span", "muted", ` at ${words.seconds(r.col("messages.created")[message], 3)} s`)));
         return [dom.make("p", "", "Choose a message: here, by a double click in the list of events, or by its number in the search."),
             dom.make("h3", "", missed.length ? "Messages that somebody missed" : "The first messages"), dom.make("ul", "plain", ...rows)];

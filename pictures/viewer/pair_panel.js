@@ -44,13 +44,13 @@ const pair_panel = (() => {
         }
         const answer = dom.make("div", "");
         answer.id = "pair-answer";
-        panel.replaceChildren(dom.make("h2", "", `${words.short(own.run.name(a), 24)} and ${words.short(own.run.name(b), 24)}`), between(a, b, state.t),
+        panel.replaceChildren(dom.make("h2", "", `${own.run.label(a)} and ${own.run.label(b)}`), between(a, b, state.t),
             server.is_served() ? dom.make("p", "actions", dom.button("budget at this time", "", () => ask(a, b))) : dom.make("p", "muted", server.how), answer);
     }
 
     /** What the page itself knows of two robots. @param {number} a @param {number} b @param {number} t */
     function between(a, b, t) {
-        const r = own.run, p = r.pose(a, t, { x: 0, y: 0, z: 0, vx: 0, vy: 0, heading: 0 }), q = r.pose(b, t, { x: 0, y: 0, z: 0, vx: 0, vy: 0, heading: 0 });
+        const r = own.run, p = r.pose(a, t), q = r.pose(b, t);
         return dom.facts([["apart", `${Math.hypot(p.x - q.x, p.y - q.y, p.z - q.z).toFixed(2)} m at ${words.seconds(t, 3)} s`]]);
     }
 
@@ -58,7 +58,7 @@ const pair_panel = (() => {
     function draw(c, i, state) {
         const link = own.links[i]?.[0];
         if (!link || state.panel !== "pair") return;
-        const [a, b] = own.robots.map(robot => sides.own.all[i].run.pose(robot, own.t, { x: 0, y: 0, z: 0, vx: 0, vy: 0, heading: 0 }));
+        const [a, b] = own.robots.map(robot => sides.own.all[i].run.pose(robot, own.t));
         const x0 = camera.to_x(a.x), y0 = camera.to_y(a.y), x1 = camera.to_x(b.x), y1 = camera.to_y(b.y);
         const color = theme.readable(theme.on_scale(signs.look.colors.ember, 0.5));
         /** @param {number} from @param {number} to shares of the way @param {number} width */

@@ -77,7 +77,7 @@ const robot_panel = (() => {
         own.messages = key;
         const r = own.run, rows = some.map(message => dom.make("li", "",
             dom.button(r.message_text(message), "link", () => selection.set({ message, panel: "message" })),
-            dom.make("span", "muted", ` of ${words.short(r.name(r.col("messages.origin")[message]), 20)}, ${words.seconds(r.col("messages.created")[message], 3)} s`)));
+            dom.make("span", "muted", ` of ${r.label(r.col("messages.origin")[message], 20)}, ${words.seconds(r.col("messages.created")[message], 3)} s`)));
         dom.by_id("robot-messages").replaceChildren(...(rows.length ? rows : [dom.make("li", "muted", "none until now")]));
     }
 
@@ -116,7 +116,7 @@ const robot_panel = (() => {
         const actions = dom.make("p", "actions", dom.button("its events", "", () => selection.set({ filter: { ...selection.state.filter, robot }, panel: "events" })),
             own.covers = dom.button("coverage", "", () => coverage.toggle(robot)));
         if (server.is_served()) actions.append(coverage.choice());
-        dom.by_id("robot-panel").replaceChildren(dom.make("h2", "", words.short(own.run.name(robot), 60)), place, actions,
+        dom.by_id("robot-panel").replaceChildren(dom.make("h2", "", own.run.label(robot, 60)), place, actions,
             ...drive.parts(robot), dom.make("h3", "", live.is_live() ? "Until now" : "In the whole run"), counters(robot),
             dom.make("h3", "", "Radio"), dom.facts(radio(robot)), ...asked("Neighbours", "robot-neighbours", "robot", robot, neighbours),
             ...asked("Air", "robot-air", "air", robot, answer => dom.facts(facts_of_air(answer))),

@@ -99,7 +99,7 @@ const robots = (() => {
         const size = shown.length > 60 ? 9 : 12;
         for (const i of shown) {
             const { [i]: x } = at.x, { [i]: y } = at.y, reach = radius(r, i) + beyond + 4, high = reach + size / 2;
-            pen.label(c, words.short(r.name(i), 24), size, theme.colors().ink, width =>
+            pen.label(c, r.label(i), size, theme.colors().ink, width =>
                 [[x + reach, y], [x - reach - width, y], [x - width / 2, y - high], [x - width / 2, y + high]]);
         }
     }
@@ -122,7 +122,7 @@ const robots = (() => {
             c.closePath();
             pen.take(c, color, 1.2);
             c.stroke();
-            if (++named <= most_named / 4) pen.label(c, `${words.short(r.name(i), 24)}, storey ${at.storey[i] + 1}`, 10, color, width => [[at.x[i] + reach, at.y[i]], [at.x[i] - reach - width, at.y[i]]]);
+            if (++named <= most_named / 4) pen.label(c, `${r.label(i)}, storey ${at.storey[i] + 1}`, 10, color, width => [[at.x[i] + reach, at.y[i]], [at.x[i] - reach - width, at.y[i]]]);
         }
     }
 

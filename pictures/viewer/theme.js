@@ -82,5 +82,5 @@ const theme = (() => {
         for (const wish of [dark_wanted, still_wanted]) wish?.addEventListener("change", then);
     }
 
-    return { is_dark, is_still, colors, readable, wall, category, on_scale, channels, contrast, on_change };
+    return { is_dark, is_still, colors, readable, wall, category, on_scale, channels, on_change };
 })();

@@ -90,7 +90,7 @@ const timeline = (() => {
         const rows = [0], height = 14, room = Math.floor((own.height - axis - own.top) / height);
         for (const [block, i] of found) {
             const x = to_x(block.start[i]), w = Math.max(2, to_x(block.end(i)) - x);
-            const name = words.short(own.run.name(block.sender[i]), 20), text = c.measureText(name).width + 6, inside = text <= w;
+            const name = own.run.label(block.sender[i], 20), text = c.measureText(name).width + 6, inside = text <= w;
             let row = rows.findIndex(until => until <= x);
             if (row < 0) row = rows.length < room ? rows.length : 0;
             rows[row] = x + (inside ? w : w + text) + 2;
@@ -223,5 +223,5 @@ const timeline = (() => {
         return x >= 0 && x <= own.width ? x : own.width / 2;
     }
 
-    return { begin, show, draw, zoom, middle, keep, resize, columns, level };
+    return { begin, show, draw, zoom, middle, keep, resize, span, columns };
 })();
