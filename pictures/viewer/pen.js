@@ -49,7 +49,7 @@ const pen = (() => {
             const [top, right, bottom] = [y - half, x + width, y + half];
             if (x < 0 || top < 0 || right > map.width || bottom > map.height || taken.some(b => x < b[2] && right > b[0] && top < b[3] && bottom > b[1])) continue;
             taken.push([x, top, right, bottom]);
-            take(c, theme.colors().paper, 5);
+            take(c, theme.colors().paper, 6);
             c.strokeText(text, x, y);
             c.fillStyle = color;
             c.fillText(text, x, y);
