@@ -103,5 +103,5 @@ const address = (() => {
     /** A run that goes on has more messages. @param {Run} r */
     function grown(r) { if (awaited >= 0 && awaited < r.messages) selection.set({ message: awaited }); }
 
-    return { begin, text, grown };
+    return { begin, grown };
 })();

@@ -18,15 +18,12 @@ const antennas = (() => {
         for (const i of state.robots) {
             const pattern = gains(r, i), { [i]: x } = robots.at.x, { [i]: y } = robots.at.y;
             if (!pattern || robots.at.storey[i] !== state.storey) continue;
-            c.strokeStyle = theme.colors().muted;
-            c.lineWidth = 0.5;
+            pen.take(c, theme.colors().muted, 0.5);
             for (let db = 0; db > least_db; db -= ring_db) {
-                c.beginPath();
-                c.arc(x, y, reach(db), 0, 2 * Math.PI);
+                pen.circle(c, x, y, reach(db));
                 c.stroke();
             }
-            c.strokeStyle = c.fillStyle = theme.readable(theme.colors().accent);
-            c.lineWidth = 1.5;
+            pen.take(c, c.fillStyle = theme.colors().accent, 1.5);
             c.beginPath();
             pattern.forEach((db, k) => {
                 const angle = robots.at.heading[i] + 2 * Math.PI * k / pattern.length;
@@ -44,8 +41,7 @@ const antennas = (() => {
     function legend(item, r, state) {
         if (!state.robots.some(i => gains(r, i))) return [];
         return [item(18, c => {
-            c.strokeStyle = theme.readable(theme.colors().accent);
-            c.lineWidth = 1.5;
+            pen.take(c, theme.colors().accent, 1.5);
             c.beginPath();
             c.ellipse(10, 8, 7, 4, 0, 0, 2 * Math.PI);
             c.stroke();

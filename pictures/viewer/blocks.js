@@ -1,54 +1,38 @@
 // SPDX-License-Identifier: MIT
 // Frames and their receptions: blocks that are unpacked when they are needed.
-/** @typedef {InstanceType<typeof blocks.Block>} Block */
+/** @typedef {"start"|"airtime"|"sender"|"to"|"message"|"kind"|"ttl"|"hops"|"queue"|"robot"|"outcome"} BlockColumn */
+/** @typedef {Record<BlockColumn, Numbers> & {number: number, first: Uint32Array, flights: number, longest: number, end: (flight: number) => number}} Block */
 /** @typedef {InstanceType<typeof blocks.Blocks>} Blocks */
 const blocks = (() => {
     "use strict";
     const most_kept = 8, small = 16384, most_grown = 2e7;  // blocks, receptions
 
-    /** Frames of a part of the run, in order of their start. Frame i has the receptions first[i] to first[i + 1]. */
-    class Block {
-        /** @param {number} number @param {Numbers[]} c @param {Uint32Array} first */
-        constructor(number, c, first) {
-            this.number = number;
-            const none = new Uint8Array(0);
-            this.start = c[0] ?? none;
-            this.airtime = c[1] ?? none;
-            this.sender = c[2] ?? none;
-            this.to = c[3] ?? none;
-            this.message = c[4] ?? none;
-            this.kind = c[5] ?? none;
-            this.ttl = c[6] ?? none;
-            this.hops = c[7] ?? none;
-            this.robot = c[9] ?? none;
-            this.outcome = c[10] ?? none;
-            this.queue = c[11] ?? none;
-            this.first = first;
-            this.flights = this.start.length;
-            this.longest = 0;
-            for (const airtime of this.airtime) if (airtime > this.longest) this.longest = airtime;
-        }
-        /** @param {number} flight */
-        end(flight) { return this.start[flight] + this.airtime[flight]; }
-    }
+    const of_flights = ["start", "airtime", "sender", "to", "message", "kind", "ttl", "hops"], of_receptions = ["robot", "outcome"];
+    const queue = "queue";  // of flights, not in every run
 
-    const names = ["flights.start", "flights.airtime", "flights.sender", "flights.to", "flights.message", "flights.kind",
-        "flights.ttl", "flights.hops", "flights.count", "receptions.robot", "receptions.outcome"];
-    const queue = "flights.queue";  // not in every run
+    /** Frames of a part of the run, in order of their start. Frame i has the receptions first[i] to first[i + 1]. @param {number} number @param {(name: string) => Numbers} column @param {Uint32Array} first @returns {Block} */
+    function block_of(number, column, first) {
+        const columns = /** @type {Record<BlockColumn, Numbers>} */ (Object.fromEntries([...of_flights, queue, ...of_receptions].map(name => [name, column(name)])));
+        const { start, airtime } = columns;
+        let longest = 0;
+        for (const time of airtime) if (time > longest) longest = time;
+        return { ...columns, number, first, flights: start.length, longest, end: flight => start[flight] + airtime[flight] };
+    }
 
     /** @param {Run} r @param {number} number */
     async function read(r, number) {
-        const there = r.file.sections.has(`${number}/${queue}`) ? [...names, queue] : names;
-        const columns = await Promise.all(there.map(name => rvw.column(r.file, `${number}/${name}`)));
-        const flights = columns[0]?.length ?? 0, count = columns[8] ?? new Uint32Array(0);
-        if ([...columns.slice(1, 9), ...columns.slice(11)].some(c => c.length !== flights)) rvw.damaged(`block ${number} has frames of different numbers.`);
-        const first = new Uint32Array(flights + 1);
+        /** @type {Map<string, Numbers>} */ const columns = new Map(), none = new Uint8Array(0);
+        /** @param {string} part @param {string[]} names */
+        const get = (part, names) => Promise.all(names.map(async name => columns.set(name, await rvw.column(r.file, `${number}/${part}.${name}`))));
+        const there = [...of_flights, "count", ...r.file.sections.has(`${number}/flights.${queue}`) ? [queue] : []];
+        await Promise.all([get("flights", there), get("receptions", of_receptions)]);
+        const count = columns.get("count") ?? none, flights = count.length, first = new Uint32Array(flights + 1);
+        if (there.some(name => columns.get(name)?.length !== flights)) rvw.damaged(`block ${number} has frames of different numbers.`);
         for (let i = 0; i < flights; i++) first[i + 1] = first[i] + count[i];
-        const receptions = columns[9]?.length ?? 0;
-        if (first[flights] !== receptions || columns[10]?.length !== receptions) {
+        if (of_receptions.some(name => columns.get(name)?.length !== first[flights])) {
             rvw.damaged(`block ${number} has another number of receptions than its frames.`);
         }
-        const block = new Block(number, columns, first);
+        const block = block_of(number, name => columns.get(name) ?? none, first);
         run.check_below(block.sender, r.robots, "flights.sender");
         run.check_below(block.kind, r.head.frame_kinds.length, "flights.kind");
         run.check_below(block.robot, r.robots, "receptions.robot");
@@ -58,18 +42,15 @@ const blocks = (() => {
 
     /** Block with the frames of another one behind its own. @param {Block} one @param {Block} more */
     function joined(one, more) {
-        /** @param {Numbers} a @param {Numbers} b */
-        const both = (a, b) => {
-            const out = new (/** @type {any} */ (b.constructor))(a.length + b.length);
-            out.set(a);
-            out.set(b, a.length);
-            return out;
-        };
         const n = one.robot.length, first = new Uint32Array(one.first.length + more.flights);
         first.set(one.first);
         for (let i = 1; i <= more.flights; i++) first[one.flights + i] = n + more.first[i];
-        const columns = /** @type {const} */ (["start", "airtime", "sender", "to", "message", "kind", "ttl", "hops"]).map(name => both(one[name], more[name]));
-        return new Block(one.number, [...columns, first, both(one.robot, more.robot), both(one.outcome, more.outcome), both(one.queue, more.queue)], first);
+        return block_of(one.number, name => {
+            const a = one[/** @type {BlockColumn} */ (name)], b = more[/** @type {BlockColumn} */ (name)], out = new (/** @type {any} */ (b.constructor))(a.length + b.length);
+            out.set(a);
+            out.set(b, a.length);
+            return out;
+        }, first);
     }
 
     /** The blocks of a run; the last ones used are kept. */
@@ -85,6 +66,7 @@ const blocks = (() => {
             /** @type {(error: Error) => void} */ this.failed = () => {};
             /** Counts every block that has come. */ this.version = 0;
             /** Receptions of a run that goes on, all of which are here. */ this.grown = 0;
+            /** Begin of each block. @type {number[]} */ this.begins = this.info.map(info => info.begin_ns);
             /** Latest end of the blocks up to each. @type {number[]} */
             this.until = [];
             for (const info of this.info) this.until.push(Math.max(info.end_ns, this.until.at(-1) ?? 0));
@@ -121,7 +103,8 @@ const blocks = (() => {
             block.number = number;
             let end = 0;
             for (let i = 0; i < block.flights; i++) end = Math.max(end, block.end(i));
-            this.info[number] = { begin_ns: block.start[0] ?? 0, end_ns: end, flights: block.flights, receptions: block.robot.length };
+            this.begins[number] = block.start[0] ?? 0;
+            this.info[number] = { begin_ns: this.begins[number], end_ns: end, flights: block.flights, receptions: block.robot.length };
             this.until[number] = Math.max(end, this.until[number - 1] ?? 0);
             this.kept.set(number, block);
             for (const kind of block.kind) this.kinds.add(kind);
@@ -129,7 +112,7 @@ const blocks = (() => {
             this.grown += block.robot.length - (last?.number === number ? last.robot.length : 0);
             for (let n = 0; this.grown > most_grown && n < number; n++) {
                 this.grown -= this.kept.get(n)?.robot.length ?? 0;
-                this.kept.set(n, new Block(n, [], new Uint32Array(1)));
+                this.kept.set(n, block_of(n, () => new Uint8Array(0), new Uint32Array(1)));
             }
         }
 
@@ -142,12 +125,7 @@ const blocks = (() => {
 
         /** Block whose frames a time is among. @param {number} t */
         at(t) {
-            let low = 0, high = this.info.length;
-            while (low < high) {
-                const middle = (low + high) >>> 1;
-                if (this.info[middle].begin_ns <= t) low = middle + 1; else high = middle;
-            }
-            return Math.max(0, low - 1);
+            return Math.max(0, run.count_until(this.begins, t) - 1);
         }
 
         /** Queue of a robot when it last began to send, and that time. Searched in the block of the time, if it is there, and in the one before. @param {number} robot @param {number} t */
@@ -178,5 +156,5 @@ const blocks = (() => {
         }
     }
 
-    return { Block, Blocks, read };
+    return { Blocks, read };
 })();

@@ -3,7 +3,7 @@
 const camera = (() => {
     "use strict";
     const margin = 0.03, closest = 5000;  // share of the larger side; [px/m]
-    const buttons = 40;                   // [px] that they take from the right; from the top if there are storeys
+    const buttons = 40, text_line = 24;   // [px] of buttons right, above if there are storeys; of the names of runs above, of the status below
     /** Middle of the map [m], pixels per metre, size [px]. */
     const now = { x: 0, y: 0, scale: 10, width: 100, height: 100 };
 
@@ -13,11 +13,11 @@ const camera = (() => {
         const least = head.robots.length > 1 ? 1 : 10;
         const more = Math.max(margin * Math.max(right - left, top - bottom), (least - Math.max(right - left, top - bottom)) / 2);
         [left, bottom, right, top] = [left - more, bottom - more, right + more, top + more];
-        const high = head.map.floors.length > 1 ? buttons : 0, wide = Math.min(buttons, now.width / 4);
-        const scale = Math.min((now.width - wide) / (right - left), (now.height - high) / (top - bottom));
+        const above = 12 + (head.map.floors.length > 1 ? buttons : 0) + (sides.own.all.length > 1 ? text_line : 0), wide = Math.min(buttons, now.width / 4);
+        const scale = Math.min((now.width - wide) / (right - left), Math.max(now.height - above - text_line, 10) / (top - bottom)), slack = now.height - scale * (top - bottom);
         /** @param {number} slack @param {number} taken [px] by buttons at one end */
         const shift = (slack, taken) => Math.max(0, taken - slack / 2) / scale;
-        return { x: (left + right) / 2 + shift(now.width - scale * (right - left), wide), y: (bottom + top) / 2 + shift(now.height - scale * (top - bottom), high), scale };
+        return { x: (left + right) / 2 + shift(now.width - scale * (right - left), wide), y: (bottom + top) / 2 + shift(slack, above) - shift(slack, text_line), scale };
     }
 
     /** Takes the view of the state, or all of the map. @param {State} state @param {Head} head */
@@ -48,5 +48,5 @@ const camera = (() => {
         return ([5, 2, 1].find(digit => digit * power <= v) ?? 1) * power;
     }
 
-    return { now, whole, aim, to_x, to_y, from_x, from_y, zoomed, moved, round_number };
+    return { now, aim, to_x, to_y, from_x, from_y, zoomed, moved, round_number };
 })();

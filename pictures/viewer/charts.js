@@ -11,15 +11,14 @@ const charts = (() => {
     const again_ms = 1000;
 
     function width() { return Math.max(120, dom.by_id("charts-panel").clientWidth - 8); }
-    function span() { return selection.state.span ?? { from: 0, to: Math.max(1, own.run.duration) }; }
     /** @param {number} t */
     function to_x(t) {
-        const { from, to } = span();
+        const { from, to } = timeline.span();
         return left + (t - from) / (to - from) * (width() - left);
     }
     /** @param {number} x */
     function to_t(x) {
-        const { from, to } = span();
+        const { from, to } = timeline.span();
         return Math.min(to, Math.max(from, from + (x - left) / (width() - left) * (to - from)));
     }
 
@@ -36,7 +35,7 @@ const charts = (() => {
 
     /** First and last bin of a curve that are seen. @param {Curve} curve */
     function seen(curve) {
-        const { from, to } = span();
+        const { from, to } = timeline.span();
         return [Math.max(0, Math.floor(from / curve.width)), Math.min(curve.values.length - 1, Math.ceil(to / curve.width))];
     }
 
@@ -60,29 +59,24 @@ const charts = (() => {
             if (begins) c.moveTo(x, y); else c.lineTo(x, y);
             c.lineTo(to_x((i + 1) * curve.width) + (begins && !Number.isFinite(curve.values[i + 1]) ? 2 : 0), y);
         }
-        c.strokeStyle = curve.color();
-        c.lineWidth = 1.5;
+        pen.take(c, curve.color(), 1.5);
         c.stroke();
     }
 
     /** @param {Chart} chart */
     function paint(chart) {
         const wide = width(), c = dom.sized(chart.canvas, wide, height), most = most_of(chart), step = camera.round_number(most / 2);
-        const scale = chart.unit === "s" ? most : Math.ceil(most / step - 1e-9) * step, colors = theme.colors(), { from, to } = span();
+        const scale = chart.unit === "s" ? most : Math.ceil(most / step - 1e-9) * step, colors = theme.colors(), { from, to } = timeline.span();
         /** @param {number} v */
         const to_y = v => height - axis - v / scale * (height - axis - top);
-        c.font = `10px ${robots.font}`;
+        c.font = pen.font(10);
         c.textBaseline = "middle";
         c.fillStyle = colors.muted;
-        c.strokeStyle = colors.faint;
-        c.lineWidth = 1;
         c.textAlign = "right";
         for (let v = 0; v <= scale * 1.001; v += step) {
             const y = Math.round(to_y(v)) + 0.5;
-            c.beginPath();
-            c.moveTo(left, y);
-            c.lineTo(wide, y);
-            c.stroke();
+            pen.take(c, colors.faint, 1);
+            pen.line(c, left, y, wide, y);
             c.fillText(text(v, chart.unit === "s" ? "s" : "").replace(/^0(?![.,]).*/, "0"), left - 4, y);
         }
         c.textAlign = "center";
@@ -133,11 +127,10 @@ const charts = (() => {
             main.redraw();
         });
         canvas.addEventListener("pointerup", event => {
-            const from = to_t(own.drag?.from ?? event.offsetX), to = to_t(event.offsetX);
-            const dragged = Math.abs((own.drag?.from ?? 0) - event.offsetX) >= least_drag;
+            const begin = own.drag?.from ?? event.offsetX, [from, to] = [begin, event.offsetX].map(to_t).sort((a, b) => a - b);
             own.drag = null;
-            if (!dragged) clock.seek(to);
-            else if (Math.abs(to - from) >= 1000) selection.set({ span: { from: Math.min(from, to), to: Math.max(from, to) }, t: Math.min(Math.max(from, to), Math.max(Math.min(from, to), selection.state.t)) });
+            if (Math.abs(begin - event.offsetX) < least_drag) clock.seek(to_t(event.offsetX));
+            else if (to - from >= 1000) selection.set({ span: { from, to }, t: Math.min(to, Math.max(from, selection.state.t)) });
         });
         for (const end of ["pointerleave", "pointercancel"]) {
             canvas.addEventListener(end, () => {

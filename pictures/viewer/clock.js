@@ -54,5 +54,5 @@ const clock = (() => {
     /** The run has come to a time. @param {number} end [ns] @param {boolean} open whether it goes on */
     function extend(end, open) { Object.assign(parts, { end, open }); }
 
-    return { begin, extend, play, seek, set_power, power, speed_text, slowest, fastest };
+    return { begin, extend, play, seek, set_power, power, speed_text };
 })();

@@ -37,7 +37,7 @@ const compare = (() => {
     function row(all, i) {
         const gained = all.gained[i], mark = dom.icon(16, c => sign(c, 8, 8, gained)), { run: r } = sides.own.all[gained];
         const other = all.outcome[i] === no_frame ? "no frame in reach" : signs.kinds[signs.of(all.outcome[i])].text, both = gained ? [other, "delivered"] : ["delivered", other];
-        const name = `${r.message_text(all.message[gained][i])} at ${words.short(r.name(all.robot[i]), 24)}`;
+        const name = `${r.message_text(all.message[gained][i])} at ${r.label(all.robot[i])}`;
         return dom.make("li", "", mark, dom.make("span", "", dom.button(name, "link", () => go(all, i)), dom.make("span", "muted", ` ${words.seconds(all.time[i], 3)} s`),
             dom.make("p", "muted", `run A: ${both[0]}, run B: ${both[1]}`)));
     }
@@ -45,7 +45,7 @@ const compare = (() => {
     /** Shows a change: its time, its robot and its message. @param {Changes} all @param {number} i */
     function go(all, i) {
         const lead = sides.lead(), message = all.message[lead][i], r = sides.own.all[lead].run, robot = all.robot[i];
-        const { z } = r.pose(robot, all.time[i], { x: 0, y: 0, z: 0, vx: 0, vy: 0, heading: 0 });
+        const { z } = r.pose(robot, all.time[i]);
         selection.set({ t: all.time[i], playing: false, robots: [robot], message: message < r.messages ? message : -1, storey: r.storey(z) });
     }
 
@@ -60,7 +60,8 @@ const compare = (() => {
             dom.make("p", "muted", "A delivery is one message at one robot."),
             dom.make("h3", "", told.gained + told.lost > rows.length ? `The first ${rows.length} differences` : "Differences"), dom.make("ul", "plain", ...rows),
             dom.make("h3", "", "First record that differs"),
-            ...(first ? [dom.make("p", "", `It differs in: ${first.field}`), dom.facts([["run A", code(first.a)], ["run B", code(first.b)]])] : [dom.make("p", "", "None: all records are equal.")]));
+            ...(first ? [dom.make("p", "", `It differs in: ${first.field}`), dom.facts([["run A", code(first.a)], ["run B", code(first.b)]])] : [dom.make("p", "", "None: all records are equal.")]),
+            dom.make("h3", "", "Runs"), dom.facts(sides.own.all.map(side => [side.label, sides.counts(side.run.head).join(", ")])));
     }
 
     /** Takes the message chosen: who gains or loses it, and its way in the run that the panels do not tell of. @param {State} state */
@@ -85,8 +86,7 @@ const compare = (() => {
 
     /** @param {CanvasRenderingContext2D} c @param {number} x @param {number} y @param {number} gained */
     function sign(c, x, y, gained) {
-        c.beginPath();
-        c.arc(x, y, 6.5, 0, 2 * Math.PI);
+        pen.circle(c, x, y, 6.5);
         c.fillStyle = color(gained);
         c.fill();
         c.fillStyle = theme.colors().paper;

@@ -6,27 +6,27 @@ const controls = (() => {
     /** @type {{run: Run, blocks: Blocks, note: string, said: number, resting: number}} */
     const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), note: "", said: 0, resting: 0 };
 
-    /** @param {string} id @param {() => void} act */
-    function on_click(id, act) { dom.by_id(id).addEventListener("click", act); }
+    /** Makes the map larger around its middle. @param {number} factor */
+    function zoom(factor) {
+        selection.set({ view: camera.zoomed(factor, camera.now.width / 2, camera.now.height / 2, own.run.head) });
+    }
 
     function buttons() {
         const { state, set } = selection, head = own.run.head;
-        /** @param {number} factor */
-        const zoom = factor => set({ view: camera.zoomed(factor, camera.now.width / 2, camera.now.height / 2, head) });
-        on_click("play", live.play);
-        on_click("present", live.follow);
-        on_click("before", () => list.step(-1));
-        on_click("next", () => list.step(1));
-        on_click("trails", () => set({ trails: !state.trails }));
-        on_click("links", links.toggle);
-        on_click("picture", () => files.picture(own.run, state));
-        on_click("drawing", () => files.drawing(own.run, state));
+        dom.on_click("play", live.play);
+        dom.on_click("present", live.follow);
+        dom.on_click("before", () => list.step(-1));
+        dom.on_click("next", () => list.step(1));
+        dom.on_click("trails", () => set({ trails: !state.trails }));
+        dom.on_click("links", links.toggle);
+        dom.on_click("picture", () => files.picture(own.run, state));
+        dom.on_click("drawing", () => files.drawing(own.run, state));
         dom.by_id("drawing").hidden = !server.is_served() || live.is_live() || Boolean(document.getElementById("goes-on"));
-        on_click("table", () => files.table(own.run, own.blocks, state));
-        on_click("closer", () => zoom(1.4));
-        on_click("wider", () => zoom(1 / 1.4));
-        on_click("whole", () => set({ view: null }));
-        on_click("whole-time", () => set({ span: null }));
+        dom.on_click("table", () => files.table(own.run, own.blocks, state));
+        dom.on_click("closer", () => zoom(1.4));
+        dom.on_click("wider", () => zoom(1 / 1.4));
+        dom.on_click("whole", () => set({ view: null }));
+        dom.on_click("whole-time", () => set({ span: null }));
         dom.input("speed").addEventListener("input", () => clock.set_power(Number(dom.input("speed").value)));
         panels.forEach((panel, i) => {
             const tab = dom.by_id(`${panel}-tab`);
@@ -175,5 +175,5 @@ const controls = (() => {
         pointers();
     }
 
-    return { begin, show, tell, status, say };
+    return { begin, show, tell, zoom, status, say };
 })();

@@ -72,23 +72,23 @@ const coverage = (() => {
         return out;
     }
 
-    /** @param {CanvasRenderingContext2D} c @param {Run} r @param {number} storey */
+    /** True if there is one. @param {CanvasRenderingContext2D} c @param {Run} r @param {number} storey */
     function paint(c, r, storey) {
         const h = own.heat;
-        if (!h || h.run !== r || h.storey !== storey) return;
+        if (!h || h.run !== r || h.storey !== storey) return false;
         const x = camera.to_x(h.left), y = camera.to_y(h.bottom + h.rows * h.cell_height);
         c.imageSmoothingEnabled = false;
         c.drawImage(h.picture, x, y, h.columns * h.cell_width * camera.now.scale, h.rows * h.cell_height * camera.now.scale);
+        return true;
     }
 
     /** Strokes a contour's path. @param {CanvasRenderingContext2D} c @param {Contour} contour */
     function stroke(c, { meaning, other }) {
         for (const [color, width, alpha] of /** @type {[string, number, number][]} */ ([["#ffffff", 3.2, 0.7], [other ? "#a03000" : "#00501e", 1.8, 1]])) {
-            c.setLineDash(alpha < 1 ? [] : meaning === "range_db" ? [7, 4] : other ? [2, 2] : []);
-            [c.strokeStyle, c.lineWidth, c.globalAlpha] = [color, width, alpha];
+            pen.take(c, color, width, alpha < 1 ? [] : meaning === "range_db" ? [7, 4] : other ? [2, 2] : []);
+            c.globalAlpha = alpha;
             c.stroke();
         }
-        c.setLineDash([]);
     }
 
     /** @param {CanvasRenderingContext2D} c @param {Run} r @param {number} storey */
@@ -112,7 +112,7 @@ const coverage = (() => {
         const at = row * h.columns + column, level = h.dbm[at];
         if (typeof level !== "number") return "";
         /** @param {number} v @param {string} unit */
-        const text = (v, unit) => `${v.toFixed(1).replace("-", "\u2212")} ${unit}`;
+        const text = (v, unit) => `${words.fixed(v, 1)} ${unit}`;
         return text(level, "dBm") + (h.difference ? `, ${h.model} ${text(level + h.difference[at], "dBm")} (${h.difference[at] > 0 ? "+" : ""}${text(h.difference[at], "dB")})` : "");
     }
 
@@ -126,7 +126,7 @@ const coverage = (() => {
     function legend(item) {
         const h = own.heat;
         if (!h) return [];
-        const who = words.short(h.run.name(h.robot), 24), when = `at ${words.seconds(h.t, 3)} s`, ends = `${words.number(h.low)} to ${words.number(h.high)}`;
+        const who = h.run.label(h.robot), when = `at ${words.seconds(h.t, 3)} s`, ends = `${words.number(h.low)} to ${words.number(h.high)}`;
         const bar = item(90, c => {
             for (let x = 0; x < 90; x++) {
                 c.fillStyle = theme.on_scale(scale(h), x / 89);

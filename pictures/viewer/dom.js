@@ -27,11 +27,13 @@ const dom = (() => {
     /** @param {string} text @param {string} kind @param {() => void} act @param {string} [label] */
     function button(text, kind, act, label) {
         const out = make("button", kind, text);
-        out.setAttribute("type", "button");
         if (label) out.setAttribute("aria-label", label);
         out.addEventListener("click", act);
         return out;
     }
+
+    /** @param {string} id @param {(event: MouseEvent) => void} act */
+    function on_click(id, act) { by_id(id).addEventListener("click", act); }
 
     /** Table of names and values. @param {[string, Node|string][]} rows */
     function facts(rows) {
@@ -77,5 +79,5 @@ const dom = (() => {
         setTimeout(() => URL.revokeObjectURL(link.href), 10000);
     }
 
-    return { by_id, canvas, input, make, button, facts, icon, sign, sized, save };
+    return { by_id, canvas, input, make, button, on_click, facts, icon, sign, sized, save };
 })();

@@ -111,7 +111,7 @@ const events = (() => {
     function text(r, w, i) {
         const k = w.what[i], { who, other, message, sign } = about(r, w, i), block = w.blocks[w.of[i]];
         /** @param {number} robot */
-        const name = robot => robot >= 0 && robot < r.robots ? words.short(r.name(robot), 24) : "all";
+        const name = robot => robot >= 0 && robot < r.robots ? r.label(robot) : "all";
         const packet = r.message_text(message);
         switch (w.kind[i]) {
             case sent: return `${name(who)} sends ${packet} to ${name(other)}`;
@@ -126,5 +126,5 @@ const events = (() => {
         }
     }
 
-    return { kind_names, window_of, filtered, about, text, frame, reception, sent };
+    return { kind_names, window_of, filtered, about, text, frame };
 })();

@@ -14,16 +14,16 @@ const files = (() => {
         c.fillStyle = theme.colors().paper;
         c.fillRect(0, 0, width + 2 * margin, height + heading + margin);
         c.fillStyle = theme.colors().ink;
-        c.font = `bold 16px ${robots.font}`;
+        c.font = `bold ${pen.font(16)}`;
         c.fillText(words.shortened(sides.title(), 80), margin, 24);
-        c.font = `12px ${robots.font}`;
+        c.font = pen.font(12);
         c.fillStyle = theme.colors().muted;
         const length = camera.round_number(camera.now.width / 6 / camera.now.scale), bar = length * camera.now.scale;
         c.fillText(`at ${words.seconds(state.t)} s`, margin, 42);
         c.fillText(`${length} m`, margin + width - c.measureText(`${length} m`).width, 42);
         c.fillRect(margin + width - bar - 50, 37, bar, 2);
         c.drawImage(map_canvas, margin, heading, width, height);
-        c.strokeStyle = theme.colors().line;
+        pen.take(c, theme.colors().line, 1);
         c.strokeRect(margin, heading, width, height);
         out.toBlob(blob => {
             if (blob) dom.save(name(r, `-${Number((state.t / 1e9).toFixed(6))}s.png`), blob);
@@ -66,5 +66,5 @@ const files = (() => {
         }, error => controls.say(error.message));
     }
 
-    return { picture, drawing, table, rows };
+    return { picture, drawing, table };
 })();

@@ -31,7 +31,7 @@ const filters = (() => {
             const on = Boolean(filter.signs >> sign & 1);
             if (n > 0) parts.push(toggle(dom.sign(sign), on, `${signs.kinds[sign].text}: shown or not`, () => change({ signs: filter.signs ^ 1 << sign })));
         });
-        if (filter.robot >= 0) parts.push(dom.button(`${words.short(r.name(filter.robot), 20)} \u00d7`, "chip", () => change({ robot: -1 }), "events of all robots"));
+        if (filter.robot >= 0) parts.push(dom.button(`${r.label(filter.robot, 20)} \u00d7`, "chip", () => change({ robot: -1 }), "events of all robots"));
         if (filter.message >= 0) parts.push(dom.button(`${r.message_text(filter.message)} \u00d7`, "chip", () => change({ message: -1 }), "events of all messages"));
         dom.by_id("filters").replaceChildren(...parts);
     }

@@ -75,9 +75,8 @@ const flights = (() => {
             ring(rings, block.kind[i] * shades + shade, x, y, r);
         });
         for (const [key, path] of rings) {
-            c.globalAlpha = 0.6 * (1 - key % shades / shades);
-            c.strokeStyle = kind_color(Math.floor(key / shades));
-            c.lineWidth = 1.2;
+            c.globalAlpha = 0.8 * (1 - key % shades / shades);
+            pen.take(c, kind_color(Math.floor(key / shades)), 1.2);
             c.stroke(path);
         }
         c.globalAlpha = 1;
@@ -102,22 +101,15 @@ const flights = (() => {
         const color = under_way ? theme.colors().muted : signs.color(sign);
         if (lines) {
             c.globalAlpha = strength * (crowded ? 0.5 : 0.85);
-            c.strokeStyle = color;
-            c.lineWidth = crowded ? 1 : 1.6;
-            c.setLineDash(under_way ? [4, 3] : []);
+            pen.take(c, color, crowded ? 1 : 1.6, under_way ? [4, 3] : []);
             c.stroke(lines);
-            c.setLineDash([]);
         }
         if (!under_way && crowded && sign > signs.received) pixels.marks(ends, sign, 3, strength, pixels.word(color));
         if (!under_way && !crowded) {
             const marks = new Path2D();
             for (let i = 0; i < ends.length; i += 2) signs.outline(marks, sign, ends[i] + 9, ends[i + 1] - 9, 4);
             c.globalAlpha = strength;
-            for (const [style, width] of /** @type {[string, number][]} */ ([[theme.colors().paper, 4.5], [color, 2]])) {
-                c.strokeStyle = style;
-                c.lineWidth = width;
-                c.stroke(marks);
-            }
+            pen.rimmed(c, color, 2, marks);
         }
         c.globalAlpha = 1;
     }

@@ -2,9 +2,7 @@
 // A run that goes on: puts what came later behind what is there.
 const growth = (() => {
     "use strict";
-    const plain = ["states.time", "states.robot", "states.what", "links.time", "links.from", "links.to", "links.up", "messages.uid", "messages.created",
-        "messages.origin", "messages.to", "messages.size", "messages.flow", "messages.kind", "drops.time", "drops.robot", "drops.message", "drops.reason"];
-    const of_legs = ["start", "end", "x", "y", "vx", "vy", "heading", "turning", "z", "vz"];
+    const plain = ["states", "links", "messages", "drops"].flatMap(run.names_of);
 
     /** Column with more numbers behind it, in the same memory if there is room. @param {Numbers} column @param {Numbers} more @returns {Numbers} */
     function longer(column, more) {
@@ -25,7 +23,7 @@ const growth = (() => {
     function add_legs(r, more) {
         const added = more["legs.first"];
         if (!added || added[r.robots] === 0) return;
-        if (added.length !== r.robots + 1) rvw.damaged("legs.first has a wrong length.");
+        if (added.length !== r.robots + 1) run.wrong_length("legs.first");
         const before = r.legs.first, first = new Uint32Array(r.robots + 1);
         for (let i = 0; i <= r.robots; i++) first[i] = before[i] + added[i];
         /** @type {number[]} */ const moved = [];
@@ -43,9 +41,10 @@ const growth = (() => {
             return out;
         };
         /** @type {any} */ const legs = r.legs;
-        for (const name of of_legs) {
-            if (!legs[name] && more[`legs.${name}`]) legs[name] = new Float64Array(before[r.robots]);
-            if (legs[name]) legs[name] = merged(legs[name], more[`legs.${name}`]);
+        for (const column of run.names_of("legs").slice(1)) {  // but legs.first
+            const name = column.slice(5);
+            if (!legs[name] && more[column]) legs[name] = new Float64Array(before[r.robots]);
+            if (legs[name]) legs[name] = merged(legs[name], more[column]);
         }
         legs.first = first;
     }

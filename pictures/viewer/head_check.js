@@ -64,5 +64,5 @@ const head_check = (() => {
         return Object.keys(parts).find(key => !parts[key]?.(head[key])) ?? "";
     }
 
-    return { fault, part_fault, outcomes };
+    return { fault, part_fault, count, outcomes };
 })();

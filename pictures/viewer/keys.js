@@ -16,11 +16,6 @@ const keys = (() => {
         ["1 2 3 4 5 6", "events, message, robot, pair, charts, compare"], ["A B S", "run A, run B (again: the other), side by side"], ["Page up, down", "storey"], ["Escape", "choose nothing"], ["?", "this help"]
     ];
 
-    /** @param {number} factor */
-    function zoom(factor) {
-        selection.set({ view: camera.zoomed(factor, camera.now.width / 2, camera.now.height / 2, own.run.head) });
-    }
-
     /** @param {KeyboardEvent} event @param {1|-1} direction */
     function step(event, direction) {
         if (event.shiftKey) clock.seek(selection.state.t + direction * second);
@@ -41,6 +36,8 @@ const keys = (() => {
         selection.set({ storey: Math.min(own.run.head.map.floors.length - 1, Math.max(0, selection.state.storey + by)) });
     }
 
+    function help() { /** @type {HTMLDialogElement} */ (dom.by_id("help")).showModal(); }
+
     const far = 60;  // [px]
 
     /** @type {Record<string, (event: KeyboardEvent) => void>} */
@@ -49,7 +46,7 @@ const keys = (() => {
         ArrowLeft: e => step(e, -1), ArrowRight: e => step(e, 1), j: e => step(e, -1),
         Home: () => clock.seek(0), End: () => live.is_live() ? live.follow() : clock.seek(own.run.duration),
         "[": () => clock.set_power(clock.power() - 0.5), "]": () => clock.set_power(clock.power() + 0.5),
-        "+": () => zoom(1.4), "=": () => zoom(1.4), "-": () => zoom(1 / 1.4), 0: () => selection.set({ view: null }),
+        "+": () => controls.zoom(1.4), "=": () => controls.zoom(1.4), "-": () => controls.zoom(1 / 1.4), 0: () => selection.set({ view: null }),
         "<": () => timeline.zoom(0.5, timeline.middle()), ">": () => timeline.zoom(2, timeline.middle()),
         "/": () => dom.input("search").focus(), f: follow,
         c: () => coverage.toggle(selection.state.robots.at(-1) ?? -1),
@@ -57,7 +54,7 @@ const keys = (() => {
         a: () => sides.show(selection.state.runs === "A" ? "B" : "A"), b: () => sides.show(selection.state.runs === "B" ? "A" : "B"), s: () => sides.show("AB"),
         PageUp: () => storey(1), PageDown: () => storey(-1),
         Escape: () => selection.set({ robots: [], message: -1 }),
-        "?": () => /** @type {HTMLDialogElement} */ (dom.by_id("help")).showModal()
+        "?": help
     };
 
     /** @type {Record<string, [number, number]>} */
@@ -88,8 +85,8 @@ const keys = (() => {
         sides.own.panels.forEach((panel, i) => actions[String(i + 1)] = () => selection.set({ panel }));
         document.addEventListener("keydown", pressed);
         dom.by_id("help-keys").replaceChildren(dom.facts(told));
-        dom.by_id("help-open").addEventListener("click", () => /** @type {HTMLDialogElement} */ (dom.by_id("help")).showModal());
-        dom.by_id("help-close").addEventListener("click", () => /** @type {HTMLDialogElement} */ (dom.by_id("help")).close());
+        dom.on_click("help-open", help);
+        dom.on_click("help-close", () => /** @type {HTMLDialogElement} */ (dom.by_id("help")).close());
     }
 
     return { begin, show };

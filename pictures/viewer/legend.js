@@ -16,16 +16,8 @@ const legend = (() => {
         const { width, scale } = camera.now, length = camera.round_number(width / 6 / scale), px = Math.max(2, length * scale);
         const text = length >= 1000 ? `${length / 1000} km` : length >= 1 ? `${length} m` : `${words.number(length * 100)} cm`;
         return item(px + 2, c => {
-            c.strokeStyle = theme.colors().ink;
-            c.lineWidth = 2;
-            c.beginPath();
-            c.moveTo(1, 4);
-            c.lineTo(1, 12);
-            c.moveTo(1, 8);
-            c.lineTo(px + 1, 8);
-            c.moveTo(px + 1, 4);
-            c.lineTo(px + 1, 12);
-            c.stroke();
+            pen.take(c, theme.colors().ink, 2);
+            pen.line(c, 1, 4, 1, 12, 1, 8, px + 1, 8, px + 1, 4, px + 1, 12);
         }, text);
     }
 
@@ -38,7 +30,7 @@ const legend = (() => {
                 out.push(item(18, c => {
                     c.fillStyle = map.wall_fill(c, style);
                     c.fillRect(0.5, 3.5, 17, 9);
-                    c.strokeStyle = theme.colors().line;
+                    pen.take(c, theme.colors().line, 1);
                     c.strokeRect(0.5, 3.5, 17, 9);
                 }, words.short(name, 24)));
             }
@@ -58,13 +50,8 @@ const legend = (() => {
         if (some_off) out.push(item(16, c => robots.disc(c, 8, 8, 5, ink, false, false, null), "switched off"));
         if (state.trails && r.robots <= 200) {
             out.push(item(24, c => {
-                c.strokeStyle = theme.category(0);
-                c.lineWidth = 1.5;
-                c.beginPath();
-                c.moveTo(0, 11);
-                c.lineTo(10, 5);
-                c.lineTo(24, 8);
-                c.stroke();
+                pen.take(c, theme.category(0), 1.2);
+                pen.line(c, 0, 11, 10, 5, 24, 8);
             }, "trail of 10 s"));
         }
         return out;
@@ -78,10 +65,8 @@ const legend = (() => {
         for (const kind of [...all.kinds].sort((x, y) => x - y)) {
             const name = r.head.frame_kinds[kind];
             out.push(item(18, c => {
-                c.strokeStyle = flights.kind_color(kind);
-                c.lineWidth = 1.5;
-                c.beginPath();
-                c.arc(9, 8, 6, 0, 2 * Math.PI);
+                pen.take(c, flights.kind_color(kind), 1.5);
+                pen.circle(c, 9, 8, 6);
                 c.stroke();
             }, `${name} on air`, "The ring grows from the sender while the frame is on the air"));
         }

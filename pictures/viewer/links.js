@@ -104,13 +104,8 @@ const links = (() => {
     /** @param {CanvasRenderingContext2D} c @param {number} x0 @param {number} y0 @param {number} x1 @param {number} y1 @param {number} room [px] before the end @param {LinkLine} l */
     function line(c, x0, y0, x1, y1, room, l) {
         const { width, color } = look(l.margin), length = Math.hypot(x1 - x0, y1 - y0) || 1, ux = (x1 - x0) / length, uy = (y1 - y0) / length;
-        c.strokeStyle = c.fillStyle = color;
-        c.lineWidth = width;
-        c.setLineDash(l.two_way ? [] : [7, 4]);
-        c.beginPath();
-        c.moveTo(x0, y0);
-        c.lineTo(x1, y1);
-        c.stroke();
+        pen.take(c, c.fillStyle = color, width, l.two_way ? [] : [7, 4]);
+        pen.line(c, x0, y0, x1, y1);
         if (l.two_way) return;
         const x = x1 - ux * (room + gap), y = y1 - uy * (room + gap), half = width + 2;
         c.beginPath();
@@ -128,13 +123,12 @@ const links = (() => {
         c.globalAlpha = traced || of.t === state.t || live.follows() ? 0.9 : 0.35;
         const all = shown(state, i);
         for (const l of all.sort((a, b) => (a.margin ?? 0) - (b.margin ?? 0))) line(c, x[l.from], y[l.from], x[l.to], y[l.to], robots.radius(of.run, l.to), l);
-        c.setLineDash([]);
         c.globalAlpha = 1;
     }
 
     /** Lines of all margins, with their limits below. @param {CanvasRenderingContext2D} c */
     function scale_of(c) {
-        c.font = `8px ${robots.font}`;
+        c.font = pen.font(9);
         c.textAlign = "center";
         signs.look.colors.links.forEach((grade, i) => {
             c.fillStyle = theme.readable(grade.color);

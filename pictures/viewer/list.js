@@ -56,13 +56,7 @@ const list = (() => {
     /** Index of the last row until a time, -1 if there is none. @param {number} t */
     function row_at(t) {
         const { rows, window: w } = own;
-        if (!w) return -1;
-        let low = 0, high = rows.length;
-        while (low < high) {
-            const middle = (low + high) >>> 1;
-            if (w.time[rows[middle]] <= t) low = middle + 1; else high = middle;
-        }
-        return low - 1;
+        return w ? run.count_until(rows, run.count_until(w.time, t) - 1) - 1 : -1;
     }
 
     const rendered = { first: -1, current: -2, followed: -2, shift: 0, leaps: false };
@@ -188,7 +182,7 @@ const list = (() => {
             own.height = dom.by_id("events").clientHeight;
             draw(true);
         }).observe(dom.by_id("events"));
-        dom.by_id("events").addEventListener("click", clicked);
+        dom.on_click("events", clicked);
         dom.by_id("events").addEventListener("mouseover", pointed);
     }
 

@@ -65,6 +65,7 @@ const main = (() => {
         message_panel.draw(c, compare.flood(i), state);
         pair_panel.draw(c, i, state);
         robots.draw(c, r, state);
+        pair_panel.tell(c);
         compare.draw(c, selection.state);
         c.restore();
         return whole;
@@ -111,12 +112,6 @@ const main = (() => {
         requestAnimationFrame(draw);
     }
 
-    /** @param {Head} head */
-    function counts(head) {
-        return [`seed ${head.seed}`, ...(head.replication ? [`replication ${head.replication}`] : []), words.counted(head.counts.messages, "message"),
-            words.counted(head.counts.flights, "frame"), words.counted(head.counts.receptions, "reception")];
-    }
-
     /** Heading, and sentences about what is missing. */
     function introduce() {
         const { all } = sides.own, [{ run: { head, duration } }] = all, is_one = all.length === 1;
@@ -126,7 +121,7 @@ const main = (() => {
         /** @param {Side} side @param {string} text */
         const of_run = (side, text) => is_one ? text : `${side.label[0]}: ${text}`;
         dom.by_id("caption").textContent = [words.counted(head.robots.length, "robot"), `${words.number(duration / run.nanoseconds)} s`,
-            ...all.map(side => of_run(side, counts(side.run.head).join(is_one ? " \u00b7 " : ", "))), `rovernet ${head.version.split(" ")[0]}`].join(" \u00b7 ");
+            ...(is_one ? sides.counts(head) : []), `rovernet ${head.version.split(" ")[0]}`].join(" \u00b7 ");
         const told = all.flatMap(side => [...side.run.head.thinned, ...side.run.head.damage].map(text => of_run(side, text))), state = live.state();
         if (state?.left_out) told.push(`The first ${words.counted(state.left_out, "frame")} of the run ${state.left_out === 1 ? "is" : "are"} left out.`);
         dom.by_id("notice").hidden = told.length === 0;
@@ -198,7 +193,7 @@ const main = (() => {
         seek: clock.seek,
         select: selection.set,
         /** @param {number} robot */
-        position(robot) { return own.run?.pose(robot, selection.state.t, { x: 0, y: 0, z: 0, vx: 0, vy: 0, heading: 0 }); },
+        position(robot) { return own.run?.pose(robot, selection.state.t); },
         list: list.seen,
         density: timeline.columns,
         charts: charts.values, levels: coverage.levels,

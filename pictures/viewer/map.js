@@ -24,8 +24,8 @@ const map = (() => {
         return pattern;
     }
 
-    /** @param {CanvasRenderingContext2D} c @param {Run} r @param {number} storey */
-    function walls(c, r, storey) {
+    /** @param {CanvasRenderingContext2D} c @param {Run} r @param {number} storey @param {boolean} rimmed by paper, since colours lie below */
+    function walls(c, r, storey, rimmed) {
         const material = r.col("walls.material"), of = r.col("walls.storey"), x = r.col("walls.x"), y = r.col("walls.y");
         /** @type {Map<number, Path2D>} */ const paths = new Map();
         for (let i = 0; i < material.length; i++) {
@@ -38,10 +38,13 @@ const map = (() => {
         }
         for (const [number, path] of paths) {
             const style = r.head.map.materials[number]?.style ?? 0;
+            if (rimmed) {
+                pen.take(c, theme.colors().paper, 2.5);
+                c.stroke(path);
+            }
             c.fillStyle = wall_fill(c, style);
             c.fill(path);
-            c.strokeStyle = theme.wall(signs.look.colors.walls[style % signs.look.colors.walls.length]?.color ?? "#262626");
-            c.lineWidth = thin_line;
+            pen.take(c, theme.wall(signs.look.colors.walls[style % signs.look.colors.walls.length]?.color ?? "#262626"), thin_line);
             c.stroke(path);
         }
     }
@@ -58,11 +61,8 @@ const map = (() => {
         c.closePath();
         c.fillStyle = theme.colors().paper;
         c.fill();
-        c.strokeStyle = theme.readable(signs.look.colors.door);
-        c.lineWidth = closed ? 2.2 : 1;
-        c.setLineDash(closed ? [] : [3, 2]);
+        pen.take(c, theme.readable(signs.look.colors.door), closed ? 2.2 : 1, closed ? [] : [3, 2]);
         c.stroke();
-        c.setLineDash([]);
     }
 
     /** Stairs from foot to head [px]. @param {CanvasRenderingContext2D} c @param {number} x0 @param {number} y0 @param {number} x1 @param {number} y1 */
@@ -80,26 +80,16 @@ const map = (() => {
         c.moveTo(x1 - tip * ux - tip / 2 * uy, y1 - tip * uy + tip / 2 * ux);
         c.lineTo(x1, y1);
         c.lineTo(x1 - tip * ux + tip / 2 * uy, y1 - tip * uy - tip / 2 * ux);
-        c.strokeStyle = theme.readable(signs.look.colors.stairs);
-        c.lineWidth = 1;
+        pen.take(c, theme.readable(signs.look.colors.stairs), 1);
         c.stroke();
     }
 
     /** Faint lines at round places, where no walls tell the size. @param {CanvasRenderingContext2D} c */
     function grid(c) {
         const { width, height, scale } = camera.now, step = camera.round_number(160 / scale);
-        c.beginPath();
-        for (let x = Math.ceil(camera.from_x(0) / step) * step; x <= camera.from_x(width); x += step) {
-            c.moveTo(Math.round(camera.to_x(x)) + 0.5, 0);
-            c.lineTo(Math.round(camera.to_x(x)) + 0.5, height);
-        }
-        for (let y = Math.ceil(camera.from_y(height) / step) * step; y <= camera.from_y(0); y += step) {
-            c.moveTo(0, Math.round(camera.to_y(y)) + 0.5);
-            c.lineTo(width, Math.round(camera.to_y(y)) + 0.5);
-        }
-        c.strokeStyle = theme.colors().faint;
-        c.lineWidth = 1;
-        c.stroke();
+        c.fillStyle = theme.colors().faint;
+        for (let x = Math.ceil(camera.from_x(0) / step) * step; x <= camera.from_x(width); x += step) c.fillRect(Math.round(camera.to_x(x)), 0, 1, height);
+        for (let y = Math.ceil(camera.from_y(height) / step) * step; y <= camera.from_y(0); y += step) c.fillRect(0, Math.round(camera.to_y(y)), width, 1);
     }
 
     /** @param {CanvasRenderingContext2D} c @param {Run} r @param {number} storey @param {boolean[]} closed */
@@ -108,8 +98,7 @@ const map = (() => {
         c.fillStyle = theme.colors().paper;
         c.fillRect(0, 0, width, height);
         if (place.open_field) grid(c);
-        coverage.paint(c, r, storey);
-        walls(c, r, storey);
+        walls(c, r, storey, coverage.paint(c, r, storey));
         place.doors.forEach((d, i) => {
             if (r.storey(d.floor) === storey) door(c, camera.to_x(d.x0), camera.to_y(d.y0), camera.to_x(d.x1), camera.to_y(d.y1), closed[i] ?? false);
         });

@@ -8,7 +8,7 @@ const message_panel = (() => {
 
     /** @param {number} robot */
     function robot_button(robot) {
-        return dom.button(words.short(own.run.name(robot), 24), "link", () => selection.choose(robot));
+        return dom.button(own.run.label(robot), "link", () => selection.choose(robot));
     }
 
     /** Why a robot does not have the message, as far as the page knows. @param {Flood} flood @param {number} robot */
@@ -131,7 +131,7 @@ const message_panel = (() => {
         const r = own.run, missed = [...new Set(r.head.follow.map(a => a.message))].slice(0, 20);
         const some = missed.length ? missed : Array.from({ length: Math.min(20, r.messages) }, (_, i) => i);
         if (some.length === 0) return [dom.make("p", "", "No message was sent in this run.")];
-        const rows = some.map(message => dom.make("li", "", dom.button(`${r.message_text(message)} of ${words.short(r.name(r.col("messages.origin")[message]), 24)}`, "link",
+        const rows = some.map(message => dom.make("li", "", dom.button(`${r.message_text(message)} of ${r.label(r.col("messages.origin")[message])}`, "link",
             () => selection.set({ message, t: r.col("messages.created")[message] })), dom.make("span", "muted", ` at ${words.seconds(r.col("messages.created")[message], 3)} s`)));
         return [dom.make("p", "", "Choose a message: here, by a double click in the list of events, or by its number in the search."),
             dom.make("h3", "", missed.length ? "Messages that somebody missed" : "The first messages"), dom.make("ul", "plain", ...rows)];
@@ -140,29 +140,20 @@ const message_panel = (() => {
     /** Lines of a way on the map: solid what has happened until now. @param {CanvasRenderingContext2D} c @param {Flood|null} flood @param {State} state */
     function draw(c, flood, state) {
         if (!flood) return;
-        const { at } = robots, color = theme.readable(theme.colors().accent);
+        const { at } = robots, color = theme.colors().accent;
         for (const [robot, copy] of flood.first) {
             if (at.storey[robot] !== state.storey && at.storey[copy.from] !== state.storey) continue;
             const done = copy.at <= state.t;
-            c.beginPath();
-            c.moveTo(at.x[copy.from], at.y[copy.from]);
-            c.lineTo(at.x[robot], at.y[robot]);
-            c.globalAlpha = done ? 0.9 : 0.4;
-            c.setLineDash(done ? [] : [2, 4]);
-            c.strokeStyle = color;
-            c.lineWidth = done ? 2.4 : 1.6;
-            c.stroke();
+            pen.take(c, color, done ? 2.4 : 1.6, done ? [] : [2, 4]);
+            pen.line(c, at.x[copy.from], at.y[copy.from], at.x[robot], at.y[robot]);
         }
-        c.globalAlpha = 1;
-        c.setLineDash([]);
-        c.font = `bold 10px ${robots.font}`;
+        c.font = `bold ${pen.font(10)}`;
         c.textAlign = "center";
         c.textBaseline = "middle";
         for (const [robot, copy] of flood.first) {
             if (at.storey[robot] !== state.storey || copy.at > state.t || flood.first.size > 200) continue;
             c.fillStyle = color;
-            c.beginPath();
-            c.arc(at.x[robot] - 12, at.y[robot] + 11, 7, 0, 2 * Math.PI);
+            pen.circle(c, at.x[robot] - 12, at.y[robot] + 11, 7);
             c.fill();
             c.fillStyle = theme.colors().paper;
             c.fillText(String(copy.hops), at.x[robot] - 12, at.y[robot] + 11.5);
@@ -174,12 +165,8 @@ const message_panel = (() => {
     function legend(item) {
         if (!own.flood) return [];
         return [item(24, c => {
-            c.strokeStyle = theme.readable(theme.colors().accent);
-            c.lineWidth = 2.4;
-            c.beginPath();
-            c.moveTo(0, 8);
-            c.lineTo(24, 8);
-            c.stroke();
+            pen.take(c, theme.colors().accent, 2.4);
+            pen.line(c, 0, 8, 24, 8);
         }, "way of the message, with its hops")];
     }
 

@@ -4,8 +4,8 @@
 /** @typedef {{from: string, to: string, distance_m: number, up: boolean, walls?: Crossing[]}} Link */
 const pair_panel = (() => {
     "use strict";
-    /** @type {{run: Run, pair: string, links: Link[][], robots: number[], t: number, done: () => void}} */
-    const own = { run: /** @type {any} */ (null), pair: "?", links: [], robots: [], t: 0, done: () => {} };
+    /** @type {{run: Run, pair: string, links: Link[][], losses: {text: string, x: number, y: number}[], robots: number[], t: number, done: () => void}} */
+    const own = { run: /** @type {any} */ (null), pair: "?", links: [], losses: [], robots: [], t: 0, done: () => {} };
     /** Keys of a link that have a place of their own. */
     const told = ["from", "to", "walls", "id"];
 
@@ -44,13 +44,13 @@ const pair_panel = (() => {
         }
         const answer = dom.make("div", "");
         answer.id = "pair-answer";
-        panel.replaceChildren(dom.make("h2", "", `${words.short(own.run.name(a), 24)} and ${words.short(own.run.name(b), 24)}`), between(a, b, state.t),
+        panel.replaceChildren(dom.make("h2", "", `${own.run.label(a)} and ${own.run.label(b)}`), between(a, b, state.t),
             server.is_served() ? dom.make("p", "actions", dom.button("budget at this time", "", () => ask(a, b))) : dom.make("p", "muted", server.how), answer);
     }
 
     /** What the page itself knows of two robots. @param {number} a @param {number} b @param {number} t */
     function between(a, b, t) {
-        const r = own.run, p = r.pose(a, t, { x: 0, y: 0, z: 0, vx: 0, vy: 0, heading: 0 }), q = r.pose(b, t, { x: 0, y: 0, z: 0, vx: 0, vy: 0, heading: 0 });
+        const r = own.run, p = r.pose(a, t), q = r.pose(b, t);
         return dom.facts([["apart", `${Math.hypot(p.x - q.x, p.y - q.y, p.z - q.z).toFixed(2)} m at ${words.seconds(t, 3)} s`]]);
     }
 
@@ -58,40 +58,29 @@ const pair_panel = (() => {
     function draw(c, i, state) {
         const link = own.links[i]?.[0];
         if (!link || state.panel !== "pair") return;
-        const [a, b] = own.robots.map(robot => sides.own.all[i].run.pose(robot, own.t, { x: 0, y: 0, z: 0, vx: 0, vy: 0, heading: 0 }));
+        const [a, b] = own.robots.map(robot => sides.own.all[i].run.pose(robot, own.t));
         const x0 = camera.to_x(a.x), y0 = camera.to_y(a.y), x1 = camera.to_x(b.x), y1 = camera.to_y(b.y);
-        const color = theme.on_scale(signs.look.colors.ember, 0.5);
+        const color = theme.readable(theme.on_scale(signs.look.colors.ember, 0.5));
         /** @param {number} from @param {number} to shares of the way @param {number} width */
         const part = (from, to, width) => {
-            c.beginPath();
-            c.moveTo(x0 + from * (x1 - x0), y0 + from * (y1 - y0));
-            c.lineTo(x0 + to * (x1 - x0), y0 + to * (y1 - y0));
-            c.strokeStyle = theme.readable(color);
-            c.lineWidth = width;
-            c.stroke();
+            pen.take(c, color, width);
+            pen.line(c, x0 + from * (x1 - x0), y0 + from * (y1 - y0), x0 + to * (x1 - x0), y0 + to * (y1 - y0));
         };
         part(0, 1, 1.4);
-        c.font = `10px ${robots.font}`;
-        c.textBaseline = "middle";
-        /** @type {number[][]} */ const taken = [];
-        for (const wall of link.walls ?? []) {
-            const from = wall.entry_m / link.distance_m, to = wall.exit_m / link.distance_m;
+        own.losses = [];
+        for (const { entry_m, exit_m, loss_db } of link.walls ?? []) {
+            const from = entry_m / link.distance_m, to = exit_m / link.distance_m, middle = (from + to) / 2;
             part(from, to, 7);
-            label(c, `${words.number(wall.loss_db, 3)} dB`, x0 + (from + to) / 2 * (x1 - x0), y0 + (from + to) / 2 * (y1 - y0), taken);
+            if (loss_db) own.losses.push({ text: `${words.number(loss_db, 3)} dB`, x: x0 + middle * (x1 - x0), y: y0 + middle * (y1 - y0) });
         }
     }
 
-    /** Text beside a place, where no other is. @param {CanvasRenderingContext2D} c @param {string} text @param {number} x @param {number} y @param {number[][]} taken */
-    function label(c, text, x, y, taken) {
-        const width = c.measureText(text).width + 4, half = 7;
-        const places = [[8, -9], [8, 10], [-8 - width, 10], [-8 - width, -9], [8, -24], [-8 - width, 24]].map(([dx, dy]) => [x + dx, y + dy]);
-        const free = places.find(([left, middle]) => taken.every(b => left >= b[2] || left + width <= b[0] || middle - half >= b[3] || middle + half <= b[1])) ?? places[0];
-        taken.push([free[0], free[1] - half, free[0] + width, free[1] + half]);
-        c.strokeStyle = theme.colors().paper;
-        c.lineWidth = 3.5;
-        c.strokeText(text, free[0], free[1]);
-        c.fillStyle = theme.colors().ink;
-        c.fillText(text, free[0], free[1]);
+    /** Losses beside their walls, where the names of the robots leave room. @param {CanvasRenderingContext2D} c */
+    function tell(c) {
+        for (const { text, x, y } of own.losses) {
+            pen.label(c, text, 10, theme.colors().ink, width => [[8, -9], [8, 10], [-8 - width, 10], [-8 - width, -9], [8, -24], [-8 - width, 24]].map(([dx, dy]) => [x + dx, y + dy]));
+        }
+        own.losses = [];
     }
 
     /** @param {Run} r */
@@ -100,5 +89,5 @@ const pair_panel = (() => {
     /** @param {() => void} done */
     function begin(done) { own.done = done; }
 
-    return { begin, show, update, draw };
+    return { begin, show, update, draw, tell };
 })();

@@ -4,8 +4,8 @@ const robot_panel = (() => {
     "use strict";
     const most_messages = 50;
     /** @type {Pose} */ const pose = { x: 0, y: 0, z: 0, vx: 0, vy: 0, heading: 0 };
-    /** @type {{run: Run, blocks: Blocks, robot: number, counts: Uint32Array|null, sent: Uint32Array|null, read: number, messages: string}} */
-    const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), robot: -2, counts: null, sent: null, read: 0, messages: "" };
+    /** @type {{run: Run, blocks: Blocks, robot: number, covers: HTMLElement, counts: Uint32Array|null, sent: Uint32Array|null, read: number, messages: string}} */
+    const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), robot: -2, covers: /** @type {any} */ (null), counts: null, sent: null, read: 0, messages: "" };
 
     /** Counts frames and receptions of all robots, block by block. */
     async function count() {
@@ -27,7 +27,7 @@ const robot_panel = (() => {
         r.pose(robot, state.t, pose);
         const speed = Math.hypot(pose.vx, pose.vy), degrees = ((pose.heading * 180 / Math.PI) % 360 + 360) % 360;
         const out = /** @type {[string, Node|string][]} */ ([
-            ["place", `${pose.x.toFixed(2)} m, ${pose.y.toFixed(2)} m${r.legs.z ? `, ${pose.z.toFixed(2)} m` : ""}`],
+            ["place", [pose.x, pose.y, ...(r.legs.z ? [pose.z] : [])].map(v => `${words.fixed(v, 2)} m`).join(", ")],
             ["heading", `${degrees.toFixed(0)}\u00b0`],
             ["speed", `${speed.toFixed(2)} m/s`],
             ["state", [on ? "on" : "off", word].filter(Boolean).join(", ")]
@@ -77,7 +77,7 @@ const robot_panel = (() => {
         own.messages = key;
         const r = own.run, rows = some.map(message => dom.make("li", "",
             dom.button(r.message_text(message), "link", () => selection.set({ message, panel: "message" })),
-            dom.make("span", "muted", ` of ${words.short(r.name(r.col("messages.origin")[message]), 20)}, ${words.seconds(r.col("messages.created")[message], 3)} s`)));
+            dom.make("span", "muted", ` of ${r.label(r.col("messages.origin")[message], 20)}, ${words.seconds(r.col("messages.created")[message], 3)} s`)));
         dom.by_id("robot-messages").replaceChildren(...(rows.length ? rows : [dom.make("li", "muted", "none until now")]));
     }
 
@@ -114,9 +114,9 @@ const robot_panel = (() => {
         place.id = "robot-place";
         found.id = "robot-messages";
         const actions = dom.make("p", "actions", dom.button("its events", "", () => selection.set({ filter: { ...selection.state.filter, robot }, panel: "events" })),
-            dom.button("coverage", "", () => coverage.toggle(robot)));
+            own.covers = dom.button("coverage", "", () => coverage.toggle(robot)));
         if (server.is_served()) actions.append(coverage.choice());
-        dom.by_id("robot-panel").replaceChildren(dom.make("h2", "", words.short(own.run.name(robot), 60)), place, actions,
+        dom.by_id("robot-panel").replaceChildren(dom.make("h2", "", own.run.label(robot, 60)), place, actions,
             ...drive.parts(robot), dom.make("h3", "", live.is_live() ? "Until now" : "In the whole run"), counters(robot),
             dom.make("h3", "", "Radio"), dom.facts(radio(robot)), ...asked("Neighbours", "robot-neighbours", "robot", robot, neighbours),
             ...asked("Air", "robot-air", "air", robot, answer => dom.facts(facts_of_air(answer))),
@@ -138,6 +138,7 @@ const robot_panel = (() => {
             count();
         }
         if (robot < 0) return;
+        own.covers.setAttribute("aria-pressed", String(coverage.shown() === robot));
         dom.by_id("robot-place").replaceChildren(dom.facts(place(robot, state)));
         messages(robot, state);
     }

@@ -60,39 +60,26 @@ const robots = (() => {
         for (const robot of shown) {
             c.beginPath();
             trail(c, r, robot, state);
-            c.globalAlpha = 0.75;
-            c.strokeStyle = theme.category(robot);
-            c.lineWidth = 1.5;
-            c.stroke();
-            c.globalAlpha = 1;
+            pen.rimmed(c, theme.category(robot), 1.2);
         }
     }
 
     /** @param {CanvasRenderingContext2D} c @param {number} x @param {number} y @param {number} r @param {string} rim @param {boolean} on @param {boolean} chosen @param {number|null} heading */
     function disc(c, x, y, r, rim, on, chosen, heading) {
         const colors = theme.colors();
-        c.beginPath();
-        c.arc(x, y, r, 0, 2 * Math.PI);
+        pen.circle(c, x, y, r);
         if (on || chosen) {
             c.fillStyle = chosen ? colors.chosen : colors.disc;
             c.fill();
         }
-        c.strokeStyle = rim;
-        c.lineWidth = on ? 2.2 : 1.4;
-        c.setLineDash(on ? [] : [2, 2]);
+        pen.take(c, rim, on ? 2.2 : 1.4, on ? [] : [2, 2]);
         c.stroke();
-        c.setLineDash([]);
         if (!on || heading === null) return;
-        const tx = x + (r + beyond) * Math.cos(heading), ty = y - (r + beyond) * Math.sin(heading);
-        for (const [style, width] of /** @type {[string, number][]} */ ([[colors.paper, 4.2], [colors.ink, 2]])) {
-            c.beginPath();
-            c.moveTo(x, y);
-            c.lineTo(tx, ty);
-            c.strokeStyle = style;
-            c.lineWidth = width;
-            c.lineCap = "round";
-            c.stroke();
-        }
+        c.beginPath();
+        c.moveTo(x, y);
+        c.lineTo(x + (r + beyond) * Math.cos(heading), y - (r + beyond) * Math.sin(heading));
+        c.lineCap = "round";
+        pen.rimmed(c, colors.ink, 2);
         c.lineCap = "butt";
     }
 
@@ -109,58 +96,38 @@ const robots = (() => {
 
     /** Names that find room beside their robots: right, left, above or below. @param {CanvasRenderingContext2D} c @param {Run} r @param {number[]} shown */
     function names(c, r, shown) {
-        if (shown.length === 0) return;
         const size = shown.length > 60 ? 9 : 12;
-        /** @type {number[][]} */ const taken = shown.map(i => [at.x[i] - 5, at.y[i] - 5, at.x[i] + 5, at.y[i] + 5]);
-        c.font = `${size}px ${font}`;
-        c.textBaseline = "middle";
-        c.lineJoin = "round";
         for (const i of shown) {
-            const text = words.short(r.name(i), 24), width = c.measureText(text).width, reach = radius(r, i) + 6, half = size / 2 + 1;
-            const { [i]: x } = at.x, { [i]: y } = at.y;
-            const places = [[x + reach, y], [x - reach - width, y], [x - width / 2, y - reach - half], [x - width / 2, y + reach + half]];
-            const inside = places.filter(([left]) => left >= 0 && left + width <= camera.now.width);
-            const free = inside.find(([left, middle]) => taken.every(b => left >= b[2] || left + width <= b[0] || middle - half >= b[3] || middle + half <= b[1]));
-            if (!free) continue;
-            taken.push([free[0], free[1] - half, free[0] + width, free[1] + half]);
-            c.strokeStyle = theme.colors().paper;
-            c.lineWidth = 3.5;
-            c.strokeText(text, free[0], free[1]);
-            c.fillStyle = theme.colors().ink;
-            c.fillText(text, free[0], free[1]);
+            const { [i]: x } = at.x, { [i]: y } = at.y, reach = radius(r, i) + beyond + 4, high = reach + size / 2;
+            pen.label(c, r.label(i), size, theme.colors().ink, width =>
+                [[x + reach, y], [x - reach - width, y], [x - width / 2, y - high], [x - width / 2, y + high]]);
         }
     }
-    const font = "'DejaVu Sans', Verdana, Helvetica, Arial, sans-serif";
 
     /** Whether robots of other storeys are shown, too. */
     const others = { shown: false };
 
     /** Robots of other storeys, pale: a triangle on the first storey, a square on the second, and so on. @param {CanvasRenderingContext2D} c @param {Run} r @param {number} storey that is shown */
     function elsewhere(c, r, storey) {
-        c.globalAlpha = 0.5;
-        c.strokeStyle = c.fillStyle = theme.colors().ink;
-        c.lineWidth = 1.6;
-        c.font = `10px ${font}`;
-        c.textBaseline = "middle";
+        const color = theme.colors().muted;
         let named = 0;
         for (let i = 0; i < r.robots; i++) {
             if (at.storey[i] === storey || !in_view(i, 40)) continue;
-            const corners = at.storey[i] + 3, size = radius(r, i) + 2;
+            const corners = at.storey[i] + 3, size = radius(r, i) + 2, reach = size + 4;
             c.beginPath();
             for (let k = 0; k < corners; k++) {
                 const angle = (2 * k + 1) * Math.PI / corners + Math.PI / 2;
                 c.lineTo(at.x[i] + size * Math.cos(angle), at.y[i] + size * Math.sin(angle));
             }
             c.closePath();
+            pen.take(c, color, 1.2);
             c.stroke();
-            if (++named <= most_named / 4) c.fillText(`${words.short(r.name(i), 24)}, storey ${at.storey[i] + 1}`, at.x[i] + size + 4, at.y[i]);
+            if (++named <= most_named / 4) pen.label(c, `${r.label(i)}, storey ${at.storey[i] + 1}`, 10, color, width => [[at.x[i] + reach, at.y[i]], [at.x[i] - reach - width, at.y[i]]]);
         }
-        c.globalAlpha = 1;
     }
 
     /** @param {CanvasRenderingContext2D} c @param {Run} r @param {State} state */
     function draw(c, r, state) {
-        if (others.shown) elsewhere(c, r, state.storey);
         /** @type {number[]} */ const shown = [];
         for (let i = 0; i < r.robots && shown.length <= many; i++) {
             if (at.storey[i] === state.storey && in_view(i, 40)) shown.push(i);
@@ -179,7 +146,9 @@ const robots = (() => {
             if (at.storey[i] === state.storey) disc(c, at.x[i], at.y[i], radius(r, i) + 1, rim, at.on[i] === 1, true, at.heading[i]);
         }
         const here = shown.length > many ? state.robots.filter(i => at.storey[i] === state.storey) : shown;
+        pen.clear(here.map(i => [at.x[i] - 5, at.y[i] - 5, at.x[i] + 5, at.y[i] + 5]));
         if (here.length <= most_named) names(c, r, [...state.robots.filter(i => here.includes(i)), ...here.filter(i => !state.robots.includes(i))]);
+        if (others.shown) elsewhere(c, r, state.storey);
     }
 
     /** Robot at a pixel, or -1. @param {Run} r @param {number} px @param {number} py @param {number} storey */
@@ -193,5 +162,5 @@ const robots = (() => {
         return best;
     }
 
-    return { at, place, trails, draw, near, disc, radius, others, font };
+    return { at, place, trails, draw, near, disc, radius, others };
 })();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Run as data: places and states of robots and doors at any time.
 /** @typedef {{x: number, y: number, z: number, vx: number, vy: number, heading: number}} Pose */
+/** @typedef {Record<"first"|"start"|"end"|"x"|"y"|"vx"|"vy"|"heading"|"turning", Numbers> & {z?: Numbers, vz?: Numbers}} Legs */
 /** @typedef {InstanceType<typeof run.Run>} Run */
 const run = (() => {
     "use strict";
@@ -9,7 +10,7 @@ const run = (() => {
     /** Height above which a robot counts to the storey above [m] below its floor. */
     const floor_slack = 0.01;
 
-    /** Number of values at or before v in a sorted column. @param {Numbers} sorted @param {number} v @param {number} low @param {number} high */
+    /** Number of values at or before v in a sorted column. @param {Numbers|number[]} sorted @param {number} v @param {number} low @param {number} high */
     function count_until(sorted, v, low = 0, high = sorted.length) {
         while (low < high) {
             const middle = (low + high) >>> 1;
@@ -18,12 +19,24 @@ const run = (() => {
         return low;
     }
 
+    /** @param {string} name of a column @returns {never} */
+    function wrong_length(name) { return rvw.damaged(`${name} has a wrong length.`); }
+
     /** @param {Numbers} column @param {number} below @param {string} what */
     function check_below(column, below, what) {
         for (let i = 0; i < column.length; i++) {
             if (column[i] >= below) rvw.damaged(`${what} ${i} is out of range.`);
         }
     }
+
+    const needed = ["walls.x", "walls.y", "walls.material", "walls.storey", "legs.first", "legs.start", "legs.end", "legs.x",
+        "legs.y", "legs.vx", "legs.vy", "legs.heading", "legs.turning", "states.time", "states.robot", "states.what",
+        "doors.time", "doors.door", "doors.closed", "messages.uid", "messages.created", "messages.origin", "messages.to",
+        "messages.size", "messages.flow", "messages.kind", "drops.time", "drops.robot", "drops.message", "drops.reason"];
+    const optional = ["legs.z", "legs.vz", "links.time", "links.from", "links.to", "links.up"];
+
+    /** Names of the columns of a part of the run. @param {string} part */
+    function names_of(part) { return [...needed, ...optional].filter(name => name.startsWith(part + ".")); }
 
     class Run {
         /** @param {ViewFile} file @param {Record<string, Numbers>} columns @param {(i: number) => string} payload */
@@ -36,12 +49,8 @@ const run = (() => {
             this.messages = this.col("messages.uid").length;
             this.no_message = 4294967295;
             this.duration = file.head.duration_ns;
-            this.legs = {
-                first: this.col("legs.first"), start: this.col("legs.start"), end: this.col("legs.end"),
-                x: this.col("legs.x"), y: this.col("legs.y"), vx: this.col("legs.vx"), vy: this.col("legs.vy"),
-                heading: this.col("legs.heading"), turning: this.col("legs.turning"),
-                z: columns["legs.z"] ?? null, vz: columns["legs.vz"] ?? null
-            };
+            /** Columns of the legs; z and vz only if there are storeys. @type {Legs} */
+            this.legs = /** @type {any} */ (Object.fromEntries(names_of("legs").map(name => [name.slice(5), columns[name]])));
             /** Last leg asked for of each robot, from its first. */
             this.hint = new Uint32Array(this.robots);
             /** @type {Map<number, {at: number, what: number}[]>} */ this.states = new Map();
@@ -78,7 +87,7 @@ const run = (() => {
 
         /** Begin of the content of a message. @param {number} message */
         payload(message) {
-            const part = Math.max(0, count_until(/** @type {any} */ (this.payloads.first), message) - 1);
+            const part = Math.max(0, count_until(this.payloads.first, message) - 1);
             return this.payloads.of[part]?.(message - this.payloads.first[part]) ?? "";
         }
 
@@ -93,8 +102,8 @@ const run = (() => {
             return leg;
         }
 
-        /** Place of a robot at a time [ns]. @param {number} robot @param {number} t @param {Pose} out */
-        pose(robot, t, out) {
+        /** Place of a robot at a time [ns]. @param {number} robot @param {number} t @param {Pose} [out] */
+        pose(robot, t, out = { x: 0, y: 0, z: 0, vx: 0, vy: 0, heading: 0 }) {
             const legs = this.legs, leg = this.leg(robot, t);
             const start = legs.start[leg], end = legs.end[leg];
             const passed = Math.max(0, Math.min(t, end) - start) / nanoseconds;
@@ -137,6 +146,9 @@ const run = (() => {
         /** @param {number} robot */
         name(robot) { return this.head.robots[robot]?.name ?? "nobody"; }
 
+        /** Name of a robot as it is shown. @param {number} robot @param {number} [most] */
+        label(robot, most = 24) { return words.short(this.name(robot), most); }
+
         /** Name of a message as people say it. @param {number} message */
         message_text(message) {
             if (message >= this.messages) return "";
@@ -145,29 +157,18 @@ const run = (() => {
         }
     }
 
-    const needed = ["walls.x", "walls.y", "walls.material", "walls.storey", "legs.first", "legs.start", "legs.end", "legs.x",
-        "legs.y", "legs.vx", "legs.vy", "legs.heading", "legs.turning", "states.time", "states.robot", "states.what",
-        "doors.time", "doors.door", "doors.closed", "messages.uid", "messages.created", "messages.origin", "messages.to",
-        "messages.size", "messages.flow", "messages.kind", "drops.time", "drops.robot", "drops.message", "drops.reason"];
-    const optional = ["legs.z", "legs.vz", "links.time", "links.from", "links.to", "links.up"];
-
     /** @param {Run} r */
     function check(r) {
-        /** @param {string[]} names */
-        const same_length = names => {
-            for (const name of names) {
-                if (r.col(name).length !== r.col(names[0]).length) rvw.damaged(`${name} has a wrong length.`);
-            }
-        };
-        for (const group of ["legs.", "states.", "doors.", "messages.", "drops.", "links."]) {
-            same_length([...needed, ...optional].filter(name => name.startsWith(group) && name !== "legs.first" && r.columns[name]));
+        for (const part of ["legs", "states", "doors", "messages", "drops", "links"]) {
+            const there = names_of(part).filter(name => name !== "legs.first" && r.columns[name]);
+            for (const name of there) if (r.col(name).length !== r.col(there[0]).length) wrong_length(name);
         }
         const walls = r.col("walls.material").length;
         if (r.col("walls.x").length !== 4 * walls || r.col("walls.y").length !== 4 * walls || r.col("walls.storey").length !== walls) {
             rvw.damaged("its walls have wrong lengths.");
         }
         const first = r.col("legs.first"), legs = r.col("legs.x").length;
-        if (first.length !== r.robots + 1) rvw.damaged("legs.first has a wrong length.");
+        if (first.length !== r.robots + 1) wrong_length("legs.first");
         for (let i = 0; i < r.robots; i++) {
             if (first[i] >= first[i + 1] || first[i + 1] > legs) rvw.damaged(`robot ${i} has no legs.`);
         }
@@ -194,18 +195,18 @@ const run = (() => {
             columns[name] = await rvw.column(file, name, "u32");
             if (file.head.live && columns[name].length === 0) columns[name] = new Uint32Array(file.head.density[level].bins * head_check.outcomes);
             if (columns[name].length !== file.head.density[level].bins * head_check.outcomes) {
-                rvw.damaged(`${name} has a wrong length.`);
+                wrong_length(name);
             }
         }
         for (let i = 0; i < file.head.series.length; i++) {
             const name = `series.${i}`;
             columns[name] = await rvw.column(file, name, "f64");
-            if (columns[name].length !== file.head.series[i].points || columns[name].length === 0) rvw.damaged(`${name} has a wrong length.`);
+            if (columns[name].length !== file.head.series[i].points || columns[name].length === 0) wrong_length(name);
         }
         const out = new Run(file, columns, await rvw.texts(file, "messages.payload"));
         check(out);
         return out;
     }
 
-    return { Run, load, count_until, check_below, nanoseconds };
+    return { Run, load, names_of, count_until, check_below, wrong_length, nanoseconds };
 })();

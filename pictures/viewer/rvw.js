@@ -49,9 +49,6 @@ const rvw = (() => {
         }
     }
 
-    /** @param {unknown} v */
-    const is_count = v => Number.isSafeInteger(v) && /** @type {number} */ (v) >= 0;
-
     /** @param {Uint8Array} bytes @param {Inflate} [unpack] @param {(head: any) => string} [fault] finds a wrong part of the head @returns {ViewFile} */
     function open(bytes, unpack = inflate, fault = head_check.fault) {
         if (bytes.length < 8) refuse("The view file is empty or cut off.");
@@ -75,7 +72,7 @@ const rvw = (() => {
         const sections = new Map();
         for (const s of head.sections) {
             const good = s && typeof s.name === "string" && Object.hasOwn(sizes, s.type) &&
-                is_count(s.count) && is_count(s.offset) && is_count(s.bytes);
+                [s.count, s.offset, s.bytes].every(head_check.count);
             if (!good) damaged("its list of columns is broken.");
             if (s.offset + s.bytes > body.length) refuse(`The view file is cut off: ${s.name} lies beyond its end.`);
             sections.set(s.name, s);
@@ -145,5 +142,5 @@ const rvw = (() => {
         return i => decoder.decode(bytes.subarray(start + offsets[i], start + offsets[i + 1]));
     }
 
-    return { ViewError, version, refuse, damaged, open, column, texts };
+    return { ViewError, refuse, damaged, open, column, texts };
 })();

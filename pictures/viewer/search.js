@@ -11,12 +11,12 @@ const search = (() => {
         if (!wanted) return [];
         const names = r.head.robots.map((robot, i) => ({ i, name: robot.name.toLowerCase() })).filter(({ name }) => name.includes(wanted));
         names.sort((a, b) => a.name.indexOf(wanted) - b.name.indexOf(wanted) || a.name.length - b.name.length);
-        for (const { i } of names.slice(0, most)) out.push({ text: `robot ${words.short(r.name(i), 40)}`, act: () => selection.set({ robots: [i], panel: "robot", storey: r.storey(r.pose(i, selection.state.t, { x: 0, y: 0, z: 0, vx: 0, vy: 0, heading: 0 }).z) }) });
+        for (const { i } of names.slice(0, most)) out.push({ text: `robot ${r.label(i, 40)}`, act: () => selection.set({ robots: [i], panel: "robot", storey: r.storey(r.pose(i, selection.state.t).z) }) });
         const uid = r.by_uid.get(Number(wanted.replace(/^message\s+/, "")));
         /** @param {number} i */
         const add = i => {
             const payload = words.short(r.payload(i), 24);
-            out.push({ text: `${r.message_text(i)} of ${words.short(r.name(r.col("messages.origin")[i]), 24)}${payload ? `: ${payload}` : ""}`, act: () => selection.set({ message: i, panel: "message" }) });
+            out.push({ text: `${r.message_text(i)} of ${r.label(r.col("messages.origin")[i])}${payload ? `: ${payload}` : ""}`, act: () => selection.set({ message: i, panel: "message" }) });
         };
         if (uid !== undefined) add(uid);
         for (let i = 0; i < Math.min(r.messages, most_looked) && out.length < most; i++) {

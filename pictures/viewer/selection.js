@@ -38,5 +38,5 @@ const selection = (() => {
         set({ robots: robot < 0 ? [] : [...others, robot] });
     }
 
-    return { state, set, listen, choose, everything, no_filter };
+    return { state, set, listen, choose, everything };
 })();

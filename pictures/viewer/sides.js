@@ -48,6 +48,11 @@ const sides = (() => {
         return server.ask(op, { ...fields, ...(t_ns > end ? { t_ns: end } : {}), ...(i ? { run: i } : {}) });
     }
 
+    /** How much a run has. @param {Head} head */
+    function counts({ seed, replication, counts: { messages, flights, receptions } }) {
+        return [`seed ${seed}`, ...(replication ? [`replication ${replication}`] : []), words.counted(messages, "message"), words.counted(flights, "frame"), words.counted(receptions, "reception")];
+    }
+
     /** What the map shows, in words. */
     function title() { return shown().map(i => own.all[i].label).join(" | "); }
 
@@ -74,5 +79,5 @@ const sides = (() => {
         [...dom.by_id("labels").children].forEach((label, nth) => label.textContent = own.all[shown()[nth]]?.label ?? "");
     }
 
-    return { own, lead, shown, in_other, state_of, show, left, under, ask, title, begin, tell };
+    return { own, lead, shown, in_other, state_of, show, left, under, ask, counts, title, begin, tell };
 })();

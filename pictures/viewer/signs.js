@@ -39,13 +39,9 @@ const signs = (() => {
 
     /** @param {CanvasRenderingContext2D} c @param {number} sign @param {number} x @param {number} y @param {number} r */
     function draw(c, sign, x, y, r) {
-        for (const [style, width] of /** @type {[string, number][]} */ ([[theme.colors().paper, 4.5], [color(sign), 2]])) {
-            c.beginPath();
-            outline(c, sign, x, y, r);
-            c.strokeStyle = style;
-            c.lineWidth = width;
-            c.stroke();
-        }
+        c.beginPath();
+        outline(c, sign, x, y, r);
+        pen.rimmed(c, color(sign), 2);
     }
 
     /** Number of receptions of each sign in the run. @param {Run} r @returns {number[]} */
@@ -55,5 +51,5 @@ const signs = (() => {
         return out;
     }
 
-    return { counts, delivered, received, count, kinds, of, color, look, outline, draw };
+    return { counts, received, count, kinds, of, color, look, outline, draw };
 })();

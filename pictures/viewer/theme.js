@@ -4,10 +4,10 @@
 const theme = (() => {
     "use strict";
     /** @type {Palette} */
-    const light = { paper: "#ffffff", ink: "#111111", muted: "#555555", line: "#555555", faint: "#e4e7eb", chosen: "#ffa94d", disc: "#ffffff", off: "#d0d0d0", accent: "#0072b2" };
+    const light = { paper: "#ffffff", ink: "#111111", muted: "#555555", line: "#555555", faint: "#e4e7eb", chosen: "#ffa94d", disc: "#ffffff", off: "#949494", accent: "#0072b2" };
     /** @type {Palette} */
-    const dark = { paper: "#16181c", ink: "#f0f0f0", muted: "#a9afb8", line: "#7a818c", faint: "#2a2e35", chosen: "#c46a10", disc: "#16181c", off: "#4a4f57", accent: "#56b4e9" };
-    const least_contrast = 3;
+    const dark = { paper: "#16181c", ink: "#f0f0f0", muted: "#a9afb8", line: "#7a818c", faint: "#2a2e35", chosen: "#c46a10", disc: "#16181c", off: "#6e747e", accent: "#56b4e9" };
+    const least_contrast = { light: 3, dark: 4.5 };  // thin lines need more on dark paper
 
     const dark_wanted = typeof matchMedia === "function" ? matchMedia("(prefers-color-scheme: dark)") : null;
     const still_wanted = typeof matchMedia === "function" ? matchMedia("(prefers-reduced-motion: reduce)") : null;
@@ -54,7 +54,8 @@ const theme = (() => {
         let out = known.get(key);
         if (out) return out;
         out = color;
-        for (let share = 0.9; contrast(out, colors().paper) < least_contrast && share > 0; share -= 0.1) out = blend(color, colors().ink, share);
+        const least = least_contrast[is_dark() ? "dark" : "light"];
+        for (let share = 0.9; contrast(out, colors().paper) < least && share > 0; share -= 0.1) out = blend(color, colors().ink, share);
         known.set(key, out);
         return out;
     }
@@ -81,5 +82,5 @@ const theme = (() => {
         for (const wish of [dark_wanted, still_wanted]) wish?.addEventListener("change", then);
     }
 
-    return { is_dark, is_still, colors, readable, wall, category, on_scale, channels, contrast, on_change };
+    return { is_dark, is_still, colors, readable, wall, category, on_scale, channels, on_change };
 })();

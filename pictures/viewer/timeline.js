@@ -5,7 +5,7 @@ const timeline = (() => {
     const shortest = 1000;                                 // [ns]
     const axis = 18, bar = 3, most_bars = 1500;  // [px], frames
     /** @type {{run: Run, blocks: Blocks, width: number, height: number, layers: Numbers[], top: number, key: string, picture: HTMLCanvasElement|null}} */
-    const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), width: 100, height: 80, layers: [], top: 4, key: "", picture: null };
+    const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), width: 100, height: 80, layers: [], top: 8, key: "", picture: null };
 
     function span() { return selection.state.span ?? { from: 0, to: Math.max(1, own.run.duration) }; }
     /** @param {number} t */
@@ -90,7 +90,7 @@ const timeline = (() => {
         const rows = [0], height = 14, room = Math.floor((own.height - axis - own.top) / height);
         for (const [block, i] of found) {
             const x = to_x(block.start[i]), w = Math.max(2, to_x(block.end(i)) - x);
-            const name = words.short(own.run.name(block.sender[i]), 20), text = c.measureText(name).width + 6, inside = text <= w;
+            const name = own.run.label(block.sender[i], 20), text = c.measureText(name).width + 6, inside = text <= w;
             let row = rows.findIndex(until => until <= x);
             if (row < 0) row = rows.length < room ? rows.length : 0;
             rows[row] = x + (inside ? w : w + text) + 2;
@@ -121,8 +121,8 @@ const timeline = (() => {
         const { from, to } = span(), step = camera.round_number((to - from) / own.width * 130) || 1;
         const decimals = Math.min(9, Math.max(0, Math.ceil(9 - Math.log10(step))));
         c.fillStyle = theme.colors().muted;
-        c.strokeStyle = theme.colors().line;
-        c.lineWidth = 1;
+        pen.take(c, theme.colors().line, 1);
+        let free = 0;  // [px] from which on there is no text
         c.beginPath();
         c.moveTo(0, own.height - axis + 0.5);
         c.lineTo(own.width, own.height - axis + 0.5);
@@ -130,8 +130,10 @@ const timeline = (() => {
             const x = Math.round(to_x(t)) + 0.5;
             c.moveTo(x, own.height - axis);
             c.lineTo(x, own.height - axis + 4);
-            const text = words.seconds(Math.round(t), decimals) + "\u202fs", w = c.measureText(text).width;
-            c.fillText(text, Math.min(own.width - w - 2, Math.max(2, x - w / 2)), own.height - 4);
+            const text = words.seconds(Math.round(t), decimals) + "\u202fs", w = c.measureText(text).width, left = Math.min(own.width - w - 2, Math.max(2, x - w / 2));
+            if (left < free) continue;
+            c.fillText(text, left, own.height - 4);
+            free = left + w + 6;
         }
         c.stroke();
     }
@@ -139,7 +141,7 @@ const timeline = (() => {
     function paint() {
         if (!own.picture) own.picture = document.createElement("canvas");
         const c = dom.sized(own.picture, own.width, own.height);
-        c.font = `10px ${robots.font}`;
+        c.font = pen.font(10);
         if (!frames(c)) density(c);
         marks(c);
         ruler(c);
@@ -221,5 +223,5 @@ const timeline = (() => {
         return x >= 0 && x <= own.width ? x : own.width / 2;
     }
 
-    return { begin, show, draw, zoom, middle, keep, resize, columns, level };
+    return { begin, show, draw, zoom, middle, keep, resize, span, columns };
 })();

@@ -29,6 +29,9 @@ const words = (() => {
         return String(Number(v.toPrecision(digits))).replace("-", minus);
     }
 
+    /** @param {number} v @param {number} decimals */
+    function fixed(v, decimals) { return v.toFixed(decimals).replace("-", minus); }
+
     /** @param {number} n */
     function count(n) { return grouped(String(n), false); }
 
@@ -49,5 +52,5 @@ const words = (() => {
     /** A foreign name, as it is shown. @param {string} name @param {number} most */
     function short(name, most) { return shortened(visible(name), most); }
 
-    return { seconds, span, number, count, counted, shortened, visible, short };
+    return { seconds, span, number, fixed, count, counted, shortened, visible, short };
 })();

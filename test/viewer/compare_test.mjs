@@ -132,6 +132,8 @@ test("V9: two runs are not cut off at 1024 x 640", () => with_page("both", { con
     const [label, zooms] = await Promise.all(["#labels span:last-child", "#zooms"].map(place => page.locator(place).boundingBox()));
     const text = await page.locator("#labels span:last-child").evaluate(span => span.scrollWidth);
     assert.ok(label.x + Math.min(text, label.width - 40) <= zooms.x);
+    const cut = await page.evaluate(() => [...document.querySelectorAll("#name, #caption, #labels span")].filter(e => e.scrollWidth > e.clientWidth || e.scrollHeight > e.clientHeight + 2).map(e => e.textContent));
+    assert.deepEqual(cut, []);
 }));
 
 test("links are drawn on both maps, each those of its run", () => with_command(["view", path.join(folder, "rescue"), "--with", radio], address => with_served(address, {}, async page => {
