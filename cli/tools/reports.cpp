@@ -4,6 +4,7 @@
 #include "cli/terminal/playing.hpp"
 #include "cli/tools/tool_commands.hpp"
 #include "experiment/reports/link_report.hpp"
+#include "experiment/reports/loss_table.hpp"
 #include "experiment/run.hpp"
 #include "experiment/version.hpp"
 #include "pictures/chart/budget_chart.hpp"
