@@ -224,7 +224,7 @@ TEST_CASE("sweep: killed 50 times, it loses and repeats no run, and gives the sa
     int kills = 0, landed = 0;
     while (kills < 50) {
         if (!sweep || has_ended(sweep->pid())) sweep.emplace(place.folder, sweep_of(place));
-        const std::size_t enough = std::min<std::size_t>(kept.size() + random() % 3, 200);
+        const auto enough = std::clamp<std::size_t>(kept.size() + random() % 3, 1, 200);
         while (finished(place.store()).size() < enough && !has_ended(sweep->pid())) wait_a_moment();
         std::vector<pid_t> workers;
         if (random() % 3 == 0) workers = children_of(sweep->pid());
