@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/reports/route_way.hpp"
 
+#include "models/medium/medium.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 
 #include "models/link_gain.hpp"
 #include "models/propagation/list.hpp"
+#include "network/robot.hpp"
 #include "pictures/viewer/view_map.hpp"
 #include "scenario/scenario.hpp"
 #include "sim/fate.hpp"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "models/access/access.hpp"
+#include "models/access/csma.hpp"
 #include "scenario/tables/read_value.hpp"
 #include "sim/fields.hpp"
 
