@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/terminal/options.hpp"
-#include "cli/terminal/stop.hpp"
-#include "experiment/version.hpp"
 #include "study/command_words.hpp"
 
 #include <algorithm>
-#include <csignal>
 #include <iterator>
 #include <string>
 #include <string_view>
@@ -27,16 +24,11 @@ std::string command_line(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    cli::end_on_signals();
-    std::signal(SIGPIPE, SIG_IGN);
-
     const std::string typed = command_line(argc, argv);
-    return cli::run_command_line(argc, argv, "rovernet",
-                                 "rovernet: wireless networks of moving robots, event by event",
-                                 std::string(version()), [&](cli::Command program) {
-                                     cli::add_run_commands(program, typed);
-                                     cli::add_scene_commands(program);
-                                     cli::add_result_commands(program);
-                                     cli::add_tool_commands(program);
-                                 });
+    return cli::run_program(argc, argv, [&](cli::Command program) {
+        cli::add_run_commands(program, typed);
+        cli::add_scene_commands(program);
+        cli::add_result_commands(program);
+        cli::add_tool_commands(program);
+    });
 }

@@ -2,11 +2,14 @@
 #include "cli/terminal/options.hpp"
 
 #include "cli/terminal/manual.hpp"
+#include "cli/terminal/stop.hpp"
+#include "experiment/version.hpp"
 
 #include <fmt/format.h>
 
 #include <charconv>
 #include <cmath>
+#include <csignal>
 #include <cstdint>
 #include <string_view>
 
@@ -60,6 +63,14 @@ void print_completion(const ManualArguments& a) {
 }
 
 void print_man_page(const ManualArguments& a) { fmt::print("{}", man_page(a.program->text())); }
+
+int run_program(int argc, char** argv, const std::function<void(Command program)>& declare) {
+    end_on_signals();
+    std::signal(SIGPIPE, SIG_IGN);
+    return run_command_line(argc, argv, "rovernet",
+                            "rovernet: wireless networks of moving robots, event by event",
+                            std::string(version()), declare);
+}
 
 void add_verbosity(Command command) {
     Option quiet = command.add_flag(

@@ -5,6 +5,7 @@
 #include "cli/terminal/commands.hpp"
 #include "cli/terminal/diagnostics.hpp"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +15,10 @@
 /// result, trace, tool) is declared in FAMILY_options.cpp. The functions that execute commands are
 /// in FAMILY_commands.hpp.
 namespace rovernet::cli {
+
+/// Runs the program `rovernet` with the commands that `declare` adds: handles signals, parses the
+/// command line and runs its command. @return exit code
+int run_program(int argc, char** argv, const std::function<void(Command program)>& declare);
 
 /// Adds --quiet and --verbose, which every command has.
 void add_verbosity(Command command);

@@ -168,23 +168,27 @@ MessageAtRobot Account::result() && {
     return std::move(message_);
 }
 
-}  // namespace
-
-MessageAtRobot message_at_robot(const std::string& path, std::uint64_t uid, NodeId robot,
-                                const RecordedIndex* index) {
-    return message_at_robot(path, LoadedRun(RecordedReader(path).run(), path), uid, robot, index);
-}
-
-MessageAtRobot message_at_robot(const std::string& path, const LoadedRun& run, std::uint64_t uid,
-                                NodeId robot, const RecordedIndex* index) {
-    RecordedReader trace(path);
-    Account account(trace, path, run, uid, robot);
+MessageAtRobot read_account(Account account, const RecordedIndex* index) {
     if (index && index->knows_airtimes()) {
         account.read_chunks(*index);
     } else {
         account.read_all();
     }
     return std::move(account).result();
+}
+
+}  // namespace
+
+MessageAtRobot message_at_robot(const std::string& path, std::uint64_t uid, NodeId robot,
+                                const RecordedIndex* index) {
+    RecordedReader trace(path);
+    return read_account({trace, path, LoadedRun(trace.run(), path), uid, robot}, index);
+}
+
+MessageAtRobot message_at_robot(const std::string& path, const LoadedRun& run, std::uint64_t uid,
+                                NodeId robot, const RecordedIndex* index) {
+    RecordedReader trace(path);
+    return read_account({trace, path, run, uid, robot}, index);
 }
 
 namespace {

@@ -90,7 +90,7 @@ struct MessageAtRobot {
 /// no such robot
 MessageAtRobot message_at_robot(const std::string& path, std::uint64_t uid, NodeId robot,
                                 const RecordedIndex* index = nullptr);
-/// As above, with the scenario of the trace already loaded.
+/// Examination of one of many messages of a trace, whose scenario `run` is loaded once for all.
 MessageAtRobot message_at_robot(const std::string& path, const LoadedRun& run, std::uint64_t uid,
                                 NodeId robot, const RecordedIndex* index);
 
