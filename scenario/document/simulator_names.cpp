@@ -102,7 +102,8 @@ std::string plain(std::string_view name) {
         if (out.starts_with(prefix) && out.size() > prefix.size()) out.erase(0, prefix.size());
     for (const std::string_view suffix : {"helper", "medium", "model", "mac", "propagationloss",
                                           "mobility", "pathloss", "fading", "protocol"})
-        if (out.ends_with(suffix) && out.size() > suffix.size())
+        // A name such as LMac stays whole.
+        if (out.ends_with(suffix) && out.size() > suffix.size() + 1)
             out.erase(out.size() - suffix.size());
     return out;
 }

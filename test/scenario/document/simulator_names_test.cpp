@@ -78,7 +78,8 @@ TEST_CASE("a known model that rovernet does not have is named, with the page of 
     for (const char* protocol : {"OLSR", "DSDV", "Olsr", "TORA"})
         CHECK(hint("routing", protocol) == protocol + there);
     CHECK(hint("propagation", "OkumuraHata") == "OkumuraHata" + there);
-    CHECK(hint("access", "Mac/Tdma") == "Mac/Tdma" + there);
+    for (const char* access : {"Mac/Tdma", "TdmaMac", "BMac", "LMac", "Mac/SMAC"})
+        CHECK(hint("access", access) == access + there);
 }
 
 TEST_CASE("a name of another table, an unknown name and odd texts get no hint") {
