@@ -23,7 +23,7 @@ constexpr std::size_t most_counted = 64;
 /// @param node_bits  number of bits of the largest node
 template <class Order>
 void sort_by_counting(std::span<Reception> all, Time first, int node_bits) {
-    // What makes their number one that is compared at once, by one instruction for four or two.
+    // Padding: the number of keys is a multiple of those that one instruction compares, 4 or 2.
     constexpr std::size_t at_once = 16 / sizeof(Order);
     std::array<Order, most_counted + at_once> order;
     std::fill_n(order.begin() + static_cast<std::ptrdiff_t>(all.size()), at_once,

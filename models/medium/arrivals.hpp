@@ -55,7 +55,8 @@ class Arrivals {
   private:
     // Arrival of a frame at `to`, a node within the frame's reach at squared distance d2 [m^2].
     std::optional<Arrival> within_reach(const Emission& frame, double d2, NodeId to, Vec3 there);
-    // The same for a link that the distance alone does not decide.
+    // Arrival of such a frame if the sender's model decides by the pair of nodes, not by the
+    // distance alone: by the pair's shadowing draw, or by the loss.
     std::optional<Arrival> of_pair(const Emission& frame, double d2, NodeId to, Vec3 there);
     // Arrival of a frame at `to`, with the path loss by the model; the gates must allow the link.
     std::optional<Arrival> by_loss(const Emission& frame, double d2, NodeId to, Vec3 there,

@@ -110,10 +110,9 @@ class Interference {
     std::uint64_t key(NodeId node) const { return settings_.medium->stations().key(node); }
 
   private:
-    // Arrival of a frame at a node other than its sender whose leg or radio has changed recently
-    // ...
+    // Arrival of a frame at another node whose leg or radio may have changed since it began.
     std::optional<Arrival> arrival_before_change(const Emission& frame, NodeId node);
-    // ... and with directional antennas.
+    // Arrival of a frame at a node other than its sender, with directional antennas.
     std::optional<Arrival> directional_arrival(const Emission& frame, NodeId node);
 
     Settings settings_;

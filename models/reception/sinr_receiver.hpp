@@ -77,7 +77,7 @@ class SinrReceiver {
     // order of the input.
     template <class Level, class Before>
     void sort_here(Level level, Before before) {
-        if (here_.size() < 2) return;  // most often
+        if (here_.size() < 2) return;  // the usual case: no other frame
         std::sort(here_.begin(), here_.end(), [&](Arrival* a, Arrival* b) {
             if (a->begin != b->begin) return a->begin < b->begin;
             return level(*a) != level(*b) ? level(*a) > level(*b) : before(a->from, b->from);
