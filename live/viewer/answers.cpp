@@ -2,6 +2,7 @@
 #include "live/viewer/answers.hpp"
 
 #include "experiment/replay/air_at_robot.hpp"
+#include "experiment/replay/loaded_run.hpp"
 #include "experiment/replay/message_at_robot.hpp"
 #include "experiment/reports/link_report.hpp"
 #include "experiment/reports/link_table.hpp"
@@ -40,10 +41,7 @@ bool has_member(const JsonElement& object, std::string_view key) {
 
 ViewerAnswers::ViewerAnswers(IndexedTrace trace, const IndexedTrace& other)
     : trace_(std::move(trace)), parser_(std::make_unique<JsonParser>()) {
-    const RecordedReader reader(trace_.path);
-    robots_ = reader.run().robots;
-    replayed_ = std::make_unique<ReplayedScenario>(reader.run(), trace_.path);
-    scenario_ = replayed_->with({});
+    robots_ = loaded(trace_).names;
     if (!other.path.empty()) other_ = std::make_unique<ViewerAnswers>(other);
 }
 
@@ -98,12 +96,18 @@ NodeId ViewerAnswers::robot(const JsonElement& question, std::string_view key) c
 }
 
 Time ViewerAnswers::time(const JsonElement& question) const {
-    const auto end = static_cast<std::uint64_t>(scenario_.scenario.duration.count());
+    const auto end = static_cast<std::uint64_t>(run_->scenario.scenario.duration.count());
     const std::uint64_t t = member(question, "t_ns").whole_number(0, end);
     return start_of_run + Duration{static_cast<std::int64_t>(t)};
 }
 
-Table ViewerAnswers::why(const JsonElement& question) const {
+/// Scenario of the run, loaded with the first trace of it.
+const LoadedRun& ViewerAnswers::loaded(const IndexedTrace& trace) {
+    if (!run_) run_ = std::make_unique<LoadedRun>(RecordedReader(trace.path).run(), trace.path);
+    return *run_;
+}
+
+Table ViewerAnswers::why(const JsonElement& question) {
     const std::uint64_t uid = member(question, "uid").whole_number(0, 1ULL << 53U);
     const NodeId node = robot(question, "robot");
     const IndexedTrace trace = running_ ? history_.of_message(uid) : trace_;
@@ -113,7 +117,7 @@ Table ViewerAnswers::why(const JsonElement& question) const {
                                        "before a page was connected, or too long ago",
                                        uid));
     }
-    return document_of(message_at_robot(trace.path, uid, node, trace.index.get()));
+    return document_of(message_at_robot(trace.path, loaded(trace), uid, node, trace.index.get()));
 }
 
 Table ViewerAnswers::air(const JsonElement& question) const {
@@ -128,7 +132,7 @@ Table ViewerAnswers::pair(const JsonElement& question) const {
     const auto link = [&](NodeId from, NodeId to) {
         return link_document(
             running_ ? report_link(*running_, from, to)
-                     : report_link(scenario_, name_of(from), name_of(to), time(question)));
+                     : report_link(run_->scenario, name_of(from), name_of(to), time(question)));
     };
     Table answer;
     answer.set("links", Array{link(a, b), link(b, a)});
@@ -140,7 +144,7 @@ const Network& ViewerAnswers::network(const JsonElement& question) {
     if (running_) return *running_;
     const Time at = time(question);
     if (!network_ || network_->now() > at) {
-        network_ = network_at(scenario_, at);
+        network_ = network_at(run_->scenario, at);
     } else if (network_->now() < at) {
         play_until(*network_, at, {});
     }
@@ -174,7 +178,7 @@ Table ViewerAnswers::svg(const JsonElement& question) const {
         .storey = 1 + static_cast<int>(member(question, "storey").whole_number(0, storeys))};
     if (has_member(question, "coverage")) options.coverage = {name_of(robot(question, "coverage"))};
     Table answer;
-    answer.set("svg", draw_svg(scenario_, options));
+    answer.set("svg", draw_svg(run_->scenario, options));
     return answer;
 }
 
@@ -189,7 +193,7 @@ std::optional<Propagation> ViewerAnswers::other_model(const JsonElement& questio
     if (!with.starts_with("propagation."))
         throw RequestError("bad_value", "with",
                            "expected KEY=VALUE, such as \"propagation.model=friis\"");
-    const auto network = network_at(replayed_->with({with}), start_of_run);
+    const auto network = network_at(run_->replayed.with({with}), start_of_run);
     return network->medium().stations().model(robot).median();
 }
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/recorded_scenario.hpp"
 #include "models/propagation/propagation.hpp"
 #include "scenario/document/value.hpp"
-#include "scenario/scenario.hpp"
 #include "sim/ids.hpp"
 
 #include <functional>
@@ -18,6 +16,7 @@ namespace rovernet {
 
 struct JsonElement;
 class JsonParser;
+struct LoadedRun;
 class Network;
 class RecordedIndex;
 
@@ -59,13 +58,14 @@ class ViewerAnswers {
 
   private:
     Table answer_of(std::string_view op, const JsonElement& question);
-    Table why(const JsonElement& question) const;
+    Table why(const JsonElement& question);
     Table air(const JsonElement& question) const;
     Table pair(const JsonElement& question) const;
     Table link_table(const JsonElement& question);
     Table links(const JsonElement& question);
     Table coverage(const JsonElement& question);
     Table svg(const JsonElement& question) const;
+    const LoadedRun& loaded(const IndexedTrace& trace);
     NodeId robot(const JsonElement& question, std::string_view key) const;
     const std::string& name_of(NodeId robot) const { return robots_[robot.index()]; }
     /// Propagation model of a robot's transmissions under the assignments in the question's key
@@ -81,8 +81,7 @@ class ViewerAnswers {
     std::shared_ptr<const Network> running_;  // null: the answers are about a trace
     History history_;                         // history of running_
     std::vector<std::string> robots_;         // names by NodeId
-    std::unique_ptr<ReplayedScenario> replayed_;
-    Scenario scenario_;
+    std::unique_ptr<LoadedRun> run_;  // null: about a running network, and no "why" was asked yet
     std::unique_ptr<Network> network_;
     std::unique_ptr<JsonParser> parser_;
     std::unique_ptr<ViewerAnswers> other_;  // answers about the second run; null: none
