@@ -3,8 +3,8 @@
 const controls = (() => {
     "use strict";
     const { panels } = sides.own;
-    /** @type {{run: Run, blocks: Blocks, note: string, said: number, resting: number}} */
-    const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), note: "", said: 0, resting: 0 };
+    /** @type {{run: Run, blocks: Blocks, note: string, resting: number, stale: boolean}} */
+    const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), note: "", resting: 0, stale: true };
 
     /** Makes the map larger around its middle. @param {number} factor */
     function zoom(factor) {
@@ -113,6 +113,9 @@ const controls = (() => {
     function tell(state) {
         const head = own.run.head;
         dom.by_id("time").textContent = `${words.seconds(state.t, state.speed < 1e-3 ? 9 : 6)} s`;
+        // All else stays as it is while only the time passes.
+        if (!own.stale && state.playing && !live.is_live() && head.map.floors.length <= 1) return;
+        own.stale = false;
         dom.by_id("present").hidden = !live.is_live();
         dom.by_id("present").textContent = live.text();
         dom.by_id("present").setAttribute("aria-pressed", String(live.goes_on() && live.follows()));
@@ -168,9 +171,10 @@ const controls = (() => {
     }
 
     /** @param {Run} r @param {Blocks} all */
-    function show(r, all) { Object.assign(own, { run: r, blocks: all }); }
+    function show(r, all) { Object.assign(own, { run: r, blocks: all, stale: true }); }
 
     function begin() {
+        selection.listen(changed => { if (changed.size > 1 || !changed.has("t")) own.stale = true; });
         buttons();
         pointers();
     }

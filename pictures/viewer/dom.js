@@ -52,6 +52,8 @@ const dom = (() => {
     /** @param {number} sign */
     function sign(sign) { return icon(16, c => signs.draw(c, sign, 8, 8, 4)); }
 
+    /** Style of each canvas: asking it for its own takes long. @type {WeakMap<HTMLCanvasElement, string>} */ const styles = new WeakMap();
+
     /** Context of a canvas of that size in CSS pixels, cleared. @param {HTMLCanvasElement} of @param {number} width @param {number} height */
     function sized(of, width, height) {
         const ratio = window.devicePixelRatio || 1;
@@ -61,7 +63,7 @@ const dom = (() => {
             of.height = h;
         }
         const shown = `width: ${width}px; height: ${height}px;`;
-        if (of.style.cssText !== shown) of.style.cssText = shown;
+        if (styles.get(of) !== shown) styles.set(of, of.style.cssText = shown);
         const c = /** @type {CanvasRenderingContext2D} */ (of.getContext("2d"));
         c.setTransform(ratio, 0, 0, ratio, 0, 0);
         c.globalAlpha = 1;

@@ -5,14 +5,14 @@ const flights = (() => {
     const most_lines = 4000;
     /** Wall time that a frame stays after its end, and that its ring takes at least [s]. */
     const kept_s = 0.35, least_ring_s = 0.15;
-    const shades = 3, crowd = 600, most_rings = 60;  // most rings that are paths
+    const shades = 3, crowd = 600;
     const shown = { lines: 0, left_out: 0, frames: 0 };
     const kind_colors = [0, 5, 3, 6, 1, 4];
 
     /** Colour of a kind of frame. @param {number} kind */
-    function kind_color(kind) { return theme.category(kind_colors[kind % kind_colors.length] ?? 0); }
+    function kind_color(kind) { return theme.category(kind_colors[kind % kind_colors.length]); }
 
-    /** Lines and signs of one look, drawn together. @typedef {{lines: Path2D|null, ends: number[]}} Batch */
+    /** Lines and signs of one look, drawn together. @typedef {{lines: Path2D, ends: number[]}} Batch */
 
     /** Share of the way that a frame has made, and share of the time after it. */
     const made = { way: 0, age: 0, ended: false };
@@ -29,49 +29,46 @@ const flights = (() => {
 
     /** @param {CanvasRenderingContext2D} c @param {Blocks} all @param {State} state */
     function draw(c, all, state) {
-        const { at } = robots, kept_ns = (kept_s + least_ring_s) * state.speed * run.nanoseconds;
+        const { t, message, storey } = state, kept_ns = (kept_s + least_ring_s) * state.speed * run.nanoseconds;
+        const { x: xs, y: ys, storey: storeys } = robots.at, { width, height } = camera.now, grows = theme.is_still() ? 0 : 1;
         const ring_colors = all.run.head.frame_kinds.map((_, kind) => pixels.word(kind_color(kind)));
-        let ring_count = 0;
+        let on_air = 0;
+        all.between(t - kept_ns, t, () => { on_air++; });
+        const crowded = on_air > crowd;
         /** @type {(Batch|undefined)[]} */ const batches = new Array((signs.count + 1) * shades);
-        const storeys = all.run.head.map.floors.length > 1;
         /** Rings of each kind of frame and shade. @type {Map<number, Path2D>} */ const rings = new Map();
-        /** @param {number} sign @param {number} shade */
-        const batch = (sign, shade) => {
-            return batches[sign * shades + shade] ??= { lines: new Path2D(), ends: [] };
-        };
-        const on_air = all.between(state.t - kept_ns, state.t, (block, i) => {
-            const message = block.message[i];
-            if (state.message >= 0 && message !== state.message) return;
+        const whole = all.between(t - kept_ns, t, (block, i) => {
+            if (message >= 0 && block.message[i] !== message) return;
             const { way, age, ended } = progress(block, i, state);
             if (age > 1) return;
             shown.frames++;
-            const from = block.sender[i], shade = Math.min(shades - 1, Math.floor(age * shades));
-            const x = at.x[from], y = at.y[from], here = !storeys || at.storey[from] === state.storey, last = block.first[i + 1];
+            const { robot, outcome } = block, from = block.sender[i], shade = Math.min(shades - 1, Math.floor(age * shades));
+            const x = xs[from], y = ys[from], here = storeys[from] === storey, last = block.first[i + 1];
             let square = 0;  // of the longest line
             for (let k = block.first[i]; k < last; k++) {
                 if (here && shown.lines >= most_lines) {
                     shown.left_out += last - k;
                     break;
                 }
-                const to = block.robot[k];
-                if (!here && at.storey[to] !== state.storey) continue;
+                const to = robot[k];
+                if (!here && storeys[to] !== storey) continue;
                 if (shown.lines >= most_lines) {
                     shown.left_out++;
                     continue;
                 }
                 shown.lines++;
-                const dx = at.x[to] - x, dy = at.y[to] - y;
+                const dx = xs[to] - x, dy = ys[to] - y, key = (ended ? signs.of(outcome[k]) : signs.count) * shades + shade;
                 square = Math.max(square, dx * dx + dy * dy);
-                const { lines, ends } = batch(ended ? signs.of(block.outcome[k]) : signs.count, shade);
-                lines?.moveTo(x, y);
-                lines?.lineTo(x + dx * way, y + dy * way);
-                if (ended) ends.push(at.x[to], at.y[to]);
+                const { lines, ends } = batches[key] ??= { lines: new Path2D(), ends: [] };
+                lines.moveTo(x, y);
+                lines.lineTo(x + dx * way, y + dy * way);
+                if (ended) ends.push(xs[to], ys[to]);
             }
-            if (!here || shade > 0 && shown.frames > crowd || ended && !state.playing) return;
-            const r = Math.max(8, Math.sqrt(square) * (theme.is_still() ? 0 : way)), { width, height } = camera.now;
+            // Of a crowd, those that are under way.
+            if (!here || crowded && age > 0 || ended && !state.playing) return;
+            const r = Math.max(8, Math.sqrt(square) * grows * way);
             if (x < -r || y < -r || x > width + r || y > height + r) return;
-            ring_count++;
-            if (shade === 0 && ring_count > most_rings && pixels.ring(x, y, r, ring_colors[block.kind[i]])) return;
+            if (crowded && pixels.ring(x, y, r, ring_colors[block.kind[i]])) return;
             ring(rings, block.kind[i] * shades + shade, x, y, r);
         });
         for (const [key, path] of rings) {
@@ -84,7 +81,7 @@ const flights = (() => {
             const some = batches[key];
             if (some) stroke(c, some.lines, some.ends, Math.floor(key / shades), 1 - (key % shades) / shades, shown.lines > crowd);
         }
-        return on_air;
+        return whole;
     }
 
     /** @param {Map<number, Path2D>} rings @param {number} key @param {number} x @param {number} y @param {number} r [px] */
@@ -95,15 +92,13 @@ const flights = (() => {
         path.arc(x, y, r, 0, 2 * Math.PI);
     }
 
-    /** @param {CanvasRenderingContext2D} c @param {Path2D|null} lines @param {number[]} ends x and y of each @param {number} sign @param {number} strength @param {boolean} crowded */
+    /** @param {CanvasRenderingContext2D} c @param {Path2D} lines @param {number[]} ends x and y of each @param {number} sign @param {number} strength @param {boolean} crowded */
     function stroke(c, lines, ends, sign, strength, crowded) {
         const under_way = sign >= signs.count;
         const color = under_way ? theme.colors().muted : signs.color(sign);
-        if (lines) {
-            c.globalAlpha = strength * (crowded ? 0.5 : 0.85);
-            pen.take(c, color, crowded ? 1 : 1.6, under_way ? [4, 3] : []);
-            c.stroke(lines);
-        }
+        c.globalAlpha = strength * (crowded ? 0.5 : 0.85);
+        pen.take(c, color, crowded ? 1 : 1.6, under_way ? [4, 3] : []);
+        c.stroke(lines);
         if (!under_way && crowded && sign > signs.received) pixels.marks(ends, sign, 3, strength, pixels.word(color));
         if (!under_way && !crowded) {
             const marks = new Path2D();

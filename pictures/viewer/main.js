@@ -58,7 +58,7 @@ const main = (() => {
         robots.place(r, state.t);
         map.draw(c, r, state);
         antennas.draw(c, r, state);
-        pixels.begin();
+        robots.begin(r, state);
         robots.trails(c, r, state);
         links.draw(c, state, i);
         const whole = flights.draw(c, all, state);

@@ -9,6 +9,8 @@ const robots = (() => {
 
     /** Places of all robots [px] at the time of the last call of `place`. */
     const at = { t: -1, x: new Float64Array(0), y: new Float64Array(0), heading: new Float64Array(0), storey: new Uint8Array(0), on: new Uint8Array(0) };
+    /** Robots of the storey that are in sight, if they are not too many to be drawn one by one. @type {number[]} */ let shown = [];
+    let colors = new Int32Array(0);  // of a swarm
 
     /** @param {Run} r @param {number} t */
     function place(r, t) {
@@ -24,8 +26,8 @@ const robots = (() => {
             at.y[i] = camera.to_y(pose.y);
             at.heading[i] = pose.heading;
             at.storey[i] = storeys ? r.storey(pose.z) : 0;
-            at.on[i] = 1;
         }
+        at.on.fill(1);
         for (const robot of r.states.keys()) at.on[robot] = r.state(robot, t).on ? 1 : 0;
         at.t = t;
     }
@@ -69,7 +71,7 @@ const robots = (() => {
         const colors = theme.colors();
         pen.circle(c, x, y, r);
         if (on || chosen) {
-            c.fillStyle = chosen ? colors.chosen : colors.disc;
+            c.fillStyle = chosen ? colors.chosen : colors.paper;
             c.fill();
         }
         pen.take(c, rim, on ? 2.2 : 1.4, on ? [] : [2, 2]);
@@ -86,12 +88,23 @@ const robots = (() => {
     /** Thousands of robots as squares, which leave room between them. @param {State} state @param {number[]} bounds of the map */
     function swarm(state, bounds) {
         const { scale, width, height } = camera.now, [left, bottom, right, top] = bounds;
-        const shown = Math.min(width * height, Math.max(1, (right - left) * (top - bottom)) * scale * scale);
-        const size = Math.min(2 * least_radius - 2, Math.max(1.5, 0.35 * Math.sqrt(shown / at.x.length)));
-        for (const on of [1, 0]) {
-            const color = pixels.word(on ? theme.colors().muted : theme.colors().off);
-            pixels.squares(at.x, at.y, i => at.on[i] === on && at.storey[i] === state.storey, size, color);
+        const area = Math.min(width * height, Math.max(1, (right - left) * (top - bottom)) * scale * scale);
+        const size = Math.min(2 * least_radius - 2, Math.max(1.5, 0.35 * Math.sqrt(area / at.x.length)));
+        const { muted, off } = theme.colors(), words = [pixels.word(off), pixels.word(muted)];
+        if (colors.length !== at.x.length) colors = new Int32Array(at.x.length);
+        for (let i = 0; i < colors.length; i++) colors[i] = at.storey[i] === state.storey ? words[at.on[i]] : -1;
+        pixels.squares(at.x, at.y, colors, size);
+    }
+
+    /** Begins the picture of pixels, with all robots if they are a swarm. @param {Run} r @param {State} state */
+    function begin(r, state) {
+        shown = [];
+        for (let i = 0; i < r.robots && shown.length <= many; i++) {
+            if (at.storey[i] === state.storey && in_view(i, 40)) shown.push(i);
         }
+        pixels.begin();
+        if (shown.length > many) swarm(state, r.head.map.bounds);
+        else pixels.clear();
     }
 
     /** Names that find room beside their robots: right, left, above or below. @param {CanvasRenderingContext2D} c @param {Run} r @param {number[]} shown */
@@ -128,12 +141,7 @@ const robots = (() => {
 
     /** @param {CanvasRenderingContext2D} c @param {Run} r @param {State} state */
     function draw(c, r, state) {
-        /** @type {number[]} */ const shown = [];
-        for (let i = 0; i < r.robots && shown.length <= many; i++) {
-            if (at.storey[i] === state.storey && in_view(i, 40)) shown.push(i);
-        }
         const colored = state.trails && r.robots <= most_trails;
-        if (shown.length > many) swarm(state, r.head.map.bounds);
         pixels.paint(c);
         if (shown.length <= many) {
             for (const i of shown) {
@@ -162,5 +170,5 @@ const robots = (() => {
         return best;
     }
 
-    return { at, place, trails, draw, near, disc, radius, others };
+    return { at, place, begin, trails, draw, near, disc, radius, others };
 })();
