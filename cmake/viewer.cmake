@@ -1,15 +1,27 @@
 # The viewer's page, compiled into the library: cmake -DFOLDER=pictures/viewer -DOUT=viewer_page.cpp -P
-# viewer.cmake puts the style and the scripts, in the order of order.txt, into page.html. Included by a
-# CMakeLists, it adds that step to the build. Neither node nor npm is needed.
+# viewer.cmake puts the style and the scripts, in the order of order.txt, into page.html; -DMINIFY=/usr/bin/minify makes
+# them small. Included by a CMakeLists, it adds that step to the build. Neither node nor npm is needed.
 if(NOT CMAKE_SCRIPT_MODE_FILE)
   file(GLOB page CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/pictures/viewer/*.js)
   list(APPEND page ${PROJECT_SOURCE_DIR}/pictures/viewer/page.html
        ${PROJECT_SOURCE_DIR}/pictures/viewer/page.css ${PROJECT_SOURCE_DIR}/pictures/viewer/order.txt)
   set(out ${PROJECT_BINARY_DIR}/generated/viewer_page.cpp)
+  # The minify of Debian: npm has another program of this name.
+  find_program(ROVERNET_MINIFY minify)
+  set(minify "")
+  if(ROVERNET_MINIFY)
+    execute_process(COMMAND ${ROVERNET_MINIFY} --version OUTPUT_VARIABLE version ERROR_QUIET)
+    if(version MATCHES "^minify v?2[.]")
+      set(minify ${ROVERNET_MINIFY})
+    endif()
+  endif()
+  if(NOT minify)
+    message(STATUS "The viewer's page stays as large as its files: the package minify is not installed")
+  endif()
   add_custom_command(
     OUTPUT ${out}
     COMMAND ${CMAKE_COMMAND} -DFOLDER=${PROJECT_SOURCE_DIR}/pictures/viewer -DOUT=${out}
-            -P ${CMAKE_CURRENT_LIST_FILE}
+            -DMINIFY=${minify} -P ${CMAKE_CURRENT_LIST_FILE}
     DEPENDS ${page} ${CMAKE_CURRENT_LIST_FILE}
     COMMENT "Putting the viewer's page together"
     VERBATIM)
@@ -51,26 +63,18 @@ function(literal text out)
   set(${out} "${result}" PARENT_SCOPE)
 endfunction()
 
-# A script without the blanks that it does not need: beside signs, outside of texts.
-function(squeeze text out)
-  set(result "")
-  while(NOT text STREQUAL "")
-    # The code before the next text, and that text.
-    string(REGEX MATCH "^[^\"`]+" code "${text}")
-    string(LENGTH "${code}" length)
-    string(SUBSTRING "${text}" ${length} -1 text)
-    # A template may have others inside its ${ }.
-    string(REGEX MATCH "^(\"([^\"\\]|\\\\.)*\"|`([^`$]|[$][^{`]|[$]{[^`}]*(`[^`]*`[^`}]*)*})*`|[\"`])" quoted "${text}")
-    string(LENGTH "${quoted}" length)
-    string(SUBSTRING "${text}" ${length} -1 text)
-    string(REGEX REPLACE " ?([*/%<>=?:,;(){}&|!]+) ?" "\\1" code "${code}")
-    foreach(pass 1 2)  # a + b + c: the second pass takes what lies between two signs
-      string(REGEX REPLACE "([^-+ ]) ([-+]) ([^-+ ])" "\\1\\2\\3" code "${code}")
-    endforeach()
-    string(REPLACE ";}" "}" code "${code}")
-    string(APPEND result "${code}${quoted}")
-  endwhile()
-  set(${out} "${result}" PARENT_SCOPE)
+# A text without the comments and blanks that nobody needs, by minify if there is one.
+function(shorten type text out)
+  if(MINIFY)
+    file(WRITE ${OUT}.${type} "${text}")
+    execute_process(COMMAND ${MINIFY} --type=${type} --html-keep-comments ${OUT}.${type} OUTPUT_VARIABLE text
+                    ERROR_VARIABLE error RESULT_VARIABLE failed)
+    if(failed)
+      message(FATAL_ERROR "minify cannot read the viewer's page: ${error}")
+    endif()
+    file(REMOVE ${OUT}.${type})
+  endif()
+  set(${out} "${text}" PARENT_SCOPE)
 endfunction()
 
 file(READ ${FOLDER}/page.html html)
@@ -81,24 +85,13 @@ foreach(name ${names})
   file(READ ${FOLDER}/${name} part)
   string(APPEND script "${part}")
 endforeach()
-# Without comments and types, without indentation and blank lines: a fifth less.
-foreach(text script style)
-  string(REGEX REPLACE "\n[ \t]*//[^\n]*" "" ${text} "${${text}}")
-  string(REGEX REPLACE "\n[ \t]*/\\*[^\n]*\\*/[ \t]*\n" "\n" ${text} "${${text}}")
-  string(REGEX REPLACE "(/\\*\\*[^*\n]*\\*/ ?|  +//[^\n]*)" "" ${text} "${${text}}")
-  string(REGEX REPLACE "\n[ \t\n]+" "\n" ${text} "${${text}}")
-endforeach()
-# Without ends of lines where a statement, a list or a block goes on or ends: no text of the page spans lines.
-# A style needs no blanks beside its signs either.
-string(REGEX REPLACE "([;{,([])\n" "\\1" script "${script}")
-string(REGEX REPLACE "\n([]})])" "\\1" script "${script}")
-string(REPLACE "}\n" "}" script "${script}")
-string(REGEX REPLACE "([:;,{])[ \n]" "\\1" style "${style}")
-string(REGEX REPLACE ";? ?\n?}\n?" "}" style "${style}")
-# Strict mode once, for the whole script.
-string(REPLACE "\"use strict\";" "" script "${script}")
-squeeze("${script}" script)
-string(PREPEND script "\"use strict\";\n")
+# Strict mode once; one function around all, so that their names may be short.
+string(REPLACE "    \"use strict\";\n" "" script "${script}")
+string(PREPEND script "\"use strict\";\n(() => {\n")
+string(APPEND script "})();\n")
+shorten(js "${script}" script)
+shorten(css "${style}" style)
+shorten(html "${html}" html)  # its marks are comments
 csp_hash("${style}" style_hash)
 csp_hash("${script}" script_hash)
 string(REPLACE "<!--STYLE-->" "<style>${style}</style>" html "${html}")

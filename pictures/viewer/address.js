@@ -8,21 +8,25 @@ const address = (() => {
     /** @returns {string} */
     function text() {
         const { t, speed, storey, view, span, robots: chosen, message, filter, panel, trails, links: lines, runs } = selection.state, p = new URLSearchParams();
-        if (!live.is_live() || !live.follows()) p.set("t", words_of_time(t));
-        if (speed !== 1) p.set("speed", String(Number(speed.toPrecision(4))));
-        if (storey) p.set("storey", String(storey + 1));
-        if (view) p.set("view", [view.x, view.y, view.scale].map(v => Number(v.toPrecision(7))).join(","));
-        if (span) p.set("span", [span.from, span.to].map(words_of_time).join(","));
-        if (chosen.length) p.set("robots", chosen.join(","));
-        if (message >= 0 || awaited >= 0) p.set("message", String(message >= 0 ? message : awaited));
-        if (sides.own.all.length > 1) p.set("runs", runs);
-        if (panel !== "events") p.set("panel", panel);
-        if (!trails) p.set("trails", "0");
-        if (lines) p.set("links", "1");
-        if (filter.robot >= 0) p.set("of", String(filter.robot));
-        if (filter.message >= 0) p.set("on", String(filter.message));
-        if (filter.signs !== selection.everything) p.set("signs", String(filter.signs));
-        if (filter.kinds !== selection.everything) p.set("kinds", String(filter.kinds));
+        /** @param {string} key @param {unknown} wanted @param {unknown} value */
+        const put = (key, wanted, value) => {
+            if (wanted) p.set(key, String(value));
+        };
+        put("t", !live.is_live() || !live.follows(), words_of_time(t));
+        put("speed", speed !== 1, Number(speed.toPrecision(4)));
+        put("storey", storey, storey + 1);
+        put("view", view, view && [view.x, view.y, view.scale].map(v => Number(v.toPrecision(7))));
+        put("span", span, span && [span.from, span.to].map(words_of_time));
+        put("robots", chosen.length, chosen);
+        put("message", message >= 0 || awaited >= 0, message >= 0 ? message : awaited);
+        put("runs", sides.own.all.length > 1, runs);
+        put("panel", panel !== "events", panel);
+        put("trails", !trails, 0);
+        put("links", lines, 1);
+        put("of", filter.robot >= 0, filter.robot);
+        put("on", filter.message >= 0, filter.message);
+        put("signs", filter.signs !== selection.everything, filter.signs);
+        put("kinds", filter.kinds !== selection.everything, filter.kinds);
         return "#" + p.toString().replaceAll("%2C", ",");
     }
 

@@ -27,10 +27,10 @@ const blocks = (() => {
         const there = [...of_flights, "count", ...r.file.sections.has(`${number}/flights.${queue}`) ? [queue] : []];
         await Promise.all([get("flights", there), get("receptions", of_receptions)]);
         const count = columns.get("count") ?? none, flights = count.length, first = new Uint32Array(flights + 1);
-        if (there.some(name => columns.get(name)?.length !== flights)) rvw.damaged(`block ${number} has frames of different numbers.`);
+        if (there.some(name => columns.get(name)?.length !== flights)) rvw.broken(`${number}/flights`);
         for (let i = 0; i < flights; i++) first[i + 1] = first[i] + count[i];
         if (of_receptions.some(name => columns.get(name)?.length !== first[flights])) {
-            rvw.damaged(`block ${number} has another number of receptions than its frames.`);
+            rvw.broken(`${number}/receptions`);
         }
         const block = block_of(number, name => columns.get(name) ?? none, first);
         run.check_below(block.sender, r.robots, "flights.sender");

@@ -19,7 +19,7 @@ const compare = (() => {
         if (![told?.gained, told?.lost, told?.same].every(Number.isSafeInteger) || told.runs?.length !== 2) rvw.refuse("The second view file has no comparison.");
         const columns = await Promise.all(["messages", "robot", "first", "second", "gained", "outcome", "time"].map(name => rvw.column(b.file, `compare.${name}`)));
         const [messages, robot, first, second, gained, outcome, time] = columns;
-        if (messages.length !== b.messages || columns.slice(1).some(c => c.length !== time.length)) rvw.damaged("its comparison has wrong lengths.");
+        if (messages.length !== b.messages || columns.slice(1).some(c => c.length !== time.length)) rvw.broken("compare");
         run.check_below(robot, Math.min(a.robots, b.robots), "compare.robot");
         run.check_below(gained, 2, "compare.gained");
         own.changes = { told, time, robot, message: [first, second], gained, outcome };

@@ -25,10 +25,8 @@ const coverage = (() => {
 
     /** @param {any} a answer @param {Run} r @param {number} robot @param {number} t @param {number} storey @param {string} model @returns {HeatMap} */
     function heat_of(a, r, robot, t, storey, model) {
-        const { columns, rows, dbm, left, bottom, cell_width, cell_height, contours } = a, difference = a.difference_db ?? null;
-        if (!(columns > 0 && rows > 0 && [dbm, difference ?? dbm].every(list => Array.isArray(list) && list.length === columns * rows))) throw new Error("The server's coverage cannot be read.");
-        const [low, high] = difference ? [-a.most_db, a.most_db] : [a.low_dbm, a.high_dbm];
-        const out = { run: r, robot, t, storey, model, columns, rows, left, bottom, cell_width, cell_height, low, high, dbm, difference, contours, picture: document.createElement("canvas") };
+        const difference = a.difference_db ?? null, [low, high] = difference ? [-a.most_db, a.most_db] : [a.low_dbm, a.high_dbm];
+        const out = { ...a, run: r, robot, t, storey, model, low, high, difference, picture: document.createElement("canvas") };
         paint_picture(out);
         return out;
     }
@@ -116,12 +114,6 @@ const coverage = (() => {
         return text(level, "dBm") + (h.difference ? `, ${h.model} ${text(level + h.difference[at], "dBm")} (${h.difference[at] > 0 ? "+" : ""}${text(h.difference[at], "dB")})` : "");
     }
 
-    /** Levels with the pixels of their cells, for tests. */
-    function levels() {
-        const h = own.heat;
-        return h ? h.dbm.map((dbm, i) => ({ dbm, x: camera.to_x(h.left + (i % h.columns + 0.5) * h.cell_width), y: camera.to_y(h.bottom + (Math.floor(i / h.columns) + 0.5) * h.cell_height) })) : [];
-    }
-
     /** @param {Item} item */
     function legend(item) {
         const h = own.heat;
@@ -148,5 +140,5 @@ const coverage = (() => {
     /** @param {Run} r */
     function show(r) { own.run = r; }
 
-    return { begin, show, shown: () => own.heat?.robot ?? -1, toggle, choice, paint, lines, level_at, levels, legend, version: () => own.version };
+    return { begin, show, heat: () => own.heat, shown: () => own.heat?.robot ?? -1, toggle, choice, paint, lines, level_at, legend, version: () => own.version };
 })();

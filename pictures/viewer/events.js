@@ -5,7 +5,7 @@ const events = (() => {
     "use strict";
     const sent = 0, door = 1, state = 2, frame = 3, reception = 4, loss = 5;
     const kind_names = ["message sent", "door", "robot", "frame", "reception", "loss"];
-    const state_words = ["off", "on", "arrived", "found no way"];
+    const state_words = ["switched off", "switched on", "arrived", "found no way"];
 
     /** @param {Block} block @param {number} lo @param {number} hi @returns {{time: Float64Array, what: Uint32Array, flight: Uint32Array}} receptions that end in [lo, hi) */
     function receptions(block, lo, hi) {
@@ -79,14 +79,14 @@ const events = (() => {
 
     /** Robots and message of an event. @param {Run} r @param {EventList} w @param {number} i */
     function about(r, w, i) {
-        const k = w.what[i], block = w.blocks[w.of[i]];
+        const k = w.what[i], block = /** @type {Block} */ (w.blocks[w.of[i]]);
         switch (w.kind[i]) {
             case sent: return { who: r.col("messages.origin")[k], other: r.col("messages.to")[k], message: k, sign: -1 };
             case door: return { who: -1, other: -1, message: -1, sign: -1 };
             case state: return { who: r.col("states.robot")[k], other: -1, message: -1, sign: -1 };
             case loss: return { who: r.col("drops.robot")[k], other: -1, message: r.col("drops.message")[k], sign: -1 };
-            case frame: return { who: block?.sender[k] ?? -1, other: block?.to[k] ?? -1, message: block?.message[k] ?? -1, sign: -1 };
-            default: return { who: block?.robot[k] ?? -1, other: block?.sender[w.flight[i]] ?? -1, message: block?.message[w.flight[i]] ?? -1, sign: signs.of(block?.outcome[k] ?? 0) };
+            case frame: return { who: block.sender[k], other: block.to[k], message: block.message[k], sign: -1 };
+            default: return { who: block.robot[k], other: block.sender[w.flight[i]], message: block.message[w.flight[i]], sign: signs.of(block.outcome[k]) };
         }
     }
 
@@ -109,7 +109,7 @@ const events = (() => {
 
     /** Words of an event. @param {Run} r @param {EventList} w @param {number} i */
     function text(r, w, i) {
-        const k = w.what[i], { who, other, message, sign } = about(r, w, i), block = w.blocks[w.of[i]];
+        const k = w.what[i], { who, other, message, sign } = about(r, w, i), block = /** @type {Block} */ (w.blocks[w.of[i]]);
         /** @param {number} robot */
         const name = robot => robot >= 0 && robot < r.robots ? r.label(robot) : "all";
         const packet = r.message_text(message);
@@ -119,10 +119,10 @@ const events = (() => {
                 const d = r.head.map.doors[r.col("doors.door")[k]];
                 return `door ${words.visible(d.name)} ${r.col("doors.closed")[k] ? "closes" : "opens"}`;
             }
-            case state: return `${name(who)} ${["switched off", "switched on"][r.col("states.what")[k]] ?? state_words[r.col("states.what")[k]]}`;
+            case state: return `${name(who)} ${state_words[r.col("states.what")[k]]}`;
             case loss: return `${name(who)} loses ${packet || "a frame"}: ${r.head.drops[r.col("drops.reason")[k]]?.text ?? "lost"}`;
-            case frame: return `${name(who)} \u2192 ${name(other)}: ${packet || r.head.frame_kinds[block?.kind[k] ?? 0]}`;
-            default: return `${name(who)} \u2190 ${name(other)}: ${packet || r.head.frame_kinds[block?.kind[w.flight[i]] ?? 0]}, ${signs.kinds[sign].text}`;
+            case frame: return `${name(who)} \u2192 ${name(other)}: ${packet || r.head.frame_kinds[block.kind[k]]}`;
+            default: return `${name(who)} \u2190 ${name(other)}: ${packet || r.head.frame_kinds[block.kind[w.flight[i]]]}, ${signs.kinds[sign].text}`;
         }
     }
 

@@ -23,7 +23,7 @@ const growth = (() => {
     function add_legs(r, more) {
         const added = more["legs.first"];
         if (!added || added[r.robots] === 0) return;
-        if (added.length !== r.robots + 1) run.wrong_length("legs.first");
+        if (added.length !== r.robots + 1) rvw.broken("legs.first");
         const before = r.legs.first, first = new Uint32Array(r.robots + 1);
         for (let i = 0; i <= r.robots; i++) first[i] = before[i] + added[i];
         /** @type {number[]} */ const moved = [];
@@ -57,7 +57,7 @@ const growth = (() => {
         counts.outcomes.forEach((n, i) => r.head.counts.outcomes[i] += n);
         head.density.forEach(({ begin = 0 }, level) => {
             const all = r.col(`density.${level}`), some = more[`density.${level}`] ?? [], from = begin * head_check.outcomes;
-            if (from + some.length > all.length) rvw.damaged("its density is too long.");
+            if (from + some.length > all.length) rvw.broken("density");
             for (let i = 0; i < some.length; i++) all[from + i] += some[i];
         });
         r.head.drops = head.drops;

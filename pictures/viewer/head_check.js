@@ -8,7 +8,8 @@ const head_check = (() => {
     /** @type {Test} */ const text = v => typeof v === "string";
     /** @type {Test} */ const number = v => typeof v === "number" && Number.isFinite(v) && Math.abs(v) < 1e15;
     /** @type {Test} */ const count = v => Number.isSafeInteger(v) && v >= 0;
-    /** @type {Test} */ const color = v => typeof v === "string" && /^#[0-9a-f]{6}$/i.test(v);
+    /** @type {Test} */ const positive = v => count(v) && v > 0;
+    /** @type {Test} */ const color = v => text(v) && /^#[0-9a-f]{6}$/i.test(v);
     /** @param {Test} of @param {number} [least] @returns {Test} */
     const list = (of, least = 0) => v => Array.isArray(v) && v.length >= least && v.every(of);
     /** @param {Record<string, Test>} keys @returns {Test} */
@@ -28,24 +29,23 @@ const head_check = (() => {
             doors: list(door), stairs: list(stairs)
         }),
         colors: object({
-            category: list(color, 1), lagoon: list(color, 2), ember: list(color, 2), balance: list(color, 2), links: list(object({ from_db: number, width: number, color }), 1),
+            category: list(color, 1), lagoon: list(color, 2), ember: list(color, 9), balance: list(color, 2), links: list(object({ from_db: number, width: number, color }), 1),
             walls: list(object({ color, hatch: v => v === null || text(v) }), 1),
-            door: color, stairs: color, robot: color, outcomes: list(color, outcomes)
+            door: color, stairs: color, outcomes: list(color, outcomes)
         }),
         models: list(text),
-        outcomes: list(text, outcomes),
-        drops: list(object({ code: text, layer: text, text })),
+        drops: list(object({ text })),
         frame_kinds: list(text, 1),
         message_kinds: list(text, 1),
         flows: list(text, 1),
         blocks: list(object({ begin_ns: count, end_ns: count, flights: count, receptions: count })),
         counts: object({ flights: count, receptions: count, messages: count, outcomes: list(count) }),
-        density: list(object({ bins: v => count(v) && v > 0, width_ns: v => count(v) && v > 0 })),
-        series: list(object({ chart: text, name: text, unit: text, points: count, width_ns: v => count(v) && v > 0, outcome: v => v === undefined || count(v) && v < outcomes })),
+        density: list(object({ bins: positive, width_ns: positive })),
+        series: list(object({ chart: text, name: text, unit: text, points: count, width_ns: positive, outcome: v => v === undefined || count(v) && v < outcomes })),
         metrics: object({}),
         thinned: list(text),
         damage: list(text),
-        follow: list(object({ message: count, robot: count, outcome: text, text })),
+        follow: list(object({ message: count, robot: count, text })),
         sections: list(object({ name: text }))
     };
 

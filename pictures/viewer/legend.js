@@ -26,7 +26,7 @@ const legend = (() => {
         const out = [], place = r.head.map, used = new Set(r.col("walls.material"));
         if (used.size > 1) {
             for (const number of [...used].slice(0, 12)) {
-                const { name, style } = place.materials[number] ?? { name: "wall", style: 0 };
+                const { name, style } = place.materials[number];
                 out.push(item(18, c => {
                     c.fillStyle = map.wall_fill(c, style);
                     c.fillRect(0.5, 3.5, 17, 9);

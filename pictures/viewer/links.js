@@ -96,7 +96,7 @@ const links = (() => {
     /** Width and colour of a line. @param {number|null} margin */
     function look(margin) {
         const grades = signs.look.colors.links;
-        if (margin === null) return { width: 2, color: theme.readable(signs.look.colors.ember[8] ?? "#cc0000") };
+        if (margin === null) return { width: 2, color: theme.readable(signs.look.colors.ember[8]) };
         const grade = [...grades].reverse().find(g => margin >= g.from_db) ?? grades[0];
         return { width: grade.width, color: theme.readable(grade.color) };
     }

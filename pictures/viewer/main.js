@@ -2,9 +2,9 @@
 // The page: gets the run, draws when something has changed, answers tests.
 const main = (() => {
     "use strict";
-    const kept_times = 300, timeline_height = 86;
-    /** @type {{run: Run|null, blocks: Blocks|null, waiting: boolean, frames: number, script: number[], whole: boolean}} */
-    const own = { run: null, blocks: null, waiting: false, frames: 0, script: [], whole: true };
+    const timeline_height = 86;
+    /** @type {{run: Run|null, blocks: Blocks|null, waiting: boolean, frames: number, whole: boolean}} */
+    const own = { run: null, blocks: null, waiting: false, frames: 0, whole: true };
     const parts = [list, timeline, message_panel, robot_panel, pair_panel, charts, links, coverage, controls, search, keys, filters];
 
     /** @param {string} text @returns {Uint8Array} */
@@ -75,7 +75,6 @@ const main = (() => {
         own.waiting = false;
         const { run: r, blocks: all } = own, { state } = selection;
         if (!r || !all) return;
-        const begin = performance.now();
         camera.aim(state, r.head);
         flights.begin();
         compare.update(state);
@@ -101,8 +100,6 @@ const main = (() => {
         legend.draw(r, all, state);
         own.frames++;
         own.whole = whole;
-        own.script.push(performance.now() - begin);
-        if (own.script.length > kept_times) own.script.shift();
     }
 
     /** Draws once, with the next frame of the screen. */
@@ -182,13 +179,11 @@ const main = (() => {
 
     /** What tests see and do. */
     const hooks = {
+        parts: { antennas, camera, clock, coverage, floods, links, live, robots, server, sides, signs, theme },
         ready: false, error: "",
-        get version() { return own.run?.head.version ?? ""; },
         get t() { return selection.state.t; },
         get state() { return selection.state; },
         get frames() { return own.frames; },
-        get scriptMs() { return own.script; },
-        get thinned() { return flights.shown.left_out; },
         get whole() { return own.whole; },
         seek: clock.seek,
         select: selection.set,
@@ -196,16 +191,7 @@ const main = (() => {
         position(robot) { return own.run?.pose(robot, selection.state.t); },
         list: list.seen,
         density: timeline.columns,
-        charts: charts.values, levels: coverage.levels,
-        /** @param {number} robot */
-        pixel: robot => [robots.at.x[robot], robots.at.y[robot]],
-        /** @param {number} [i] number of the run */
-        links: i => selection.state.links ? links.shown(selection.state, i).map(l => ({ ...l, ...links.look(l.margin) })) : [],
-        /** @param {number} uid @param {number} robot */
-        async outcome(uid, robot) {
-            const { run: r, blocks: all } = own, message = r?.by_uid.get(uid);
-            return r && all && message !== undefined ? floods.outcome(r, await floods.of(r, all, message), robot) : "unknown";
-        }
+        charts: charts.values
     };
     Object.defineProperty(window, "rovernet", { value: hooks });
 

@@ -7,7 +7,7 @@ const map = (() => {
 
     /** @param {CanvasRenderingContext2D} c @param {number} style @returns {string|CanvasPattern} */
     function wall_fill(c, style) {
-        const walls = signs.look.colors.walls, { color, hatch } = walls[style % Math.max(1, walls.length)] ?? { color: "#262626", hatch: null };
+        const walls = signs.look.colors.walls, { color, hatch } = walls[style % walls.length];
         if (!hatch) return theme.wall(color);
         const tile = document.createElement("canvas");
         tile.width = tile.height = 2 * hatch_size;
@@ -37,14 +37,14 @@ const map = (() => {
             path.closePath();
         }
         for (const [number, path] of paths) {
-            const style = r.head.map.materials[number]?.style ?? 0;
+            const style = r.head.map.materials[number].style;
             if (rimmed) {
                 pen.take(c, theme.colors().paper, 2.5);
                 c.stroke(path);
             }
             c.fillStyle = wall_fill(c, style);
             c.fill(path);
-            pen.take(c, theme.wall(signs.look.colors.walls[style % signs.look.colors.walls.length]?.color ?? "#262626"), thin_line);
+            pen.take(c, theme.wall(signs.look.colors.walls[style % signs.look.colors.walls.length].color), thin_line);
             c.stroke(path);
         }
     }
@@ -100,10 +100,10 @@ const map = (() => {
         if (place.open_field) grid(c);
         walls(c, r, storey, coverage.paint(c, r, storey));
         place.doors.forEach((d, i) => {
-            if (r.storey(d.floor) === storey) door(c, camera.to_x(d.x0), camera.to_y(d.y0), camera.to_x(d.x1), camera.to_y(d.y1), closed[i] ?? false);
+            if (r.storey(d.floor) === storey) door(c, camera.to_x(d.x0), camera.to_y(d.y0), camera.to_x(d.x1), camera.to_y(d.y1), closed[i]);
         });
         for (const { foot, head } of place.stairs) {
-            const here = r.storey(foot[2] ?? 0) === storey || r.storey(head[2] ?? 0) === storey;
+            const here = r.storey(foot[2]) === storey || r.storey(head[2]) === storey;
             if (here) stairs(c, camera.to_x(foot[0]), camera.to_y(foot[1]), camera.to_x(head[0]), camera.to_y(head[1]));
         }
         coverage.lines(c, r, storey);

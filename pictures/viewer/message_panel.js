@@ -36,9 +36,8 @@ const message_panel = (() => {
         line.append(dom.button("why?", "small", () => {
             text.textContent = "\u2026";
             sides.ask("why", { uid: own.run.col("messages.uid")[flood.message], robot }).then(answer => {
-                text.textContent = after_name(String(answer.answer ?? ""), robot);
-                const frames = Array.isArray(answer.frames) ? answer.frames : [];
-                if (frames.length) out.after(dom.make("li", "wide", tables.of(frames)));
+                text.textContent = after_name(answer.answer, robot);
+                if (answer.frames.length) out.after(dom.make("li", "wide", tables.of(answer.frames)));
                 line.querySelector(".small")?.remove();
             }, error => text.textContent = error.message);
         }, `why ${own.run.name(robot)} does not have it`));

@@ -23,7 +23,7 @@ const pair_panel = (() => {
         const place = dom.by_id("pair-answer"), t = selection.state.t;
         place.textContent = "\u2026";
         Promise.all(sides.own.all.map((_, i) => sides.ask("pair", { a, b, t_ns: t }, i))).then(answers => {
-            own.links = answers.map(answer => Array.isArray(answer.links) ? answer.links : []);
+            own.links = answers.map(answer => answer.links);
             own.robots = [a, b];
             own.t = answers[0].t_ns ?? t;
             place.replaceChildren(dom.make("p", "muted", `at ${words.seconds(own.t)} s`), ...own.links.flatMap((links, i) => [...(own.links.length > 1 ? [dom.make("h2", "", sides.own.all[i].label)] : []), ...links.flatMap(one)]));

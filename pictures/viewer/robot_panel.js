@@ -104,8 +104,7 @@ const robot_panel = (() => {
 
     /** @param {any} answer */
     function neighbours(answer) {
-        const rows = Array.isArray(answer.links) ? answer.links : [];
-        return rows.length ? tables.of(rows, ["robot", "level_dbm", "margin_db", "noise_dbm", "quality"]) : dom.make("p", "muted", "nobody hears it");
+        return answer.links.length ? tables.of(answer.links, ["robot", "level_dbm", "margin_db", "noise_dbm", "quality"]) : dom.make("p", "muted", "nobody hears it");
     }
 
     /** @param {number} robot */
@@ -126,7 +125,7 @@ const robot_panel = (() => {
 
     /** @param {State} state */
     function update(state) {
-        const robot = state.robots[state.robots.length - 1] ?? -1;
+        const robot = state.robots.at(-1) ?? -1;
         if (state.panel !== "robot") return;
         if (robot !== own.robot) {
             own.robot = robot;

@@ -19,21 +19,19 @@ const run = (() => {
         return low;
     }
 
-    /** @param {string} name of a column @returns {never} */
-    function wrong_length(name) { return rvw.damaged(`${name} has a wrong length.`); }
-
     /** @param {Numbers} column @param {number} below @param {string} what */
     function check_below(column, below, what) {
         for (let i = 0; i < column.length; i++) {
-            if (column[i] >= below) rvw.damaged(`${what} ${i} is out of range.`);
+            if (column[i] >= below) rvw.broken(what);
         }
     }
 
-    const needed = ["walls.x", "walls.y", "walls.material", "walls.storey", "legs.first", "legs.start", "legs.end", "legs.x",
-        "legs.y", "legs.vx", "legs.vy", "legs.heading", "legs.turning", "states.time", "states.robot", "states.what",
-        "doors.time", "doors.door", "doors.closed", "messages.uid", "messages.created", "messages.origin", "messages.to",
-        "messages.size", "messages.flow", "messages.kind", "drops.time", "drops.robot", "drops.message", "drops.reason"];
-    const optional = ["legs.z", "legs.vz", "links.time", "links.from", "links.to", "links.up"];
+    /** Columns of each part of the run; those behind a bar need not be there. @type {Record<string, string>} */
+    const columns_of = {
+        walls: "x y material storey", legs: "first start end x y vx vy heading turning|z vz", states: "time robot what", doors: "time door closed",
+        messages: "uid created origin to size flow kind", drops: "time robot message reason", links: "|time from to up"
+    };
+    const [needed, optional] = [0, 1].map(i => Object.entries(columns_of).flatMap(([part, names]) => (names.split("|")[i] || "").split(" ").filter(Boolean).map(name => `${part}.${name}`)));
 
     /** Names of the columns of a part of the run. @param {string} part */
     function names_of(part) { return [...needed, ...optional].filter(name => name.startsWith(part + ".")); }
@@ -47,7 +45,6 @@ const run = (() => {
             this.robots = file.head.robots.length;
             this.nobody = this.robots < 65535 ? 65535 : 4294967295;
             this.messages = this.col("messages.uid").length;
-            this.no_message = 4294967295;
             this.duration = file.head.duration_ns;
             /** Columns of the legs; z and vz only if there are storeys. @type {Legs} */
             this.legs = /** @type {any} */ (Object.fromEntries(names_of("legs").map(name => [name.slice(5), columns[name]])));
@@ -63,7 +60,7 @@ const run = (() => {
 
         /** @param {string} name @returns {Numbers} */
         col(name) {
-            return this.columns[name] ?? rvw.damaged(`the column ${name} is missing.`);
+            return this.columns[name] ?? rvw.broken(name);
         }
 
         /** Sorts changes of states by robot. @param {number} from number of the first one */
@@ -161,26 +158,23 @@ const run = (() => {
     function check(r) {
         for (const part of ["legs", "states", "doors", "messages", "drops", "links"]) {
             const there = names_of(part).filter(name => name !== "legs.first" && r.columns[name]);
-            for (const name of there) if (r.col(name).length !== r.col(there[0]).length) wrong_length(name);
+            for (const name of there) if (r.col(name).length !== r.col(there[0]).length) rvw.broken(name);
         }
         const walls = r.col("walls.material").length;
         if (r.col("walls.x").length !== 4 * walls || r.col("walls.y").length !== 4 * walls || r.col("walls.storey").length !== walls) {
-            rvw.damaged("its walls have wrong lengths.");
+            rvw.broken("walls");
         }
         const first = r.col("legs.first"), legs = r.col("legs.x").length;
-        if (first.length !== r.robots + 1) wrong_length("legs.first");
+        if (first.length !== r.robots + 1) rvw.broken("legs.first");
         for (let i = 0; i < r.robots; i++) {
-            if (first[i] >= first[i + 1] || first[i + 1] > legs) rvw.damaged(`robot ${i} has no legs.`);
+            if (first[i] >= first[i + 1] || first[i + 1] > legs) rvw.broken("legs.first");
         }
-        check_below(r.col("states.robot"), r.robots, "states.robot");
-        check_below(r.col("doors.door"), r.head.map.doors.length, "doors.door");
-        check_below(r.col("messages.origin"), r.robots, "messages.origin");
-        check_below(r.col("messages.kind"), r.head.message_kinds.length, "messages.kind");
-        check_below(r.col("messages.flow"), r.head.flows.length, "messages.flow");
-        if (r.columns["links.time"]) for (const end of ["links.from", "links.to"]) check_below(r.col(end), r.robots, end);
-        check_below(r.col("drops.robot"), r.robots, "drops.robot");
+        /** @type {[string, number][]} */
+        const limits = [["walls.material", r.head.map.materials.length], ["states.robot", r.robots], ["doors.door", r.head.map.doors.length], ["messages.origin", r.robots],
+            ["messages.kind", r.head.message_kinds.length], ["messages.flow", r.head.flows.length], ["links.from", r.robots], ["links.to", r.robots], ["drops.robot", r.robots]];
+        for (const [name, below] of limits) check_below(r.columns[name] ?? [], below, name);
         for (const { message, robot } of r.head.follow) {
-            if (message >= r.messages || robot >= r.robots) rvw.damaged("follow names nobody.");
+            if (message >= r.messages || robot >= r.robots) rvw.broken("follow");
         }
     }
 
@@ -195,18 +189,18 @@ const run = (() => {
             columns[name] = await rvw.column(file, name, "u32");
             if (file.head.live && columns[name].length === 0) columns[name] = new Uint32Array(file.head.density[level].bins * head_check.outcomes);
             if (columns[name].length !== file.head.density[level].bins * head_check.outcomes) {
-                wrong_length(name);
+                rvw.broken(name);
             }
         }
         for (let i = 0; i < file.head.series.length; i++) {
             const name = `series.${i}`;
             columns[name] = await rvw.column(file, name, "f64");
-            if (columns[name].length !== file.head.series[i].points || columns[name].length === 0) wrong_length(name);
+            if (columns[name].length !== file.head.series[i].points || columns[name].length === 0) rvw.broken(name);
         }
         const out = new Run(file, columns, await rvw.texts(file, "messages.payload"));
         check(out);
         return out;
     }
 
-    return { Run, load, names_of, count_until, check_below, wrong_length, nanoseconds };
+    return { Run, load, names_of, count_until, check_below, nanoseconds };
 })();

@@ -21,14 +21,17 @@ const rvw = (() => {
     const version = 1;
     /** Most bytes that DEFLATE makes of one. */
     const best_ratio = 1032;
-    /** @type {Record<string, number>} */
-    const sizes = { u8: 1, u16: 2, u32: 4, f32: 4, f64: 8, time: 8, text: 4 };
+    /** @type {Record<string, any>} */
+    const types = { u8: Uint8Array, u16: Uint16Array, u32: Uint32Array, f32: Float32Array, f64: Float64Array, time: Float64Array, text: Uint32Array };
 
     /** @param {string} sentence @returns {never} */
     function refuse(sentence) { throw new ViewError(sentence); }
 
     /** @param {string} what @returns {never} */
     function damaged(what) { return refuse(`The view file is damaged: ${what}`); }
+
+    /** @param {string} name of a column whose length, type or values are wrong @returns {never} */
+    function broken(name) { return damaged(`its column ${name} is wrong.`); }
 
     /** @param {Uint8Array} packed @param {number} bytes most that may come out */
     async function inflate(packed, bytes) {
@@ -42,7 +45,7 @@ const rvw = (() => {
             if (done) return out.subarray(0, at);
             if (at + value.length > bytes) {
                 await reader.cancel();
-                return refuse("a column is longer than its head says");
+                return refuse("");
             }
             out.set(value, at);
             at += value.length;
@@ -51,8 +54,7 @@ const rvw = (() => {
 
     /** @param {Uint8Array} bytes @param {Inflate} [unpack] @param {(head: any) => string} [fault] finds a wrong part of the head @returns {ViewFile} */
     function open(bytes, unpack = inflate, fault = head_check.fault) {
-        if (bytes.length < 8) refuse("The view file is empty or cut off.");
-        if (String.fromCharCode(...bytes.subarray(0, 4)) !== "RVW1") {
+        if (bytes.length < 8 || String.fromCharCode(...bytes.subarray(0, 4)) !== "RVW1") {
             refuse("This is no view file: it does not begin with RVW1.");
         }
         const length = new DataView(bytes.buffer, bytes.byteOffset).getUint32(4, true);
@@ -71,7 +73,7 @@ const rvw = (() => {
         if (wrong) damaged(`its head has no usable ${wrong}.`);
         const sections = new Map();
         for (const s of head.sections) {
-            const good = s && typeof s.name === "string" && Object.hasOwn(sizes, s.type) &&
+            const good = s && typeof s.name === "string" && Object.hasOwn(types, s.type) &&
                 [s.count, s.offset, s.bytes].every(head_check.count);
             if (!good) damaged("its list of columns is broken.");
             if (s.offset + s.bytes > body.length) refuse(`The view file is cut off: ${s.name} lies beyond its end.`);
@@ -83,24 +85,22 @@ const rvw = (() => {
     /** @param {ViewFile} file @param {string} name @returns {Promise<{section: Section, bytes: Uint8Array}>} */
     async function unpacked(file, name) {
         const section = file.sections.get(name);
-        if (!section) return damaged(`the column ${name} is missing.`);
-        const size = sizes[section.type] ?? 1;
+        if (!section) return broken(name);
+        const size = types[section.type].BYTES_PER_ELEMENT;
         if (section.raw) {
-            if (section.type !== "text" && section.bytes !== size * section.count) return damaged(`${name} has ${section.bytes} bytes.`);
+            if (section.type !== "text" && section.bytes !== size * section.count) return broken(name);
             return { section, bytes: file.body.slice(section.offset, section.offset + section.bytes) };
         }
         const most = section.type === "text" ? best_ratio * section.bytes + 64 : size * section.count;
-        if (most > best_ratio * section.bytes + 64) return damaged(`${name} is too short.`);
+        if (most > best_ratio * section.bytes + 64) return broken(name);
         const packed = file.body.subarray(section.offset, section.offset + section.bytes);
         let bytes;
         try {
             bytes = await file.inflate(packed, most);
-        } catch (error) {
-            return damaged(`the column ${name} cannot be unpacked.`);
+        } catch {
+            return broken(name);
         }
-        if (section.type !== "text" && bytes.length !== most) {
-            return damaged(`${name} has ${bytes.length} bytes, expected ${most}.`);
-        }
+        if (section.type !== "text" && bytes.length !== most) return broken(name);
         return { section, bytes: bytes.byteOffset % 8 ? bytes.slice() : bytes };
     }
 
@@ -119,28 +119,20 @@ const rvw = (() => {
     /** Column of numbers. @param {ViewFile} file @param {string} name @param {string} [type] that it must have @returns {Promise<Numbers>} */
     async function column(file, name, type) {
         const { section, bytes } = await unpacked(file, name);
-        if (type && section.type !== type) return damaged(`${name} is of type ${section.type}.`);
-        const n = section.count;
-        switch (section.type) {
-            case "u8": return bytes;
-            case "u16": return new Uint16Array(bytes.buffer, bytes.byteOffset, n);
-            case "u32": return new Uint32Array(bytes.buffer, bytes.byteOffset, n);
-            case "f32": return new Float32Array(bytes.buffer, bytes.byteOffset, n);
-            case "f64": return new Float64Array(bytes.buffer, bytes.byteOffset, n);
-            case "time": return times(bytes, n);
-            default: return damaged(`${name} is no column of numbers.`);
-        }
+        if (type && section.type !== type || section.type === "text") return broken(name);
+        if (section.type === "time") return times(bytes, section.count);
+        return new types[section.type](bytes.buffer, bytes.byteOffset, section.count);
     }
 
     /** Texts, decoded when asked for. @param {ViewFile} file @param {string} name @returns {Promise<(i: number) => string>} */
     async function texts(file, name) {
         const { section, bytes } = await unpacked(file, name);
         const start = 4 * (section.count + 1);
-        if (section.type !== "text" || bytes.length < start) return damaged(`${name} holds no texts.`);
+        if (section.type !== "text" || bytes.length < start) return broken(name);
         const offsets = new Uint32Array(bytes.buffer, bytes.byteOffset, section.count + 1);
         const decoder = new TextDecoder();
         return i => decoder.decode(bytes.subarray(start + offsets[i], start + offsets[i + 1]));
     }
 
-    return { ViewError, refuse, damaged, open, column, texts };
+    return { ViewError, refuse, damaged, broken, open, column, texts };
 })();

@@ -19,7 +19,7 @@ const signs = (() => {
     function of(outcome) { return outcome & 1 ? delivered : of_fate[outcome >> 1] ?? received; }
 
     /** @param {number} sign @returns {string} */
-    function color(sign) { return theme.readable(look.colors.outcomes[kinds[sign]?.outcome ?? 0] ?? "#777777"); }
+    function color(sign) { return theme.readable(look.colors.outcomes[kinds[sign].outcome]); }
 
     /** Colours of this run, set when it is there. @type {{colors: Colors}} */
     const look = { colors: { category: [], lagoon: [], ember: [], balance: [], links: [], walls: [], door: "#d55e00", stairs: "#0072b2", robot: "#111111", outcomes: [] } };

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Colours on light and on dark paper.
-/** @typedef {{paper: string, ink: string, muted: string, line: string, faint: string, chosen: string, disc: string, off: string, accent: string}} Palette */
+/** @typedef {{paper: string, ink: string, muted: string, line: string, faint: string, chosen: string, off: string, accent: string}} Palette */
 const theme = (() => {
     "use strict";
     /** @type {Palette} */
-    const light = { paper: "#ffffff", ink: "#111111", muted: "#555555", line: "#555555", faint: "#e4e7eb", chosen: "#ffa94d", disc: "#ffffff", off: "#949494", accent: "#0072b2" };
+    const light = { paper: "#ffffff", ink: "#111111", muted: "#555555", line: "#555555", faint: "#e4e7eb", chosen: "#ffa94d", off: "#949494", accent: "#0072b2" };
     /** @type {Palette} */
-    const dark = { paper: "#16181c", ink: "#f0f0f0", muted: "#a9afb8", line: "#7a818c", faint: "#2a2e35", chosen: "#c46a10", disc: "#16181c", off: "#6e747e", accent: "#56b4e9" };
+    const dark = { paper: "#16181c", ink: "#f0f0f0", muted: "#a9afb8", line: "#7a818c", faint: "#2a2e35", chosen: "#c46a10", off: "#6e747e", accent: "#56b4e9" };
     const least_contrast = { light: 3, dark: 4.5 };  // thin lines need more on dark paper
 
-    const dark_wanted = typeof matchMedia === "function" ? matchMedia("(prefers-color-scheme: dark)") : null;
-    const still_wanted = typeof matchMedia === "function" ? matchMedia("(prefers-reduced-motion: reduce)") : null;
+    const [dark_wanted, still_wanted] = ["color-scheme: dark", "reduced-motion: reduce"].map(wish => typeof matchMedia === "function" ? matchMedia(`(prefers-${wish})`) : null);
 
     /** The wishes, kept: asking the browser for each frame on air takes a millisecond. */
     const now = { dark: false, still: false };
@@ -30,13 +29,13 @@ const theme = (() => {
 
     /** Relative luminance of WCAG 2.1. @param {string} color */
     function luminance(color) {
-        const [r = 0, g = 0, b = 0] = channels(color).map(v => v <= 10.3 ? v / 255 / 12.92 : ((v / 255 + 0.055) / 1.055) ** 2.4);
+        const [r, g, b] = channels(color).map(v => v <= 10.3 ? v / 255 / 12.92 : ((v / 255 + 0.055) / 1.055) ** 2.4);
         return 0.2126 * r + 0.7152 * g + 0.0722 * b;
     }
 
     /** @param {string} a @param {string} b */
     function contrast(a, b) {
-        const [low = 0, high = 0] = [luminance(a), luminance(b)].sort((x, y) => x - y);
+        const [low, high] = [luminance(a), luminance(b)].sort((x, y) => x - y);
         return (high + 0.05) / (low + 0.05);
     }
 
@@ -68,13 +67,13 @@ const theme = (() => {
     /** Colour of a robot or flow. @param {number} i */
     function category(i) {
         const all = signs.look.colors.category;
-        return readable(all[i % Math.max(1, all.length)] ?? "#0072b2");
+        return readable(all[i % all.length]);
     }
 
     /** Colour on a scale, x from 0 to 1. @param {string[]} scale @param {number} x */
     function on_scale(scale, x) {
         const place = Math.min(1, Math.max(0, x)) * (scale.length - 1), i = Math.min(scale.length - 2, Math.floor(place));
-        return blend(scale[i + 1] ?? "#000000", scale[i] ?? "#000000", place - i);
+        return blend(scale[i + 1], scale[i], place - i);
     }
 
     /** @param {() => void} then */

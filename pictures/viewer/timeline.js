@@ -4,8 +4,8 @@ const timeline = (() => {
     "use strict";
     const shortest = 1000;                                 // [ns]
     const axis = 18, bar = 3, most_bars = 1500;  // [px], frames
-    /** @type {{run: Run, blocks: Blocks, width: number, height: number, layers: Numbers[], top: number, key: string, picture: HTMLCanvasElement|null}} */
-    const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), width: 100, height: 80, layers: [], top: 8, key: "", picture: null };
+    /** @type {{run: Run, blocks: Blocks, width: number, height: number, top: number, key: string, picture: HTMLCanvasElement|null}} */
+    const own = { run: /** @type {any} */ (null), blocks: /** @type {any} */ (null), width: 100, height: 80, top: 8, key: "", picture: null };
 
     function span() { return selection.state.span ?? { from: 0, to: Math.max(1, own.run.duration) }; }
     /** @param {number} t */

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The page's build step leaves out comments and blanks, and nothing that has a meaning.
+// The page's build step puts the files together; minify leaves out comments, blanks and long names, and nothing that has a meaning.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import path from "node:path";
 import test from "node:test";
 import { parse } from "acorn";
+import { is_short, made_page } from "./made_page.mjs";
 import { html } from "./run_file.mjs";
 
 const source = process.env.PAGE;
@@ -23,16 +24,34 @@ function rules(text) {
     return text.replace(/\/\*[^]*?\*\//g, "").replace(/\s+/g, " ").replace(/ ?([{};:,]) ?/g, "$1").replaceAll(";}", "}").trim();
 }
 
-test("the script of the page is the program of its files, texts and all", () => {
-    const names = fs.readFileSync(path.join(source, "order.txt"), "utf8").trim().split("\n");
-    const files = names.map(name => fs.readFileSync(path.join(source, name), "utf8")).join("");
-    const script = /<script>([^]*?)<\/script>/.exec(html("rescue"))[1];
-    assert.deepEqual(tree(script), tree(files));
+const files = fs.readFileSync(path.join(source, "order.txt"), "utf8").trim().split("\n").map(name => fs.readFileSync(path.join(source, name), "utf8")).join("");
+const script_of = page => /<script>([^]*?)<\/script>/.exec(page)[1], style_of = page => /<style>([^]*?)<\/style>/.exec(page)[1];
+
+test("the script of a page without minify is the program of its files, in one function", () => {
+    const script = script_of(made_page("whole", ""));
+    assert.deepEqual(tree(script), tree(`(() => {${files}})();`));
     assert.ok(script.startsWith('"use strict";'));
-    assert.ok(script.length < 0.75 * files.length);
 });
 
-test("the style of the page is that of its file", () => {
-    const style = /<style>([^]*?)<\/style>/.exec(html("rescue"))[1];
-    assert.equal(rules(style), rules(fs.readFileSync(path.join(source, "page.css"), "utf8")));
+test("the style of a page without minify is that of its file", () => {
+    assert.equal(rules(style_of(made_page("whole", ""))), rules(fs.readFileSync(path.join(source, "page.css"), "utf8")));
+});
+
+/** Texts of a program, and names of its members, which keep their meaning. @param {string} text */
+function words(text) {
+    const found = new Set();
+    JSON.stringify(parse(text, { ecmaVersion: 2022 }), (key, value) => {
+        if (value?.type === "TemplateElement") found.add(value.value.cooked);
+        if (value?.type === "Literal" && typeof value.value === "string") found.add(value.value);
+        if (value?.type === "MemberExpression" && !value.computed) found.add(value.property.name);
+        return value;
+    });
+    return found;
+}
+
+test("the short script of the page has the texts and members of its files", { skip: !is_short && "the page was built without minify" }, () => {
+    const script = script_of(html("rescue")), short = words(script), all = [...short].join("\n");
+    assert.ok(script.startsWith('"use strict";'));
+    assert.ok(script.length < 0.55 * files.length);
+    for (const word of words(files)) assert.ok(short.has(word) || all.includes(word), word);
 });

@@ -138,11 +138,11 @@ test("V9: two runs are not cut off at 1024 x 640", () => with_page("both", { con
 
 test("links are drawn on both maps, each those of its run", () => with_command(["view", path.join(folder, "rescue"), "--with", radio], address => with_served(address, {}, async page => {
     await page.evaluate(() => window.rovernet.select({ t: 10e9, links: true }));
-    await page.waitForFunction(() => window.rovernet.links(0).length > 0 && window.rovernet.links(1).length > 0);
+    await page.waitForFunction(() => links_shown(0).length > 0 && links_shown(1).length > 0);
     for (const [i, set] of [[0, []], [1, ["--set", radio]]]) {
         const robots = told("links", scenario("rescue"), "--at", "10s", ...set, "--json").robots ?? told("links", scenario("rescue"), "--at", "10s", ...set, "--json");
-        const names = await page.evaluate(() => sides.own.all[0].run.head.robots.map(robot => robot.name));
-        const pairs = await page.evaluate(run => window.rovernet.links(run).map(l => [l.from, l.to]), i);
+        const names = await page.evaluate(() => rovernet.parts.sides.own.all[0].run.head.robots.map(robot => robot.name));
+        const pairs = await page.evaluate(run => links_shown(run).map(l => [l.from, l.to]), i);
         const expected = new Set(robots.flatMap(one => one.links.map(link => [one.robot, link.robot].sort().join())));
         assert.deepEqual(new Set(pairs.map(pair => pair.map(robot => names[robot]).sort().join())), expected);
         assert.ok(pairs.length > 1);

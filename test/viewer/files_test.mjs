@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Written pages of other inputs, with a limit, damaged, without WebGL; the page itself, made twice.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
 import fs from "node:fs";
 import path from "node:path";
 import test from "node:test";
+import { made_page, minify } from "./made_page.mjs";
 import { colors, drawn, folder, launched, most_apart, printed, scenario, told, with_page } from "./page.mjs";
 import { html, sections, view_file } from "./run_file.mjs";
 
@@ -69,15 +69,9 @@ test("V20: a page with a limit is no larger, says what is left out, and has all 
     });
 });
 
-test("V21: the page is made without other programs, the same each time, and is the one that the command writes", () => {
-    const source = path.resolve(process.env.PAGE), cmake = execFileSync("which", ["cmake"], { encoding: "utf8" }).trim();
-    const made = ["first", "second"].map(name => {
-        const out = path.join(folder, `${name}.cpp`);
-        execFileSync(cmake, [`-DFOLDER=${source}`, `-DOUT=${out}`, "-P", path.join(source, "../../cmake/viewer.cmake")], { env: { PATH: "/nowhere" } });
-        return fs.readFileSync(out, "utf8");
-    });
-    assert.equal(made[0], made[1]);
-    const page = [...made[0].matchAll(/R"page\(([^]*?)\)page"/g)].map(part => part[1]).join("");
+test("V21: the page is made without node and npm, the same each time, and is the one that the command writes", () => {
+    const [page, again] = ["first", "second"].map(name => made_page(name, minify));
+    assert.equal(page, again);
     assert.ok(page.length > 50_000);
     for (const [element] of html("rescue").matchAll(/<(style|script)>[^]*?<\/\1>/g)) assert.ok(page.includes(element), `${element.slice(0, 60)} is another`);
 });

@@ -10,23 +10,23 @@ import { sections, view_file } from "./run_file.mjs";
 let number = 0;
 /** Command that runs a scenario with a page. */
 function run(name, ...words) { return ["run", name, "--view", "--out", path.join(folder, `live${++number}`), ...words]; }
-const state = page => page.evaluate(() => live.state());
+const state = page => page.evaluate(() => rovernet.parts.live.state());
 /** Waits until the state of the run passes. */
 function until(page, passes, argument) { return page.waitForFunction(passes, argument); }
 const exact = text => Number(text.replace(/\s/g, ""));
 
 test("V10: the run waits for its page, and goes on in it; pause, step, speed, the past and the present", () =>
     with_command(run(scenario("rescue")), address => with_served(address, {}, async page => {
-        await until(page, () => live.state().now_ns > 5e8);
+        await until(page, () => rovernet.parts.live.state().now_ns > 5e8);
         assert.equal(await page.textContent("#present"), "live");
         await page.click("#play");
-        await until(page, () => live.state().paused);
+        await until(page, () => rovernet.parts.live.state().paused);
         await until(page, () => document.getElementById("present").textContent === "run paused");
         const paused = await state(page);
         await drawn(page);
         assert.equal(await page.evaluate(() => rovernet.t), paused.now_ns);
         await page.keyboard.press("ArrowRight");
-        await until(page, before => live.state().now_ns > before, paused.now_ns);
+        await until(page, before => rovernet.parts.live.state().now_ns > before, paused.now_ns);
         assert.equal((await state(page)).now_ns - paused.now_ns, 1e8);
         const there = told("where", scenario("rescue"), "--at", `${(await state(page)).now_ns / 1e9}s`, "--json").times[0].robots;
         await drawn(page);
@@ -35,11 +35,11 @@ test("V10: the run waits for its page, and goes on in it; pause, step, speed, th
             assert.ok(Math.hypot(seen.x - robot.x_m, seen.y - robot.y_m) < 1e-3, robot.name);
         }
         await page.keyboard.press(" ");
-        await page.evaluate(() => clock.set_power(2));
-        await until(page, () => live.state().speed === 100 && live.state().now_ns > 12e9);
-        assert.equal(await page.evaluate(() => { clock.seek(0); return live.text(); }), "to the present");
+        await page.evaluate(() => rovernet.parts.clock.set_power(2));
+        await until(page, () => rovernet.parts.live.state().speed === 100 && rovernet.parts.live.state().now_ns > 12e9);
+        assert.equal(await page.evaluate(() => { rovernet.parts.clock.seek(0); return rovernet.parts.live.text(); }), "to the present");
         await page.click("#present");
-        await until(page, () => live.state().ended);
+        await until(page, () => rovernet.parts.live.state().ended);
         assert.equal(await page.textContent("#present"), "run ended");
         assert.equal(await page.evaluate(() => rovernet.t), 90e9);
     })));
@@ -47,7 +47,7 @@ test("V10: the run waits for its page, and goes on in it; pause, step, speed, th
 for (const name of ["rescue", "csma", "storeys"]) {
     test(`V14: ${name} has the fingerprint and the receptions that it has without a page`, () =>
         with_command(run(scenario(name), "--speed", "200"), address => with_served(address, {}, async page => {
-            await until(page, () => live.state().ended);
+            await until(page, () => rovernet.parts.live.state().ended);
             const { fingerprint, receptions } = told("run", scenario(name), "--json", "--out", path.join(folder, `plain${++number}`));
             assert.equal((await state(page)).fingerprint, fingerprint);
             await drawn(page);
@@ -60,12 +60,12 @@ for (const name of ["rescue", "csma", "storeys"]) {
 
 test("V10: Ctrl-C ends the run within a second, with its results, and the page keeps what it has", () =>
     with_command(run(scenario("rescue"), "--speed", "10"), (address, server, ended) => with_served(address, {}, async page => {
-        await until(page, () => live.state().now_ns > 11e9);
+        await until(page, () => rovernet.parts.live.state().now_ns > 11e9);
         const begin = Date.now();
         server.kill("SIGINT");
         assert.equal(await ended, 0);
         assert.ok(Date.now() - begin < 3000);
-        await until(page, () => live.state().ended);
+        await until(page, () => rovernet.parts.live.state().ended);
         assert.equal(await page.textContent("#present"), "run ended");
         assert.ok(await page.evaluate(() => rovernet.t) > 11e9);
         assert.ok(fs.existsSync(path.join(folder, `live${number}`, "summary.json")));
@@ -73,11 +73,13 @@ test("V10: Ctrl-C ends the run within a second, with its results, and the page k
 
 test("V13: a page that is loaded again, and one that comes late, have all of the run", () =>
     with_command(run(scenario("rescue"), "--speed", "50"), address => with_served(address, {}, async (page, context) => {
-        await until(page, () => live.state().now_ns > 30e9);
+        await until(page, () => rovernet.parts.live.state().now_ns > 30e9);
         await page.reload();
         const late = await context.newPage();
         await late.goto(address);
-        for (const each of [page, late]) await until(each, () => window.rovernet?.ready && live.state().ended);
+        for (const each of [page, late]) await until(each, () => window.rovernet?.ready && rovernet.parts.live.state().ended);
+        // The end is known before it is drawn: two frames later it is.
+        for (const each of [page, late]) await each.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))));
         const texts = await Promise.all([page, late].map(each => each.textContent("#caption")));
         assert.equal(texts[0], texts[1]);
         const { messages } = told("run", scenario("rescue"), "--json", "--out", path.join(folder, `plain${++number}`));
@@ -87,7 +89,7 @@ test("V13: a page that is loaded again, and one that comes late, have all of the
 test("a page that may control moves a robot and sends, and these are inputs; one that may not is told", () => {
     const out = path.join(folder, `live${++number}`);
     return with_command(["live", scenario("rescue"), "--view", "--view-control", "--out", out], (address, server, ended) => with_served(address, {}, async page => {
-        await until(page, () => live.state().now_ns > 3e8);
+        await until(page, () => rovernet.parts.live.state().now_ns > 3e8);
         await page.evaluate(() => rovernet.select({ robots: [0], panel: "robot" }));
         await page.fill("[aria-label^='goal of the robot']", "20, 12");
         await page.getByRole("button", { name: "go", exact: true }).click();
@@ -105,34 +107,34 @@ test("a page that may control moves a robot and sends, and these are inputs; one
 
 test("a page of live --view may look alone: it cannot pause the run", () =>
     with_command(["live", scenario("rescue"), "--view", "--out", path.join(folder, `live${++number}`)], address => with_served(address, {}, async page => {
-        await until(page, () => live.state().now_ns > 3e8);
+        await until(page, () => rovernet.parts.live.state().now_ns > 3e8);
         assert.equal((await state(page)).controls_time, false);
-        const told_page = await page.evaluate(() => server.ask("pace", { paused: true }).then(() => "", error => error.message));
+        const told_page = await page.evaluate(() => rovernet.parts.server.ask("pace", { paused: true }).then(() => "", error => error.message));
         assert.match(told_page, /--view-control/);
         await page.click("#play");
         const { now_ns } = await state(page);
-        await until(page, before => live.state().now_ns > before + 3e8, now_ns);
+        await until(page, before => rovernet.parts.live.state().now_ns > before + 3e8, now_ns);
         assert.equal(await page.textContent("#present"), "to the present");
     })));
 
 test("V13: a server that comes again on the same port shows its run in the page that waited", () =>
     with_command(run(scenario("rescue")), (address, server, ended) => with_served(address, { faults: /ERR_CONNECTION_(REFUSED|RESET)/ }, async page => {
-        await until(page, () => live.state().now_ns > 2e8);
+        await until(page, () => rovernet.parts.live.state().now_ns > 2e8);
         server.kill("SIGKILL");
         await ended;
         await until(page, () => document.getElementById("present").textContent === "server gone");
         const port = new URL(address).port;
         await with_command(["run", scenario("csma"), "--view", `127.0.0.1:${port}`, "--out", path.join(folder, `live${++number}`)], async () => {
-            await until(page, () => window.rovernet?.ready && document.getElementById("name").textContent === "csma" && live.state().now_ns > 2e8);
+            await until(page, () => window.rovernet?.ready && document.getElementById("name").textContent === "csma" && rovernet.parts.live.state().now_ns > 2e8);
         });
     })));
 
 test("a run that goes on tells why a robot misses a message, and its charts; both are those of its trace", () => {
     const out = path.join(folder, `live${++number}`), missed = sections(view_file("rescue")).head.follow[0].message;
     return with_command(["run", scenario("rescue"), "--view", "--record", "--speed", "5", "--out", out], address => with_served(address, {}, async page => {
-        await until(page, () => live.state().now_ns > 11e9);
+        await until(page, () => rovernet.parts.live.state().now_ns > 11e9);
         await page.click("#play");
-        await until(page, () => live.state().paused);
+        await until(page, () => rovernet.parts.live.state().paused);
         await page.evaluate(message => rovernet.select({ message, panel: "message" }), missed);
         const rows = page.locator("#message-panel ul.plain > li:not(.wide)"), name = await rows.filter({ hasText: "why?" }).first().locator("button.link").textContent();
         const row = rows.filter({ has: page.getByRole("button", { name, exact: true }) });
@@ -140,9 +142,9 @@ test("a run that goes on tells why a robot misses a message, and its charts; bot
         await row.getByText("why?").waitFor({ state: "detached" });
         const text = await row.locator("span span").first().textContent();
         await page.click("#play");
-        await page.evaluate(() => clock.set_power(2));
+        await page.evaluate(() => rovernet.parts.clock.set_power(2));
         await page.evaluate(() => rovernet.select({ panel: "charts" }));
-        await until(page, () => live.state().ended && rovernet.charts(0).length > 0);
+        await until(page, () => rovernet.parts.live.state().ended && rovernet.charts(0).length > 0);
         // What was told stays, though the run has gone on.
         assert.ok((await page.textContent("#message-panel")).includes(text));
         await page.waitForFunction(() => document.getElementById("charts-panel").textContent.includes("Metrics of the run"));
@@ -159,11 +161,11 @@ test("a run that goes on tells why a robot misses a message, and its charts; bot
 
 test("a message in the address is followed again when the page of a run that goes on is loaded again", () =>
     with_command(run(scenario("rescue"), "--speed", "20"), address => with_served(address, {}, async page => {
-        await until(page, () => live.state().now_ns > 15e9);
+        await until(page, () => rovernet.parts.live.state().now_ns > 15e9);
         await page.evaluate(() => rovernet.select({ message: 1 }));
         await until(page, () => location.hash.includes("message=1"));
         await page.reload();
-        await until(page, () => window.rovernet?.ready && live.state().now_ns > 16e9);
+        await until(page, () => window.rovernet?.ready && rovernet.parts.live.state().now_ns > 16e9);
         await until(page, () => rovernet.state.message === 1);
         assert.match(page.url(), /message=1/);
     })));

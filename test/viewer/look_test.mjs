@@ -16,11 +16,11 @@ for (const [scheme, least] of [["light", 3], ["dark", 4.5]]) {
     test(`colours of robots, outcomes and doors stand out from ${scheme} paper`, () => with_page("csma", { context: { colorScheme: scheme } }, async page => {
         const contrasts = await page.evaluate(() => {
             const luminance = color => {
-                const [r, g, b] = theme.channels(color).map(v => v / 255).map(v => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
+                const [r, g, b] = rovernet.parts.theme.channels(color).map(v => v / 255).map(v => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
                 return 0.2126 * r + 0.7152 * g + 0.0722 * b + 0.05;
             };
-            const paper = luminance(theme.colors().paper), { outcomes, category, door, stairs } = signs.look.colors;
-            return [...category.map((_, i) => theme.category(i)), ...[...outcomes, door, stairs].map(theme.readable)].map(color => Math.max(luminance(color) / paper, paper / luminance(color)));
+            const paper = luminance(rovernet.parts.theme.colors().paper), { outcomes, category, door, stairs } = rovernet.parts.signs.look.colors;
+            return [...category.map((_, i) => rovernet.parts.theme.category(i)), ...[...outcomes, door, stairs].map(rovernet.parts.theme.readable)].map(color => Math.max(luminance(color) / paper, paper / luminance(color)));
         });
         assert.ok(contrasts.length > 20);
         assert.ok(Math.min(...contrasts) >= least, contrasts.map(c => c.toFixed(2)).join(" "));
@@ -56,7 +56,7 @@ test("names of robots do not cover each other", () => with_page("csma", { hash: 
 }));
 
 test("names of robots and losses of walls do not cover each other on a small map", () => with_server(path.join(folder, "rescue"), address => with_served(address, {}, async page => {
-    const bounds = await page.evaluate(() => sides.own.all[0].run.head.map.bounds), [left, bottom, right, top] = bounds;
+    const bounds = await page.evaluate(() => rovernet.parts.sides.own.all[0].run.head.map.bounds), [left, bottom, right, top] = bounds;
     await page.evaluate(state => window.rovernet.select(state), { t: 10e9, robots: [0, 4], panel: "pair", view: { x: (left + right) / 2, y: (bottom + top) / 2, scale: 6 } });
     await drawn(page);
     await page.getByText("budget at this time").click();

@@ -27,7 +27,7 @@ test("V8: the level under the pointer is the cell's, and the difference of two m
     await page.waitForFunction(() => document.getElementById("legend").textContent.includes("coverage of B"));
     const box = await page.locator("#map").boundingBox();
     const hover = async robot => {
-        const [x, y] = await page.evaluate(i => window.rovernet.pixel(i), robot);
+        const [x, y] = await page.evaluate(i => pixel(i), robot);
         await page.mouse.move(box.x + x, box.y + y);
         return page.locator("#status").textContent();
     };
@@ -36,7 +36,7 @@ test("V8: the level under the pointer is the cell's, and the difference of two m
         const link = told("link", scenario("rescue"), "B", name, "--at", "10", "--json"), text = await hover(index);
         assert.ok(Math.abs(number(text) - link.rx_power_dbm) < 2, `${name}: ${text}, ${link.rx_power_dbm}`);
     }
-    const cells = await page.evaluate(() => window.rovernet.levels());
+    const cells = await page.evaluate(() => levels());
     for (let i = 7; i < cells.length; i += Math.ceil(cells.length / 40)) {
         await page.mouse.move(box.x + cells[i].x, box.y + cells[i].y);
         const text = await page.locator("#status").textContent();
@@ -56,23 +56,23 @@ test("links: their number and colours are those of the command, and they are ask
         await page.evaluate(t => window.rovernet.seek(t), at * 1e9);
         await page.waitForFunction(text => document.getElementById("legend").textContent.includes(text), `link margin [dB] at ${at}.000 s`);
         await drawn(page);
-        const links = await page.evaluate(() => window.rovernet.links());
+        const links = await page.evaluate(() => links_shown());
         assert.equal(links.length, pairs.size);
         for (const link of links) {
             const grade = [[30, 3.6], [20, 3], [10, 2.4], [5, 1.8], [0, 1.3]].find(([from]) => link.margin >= from);
             assert.equal(link.width, grade[1]);
-            const [[x0, y0], [x1, y1]] = await page.evaluate(ends => ends.map(robot => window.rovernet.pixel(robot)), [link.from, link.to]);
+            const [[x0, y0], [x1, y1]] = await page.evaluate(ends => ends.map(robot => pixel(robot)), [link.from, link.to]);
             if (Math.hypot(x1 - x0, y1 - y0) > 60) assert.ok(await pixels_of(page, link.color) > 20, `${link.color} is drawn`);
         }
     }
     await page.evaluate(() => window.rovernet.select({ robots: [0] }));
-    await page.waitForFunction(() => window.rovernet.links().every(l => l.from === 0 || l.to === 0));
+    await page.waitForFunction(() => links_shown().every(l => l.from === 0 || l.to === 0));
 }));
 
 test("links: a written page has those that the trace tells, and says so", () => with_page("linked", { hash: "#t=20&links=1" }, async page => {
     const tables = told("links", scenario("linked"), "--at", "20", "--json"), pairs = new Set();
     for (const { robot, links } of tables.robots) for (const link of links) pairs.add([robot, link.robot].sort().join());
-    assert.equal((await page.evaluate(() => window.rovernet.links())).length, pairs.size);
+    assert.equal((await page.evaluate(() => links_shown())).length, pairs.size);
     assert.match(await page.locator("#legend").textContent(), /link up by the trace/);
 }));
 
@@ -105,7 +105,7 @@ test("charts: they end at the metrics; the cursor is the time, a click seeks, a 
 }));
 
 test("storeys: with All, a click finds a robot of another storey", () => with_page("storeys", { hash: "#t=10" }, async page => {
-    const box = await page.locator("#map").boundingBox(), [x, y] = await page.evaluate(() => window.rovernet.pixel(1));
+    const box = await page.locator("#map").boundingBox(), [x, y] = await page.evaluate(() => pixel(1));
     const click = async () => {
         await page.mouse.click(box.x + x, box.y + y);
         await drawn(page);

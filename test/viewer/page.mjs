@@ -52,6 +52,25 @@ async function watched(url, options, act) {
     page.on("dialog", dialog => { faults.push("a dialog"); dialog.dismiss(); });
     page.on("request", request => requests.push(request.url()));
     await page.addInitScript(() => document.addEventListener("securitypolicyviolation", event => console.error(`violates ${event.violatedDirective}`)));
+    await page.addInitScript(() => {
+        /** Place of a robot on the map [px]. */
+        window.pixel = robot => ["x", "y"].map(axis => rovernet.parts.robots.at[axis][robot]);
+        /** Links that the map of a run shows. */
+        window.links_shown = run => {
+            const { state, parts: { links } } = rovernet;
+            return state.links ? links.shown(state, run).map(link => ({ ...link, ...links.look(link.margin) })) : [];
+        };
+        /** What became of a message at a robot. */
+        window.outcome = async (uid, robot) => {
+            const { floods, sides } = rovernet.parts, { run, blocks } = sides.own.all[sides.lead()], message = run.by_uid.get(uid);
+            return message === undefined ? "unknown" : floods.outcome(run, await floods.of(run, blocks, message), robot);
+        };
+        /** Levels of the coverage with the pixels of their cells. */
+        window.levels = () => {
+            const { camera, coverage } = rovernet.parts, heat = coverage.heat();
+            return heat ? heat.dbm.map((dbm, i) => ({ dbm, x: camera.to_x(heat.left + (i % heat.columns + 0.5) * heat.cell_width), y: camera.to_y(heat.bottom + (Math.floor(i / heat.columns) + 0.5) * heat.cell_height) })) : [];
+        };
+    });
     try {
         await page.goto(url);
         await page.waitForFunction(() => window.rovernet && (window.rovernet.error || window.rovernet.ready && window.rovernet.frames > 0));

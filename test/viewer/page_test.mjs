@@ -29,7 +29,7 @@ for (const name of ["rescue", "csma"]) {
         const uids = [...new Float64Array(part.buffer.slice(part.byteOffset, part.byteOffset + part.length))].slice(0, 12);
         for (const uid of uids) {
             const has = new Set(told("trace", "follow", trace(name), "--message", String(uid), "--json").robots.map(row => row.robot));
-            const found = await page.evaluate(async ({ uid, count }) => Promise.all(Array.from({ length: count }, (_, i) => window.rovernet.outcome(uid, i))), { uid, count: head.robots.length });
+            const found = await page.evaluate(async ({ uid, count }) => Promise.all(Array.from({ length: count }, (_, i) => outcome(uid, i))), { uid, count: head.robots.length });
             head.robots.forEach((robot, i) => assert.equal(["origin", "delivered", "received"].includes(found[i]), has.has(robot.name), `message ${uid} at ${robot.name}: ${found[i]}`));
         }
     }));

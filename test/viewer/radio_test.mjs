@@ -48,7 +48,7 @@ test("the air of the last second at a robot is what its own and the heard frames
 
 test("the antenna of a chosen robot has the gains of rovernet link in their directions", () => with_page("antennas", {}, async page => {
     const file = scenario("antennas"), seen = new Set();
-    const pattern = await page.evaluate(() => antennas.gains(sides.own.all[0].run, 0));
+    const pattern = await page.evaluate(() => rovernet.parts.antennas.gains(rovernet.parts.sides.own.all[0].run, 0));
     assert.equal(pattern.length, 72);
     for (const [other, x, y] of [["plain", -40, 30], ["behind", 20, -40]]) {
         const link = told("link", file, "beam", other, "--json"), angle = Math.atan2(y, x) - 30 * Math.PI / 180, at = (angle / (2 * Math.PI) * 72 + 72) % 72;
@@ -57,7 +57,7 @@ test("the antenna of a chosen robot has the gains of rovernet link in their dire
         seen.add(truth);
     }
     assert.equal(seen.size, 2);
-    assert.equal(await page.evaluate(() => antennas.gains(sides.own.all[0].run, 1)), null);
+    assert.equal(await page.evaluate(() => rovernet.parts.antennas.gains(rovernet.parts.sides.own.all[0].run, 1)), null);
     // It is drawn where the gain is: to the left of the heading, and not behind.
     const [ahead, behind] = await page.evaluate(async () => {
         const canvas = document.getElementById("map"), ratio = canvas.width / canvas.clientWidth, copy = document.createElement("canvas");
@@ -67,7 +67,7 @@ test("the antenna of a chosen robot has the gains of rovernet link in their dire
             c.clearRect(0, 0, copy.width, copy.height);
             c.drawImage(canvas, 0, 0);
             return [120, 300].map(degrees => {
-                const [x, y] = window.rovernet.pixel(0), angle = degrees * Math.PI / 180;
+                const [x, y] = pixel(0), angle = degrees * Math.PI / 180;
                 return c.getImageData(Math.round((x + 40 * Math.cos(angle)) * ratio), Math.round((y - 40 * Math.sin(angle)) * ratio), 1, 1).data.join();
             });
         }, before = look();

@@ -6,7 +6,7 @@ import path from "node:path";
 import test from "node:test";
 import { folder, launched, scenario, with_command, with_served } from "./page.mjs";
 
-const state = page => page.evaluate(() => live.state());
+const state = page => page.evaluate(() => rovernet.parts.live.state());
 /** Resident memory of a process [bytes]. */
 const memory = pid => 1024 * Number(/VmRSS:\s+(\d+)/.exec(fs.readFileSync(`/proc/${pid}/status`, "utf8"))[1]);
 /** Simulated time [ns] that a page must see pass while another one does not read. */
@@ -25,14 +25,14 @@ test("V11: a page that does not read for a while stops nobody, takes no memory, 
         try {
             const slow = await browser.newPage();
             await slow.goto(address);
-            await slow.waitForFunction(() => window.rovernet?.ready && live.state().now_ns > 1e9);
+            await slow.waitForFunction(() => window.rovernet?.ready && rovernet.parts.live.state().now_ns > 1e9);
             const { processInfo } = await (await browser.newBrowserCDPSession()).send("SystemInfo.getProcessInfo");
             const renderers = processInfo.filter(process => process.type === "renderer").map(process => process.id);
             assert.ok(renderers.length > 0);
             for (const pid of renderers) process.kill(pid, "SIGSTOP");
             try {
                 const before = await state(page), bytes = memory(server.pid), got_before = got;
-                await page.waitForFunction(([t, more]) => live.state().now_ns > t + more, [before.now_ns, passing], { timeout: 60000 });
+                await page.waitForFunction(([t, more]) => rovernet.parts.live.state().now_ns > t + more, [before.now_ns, passing], { timeout: 60000 });
                 const grown = memory(server.pid) - bytes, sent = got - got_before;
                 // The server keeps what it has sent, for pages that come later.
                 assert.ok(sent > 1e5, `${sent} bytes were sent`);
@@ -41,12 +41,12 @@ test("V11: a page that does not read for a while stops nobody, takes no memory, 
                 for (const pid of renderers) process.kill(pid, "SIGCONT");
             }
             const { now_ns } = await state(page);
-            await slow.waitForFunction(t => live.state().now_ns >= t && live.text() !== "server gone", now_ns, { timeout: 60000 });
+            await slow.waitForFunction(t => rovernet.parts.live.state().now_ns >= t && rovernet.parts.live.text() !== "server gone", now_ns, { timeout: 60000 });
             server.kill("SIGINT");
             assert.equal(await ended, 0);
             const captions = [];
             for (const each of [page, slow]) {
-                await each.waitForFunction(() => live.state().ended, undefined, { timeout: 60000 });
+                await each.waitForFunction(() => rovernet.parts.live.state().ended, undefined, { timeout: 60000 });
                 captions.push(await each.textContent("#caption"));
             }
             assert.equal(captions[1], captions[0]);
@@ -66,7 +66,7 @@ test("V12: ten pages of a run have the same of it", () =>
         }
         const seen = [];
         for (const each of pages) {
-            await each.waitForFunction(() => window.rovernet?.ready && live.state().ended, undefined, { timeout: 60000 });
+            await each.waitForFunction(() => window.rovernet?.ready && rovernet.parts.live.state().ended, undefined, { timeout: 60000 });
             // The end is known before it is drawn: two frames later it is.
             await each.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))));
             seen.push(await each.evaluate(() => JSON.stringify([document.getElementById("caption").textContent, [0, 1, 2, 3, 4].map(i => rovernet.position(i))])));
