@@ -40,10 +40,10 @@ const main = (() => {
     }
 
     function resize() {
-        const place = dom.by_id("place"), footer = dom.by_id("timeline").parentElement;
+        const place = dom.by_id("place"), footer = /** @type {HTMLElement} */ (dom.by_id("timeline").parentElement);
         camera.now.width = Math.max(50, (place.clientWidth + 1) / sides.shown().length - 1);
         camera.now.height = Math.max(50, place.clientHeight);
-        timeline.resize((footer?.clientWidth ?? 300) - 32, timeline_height);
+        timeline.resize(footer.clientWidth - 32, timeline_height);
         redraw();
     }
 

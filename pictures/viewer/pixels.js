@@ -8,8 +8,8 @@ const pixels = (() => {
     const ring_alpha = 0.6;
     /** @type {{canvas: HTMLCanvasElement|null, image: ImageData|null, words: Int32Array, width: number, height: number, size: number, covers: Uint8Array[], shapes: Map<number, Stamp>, ratio: number, margin: number}} */
     const own = { canvas: null, image: null, words: new Int32Array(0), width: 0, height: 0, size: 0, covers: [], shapes: new Map(), ratio: 1, margin: 0 };
-    /** Words have a margin around the map, so that shapes at its rim need no clipping. Rows and columns that are not clear. */
-    const box = { left: 0, top: 0, right: 0, bottom: 0 };
+    /** Words have a margin around the map, so that shapes at its rim need no clipping. Rows and columns that are not clear, now and on the canvas. */
+    const box = { left: 0, top: 0, right: 0, bottom: 0 }, last = { ...box };
 
     /** Squares as they were drawn last. They are drawn again when one has moved by a part of a pixel. */
     const crowd = { words: new Int32Array(0), xs: new Float64Array(0), ys: new Float64Array(0), colors: new Int32Array(0), box: { ...box } };
@@ -69,22 +69,24 @@ const pixels = (() => {
         const ratio = window.devicePixelRatio || 1, margin = Math.ceil((largest_ring + 3) * ratio);
         const inner = { width: Math.round(camera.now.width * ratio), height: Math.round(camera.now.height * ratio) };
         const width = inner.width + 2 * margin, height = inner.height + 2 * margin;
+        Object.assign(box, { left: width, top: height, right: 0, bottom: 0 });
         if (!own.image || own.width !== width || own.height !== height || own.ratio !== ratio) {
             const canvas = Object.assign(own.canvas ?? document.createElement("canvas"), inner), image = new ImageData(width, height);
             own.shapes.clear();
             Object.assign(own, { canvas, image, words: new Int32Array(image.data.buffer), width, height, ratio, margin, size: 0 });
+            Object.assign(last, box);
         }
-        Object.assign(box, { left: width, top: height, right: 0, bottom: 0 });
     }
 
-    function clear() { own.words.fill(0); }
+    function clear() { own.words.fill(0, last.top * own.width, last.bottom * own.width); }
 
     /** Draws the picture on the canvas. @param {CanvasRenderingContext2D} c */
     function paint(c) {
         if (box.right === 0 || !own.canvas || !own.image) return;
         const own_context = /** @type {CanvasRenderingContext2D} */ (own.canvas.getContext("2d", { willReadFrequently: true }));
-        own_context.clearRect(0, 0, own.width, own.height);
-        own_context.putImageData(own.image, -own.margin, -own.margin, box.left, box.top, box.right - box.left, box.bottom - box.top);
+        const left = Math.min(box.left, last.left), top = Math.min(box.top, last.top);
+        own_context.putImageData(own.image, -own.margin, -own.margin, left, top, Math.max(box.right, last.right) - left, Math.max(box.bottom, last.bottom) - top);
+        Object.assign(last, box);
         c.drawImage(own.canvas, 0, 0, camera.now.width, camera.now.height);
     }
 
@@ -106,9 +108,9 @@ const pixels = (() => {
 
     /** Squares around places, and nothing else. @param {Float64Array} xs [px] @param {Float64Array} ys @param {Int32Array} colors below 0: none @param {number} size */
     function squares(xs, ys, colors, size) {
-        const { words } = own, pixel_size = size * own.ratio;
+        const { words, width } = own, pixel_size = size * own.ratio;
         if (pixel_size === own.size && stands(xs, ys, colors)) {
-            words.set(crowd.words);
+            words.set(crowd.words.subarray(last.top * width, last.bottom * width), last.top * width);
             Object.assign(box, crowd.box);
             return;
         }
@@ -116,12 +118,8 @@ const pixels = (() => {
         clear();
         put_squares(xs, ys, colors);
         if (crowd.words.length !== words.length) crowd.words = new Int32Array(words.length);
-        if (crowd.xs.length !== xs.length) Object.assign(crowd, { xs: xs.slice(), ys: ys.slice(), colors: colors.slice() });
         crowd.words.set(words);
-        crowd.xs.set(xs);
-        crowd.ys.set(ys);
-        crowd.colors.set(colors);
-        Object.assign(crowd.box, box);
+        Object.assign(crowd, { xs: xs.slice(), ys: ys.slice(), colors: colors.slice(), box: { ...box } });
     }
 
     /** @param {Float64Array} xs [px] @param {Float64Array} ys @param {Int32Array} colors */
