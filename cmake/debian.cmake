@@ -42,8 +42,7 @@ if(TARGET rovernet_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
   string(CONCAT CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
          "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), "
-         "python3 (<< ${Python_VERSION_MAJOR}.${next_minor})")
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS python3-numpy)
+         "python3 (<< ${Python_VERSION_MAJOR}.${next_minor}), python3-numpy")
   set(CPACK_DEBIAN_PYTHON_DESCRIPTION
       "simulator of wireless networks of moving robots (Python)\n${what}\n.\nThis package has the Python package rovernet.")
 endif()
