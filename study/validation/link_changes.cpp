@@ -96,8 +96,8 @@ Changes found_ahead(const Passes& where, const Pass& pass, const LinkSearch& sea
     return out;
 }
 
-/// Changes as a simulator sees them that looks at fixed steps.
-Changes looked_for(const Pass& pass, Duration step) {
+/// Changes as a simulator that samples at fixed steps sees them.
+Changes sampled_changes(const Pass& pass, Duration step) {
     Changes out;
     bool up = pass.up(start_of_run);
     for (Time t = start_of_run + step; t <= start_of_run + passing; t += step) {
@@ -108,9 +108,9 @@ Changes looked_for(const Pass& pass, Duration step) {
     return out;
 }
 
-/// Changes as looked_for() finds them, each then halved down to a nanosecond.
+/// Changes as sampled_changes() finds them, each then halved down to a nanosecond.
 Changes halved(const Pass& pass, Duration step) {
-    Changes out = looked_for(pass, step);
+    Changes out = sampled_changes(pass, step);
     for (Time& change : out) {
         const bool after = pass.up(change);
         Time no = change - step;
@@ -159,9 +159,10 @@ std::vector<ChangeMethod> change_methods(const Passes& where, const ValidationSi
         {"rovernet", [&](const Pass& pass) { return found_ahead(where, pass, {}); }}};
     for (const std::int64_t ms : {1000, 100, 10, 1}) {
         if (size.quick && ms < 10) continue;
-        out.push_back(
-            {ms == 1000 ? "a look each 1 s" : fmt::format("a look each {} ms", ms),
-             [ms](const Pass& pass) { return looked_for(pass, nanoseconds{1'000'000 * ms}); }});
+        out.push_back({ms == 1000 ? "check every 1 s" : fmt::format("check every {} ms", ms),
+                       [ms](const Pass& pass) {
+                           return sampled_changes(pass, nanoseconds{1'000'000 * ms});
+                       }});
     }
     return out;
 }
@@ -214,7 +215,7 @@ ValidationPanel changes_panel(const Passes& where, const std::vector<Changes>& t
 
 std::string step_sentence(const ValidationPanel& panel) {
     const ValidationPoint& exact = point_of(panel, "rovernet");
-    const ValidationPoint& slow = point_of(panel, "a look each 100 ms");
+    const ValidationPoint& slow = point_of(panel, "check every 100 ms");
     return fmt::format(
         "{}: checking each link every 100 ms costs {:.2g} times as much as finding changes ahead, "
         "misses {:.2g} % of the changes, and has a wrong state for {:.2g} ms per change; changes "
@@ -253,7 +254,7 @@ ValidationChart link_changes_chart(const ValidationSize& size, Promises& promise
             .truth = fmt::format(
                 "Two robots cross straight in {:g} s: {} times on an open field, {} times in an "
                 "office. The reference is where two straight lines come within range of one "
-                "another; in the office, a look every {:g} ms, then halved down to a nanosecond.",
+                "another; in the office, a sample every {:g} ms, then halved down to a nanosecond.",
                 seconds(passing), open.all.size(), walled.all.size(), 1e3 * seconds(fine)),
             .panels = {by_distance, by_walls},
             .sentences = {step_sentence(by_distance), step_sentence(by_walls)}};

@@ -20,17 +20,17 @@ constexpr double decorrelation = 10;  // [m]
 constexpr double walk = 50;           // [m] that a robot goes, at 1 m/s
 constexpr Vec3 peer{30, 5, 1};        // [m] where its peer stands
 
-/// Walk of a robot away from the place of its peer, with a look each `step`.
+/// Walk of a robot away from the place of its peer, sampled every `step`.
 struct Walk {
     std::uint64_t seed;
     double step;  // [m], or [s]
 
-    std::uint64_t looks() const { return static_cast<std::uint64_t>(walk / step); }
-    Vec3 at(std::uint64_t look) const { return {step * static_cast<double>(look), 0, 1}; }
+    std::uint64_t samples() const { return static_cast<std::uint64_t>(walk / step); }
+    Vec3 at(std::uint64_t sample) const { return {step * static_cast<double>(sample), 0, 1}; }
 };
 
-std::uint64_t draw_bits(const Walk& w, std::uint64_t look) {
-    return PairDraws(w.seed, 0, Purpose::link_shadowing).bits(1, 2 + look);
+std::uint64_t draw_bits(const Walk& w, std::uint64_t sample) {
+    return PairDraws(w.seed, 0, Purpose::link_shadowing).bits(1, 2 + sample);
 }
 
 /// A way to shadow a link as its robot walks. @return changes of its state, at a margin of 0 dB
@@ -39,13 +39,13 @@ struct ShadowingMethod {
     std::function<std::uint64_t(const Walk&)> flips;
 };
 
-/// Changes of the sign of a value from look to look.
+/// Changes of the sign of a value from sample to sample.
 template <class ValueAt>
 std::uint64_t sign_changes(const Walk& w, ValueAt value_at) {
     std::uint64_t flips = 0;
     bool up = value_at(0) > 0;
-    for (std::uint64_t look = 1; look <= w.looks(); ++look) {
-        const bool now = value_at(look) > 0;
+    for (std::uint64_t sample = 1; sample <= w.samples(); ++sample) {
+        const bool now = value_at(sample) > 0;
         flips += now != up;
         up = now;
     }
@@ -53,34 +53,36 @@ std::uint64_t sign_changes(const Walk& w, ValueAt value_at) {
 }
 
 std::vector<ShadowingMethod> shadowing_methods() {
-    return {
-        {"redrawn at each look",
-         [](const Walk& w) {
-             return sign_changes(
-                 w, [&](std::uint64_t look) { return PairDraws::normal_of(draw_bits(w, look)); });
-         }},
-        {"state of each link (Gudmundson)",
-         [](const Walk& w) {
-             const double rho = math::exp(-w.step / decorrelation);
-             double x = PairDraws::normal_of(draw_bits(w, 0));
-             return sign_changes(w, [&](std::uint64_t look) {
-                 if (look == 0) return x;
-                 x = rho * x + std::sqrt(1 - rho * rho) * PairDraws::normal_of(draw_bits(w, look));
-                 return x;
-             });
-         }},
-        {"[shadowing] link",
-         [](const Walk& w) {
-             const double x = PairDraws::normal_of(draw_bits(w, 0));
-             return sign_changes(w, [&](std::uint64_t) { return x; });
-         }},
-        {"[shadowing] field", [](const Walk& w) {
-             const ShadowingField field(Meters{decorrelation}, w.seed, 0);
-             return sign_changes(w, [&](std::uint64_t look) { return field(w.at(look), peer); });
-         }}};
+    return {{"redrawn for each sample",
+             [](const Walk& w) {
+                 return sign_changes(w, [&](std::uint64_t sample) {
+                     return PairDraws::normal_of(draw_bits(w, sample));
+                 });
+             }},
+            {"state of each link (Gudmundson)",
+             [](const Walk& w) {
+                 const double rho = math::exp(-w.step / decorrelation);
+                 double x = PairDraws::normal_of(draw_bits(w, 0));
+                 return sign_changes(w, [&](std::uint64_t sample) {
+                     if (sample == 0) return x;
+                     x = rho * x +
+                         std::sqrt(1 - rho * rho) * PairDraws::normal_of(draw_bits(w, sample));
+                     return x;
+                 });
+             }},
+            {"[shadowing] link",
+             [](const Walk& w) {
+                 const double x = PairDraws::normal_of(draw_bits(w, 0));
+                 return sign_changes(w, [&](std::uint64_t) { return x; });
+             }},
+            {"[shadowing] field", [](const Walk& w) {
+                 const ShadowingField field(Meters{decorrelation}, w.seed, 0);
+                 return sign_changes(
+                     w, [&](std::uint64_t sample) { return field(w.at(sample), peer); });
+             }}};
 }
 
-/// Flips per second of the process whose correlation is e^(-D / d_cor), looked at each `step`:
+/// Flips per second of the process whose correlation is e^(-D / d_cor), sampled every `step`:
 /// arccos(e^(-step / d_cor)) / (pi step).
 double true_rate(double step) {
     const double rho = math::exp(-step / decorrelation);
@@ -88,8 +90,8 @@ double true_rate(double step) {
 }
 
 ValidationPanel flips_panel(double step, std::uint64_t seeds, const ValidationSize& size) {
-    ValidationPanel panel{.title = fmt::format("a look each {:g} s", step),
-                          .cost_label = "CPU per look [ns]",
+    ValidationPanel panel{.title = fmt::format("sampled every {:g} s", step),
+                          .cost_label = "CPU per sample [ns]",
                           .error_label = "error of the flips per second [%]"};
     const std::vector<ShadowingMethod> methods = shadowing_methods();
     const double truth = true_rate(step);
@@ -103,7 +105,7 @@ ValidationPanel flips_panel(double step, std::uint64_t seeds, const ValidationSi
         const double rate = all_flips(method) / (walk * static_cast<double>(seeds));
         panel.points.push_back({.label = method.label,
                                 .error = 100 * std::abs(rate - truth) / truth,
-                                .details = {{"flips per second", rate}, {"true", truth}}});
+                                .details = {{"flips per second", rate}, {"exact", truth}}});
         timed.push_back({[&all_flips, &method] { return all_flips(method); },
                          static_cast<double>(seeds) * walk / step});
     }
@@ -129,7 +131,7 @@ ValidationChart shadowing_chart(const ValidationSize& size) {
             "Sampled every {:g} s, shadowing that is redrawn for each sample flips a link {:.2g} "
             "times a second instead of {:.2g}. As a field of both places it flips a link {:.2g} "
             "times, at {:.3g} ns a sample and without any state.",
-            step, detail_of(redrawn, "flips per second"), detail_of(redrawn, "true"),
+            step, detail_of(redrawn, "flips per second"), detail_of(redrawn, "exact"),
             detail_of(field, "flips per second"), field.cost.median));
     }
     chart.sentences.push_back(

@@ -120,9 +120,9 @@ TEST_CASE("validation: predicted link changes are within the limits, and fixed s
     for (const ValidationPanel& panel : chart.panels) {
         CAPTURE(panel.title);
         CHECK(detail_of(panel.points.front(), "changes") > 3);
-        CHECK(point_of(panel, "rovernet").error < point_of(panel, "a look each 10 ms").error);
+        CHECK(point_of(panel, "rovernet").error < point_of(panel, "check every 10 ms").error);
         // A change is seen half a step late on average.
-        const double late = point_of(panel, "a look each 100 ms").error;
+        const double late = point_of(panel, "check every 100 ms").error;
         CHECK(late > 20);
         CHECK(late < 100);
     }
