@@ -116,6 +116,7 @@ struct Store::Database {
     explicit Database(StoreConnection made)
         : connection(std::move(made)), sqlite(*connection.sqlite) {}
 
+    int tables() { return sqlite.execAndGet("SELECT count(*) FROM sqlite_master").getInt(); }
     void make_schema();
     std::int64_t metric_key(const std::string& name);
 
@@ -152,6 +153,8 @@ Store::Store(std::string path, std::unique_ptr<Database> database)
     : path_(std::move(path)), database_(std::move(database)) {
     const int made_by = database_->sqlite.execAndGet("PRAGMA application_id").getInt();
     const int version = database_->sqlite.execAndGet("PRAGMA user_version").getInt();
+    if (made_by == 0 && database_->tables() == 0)
+        throw InputError({path_}, "has no runs yet; if its sweep was killed, run it again");
     if (made_by != application) throw InputError({path_}, "not a store of a study");
     if (version > format) {
         throw InputError({path_},
@@ -177,11 +180,8 @@ Store Store::open_to_write(const std::string& path) {
     if (kind != InputKind::nothing) need_file(path);
     return told(path, [&] {
         auto database = std::make_unique<Database>(StoreConnection::to_write(path));
-        // The tables are checked, not the file's size: a process killed during creation leaves only
-        // some of them.
-        const int tables =
-            database->sqlite.execAndGet("SELECT count(*) FROM sqlite_master").getInt();
-        if (tables == 0) database->make_schema();
+        // A process killed at its beginning leaves a file without tables.
+        if (database->tables() == 0) database->make_schema();
         return Store(path, std::move(database));
     });
 }

@@ -85,12 +85,15 @@ struct Place {
         std::sort(names.begin(), names.end());
         return names;
     }
-    /// Number of finished runs, when nobody writes any more.
+    /// Number of finished runs, when nobody writes any more; 0 if the sweep was killed before it
+    /// had made its store.
     std::size_t finished() const {
         for (int i = 0;; ++i) {
             try {
                 return Store::open(store).runs().size();
-            } catch (const std::exception&) {
+            } catch (const std::exception& error) {
+                if (std::string(error.what()).find("has no runs yet") != std::string::npos)
+                    return 0;
                 if (i == 500) throw;
                 wait_a_moment();
             }
