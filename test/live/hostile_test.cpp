@@ -364,6 +364,7 @@ TEST_CASE("hostile: killed clients leave nothing behind, and their robots stop")
     const std::size_t before = descriptors(pid);
     for (int i = 0; i < kills; ++i) {
         const bool leaves_unread = i % 2 == 0;
+        page.ask(call_time);  // a page that answers no ping for long is closed
         do_and_be_killed([&] {
             LineClient client(served.player);
             client.bytes(32);
