@@ -8,11 +8,13 @@ const pixels = (() => {
     const ring_alpha = 0.6;
     /** @type {{canvas: HTMLCanvasElement|null, image: ImageData|null, words: Int32Array, width: number, height: number, size: number, covers: Uint8Array[], shapes: Map<number, Stamp>, ratio: number, margin: number}} */
     const own = { canvas: null, image: null, words: new Int32Array(0), width: 0, height: 0, size: 0, covers: [], shapes: new Map(), ratio: 1, margin: 0 };
-    /** Words have a margin around the map, so that shapes at its rim need no clipping. Rows and columns that are not clear, now and on the canvas. */
+    // Words have a margin around the map, so that shapes at its rim need no clipping.
+    /** Rows and columns that are not clear: in the words now, and when they were painted last. */
     const box = { left: 0, top: 0, right: 0, bottom: 0 }, last = { ...box };
 
     /** Squares as they were drawn last. They are drawn again when one has moved by a part of a pixel. */
-    const crowd = { words: new Int32Array(0), xs: new Float64Array(0), ys: new Float64Array(0), colors: new Int32Array(0), box: { ...box } };
+    const nowhere = new Float64Array(0);
+    const crowd = { words: new Int32Array(0), xs: nowhere, ys: nowhere, colors: new Int32Array(0), box: { ...box } };
 
     /** @param {number} reach @param {(dx: number, dy: number) => number} share of a pixel that is covered @returns {Stamp} */
     function stamp_of(reach, share) {
@@ -78,7 +80,11 @@ const pixels = (() => {
         }
     }
 
-    function clear() { own.words.fill(0, last.top * own.width, last.bottom * own.width); }
+    /** Clears the picture; the squares are no longer there. */
+    function clear() {
+        own.words.fill(0, last.top * own.width, last.bottom * own.width);
+        crowd.xs = nowhere;
+    }
 
     /** Draws the picture on the canvas. @param {CanvasRenderingContext2D} c */
     function paint(c) {
@@ -96,7 +102,7 @@ const pixels = (() => {
         return red | green << 8 | blue << 16;
     }
 
-    /** @param {Float64Array} xs [px] @param {Float64Array} ys @param {Int32Array} colors */
+    /** Whether the squares that were drawn last are those, but for a part of a pixel. @param {Float64Array} xs [px] @param {Float64Array} ys @param {Int32Array} colors */
     function stands(xs, ys, colors) {
         const slack = 1 / parts / own.ratio;
         if (crowd.xs.length !== xs.length) return false;
@@ -122,7 +128,7 @@ const pixels = (() => {
         Object.assign(crowd, { xs: xs.slice(), ys: ys.slice(), colors: colors.slice(), box: { ...box } });
     }
 
-    /** @param {Float64Array} xs [px] @param {Float64Array} ys @param {Int32Array} colors */
+    /** Draws squares row by row. @param {Float64Array} xs [px] @param {Float64Array} ys @param {Int32Array} colors */
     function put_squares(xs, ys, colors) {
         const { words, width, height, ratio, margin, covers, size } = own, side = side_of(size), shift = margin - size / 2;
         for (let i = 0; i < xs.length; i++) {

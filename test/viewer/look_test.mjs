@@ -65,3 +65,19 @@ test("names of robots and losses of walls do not cover each other on a small map
     assert.ok(texts.filter(({ text }) => text.endsWith(" dB")).length > 1 && texts.some(({ text }) => text === "E"), JSON.stringify(texts));
     check_apart(texts);
 })));
+
+test("a swarm at rest is whole again after a look at one of its robots", () => with_page("swarm", {}, async page => {
+    /** Picture of the map as it is drawn first in that view: what is drawn later may mend it. */
+    const map = view => page.evaluate(async state => {
+        rovernet.select({ t: 0.31e9, ...state });
+        await new Promise(done => requestAnimationFrame(done));
+        return document.getElementById("map").toDataURL();
+    }, { view });
+    const robot = await page.evaluate(() => rovernet.position(5)), all = { x: 50, y: 30, scale: 6 }, one = { x: robot.x, y: robot.y, scale: 1000 };
+    await map(all);
+    await drawn(page);
+    const before = await map(all);
+    assert.notEqual(await map(one), before);
+    await drawn(page);
+    assert.equal(await map(all), before);
+}));
