@@ -127,7 +127,8 @@ TEST_CASE("build: a robot reacts to the payload of saturated traffic") {
         "on_receive = { payload = \"go\", send = \"coming\" }\n"
         "[[robot]]\nname = \"B\"\nat = [\"5 m\", \"0 m\"]\n"
         "[[traffic]]\nfrom = \"B\"\npayload = \"go\"\nsaturate = true\n";
-    for (const auto& [key, size] : {std::pair{"", 2U}, std::pair{"size = \"500 B\"\n", 500U}}) {
+    for (const std::string key : {"", "size = \"500 B\"\n"}) {
+        const unsigned size = key.empty() ? 2 : 500;
         Built built(two + key);
         Network& network = built.network;
         int answers = 0, others = 0;
