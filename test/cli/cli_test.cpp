@@ -67,7 +67,7 @@ const std::vector<std::string> result_files = {"scenario.toml", "summary.json", 
 
 }  // namespace
 
-TEST_CASE("run --json is one document with the results") {
+TEST_CASE("run --json prints one document with the results") {
     const TemporaryFolder folder;
     const Json run =
         json_of(folder, {"run", folder.write("s.toml", relay), "--out", folder.path("out")});
@@ -199,7 +199,7 @@ TEST_CASE("trace stats: prints the metrics of the summary to the last digit, in 
     }
 }
 
-TEST_CASE("a trace counted by its columns gives the delivery ratio") {
+TEST_CASE("the delivery ratio can be counted from the columns of a trace") {
     const TemporaryFolder folder;
     const Json run = json_of(folder, {"run", folder.write("s.toml", relay), "--out",
                                       folder.path("out"), "--set", "trace.ns2=old"});
@@ -244,7 +244,7 @@ TEST_CASE("loss --wall: half a metre at 2 dB per centimetre costs 100 dB") {
     CHECK(command(folder, {"loss", "friis", "--distance", "1", "--wall", "2"}).exit == 2);
 }
 
-TEST_CASE("loss --heights: the loss between antennas 1.5 m high equals the vectors (two_ray)") {
+TEST_CASE("loss --heights: the loss between antennas 1.5 m high equals the test vectors two_ray") {
     const TemporaryFolder folder;
     const auto loss = [&](const std::string& heights) {
         return json_of(
@@ -294,7 +294,7 @@ TEST_CASE("loss: several models have a column each, and curves in a picture") {
     }
 }
 
-TEST_CASE("link --json: the budget and its walls") {
+TEST_CASE("link --json prints the budget of a link and the walls on it") {
     const TemporaryFolder folder;
     const png_byte w = 255;
     folder.write(
@@ -395,7 +395,7 @@ TEST_CASE("models --json lists every model, shadowing and fading with their para
     }
 }
 
-TEST_CASE("models NAME prints one model, and suggests one for a name that there is not") {
+TEST_CASE("models NAME prints one model, and for an unknown name suggests a known one") {
     const TemporaryFolder folder;
     const Json listed = json_of(folder, {"models", "friis"});
     REQUIRE(listed["models"].size() == 1);
@@ -527,7 +527,7 @@ TEST_CASE("run: with range 0 no message arrives; a negative range is an error wi
     }
 }
 
-TEST_CASE("results that cannot be written end a run with 1, and the message names the place") {
+TEST_CASE("a run whose results cannot be written exits with 1, and the message names the folder") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", relay);
     const Ended ended = command(folder, {"run", file, "--out", file + "/out"});
@@ -536,7 +536,9 @@ TEST_CASE("results that cannot be written end a run with 1, and the message name
     CHECK(ended.err.find(file + "/out") != std::string::npos);
 }
 
-TEST_CASE("trace: the commands convert, cut, diff and follow work") {
+TEST_CASE(
+    "trace: by diff a converted trace has no difference and a cut one has; follow describes a "
+    "message") {
     const TemporaryFolder folder;
     const std::string out = folder.path("out"), trace = out + "/trace.tr";
     json_of(folder, {"run", folder.write("s.toml", relay), "--out", out, "--set", "trace.ns2=old",

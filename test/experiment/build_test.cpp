@@ -45,7 +45,7 @@ TEST_CASE("build: a random waypoint that does not start in its steady state give
     CHECK(classic.scenario.notices[0].find("falls from 10.5 to 6.34 m/s") != std::string::npos);
 }
 
-TEST_CASE("build: count makes robots name0, name1, ... at random positions in the area") {
+TEST_CASE("build: count creates robots name0, name1, ... at random positions in the area") {
     Built built(three);
     CHECK_FALSE(built.network.find("r"));
     CHECK_FALSE(built.network.find("r3"));
@@ -58,7 +58,7 @@ TEST_CASE("build: count makes robots name0, name1, ... at random positions in th
     CHECK(places.size() == 3);
 }
 
-TEST_CASE("build: an additional robot does not change the drawn positions of the others") {
+TEST_CASE("build: a robot added to a scenario does not change the random positions of the others") {
     Built built(three), more("[[robot]]\nname = \"A\"\nat = [\"0 m\", \"0 m\"]\n" + three);
     for (const char* name : {"r0", "r1", "r2"}) CHECK(built.at(name) == more.at(name));
 }
@@ -68,7 +68,7 @@ TEST_CASE("build: a different replication draws different positions") {
     CHECK(built.at("r0") != other.at("r0"));
 }
 
-TEST_CASE("build: a choice selects one of its points") {
+TEST_CASE("build: the placement model `choice` puts a robot at one of its points") {
     Built built(
         "[[robot]]\nname = \"A\"\nplace = { model = \"choice\", points = [[\"1 m\", "
         "\"2 m\"], [\"3 m\", \"4 m\"]] }\n");
@@ -102,7 +102,7 @@ struct Counting {
 
 }  // namespace
 
-TEST_CASE("build: with a protocol of the user's program, messages without hops = 1 are routed") {
+TEST_CASE("build: a routing protocol of the user's program routes all messages without hops = 1") {
     const std::string two =
         "[[robot]]\nname = \"A\"\nat = [\"0 m\", \"0 m\"]\n"
         "on_receive = { payload = \"ask\", send = \"answer\", to = \"sender\" }\n"

@@ -27,7 +27,8 @@ struct Three {
 }  // namespace
 
 TEST_CASE(
-    "client radios: of two clients at one radio, the one that stays still receives messages") {
+    "client radios: if one of two clients of a radio leaves, the other one still receives "
+    "messages") {
     Three robots;
     ClientRadios radios(robots.net);
     radios.join(1, {robots.b, robots.c}, true);
@@ -46,7 +47,7 @@ TEST_CASE(
     CHECK_FALSE(heard[0].is_for_everyone);
 }
 
-TEST_CASE("client radios: simultaneous messages are in the order of robots, not of events") {
+TEST_CASE("client radios: messages received at the same time are ordered by robot, not by event") {
     Three robots;
     ClientRadios radios(robots.net);
     radios.join(1, {robots.b, robots.c}, true);
@@ -60,7 +61,8 @@ TEST_CASE("client radios: simultaneous messages are in the order of robots, not 
     CHECK(heard[1].at == robots.c);
 }
 
-TEST_CASE("client radios: a robot that is off sends no message, and its message gets no uid") {
+TEST_CASE(
+    "client radios: a robot that is off sends no message, and the refused message uses up no uid") {
     Three robots;
     ClientRadios radios(robots.net);
     radios.join(1, {robots.a, robots.b}, true);

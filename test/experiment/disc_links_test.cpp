@@ -62,7 +62,8 @@ const std::string disc = "model = \"disc\"\nrange = \"100 m\"\n";
 
 }  // namespace
 
-TEST_CASE("disc: link reports state distance and range; the range itself is inside") {
+TEST_CASE(
+    "disc: a link report has distance and range, and a link exactly as long as the range is up") {
     const Scenario scenario = line(disc);
     const LinkReport far = report_link(scenario, "A", "B", start_of_run);
     CHECK_FALSE(far.up);
@@ -98,7 +99,7 @@ TEST_CASE("disc: the link table of a robot has distances and no levels") {
     });
 }
 
-TEST_CASE("disc: a missed message is explained by distance; a capture has no levels") {
+TEST_CASE("disc: the reason for a missed message is a distance, and a capture has no levels") {
     const TempFolder folder;
     run_scenario(line(disc), {.folder = folder / "run", .speed = {}});
     const std::string trace = folder / "run/trace.mcap";

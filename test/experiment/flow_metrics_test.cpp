@@ -90,7 +90,8 @@ payload = "H"
     CHECK_FALSE(table.find("topology"));
 }
 
-TEST_CASE("flows: equal names, and names that cannot end a metric's name, are refused") {
+TEST_CASE(
+    "flows: equal names, and names with characters that a metric's name cannot have, are refused") {
     const TemporaryFolder folder;
     const std::string flow = "[[traffic]]\nfrom = \"a\"\npayload = \"F\"\nname = ";
     CHECK_THROWS_AS(loaded(folder, three + flow + "\"x\"\n" + flow + "\"x\"\n"), InputError);
@@ -117,7 +118,7 @@ TEST_CASE("random sources: all robots are chosen equally often, in any order of 
     }
 }
 
-TEST_CASE("topology: metrics of a robot that passes another robot equal manual values") {
+TEST_CASE("topology: metrics of a robot that passes another robot equal values computed by hand") {
     // b passes a at 2 m/s, from 20 m before it to 20 m behind it: in range of 10 m from 5 s to 15
     // s.
     const Table table = summary(R"(

@@ -126,7 +126,9 @@ const AccessModel accesses[] = {NoAccess{}, Aloha{}, asking};
 
 }  // namespace
 
-TEST_CASE("MAC trace: receptions served together or one by one give the same bytes") {
+TEST_CASE(
+    "MAC trace: the bytes do not depend on whether receptions are processed together or one by "
+    "one") {
     for (const ReceptionModel& reception : receptions) {
         for (const AccessModel& access : accesses) {
             for (const Db shadowing : {Db{0}, Db{4}}) {
@@ -144,7 +146,9 @@ TEST_CASE("MAC trace: receptions served together or one by one give the same byt
     }
 }
 
-TEST_CASE("MAC trace: adds lines to the trace, from which the same arrivals are read back") {
+TEST_CASE(
+    "MAC trace: MAC lines only add to the trace, and the metrics read from it equal those of the "
+    "run") {
     for (const Ns2Format format : {Ns2Format::old_format, Ns2Format::new_format}) {
         for (const AccessModel& access : accesses) {
             CAPTURE(access.name());
@@ -256,7 +260,7 @@ TEST_CASE("MAC trace: a broadcast has a line at its sender and at each robot tha
     CHECK(count(text, " MAC ") == 3);
 }
 
-TEST_CASE("MAC trace: without a header of the access model a frame is as large as its message") {
+TEST_CASE("MAC trace: with an access model without a header, a frame is as large as its message") {
     const auto unicast = [](Network& net) { net.send({1}, {2}, "", {.size = 64}); };
     for (const AccessModel& access : {AccessModel{NoAccess{}}, AccessModel{Aloha{}}}) {
         const std::string text = row(access, unicast);
@@ -266,7 +270,9 @@ TEST_CASE("MAC trace: without a header of the access model a frame is as large a
     }
 }
 
-TEST_CASE("MAC trace: a retransmission has a line; a retransmission overheard has none") {
+TEST_CASE(
+    "MAC trace: each retransmission has a line at its sender, and none at robots that overhear "
+    "it") {
     const auto to_nobody = [](Network& net) { net.send({1}, {3}, "", {.size = 64}); };
     const std::string text = row(as_ns2, to_nobody, 4);
     CHECK(count(text, "^s .*_1_ MAC  --- 0 RTS 44 \\[[0-9a-f]+ 3 1 0\\] $") == 7);
@@ -274,7 +280,7 @@ TEST_CASE("MAC trace: a retransmission has a line; a retransmission overheard ha
     CHECK(count(text, "^D .*_1_ MAC  RET ") == 1);
 }
 
-TEST_CASE("MAC trace: a station that was switched off gets no lines about an RTS") {
+TEST_CASE("MAC trace: a robot that was switched off has no lines for the RTS frames sent to it") {
     const auto fails = [](Network& net) {
         net.send({1}, {2}, "", {.size = 64});
         net.at(net.now() + 100us, [&net] { net.switch_off({2}); });
@@ -307,7 +313,7 @@ TEST_CASE("MAC trace: an RTS that collides is dropped at its destination") {
     }
 }
 
-TEST_CASE("MAC trace: is written if the scenario requests it") {
+TEST_CASE("MAC trace: MAC lines are written only if the scenario sets `mac = true`") {
     const std::string text =
         "[scenario]\nduration = \"1 s\"\n"
         "[propagation]\nmodel = \"disc\"\nrange = \"9 m\"\n"

@@ -20,7 +20,7 @@ namespace many_robots_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 
-TEST_CASE("many robots: a robot at rest takes less than 164 bytes, with and without floods") {
+TEST_CASE("many robots: in the flood bench, a robot at rest takes less than 164 bytes") {
     // Nearly a power of two: most lists grow to the next.
     const auto row = flood_bench({.cpu_s = 1e-9}, 32'000);
     CHECK(row.receptions > 32'000);
@@ -28,7 +28,8 @@ TEST_CASE("many robots: a robot at rest takes less than 164 bytes, with and with
 }
 
 TEST_CASE(
-    "many robots: a robot on a random waypoint takes less than 350 bytes, with floods or not") {
+    "many robots: in the flood bench, a robot that moves by random waypoint takes less than 350 "
+    "bytes") {
     // The queue's buckets that are not full take 16 bytes a robot here; of a million robots one
     // takes 312 bytes in all.
     const auto row =
@@ -91,7 +92,9 @@ TEST_CASE("many robots: each robot keeps its own body") {
     }
 }
 
-TEST_CASE("many robots: a new movement discards the leg interrupted by a turn or a switch") {
+TEST_CASE(
+    "many robots: a robot placed elsewhere during a turn or while off does not resume its old "
+    "movement") {
     Network net;
     const RadiansPerSecond rate{0.5};
     const NodeId robot =
@@ -120,7 +123,8 @@ TEST_CASE("many robots: a request about a robot that does not exist is refused")
     CHECK_THROWS_AS(net.on_receive({1}, [](const Message&) {}), std::out_of_range);
 }
 
-TEST_CASE("flood bench: counts are equal with and without recording, also of lost frames") {
+TEST_CASE(
+    "flood bench: counts of received and lost frames are the same with and without recording") {
     for (const std::size_t model :
          {ReceptionTable::place_of<Threshold>(), ReceptionTable::place_of<Collision>()}) {
         const ReceptionTable reception{.model = model};

@@ -65,7 +65,7 @@ TEST_CASE("gate: links need the same channel and frequency") {
     CHECK(links_between({.frequency = {2412e6}}, {.frequency = {2437e6}}) == 0);
 }
 
-TEST_CASE("gate: none on either side lets every radio in") {
+TEST_CASE("gate: if either radio has the gate `none`, their essids and channels may differ") {
     CHECK(links_between({.essid = "x", .gate = Gate::none}, {.essid = "y"}) == 2);
     CHECK(links_between({.essid = "x"}, {.essid = "y", .channel = 3, .gate = Gate::none}) == 2);
 }
@@ -77,7 +77,9 @@ TEST_CASE("success rate: the same frames are received under every reception mode
     CHECK(through(0.5, true, Sinr{}) == expected);
 }
 
-TEST_CASE("success rate: this share of frames is received, and the others are dropped as ERR") {
+TEST_CASE(
+    "success rate: the given share of frames is received, and the other frames are dropped as "
+    "ERR") {
     for (const double rate : {0.3, 0.9}) {
         const auto [delivered, errors] = through(rate, false);
         CHECK(delivered + errors == 2000);
@@ -88,7 +90,7 @@ TEST_CASE("success rate: this share of frames is received, and the others are dr
     CHECK(through(0, false).first == 0);
 }
 
-TEST_CASE("success rate: another robot does not change the draws") {
+TEST_CASE("success rate: adding a robot does not change which frames are received") {
     CHECK(through(0.5, false) == through(0.5, true));
 }
 

@@ -60,7 +60,9 @@ using Words = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("reactions: a message triggers a reaction by its beginning, its origin or its hops") {
+TEST_CASE(
+    "reactions: the beginning of a message, its origin or its number of hops can trigger a "
+    "reaction") {
     CHECK(said(line_of_three("on_receive = { payload = \"g\", send = \"yes\" }", a_says)) ==
           Words{"a: go", "b: yes"});
     CHECK(said(line_of_three("on_receive = { payload = \"x\", send = \"yes\" }", a_says)) ==
@@ -167,7 +169,7 @@ TEST_CASE("reactions: an answer goes to the sender of the message, or to a robot
               .front() == "a: go");
 }
 
-TEST_CASE("reactions: each request has one answer") {
+TEST_CASE("reactions: each request gets exactly one answer") {
     const TemporaryFolder folder;
     const std::string scenario = line_of_three(
         "on_receive = { send = \"yes\", to = \"sender\", once = false }",

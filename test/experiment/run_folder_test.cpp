@@ -21,7 +21,8 @@ std::string folder(const std::vector<std::string>& set) {
 
 }  // namespace
 
-TEST_CASE("run folder: has the name of the scenario, the seed and the replication") {
+TEST_CASE(
+    "run folder: the path has the name of the scenario, the seed, and a replication other than 0") {
     Scenario scenario;
     scenario.scenario.name = "rescue";
     scenario.scenario.seed = 7;
@@ -31,7 +32,7 @@ TEST_CASE("run folder: has the name of the scenario, the seed and the replicatio
     CHECK(folder({"scenario.seed=7", "scenario.name=rescue"}) == "runs/rescue-s7");
 }
 
-TEST_CASE("run folder: the name lists settings that differ from the file") {
+TEST_CASE("run folder: the path lists settings that differ from the file") {
     CHECK(folder({"radio.power=20 dBm"}) == "runs/rescue-s7-radio.power=20dBm");
     CHECK(folder({"routing.ttl=3", "radio.power=\"20 dBm\""}) ==
           "runs/rescue-s7-radio.power=20dBm-routing.ttl=3");

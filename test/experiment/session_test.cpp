@@ -65,7 +65,7 @@ std::string fingerprint_of(Act act) {
 
 }  // namespace
 
-TEST_CASE("session: in one piece, in steps and paced, the run is the same") {
+TEST_CASE("session: a run in one piece, in steps or paced has the same fingerprint") {
     const std::string whole = fingerprint_of([](Session&) {});
     CHECK(fingerprint_of([](Session& s) {
               for (Time t = start_of_run; t < s.end(); t += 170ms) s.step(t);
@@ -125,7 +125,9 @@ TEST_CASE("session: the same commands at the same times give the same records") 
     CHECK(fingerprint_of(driven) != fingerprint_of([](Session&) {}));
 }
 
-TEST_CASE("session: a robot has one driver; a client that leaves releases all its robots") {
+TEST_CASE(
+    "session: a robot has one driver at a time; when a client leaves, others may drive its "
+    "robots") {
     Session session{scenario()};
     Network& net = session.network();
     const ClientId first = session.attach({NodeId{1}});
@@ -145,7 +147,7 @@ TEST_CASE("session: a robot has one driver; a client that leaves releases all it
     CHECK(session.heard(second).size() == 1);  // the tick at 3 s
 }
 
-TEST_CASE("session: a radio client sends and receives beside the client that drives the robots") {
+TEST_CASE("session: one client may use the radio of a robot while another client drives it") {
     Session session{scenario()};
     Network& net = session.network();
     const NodeId a{0}, b{1}, c{2};
@@ -307,7 +309,8 @@ TEST_CASE("session: listeners get every command, also the stop of a client that 
 }
 
 TEST_CASE(
-    "session: the speed of a driven robot is the commanded speed, otherwise that of its leg") {
+    "session: the velocity of a robot is the commanded one while it is driven, otherwise that of "
+    "its leg") {
     Session session{scenario()};
     const ClientId client = session.attach({NodeId{1}});
     CHECK(session.driver({1}) == client);
@@ -328,7 +331,9 @@ TEST_CASE(
     CHECK(session.twist({1}).turn_rate == 0);
 }
 
-TEST_CASE("session: a robot is placed elsewhere, and simultaneous commands run one after another") {
+TEST_CASE(
+    "session: a robot that is placed elsewhere has the commanded position and heading, and stands "
+    "still") {
     Session session{scenario()};
     const ClientId client = session.attach({NodeId{1}});
     session.drive(client, {1}, {1}, {0});
@@ -340,7 +345,7 @@ TEST_CASE("session: a robot is placed elsewhere, and simultaneous commands run o
     CHECK(session.twist({1}).speed == 0);
 }
 
-TEST_CASE("session: effects of a command at its own time precede the next command") {
+TEST_CASE("session: what a command causes at the same instant happens before the next command") {
     struct Order {
         std::string& text;
         KindMask kinds() const { return kind_of<Sent>() | kind_of<Transmitted>(); }

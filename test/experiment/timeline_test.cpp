@@ -44,7 +44,7 @@ struct Run {
 
 }  // namespace
 
-TEST_CASE("timeline: a message with a size and without text has no entry") {
+TEST_CASE("timeline: a message with a size but without a text has no entry") {
     const Run empty("size = \"64 B\"\nstart = \"1 s\"\nevery = \"1 s\"\n");
     CHECK(empty.timeline->size() == 0);
     CHECK(empty.timeline->left_out() == 0);
@@ -55,7 +55,7 @@ TEST_CASE("timeline: a message with a size and without text has no entry") {
     CHECK((*said.timeline)[1].text == "hears \"F\" from A over 1 hop");
 }
 
-TEST_CASE("timeline: ends after 10,000 entries and counts the rest") {
+TEST_CASE("timeline: the timeline ends after 10,000 entries and counts the rest") {
     std::string off, on;
     // B is switched off and on again 5,100 times: 10,200 entries.
     for (int i = 0; i < 5100; ++i) {

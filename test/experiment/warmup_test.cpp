@@ -42,7 +42,8 @@ warmup = ")" + warmup + "\"\n";
 
 }  // namespace
 
-TEST_CASE("warm-up: messages sent before its end, and their copies, do not count") {
+TEST_CASE(
+    "warm-up: messages sent before the end of the warm-up, and their copies, are not counted") {
     Network net({.propagation = Disc{.range = Meters{10}}, .warmup = 2s});
     net.route(Flood{.ttl = 3});
     const NodeId a = net.add({.name = "a", .at = {}});
@@ -65,7 +66,7 @@ TEST_CASE("warm-up: messages sent before its end, and their copies, do not count
     CHECK(net.metrics().delivery_ratio == 1.0);
 }
 
-TEST_CASE("warm-up: airtime counts frames that begin after its end") {
+TEST_CASE("warm-up: airtime includes only frames that begin after the end of the warm-up") {
     Network net({.propagation = Disc{.range = Meters{10}}, .warmup = 2s});
     net.route(Flood{.ttl = 3});
     const NodeId a = net.add({.name = "a", .at = {}});
@@ -87,7 +88,7 @@ TEST_CASE("warm-up: airtime counts frames that begin after its end") {
     CHECK_FALSE(airtime_values(net.airtime(), {}).per_byte);
 }
 
-TEST_CASE("warm-up: a message sent at its end counts") {
+TEST_CASE("warm-up: a message sent exactly at the end of the warm-up is counted") {
     Network net({.propagation = Disc{.range = Meters{10}}, .warmup = 2s});
     net.route(Flood{});
     const NodeId a = net.add({.name = "a", .at = {}});
@@ -96,7 +97,7 @@ TEST_CASE("warm-up: a message sent at its end counts") {
     CHECK(net.metrics().messages == 1);
 }
 
-TEST_CASE("warm-up: its end is given by the study, or found by MSER-5") {
+TEST_CASE("warm-up: the end of the warm-up is given by the study, or found by MSER-5") {
     const auto warmup = [](const Scenario& scenario) {
         return warmup_of(scenario, network_settings(scenario));
     };

@@ -43,7 +43,8 @@ TEST_CASE("csv table: fields are found by column name, with their positions") {
     CHECK(table.where(1).line == 7);
 }
 
-TEST_CASE("csv table: errors have a position, and unknown columns a suggestion") {
+TEST_CASE(
+    "csv table: errors name the position, and for an unknown column they suggest a known one") {
     CHECK(error_of("a,b\n1,2\n") == "t.csv:2:3: b: found \"2\", expected another");
     CHECK(error_of("a,b\n1\n").find("t.csv:2") == 0);
     CHECK(error_of("a,b\n1\n").find("found 1 fields, expected 2") != std::string::npos);

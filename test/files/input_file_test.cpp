@@ -30,7 +30,8 @@ std::string said(const std::string& path) {
 
 }  // namespace
 
-TEST_CASE("input file: any kind of path is read, or refused with its kind") {
+TEST_CASE(
+    "input file: a path that is not a readable file is refused, and the error names its kind") {
     const test::TemporaryFolder folder;
     std::filesystem::create_symlink("loop", folder.path("loop"));
     std::filesystem::create_symlink("b", folder.path("a"));
@@ -55,7 +56,7 @@ TEST_CASE("input file: any kind of path is read, or refused with its kind") {
 }
 
 TEST_CASE(
-    "input file: a FIFO is read when a writer comes, also late; without a writer it is refused") {
+    "input file: a FIFO is read once a writer opens it, and refused if none does within 5 s") {
     const test::TemporaryFolder folder;
     const std::string path = folder.path("fifo");
     REQUIRE(mkfifo(path.c_str(), 0600) == 0);
@@ -76,7 +77,8 @@ TEST_CASE("input file: a pipe is refused where a regular file is needed") {
     need_file(folder.write("x.txt", ""));
 }
 
-TEST_CASE("input file: a path of another machine is found beside the file, by its last part") {
+TEST_CASE(
+    "input file: for a path of another machine, a file of that name beside the input is found") {
     const test::TemporaryFolder folder;
     const std::string here = folder.path("");
     folder.write("room.pgm", "");

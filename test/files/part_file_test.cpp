@@ -50,7 +50,7 @@ void write_and_die(const std::string& path) {
 
 }  // namespace
 
-TEST_CASE("part file: has its final name only when complete") {
+TEST_CASE("part file: the file gets its final name only when it is complete") {
     const TemporaryFolder folder;
     const std::string path = folder.write("f", "yesterday's");
     PartFile file(path);
@@ -64,7 +64,8 @@ TEST_CASE("part file: has its final name only when complete") {
     CHECK(names_in(folder) == std::vector<std::string>{"f"});
 }
 
-TEST_CASE("part file: without a name the old file stays unchanged, and no partial file remains") {
+TEST_CASE(
+    "part file: if no name was given, the old file stays unchanged, and no partial file remains") {
     const TemporaryFolder folder;
     const std::string path = folder.write("f", "yesterday's");
     { PartFile(path).write("half"); }
@@ -72,7 +73,7 @@ TEST_CASE("part file: without a name the old file stays unchanged, and no partia
     CHECK(names_in(folder) == std::vector<std::string>{"f"});
 }
 
-TEST_CASE("part file: of two simultaneous files, the one named last remains, complete") {
+TEST_CASE("part file: of two files written at once, the one that gets its name last remains") {
     const TemporaryFolder folder;
     PartFile first(folder.path("f")), second(folder.path("f"));
     first.write("first");
@@ -85,7 +86,8 @@ TEST_CASE("part file: of two simultaneous files, the one named last remains, com
     CHECK(names_in(folder) == std::vector<std::string>{"f"});
 }
 
-TEST_CASE("part file: the part of a killed process is removed by the next one; others stay") {
+TEST_CASE(
+    "part file: the next writer removes the partial file of a killed process, and no other files") {
     const TemporaryFolder folder;
     write_and_die(folder.path("f"));
     REQUIRE(names_in(folder).size() == 1);
@@ -99,7 +101,7 @@ TEST_CASE("part file: the part of a killed process is removed by the next one; o
     CHECK(names_in(folder).size() == 5);
 }
 
-TEST_CASE("part file: a full disk is reported and leaves nothing") {
+TEST_CASE("part file: a full disk is reported, and no partial file remains") {
     const TemporaryFolder folder;
     const test::NoRoom none;
     PartFile file(folder.path("f"));

@@ -45,7 +45,8 @@ std::string many_lines() {
 
 }  // namespace
 
-TEST_CASE("text source: a zstd file gives the same text under any name, twice") {
+TEST_CASE(
+    "text source: a zstd file gives its text under any name, also when it is read a second time") {
     const TempFolder folder;
     for (const std::string& text : {many_lines(), std::string("x"), std::string()}) {
         write_file(folder / "text", packed_by_zstd(text));
@@ -64,7 +65,8 @@ TEST_CASE("text source: consecutive zstd frames give one text") {
     CHECK(all_of(source) == "one\ntwo\n");
 }
 
-TEST_CASE("text source: a damaged or incomplete zstd file is an error, not a shorter text") {
+TEST_CASE(
+    "text source: a damaged or incomplete zstd file is refused instead of read as a shorter text") {
     const TempFolder folder;
     const std::string bytes = packed_by_zstd(many_lines());
     const auto error_of = [&](const std::string& content) -> std::string {
@@ -86,7 +88,8 @@ TEST_CASE("text source: a damaged or incomplete zstd file is an error, not a sho
     CHECK(error_of(damaged).starts_with("cannot read the file: "));
 }
 
-TEST_CASE("text source: other packers, and files that are not text, are refused by kind") {
+TEST_CASE(
+    "text source: other compressed files, and files without text, are refused by their kind") {
     const TempFolder folder;
     const std::string tar = std::string("a.tr") + std::string(253, '\0') + "ustar  ";
     const std::vector<std::pair<std::string, std::string>> files = {

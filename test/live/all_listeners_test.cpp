@@ -142,16 +142,17 @@ void check_run(Duration duration, int of_each_kind) {
 
 }  // namespace
 
-TEST_CASE("all listeners: a run with four kinds of clients is reproduced from its log") {
+TEST_CASE("all listeners: a run with four kinds of clients is reproduced from its input log") {
     check_run(3s, 1);
 }
 
-TEST_CASE("all listeners: a run of 60 s with four kinds of clients is reproduced from its log" *
-          doctest::skip()) {
+TEST_CASE(
+    "all listeners: a run of 60 s with four kinds of clients is reproduced from its input log" *
+    doctest::skip()) {
     check_run(60s, 1);
 }
 
-TEST_CASE("all listeners: a run with 52 clients of four kinds is reproduced from its log") {
+TEST_CASE("all listeners: a run with 52 clients of four kinds is reproduced from its input log") {
     check_run(2s, 16);
 }
 

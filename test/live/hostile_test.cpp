@@ -440,7 +440,8 @@ TEST_CASE("hostile: Ctrl-C ends a run with many clients, some of which never rea
     }
 }
 
-TEST_CASE("hostile: web pages of other servers and host names are refused") {
+TEST_CASE(
+    "hostile: web pages of other servers, and requests with foreign host names, are refused") {
     const Served served;
     const Live controlled({"--listen-web", "127.0.0.1:0"});
     const auto token_of = [](const Live& live) {

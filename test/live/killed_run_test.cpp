@@ -63,7 +63,9 @@ std::string run_and_kill(const TemporaryFolder& words, const std::string& folder
 
 }  // namespace
 
-TEST_CASE("killed run: its folder and its log part are replayed, with the scenario that was run") {
+TEST_CASE(
+    "killed run: its folder or its unfinished input log can be replayed, with the scenario that "
+    "was run") {
     const TemporaryFolder folder;
     const std::string out = folder.path("out");
     const std::string part = run_and_kill(folder, out, "5", 9);
@@ -107,7 +109,9 @@ TEST_CASE("killed run: an incomplete last line is ignored, with a notice") {
     CHECK_THROWS_WITH_AS(replay_inputs(part, {}), doctest::Contains(".part:4"), InputError);
 }
 
-TEST_CASE("killed run: later runs into its folder keep its log part, which replays as before") {
+TEST_CASE(
+    "killed run: later runs into the same folder keep its unfinished input log, which replays as "
+    "before") {
     const TemporaryFolder folder, words;
     const std::string out = folder.path("out");
     const std::string first = run_and_kill(words, out, "1", 3);
@@ -160,7 +164,7 @@ TEST_CASE("killed run: a killed emulation can be replayed, too") {
     CHECK(replay_inputs(out, {}).inputs == 1);
 }
 
-TEST_CASE("killed run: a failed run keeps its inputs, and a run that starts again does not") {
+TEST_CASE("killed run: a failed run keeps its inputs; a reset discards the inputs before it") {
     const TemporaryFolder folder;
     const std::string out = folder.path("out");
     const std::string limited = [] {

@@ -92,7 +92,7 @@ LiveResult run(const Given& given) {
 
 }  // namespace
 
-TEST_CASE("lateness: a process stopped while idle was late by that time") {
+TEST_CASE("lateness: a run whose process was stopped while idle was late by the time of the stop") {
     for (const double speed : {1.0, 2.0, 0.5}) {
         CAPTURE(speed);
         const LiveResult result = run({.speed = speed});
@@ -103,19 +103,19 @@ TEST_CASE("lateness: a process stopped while idle was late by that time") {
     }
 }
 
-TEST_CASE("lateness: a process that was not stopped was not late") {
+TEST_CASE("lateness: a run whose process was not stopped was not late") {
     const LiveResult result = run({.away = 0s});
     CHECK(result.lateness->most < 1min);
     CHECK(result.fault.empty());
 }
 
-TEST_CASE("lateness: while a front pauses the time, the run is not late") {
+TEST_CASE("lateness: while a client pauses the time, the run is not late") {
     const LiveResult result = run({.limit = start_of_run});
     CHECK(result.lateness->most < 1min);
     CHECK(result.fault.empty());
 }
 
-TEST_CASE("lateness: a run is late until a front pauses the time") {
+TEST_CASE("lateness: a run is late until a client pauses the time") {
     const LiveResult result = run({.limit = start_of_run + 10min});
     CHECK(result.lateness->most > 9min);
     CHECK(result.lateness->most < 11min);
@@ -127,13 +127,15 @@ TEST_CASE("lateness: a run without a speed is never late") {
     CHECK(result.fault.empty());
 }
 
-TEST_CASE("lateness: a front that writes slowly delays messages that arrive meanwhile") {
+TEST_CASE("lateness: messages that arrive while output is written slowly are late") {
     const LiveResult result = run({.away = 0s, .told = start_of_run + 1ms, .telling_takes = 30min});
     CHECK(result.lateness->most > 29min);
     CHECK_FALSE(result.fault.empty());
 }
 
-TEST_CASE("lateness: a look at the clock counts only if it is late, an event always counts") {
+TEST_CASE(
+    "lateness: in the share of late events, a check of the clock counts only if late, an event "
+    "always") {
     Lateness lateness;
     lateness.add_look(999us);
     CHECK(lateness.most == 999us);

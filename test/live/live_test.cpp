@@ -62,7 +62,9 @@ void drive_slowly(LineClient& client, const std::string& robot, std::uint64_t se
 
 }  // namespace
 
-TEST_CASE("live: a controller gives the same run on every listener and in its replay") {
+TEST_CASE(
+    "live: a controller gives the same run over every kind of connection, and in the replay of its "
+    "log") {
     const Live by_stdio({"--controller", "PROGRAM"}, live_row, python);
     CHECK(by_stdio.wait().exit == 0);
     const std::string fingerprint = by_stdio.fingerprint();
@@ -119,7 +121,7 @@ TEST_CASE("live: a changed log is refused, and an incomplete log is replayed up 
     CHECK(broken.err.find("inputs.jsonl:") != std::string::npos);
 }
 
-TEST_CASE("live: the real time of controllers does not affect results") {
+TEST_CASE("live: how long controllers take in real time does not affect results") {
     std::vector<std::string> fingerprints;
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
         const Live live({"--listen-json", "127.0.0.1:0", "--wait-for", "2"});
@@ -188,7 +190,7 @@ TEST_CASE("live: lines may be sent in advance, and a client that stops sending g
     CHECK(live.wait().exit == 0);
 }
 
-TEST_CASE("live: listens only to this machine, and reports an address in use") {
+TEST_CASE("live: only this machine can connect, and an address in use is reported") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", live_row);
     const auto refused = [&](const std::string& address) {
@@ -277,7 +279,7 @@ double round(LineClient& client) {
 
 }  // namespace
 
-TEST_CASE("live: a Player client in lock-step needs no acknowledgement for its rounds") {
+TEST_CASE("live: a Player client in lock-step does not wait for delayed TCP acknowledgements") {
     std::string fingerprints[2];
     for (std::string& fingerprint : fingerprints) {
         const Live live({"--player", "127.0.0.1:0", "--player-lockstep"}, long_live_row());
@@ -369,7 +371,9 @@ TEST_CASE("live: ROS and Player clients are served together until Ctrl-C; a page
           std::string::npos);
 }
 
-TEST_CASE("live: a controller beside Player and ROS clients controls time; its reset restarts") {
+TEST_CASE(
+    "live: a controller beside Player and ROS clients controls time, and its reset restarts the "
+    "run") {
     const Live live({"--listen-json", "127.0.0.1:0", "--player", "127.0.0.1:0", "--rosbridge",
                      "127.0.0.1:0", "--speed", "10"},
                     long_live_row());
@@ -442,7 +446,9 @@ driver ( name "relay" provides [ "6666:opaque:0" ] )
     CHECK(run({"live", file("r1"), "--player", "0.0.0.0:6665"}).exit == 2);
 }
 
-TEST_CASE("live: with --json standard output is one document, and addresses are notices") {
+TEST_CASE(
+    "live: with --json, standard output is one JSON document; addresses are printed on standard "
+    "error") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", live_row);
     const std::string any = "127.0.0.1:0", out = folder.path("out");

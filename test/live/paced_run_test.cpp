@@ -125,7 +125,8 @@ void answer(LineClient& client, int steps) {
 
 }  // namespace
 
-TEST_CASE("paced run: clients connect and leave, get messages in time, and the scenario ends it") {
+TEST_CASE(
+    "paced run: clients connect, get messages in time, and leave; the run ends with the scenario") {
     Paced<Parrot> paced(2, three_in_a_row());
     CHECK(paced.said()[0].ends_with(" (one)"));
     {
@@ -180,7 +181,7 @@ TEST_CASE("paced run: commands take effect when they arrive, also in a late run"
     CHECK(paced.end().lateness->most > 0s);
 }
 
-TEST_CASE("paced run: a requested stop ends it with complete results") {
+TEST_CASE("paced run: a requested stop ends a run with complete results") {
     Paced<Parrot> paced(1e-3, three_in_a_row());
     LineClient client(paced.port());
     client.line();
@@ -192,7 +193,8 @@ TEST_CASE("paced run: a requested stop ends it with complete results") {
     CHECK(client.line().empty());
 }
 
-TEST_CASE("paced run: without a speed it runs as fast as its front allows, always the same") {
+TEST_CASE(
+    "paced run: without a speed, a run is as fast as its clients allow, and always the same") {
     std::string fingerprints[2];
     for (std::string& each : fingerprints) {
         Paced<Patient> paced(std::nullopt, three_in_a_row());
@@ -207,7 +209,7 @@ TEST_CASE("paced run: without a speed it runs as fast as its front allows, alway
     CHECK(fingerprints[0] == fingerprints[1]);
 }
 
-TEST_CASE("paced run: after a pause by a front, time continues without catching up") {
+TEST_CASE("paced run: after a pause by a client, time continues without catching up") {
     Paced<Patient> paced(2, three_in_a_row());
     LineClient client(paced.port());
     client.line();                        // the port
@@ -265,7 +267,7 @@ TEST_CASE("paced run: input of a client is read at a limited rate") {
     paced.end();
 }
 
-TEST_CASE("paced run: a front may close a connection, and may receive bytes instead of lines") {
+TEST_CASE("paced run: a protocol may close a connection, and may read bytes instead of lines") {
     Paced<Parrot> paced(1, three_in_a_row());
     LineClient client(paced.port());
     client.line();
@@ -282,7 +284,9 @@ TEST_CASE("paced run: a front may close a connection, and may receive bytes inst
     CHECK(paced.replay().inputs == 6);
 }
 
-TEST_CASE("input rate: one second's input at once, then 5,000 messages and 16 MiB per second") {
+TEST_CASE(
+    "input rate: a client may send one second's input at once, then 5,000 messages or 16 MiB per "
+    "second") {
     const InputRate::Clock::time_point start{1h};
     InputRate rate;
     rate.add(5'000, 0, start);

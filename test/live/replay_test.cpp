@@ -23,7 +23,7 @@ using namespace rovernet;
 using namespace rovernet::test;
 using namespace std::chrono_literals;
 
-TEST_CASE("replay: reproduces a run with Player and ROS clients") {
+TEST_CASE("replay: a run with Player and ROS clients is reproduced") {
     const Address any{"127.0.0.1", 0};
     ServedRun run(three_in_a_row("[access]\nmodel = \"csma\"\n"),
                   {player_one_port(any, {"A"}, {}), rosbridge_listener(any)}, 2);
@@ -50,7 +50,7 @@ TEST_CASE("replay: reproduces a run with Player and ROS clients") {
     }
 }
 
-TEST_CASE("replay: reproduces a run with controllers by TCP and by WebSocket") {
+TEST_CASE("replay: a run with controllers over TCP and WebSocket is reproduced") {
     const Live live(
         {"--listen-json", "127.0.0.1:0", "--listen-web", "127.0.0.1:0", "--wait-for", "2"});
     LineClient a(live.port());
@@ -77,7 +77,9 @@ TEST_CASE("replay: reproduces a run with controllers by TCP and by WebSocket") {
     CHECK(live.replay().out == "identical: 122 inputs, fingerprint " + live.fingerprint() + "\n");
 }
 
-TEST_CASE("replay: numbers that no client could send are refused, with their line") {
+TEST_CASE(
+    "replay: a log with a number that no client could send is refused, and the error has the "
+    "line") {
     const TemporaryFolder folder;
     folder.write("scenario.toml", live_row);
     const auto log = [&](const std::string& format, const std::string& what) {

@@ -29,7 +29,7 @@ struct Hall {
 
 }  // namespace
 
-TEST_CASE("area: is clipped to the map, and must overlap it") {
+TEST_CASE("area: an area is clipped to the map, and refused if it does not overlap the map") {
     const Scene map(test::drawn_map({"....", "...."}));
     CHECK(Area({{2, -5}, {50, 1}}, map, "x").lower == Vec3{2, 0});
     CHECK(Area({{2, -5}, {50, 1}}, map, "x").upper == Vec3{4, 1});
@@ -38,7 +38,7 @@ TEST_CASE("area: is clipped to the map, and must overlap it") {
     CHECK_THROWS_AS(Area({{4, 0}, {6, 1}}, map, "x"), std::invalid_argument);
 }
 
-TEST_CASE("area: a ray leaves the area exactly on its border") {
+TEST_CASE("area: the point where a ray leaves the area lies exactly on its border") {
     const Area area({{-1, 0.1}, {0.3, 0.7}}, Scene{}, "x");
     test::Draw draw(1);
     for (int i = 0; i < 10'000; ++i) {
@@ -56,8 +56,7 @@ TEST_CASE("area: a ray leaves the area exactly on its border") {
     CHECK(area.exit({0, 0.5}, {0, -1}) == Vec3{0, 0.1});
 }
 
-TEST_CASE(
-    "area: random free positions keep the radius from walls, lie on the map and are uniform") {
+TEST_CASE("area: random free positions are uniform, at least a radius from walls, and on the map") {
     Hall hall;
     const Mover mover = hall.robot.mover(nobody);
     const Area area({}, hall.scene, "x");
@@ -78,7 +77,7 @@ TEST_CASE(
     CHECK(std::abs(left / (places + 0.0) - share) < 4 * sigma);
 }
 
-TEST_CASE("area: without room there is no free position") {
+TEST_CASE("area: if the robot fits nowhere, there is no free position") {
     const Scene walled(test::drawn_map({"###", "#.#", "###"}));
     Planners planners(walled);
     const LoneMover robot(planners, 0, {1.5, 1.5}, {0.6});
@@ -86,7 +85,8 @@ TEST_CASE("area: without room there is no free position") {
     CHECK_FALSE(Area({}, walled, "x").free_place(robot.mover(nobody), draws));
 }
 
-TEST_CASE("straight_stop: stops a micrometre before a wall, at the map's border, or nowhere") {
+TEST_CASE(
+    "straight_stop: a motion ends a micrometre before a wall or the map's border, or at its goal") {
     const Scene map(test::drawn_map({"....#", "....#"}));
     Planners planners(map);
     const LoneMover robot(planners, 0, {1, 1}, {0.5});

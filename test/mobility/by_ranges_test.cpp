@@ -88,7 +88,7 @@ TEST_CASE("follow_wall: around a block the path is a rectangle with rounded corn
     CHECK(enclosed(places) == doctest::Approx(-(4 * 4 + 4 * 4 + std::numbers::pi)).epsilon(0.01));
 }
 
-TEST_CASE("wander: keeps its distance from obstacles and visits all places") {
+TEST_CASE("wander: a robot keeps its distance from obstacles and visits all quarters of a room") {
     const Scene scene = room();
     Planners planners(scene);
     const Wander model{.keep = Meters{0.4}, .run = Meters{3}};
@@ -116,7 +116,7 @@ TEST_CASE("wander: keeps its distance from obstacles and visits all places") {
     CHECK(std::all_of(quarters.begin(), quarters.end(), [](bool seen) { return seen; }));
 }
 
-TEST_CASE("follow_wall: in a narrow corridor it moves in the middle, to the end and back") {
+TEST_CASE("follow_wall: in a narrow corridor a robot moves along the middle, to the end and back") {
     const Scene scene(test::drawn_map({"##############", "#............#", "##############"}, 0.8));
     const FollowWall model{.keep = Meters{0.5}, .stride = Meters{0.05}};
     const auto places = places_along(model, scene, {5, 1.2}, 12, 40);  // twice there and back
@@ -147,7 +147,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("wander, follow_wall: refuse a scene without a map") {
+TEST_CASE("wander, follow_wall: a scene without a map is refused") {
     const Scene open_field;
     Planners planners(open_field);
     LoneMover robot(planners);

@@ -143,12 +143,12 @@ int compare_with_boost(double cell_width, double cell_height, std::uint32_t seed
 
 }  // namespace
 
-TEST_CASE("cell search: paths over random maps are as long as those of Boost") {
+TEST_CASE("cell search: paths over random maps are as long as the shortest paths of Boost") {
     CHECK(compare_with_boost(1, 1, 41) > 100);
     CHECK(compare_with_boost(0.05, 0.08, 42) > 100);
 }
 
-TEST_CASE("cell search: a step longer than the range of all buckets is handled") {
+TEST_CASE("cell search: paths are shortest also in cells a hundred times as long as wide") {
     CHECK(compare_with_boost(0.01, 1, 43) > 100);
     CHECK(compare_with_boost(1, 0.01, 44) > 100);
 }
@@ -162,7 +162,7 @@ TEST_CASE("cell search: the path around a wall goes up, across and down") {
     CHECK(std::abs(length_of(ground, from, to, way) - (6 + 2 * std::sqrt(2.0))) < rounding);
 }
 
-TEST_CASE("cell search: of equal paths it returns one along the straight line between the ends") {
+TEST_CASE("cell search: of equally long paths, one close to the straight line is returned") {
     Ground ground(drawn_map(std::vector<std::string>(40, std::string(60, '.'))), 0_m);
     for (const auto& [column, row] : {std::pair{55, 20}, {20, 38}, {59, 1}, {30, 30}}) {
         for (const bool forth : {true, false}) {

@@ -57,7 +57,7 @@ double turn_between(double a, double b) { return std::abs(std::remainder(a - b, 
 
 }  // namespace
 
-TEST_CASE("driven: deviates at most a millimetre from the arc, and not at the ends of chords") {
+TEST_CASE("driven: the position is at most a millimetre off the arc, and the heading is exact") {
     for (const double v : {1.0, 0.3, -2.0}) {
         for (const double w : {1.0, -0.1, 3.0, 0.0}) {
             for (const bool turns_in_place : {false, true}) {
@@ -82,7 +82,7 @@ TEST_CASE("driven: deviates at most a millimetre from the arc, and not at the en
     }
 }
 
-TEST_CASE("driven: at 1 m/s and 1 rad/s makes eleven legs a second") {
+TEST_CASE("driven: at 1 m/s and 1 rad/s, an arc consists of eleven legs a second") {
     Drive drive;
     drive.net.move(drive.robot, Driven{.speed = {1}, .turn_rate = {1}});
     drive.net.run_for(10s);
@@ -91,7 +91,7 @@ TEST_CASE("driven: at 1 m/s and 1 rad/s makes eleven legs a second") {
     CHECK(distance(drive.net.position(drive.robot), on_arc({5, 7, 0}, 0, 1, 1, 10)) < 0.00101);
 }
 
-TEST_CASE("driven: turns in place, stands still, and ends a command") {
+TEST_CASE("driven: a robot can turn in place, and stands still after the end of a command") {
     Drive drive;
     drive.net.move(drive.robot, Driven{.turn_rate = {0.5}});
     drive.net.run_for(4s);
@@ -104,7 +104,7 @@ TEST_CASE("driven: turns in place, stands still, and ends a command") {
     CHECK(distance(drive.net.position(drive.robot), stop) < 1e-9);
 }
 
-TEST_CASE("driven: never exceeds the top speed") {
+TEST_CASE("driven: no command makes a robot faster than its top speed") {
     Network net;
     const NodeId robot = net.add({.name = "r", .at = {}, .top_speed = {0.5}});
     net.move(robot, Driven{.speed = {3}});
@@ -112,7 +112,7 @@ TEST_CASE("driven: never exceeds the top speed") {
     CHECK(distance(net.position(robot), {1, 0, 0}) < 1e-9);
 }
 
-TEST_CASE("driven: stops at a wall, turns there, and continues when possible") {
+TEST_CASE("driven: a robot stops at a wall, turns there, and drives on as soon as possible") {
     NetworkSettings settings;
     settings.scene =
         std::make_shared<const Scene>(test::drawn_map({"......#", "......#", "......#"}));
@@ -136,7 +136,8 @@ TEST_CASE("driven: stops at a wall, turns there, and continues when possible") {
     CHECK(scene.clearance(drive.net.position(drive.robot)) >= 0.2 - 1e-9);
 }
 
-TEST_CASE("driven: a thousand commands cause no larger deviation from the arc than one command") {
+TEST_CASE(
+    "driven: after a thousand commands the position is no further off the arc than after one") {
     Drive drive;
     const auto arc = std::make_shared<DrivenArc>();
     double worst = 0;
@@ -159,7 +160,7 @@ TEST_CASE("driven: a thousand commands cause no larger deviation from the arc th
     CHECK(distance(drive.net.position(drive.robot), on_arc({0, 0, 0}, a, 1, 0, 1)) < 1e-9);
 }
 
-TEST_CASE("driven: small and large turn rates follow their circles") {
+TEST_CASE("driven: at very small turn rates the path is still the right arc") {
     for (const double w : {1e-300, 1e-15, 1e-9, 1e-6, 1e-4}) {
         CAPTURE(w);
         Drive drive(0.3);

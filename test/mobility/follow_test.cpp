@@ -31,7 +31,7 @@ double gap(Network& net, Duration t) {
 
 }  // namespace
 
-TEST_CASE("follow: reaches its distance from a resting leader, and stays there") {
+TEST_CASE("follow: a follower reaches its distance from a resting leader, and stays there") {
     Network net;
     net.add({.name = "A", .at = {100, 0}});
     net.add({.name = "B", .at = {0, 0}, .move = Follow{.distance = {3}, .speed = {2}}});
@@ -41,7 +41,8 @@ TEST_CASE("follow: reaches its distance from a resting leader, and stays there")
     CHECK(net.events() < 700);
 }
 
-TEST_CASE("follow: a steady leader is ahead by the distance plus its motion in one interval") {
+TEST_CASE(
+    "follow: behind a steady leader, the gap is the distance plus its motion in one interval") {
     Network net;
     net.add({.name = "A", .at = {10, 0}, .move = ToGoal{.to = {1e4, 0}, .speed = {1.5}}});
     net.add(
@@ -51,14 +52,14 @@ TEST_CASE("follow: a steady leader is ahead by the distance plus its motion in o
     CHECK(net.events() < 1000);
 }
 
-TEST_CASE("follow: behind a faster leader it falls back at the difference of speeds") {
+TEST_CASE("follow: behind a faster leader, the gap grows at the difference of the speeds") {
     Network net;
     net.add({.name = "A", .at = {10, 0}, .move = ToGoal{.to = {1e4, 0}, .speed = {3}}});
     net.add({.name = "B", .at = {0, 0}, .move = Follow{.speed = {2}}});
     CHECK(std::abs(gap(net, 100s) - 110) < tolerance);
 }
 
-TEST_CASE("follow: stands while the leader is nearer than the distance") {
+TEST_CASE("follow: a follower stands while the leader is nearer than the distance") {
     Network net;
     net.add({.name = "A", .at = {1, 0}});
     net.add({.name = "B", .at = {0, 0}, .move = Follow{}});
@@ -66,7 +67,7 @@ TEST_CASE("follow: stands while the leader is nearer than the distance") {
     CHECK(net.position({1}) == Vec3{0, 0});
 }
 
-TEST_CASE("follow: a leader with a random start position is seen there from the start") {
+TEST_CASE("follow: a follower knows the random start position of its leader from the start") {
     Network net;
     net.add({.name = "B", .at = {0, 0}, .move = Follow{.leader = {1}, .every = 1h}});
     const RandomDirection far_off{
@@ -96,7 +97,7 @@ TEST_CASE("follow: the distance is measured along the path around the walls") {
     CHECK(distance(net.position({1}), {0.5, 0.5}) > 2);
 }
 
-TEST_CASE("follow: without a path it stands and tries again later") {
+TEST_CASE("follow: if there is no path to the leader, the follower stands and tries again later") {
     const auto map =
         std::make_shared<Scene>(drawn_map({"...#....", "...#....", "...#....", "...#...."}));
     Network net({.scene = map});
@@ -110,7 +111,8 @@ TEST_CASE("follow: without a path it stands and tries again later") {
     CHECK(net.events() < 100);
 }
 
-TEST_CASE("follow: keeps its height, and cannot follow itself") {
+TEST_CASE(
+    "follow: a follower stays at its own height, and a robot that is to follow itself stands") {
     Network net;
     net.add({.name = "A", .at = {10, 0, 7}});
     net.add({.name = "B", .at = {0, 0, 1}, .move = Follow{}});

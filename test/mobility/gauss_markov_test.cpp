@@ -66,7 +66,7 @@ double standard_error(double sigma, double a, double n) {
 
 }  // namespace
 
-TEST_CASE("gauss_markov: speed and direction are normal about their means, with memory a") {
+TEST_CASE("gauss_markov: speed and direction have normal distributions, correlated by the memory") {
     constexpr int legs = 40'000;
     for (const double a : {0.0, 0.5, 0.9}) {
         CAPTURE(a);
@@ -92,7 +92,7 @@ TEST_CASE("gauss_markov: speed and direction are normal about their means, with 
     }
 }
 
-TEST_CASE("gauss_markov: with memory 1 neither speed nor direction ever changes") {
+TEST_CASE("gauss_markov: with memory 1, speed and direction never change") {
     const Course course({.memory = 1}, 100);
     CHECK(sample(course.speeds).deviation() < 1e-6);
     CHECK(sample(course.directions).deviation() < 1e-6);
@@ -113,7 +113,8 @@ TEST_CASE("gauss_markov: the first direction is random, unless it is given") {
     CHECK(y.errors_off(0, std::sqrt(0.5)) < most_errors);
 }
 
-TEST_CASE("gauss_markov: never leaves its area, visits all of it and never ends") {
+TEST_CASE(
+    "gauss_markov: a robot never leaves its area, visits all of it and never stops for good") {
     const Scene field;
     Planners planners(field);
     for (const double mean : {0.0, 1.0, 50.0}) {
@@ -135,7 +136,7 @@ TEST_CASE("gauss_markov: never leaves its area, visits all of it and never ends"
     }
 }
 
-TEST_CASE("gauss_markov: with negative memory it also turns at a border") {
+TEST_CASE("gauss_markov: a robot that moves backward also turns at a border") {
     const Scene field;
     Planners planners(field);
     int backwards = 0;
@@ -149,7 +150,7 @@ TEST_CASE("gauss_markov: with negative memory it also turns at a border") {
     CHECK(backwards > 0);
 }
 
-TEST_CASE("gauss_markov: turns near a border before it reaches the border") {
+TEST_CASE("gauss_markov: a robot turns near a border, before it reaches it") {
     const Scene field;
     Planners planners(field);
     LoneMover robot(planners, 4);
@@ -163,7 +164,7 @@ TEST_CASE("gauss_markov: turns near a border before it reaches the border") {
     CHECK(on_border == 0);
 }
 
-TEST_CASE("gauss_markov: never exceeds the robot's top speed") {
+TEST_CASE("gauss_markov: the robot's top speed is never exceeded") {
     const Scene field;
     Planners planners(field);
     LoneMover robot(planners, 4);
@@ -175,7 +176,7 @@ TEST_CASE("gauss_markov: never exceeds the robot's top speed") {
     }
 }
 
-TEST_CASE("gauss_markov: turns around at a wall") {
+TEST_CASE("gauss_markov: a robot turns around at a wall") {
     const Scene map(test::drawn_map({"....#.....", "....#.....", "....#....."}));
     Planners planners(map);
     LoneMover robot(planners, 1, {1, 1.5}, 0.25_m);
@@ -191,7 +192,8 @@ TEST_CASE("gauss_markov: turns around at a wall") {
     CHECK(std::abs(robot.leg.to.x - 2.75) < 2e-6);
 }
 
-TEST_CASE("gauss_markov: invalid parameters are refused, and without room the robot is blocked") {
+TEST_CASE(
+    "gauss_markov: invalid parameters are refused, and a robot that fits nowhere is blocked") {
     const Scene field;
     Planners planners(field);
     const auto refused = [&](GaussMarkov model) {

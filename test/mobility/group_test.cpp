@@ -28,7 +28,8 @@ constexpr double tolerance = 1e-9;  // [m]
 
 }  // namespace
 
-TEST_CASE("group: at the end of each interval the members are uniform in their discs") {
+TEST_CASE(
+    "group: at the end of each interval the positions of the members are uniform in their discs") {
     Network net;
     net.add({.name = "A", .at = {50, 0}, .move = ToGoal{.to = {1e4, 5e3}, .speed = {3}}});
     for (int i = 0; i < 20; ++i) {
@@ -53,7 +54,7 @@ TEST_CASE("group: at the end of each interval the members are uniform in their d
     CHECK(net.events() < 2200);
 }
 
-TEST_CASE("group: the leader's motion is predicted up to the end of its leg") {
+TEST_CASE("group: members expect the leader to stop at the end of its current leg") {
     Network net;
     net.add({.name = "A", .at = {0, 0}, .move = ToGoal{.to = {7, 0}, .speed = {1}}});
     net.add({.name = "B", .at = {0, 0}, .move = Group{.radius = {0}, .every = 5s}});
@@ -65,7 +66,7 @@ TEST_CASE("group: the leader's motion is predicted up to the end of its leg") {
     CHECK(distance(net.position({1}), {7, 0}) < tolerance);
 }
 
-TEST_CASE("group: a leader with a random start position is met there") {
+TEST_CASE("group: members know the random start position of their leader") {
     Network net;
     net.add({.name = "B", .at = {0, 0}, .move = Group{.leader = {1}, .radius = {1}}});
     const RandomDirection far_off{
@@ -75,7 +76,7 @@ TEST_CASE("group: a leader with a random start position is met there") {
     CHECK(distance(net.position({0}), net.position({1})) < 1 + tolerance);
 }
 
-TEST_CASE("group: a member that is too slow arrives later") {
+TEST_CASE("group: a member whose top speed is too low arrives later") {
     Network net;
     net.add({.name = "A", .at = {60, 0}});
     net.add({.name = "B", .at = {0, 0}, .move = Group{.radius = {2}}, .top_speed = {1}});
@@ -85,7 +86,7 @@ TEST_CASE("group: a member that is too slow arrives later") {
     CHECK(distance(net.position({1}), {60, 0}) < 2 + tolerance);
 }
 
-TEST_CASE("group: a member that joins late keeps the intervals counted from the start") {
+TEST_CASE("group: for a member that joins late, intervals still count from the start of the run") {
     Network net;
     net.add({.name = "A", .at = {60, 0}});
     const NodeId late = net.add({.name = "B", .at = {0, 0}});
@@ -116,7 +117,7 @@ TEST_CASE("group: members go around walls, and only to reachable positions") {
     }
 }
 
-TEST_CASE("group: stands where it cannot reach its leader") {
+TEST_CASE("group: a member without a path to its leader stands") {
     const auto map = std::make_shared<Scene>(test::drawn_map({"...#...", "...#..."}));
     Network net({.scene = map});
     net.add({.name = "A", .at = {1, 1}});

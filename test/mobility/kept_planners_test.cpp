@@ -21,7 +21,8 @@ std::shared_ptr<const Scene> empty_map(std::size_t columns, std::size_t rows) {
 
 }  // namespace
 
-TEST_CASE("kept planners: each scene has its own planners, the same in each call") {
+TEST_CASE(
+    "kept planners: each scene has its own planners, and repeated calls return the same ones") {
     KeptPlanners kept;
     const auto one = empty_map(3, 2), other = empty_map(3, 2);
     const auto planners = kept.of(one);
@@ -39,7 +40,8 @@ TEST_CASE("kept planners: a new scene at the address of a freed one gets its own
     }
 }
 
-TEST_CASE("kept planners: scenes not used recently are removed, the one in use is kept") {
+TEST_CASE(
+    "kept planners: scenes that were not used recently are removed, and a scene in use stays") {
     KeptPlanners kept(35);  // three maps of 10 cells, not four
     std::vector<std::weak_ptr<const Scene>> seen;
     const auto in_use = empty_map(5, 2);

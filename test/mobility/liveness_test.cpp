@@ -119,7 +119,7 @@ int robots_with_too_many_legs(const Scene& scene, int robots, double* worst = nu
 
 }  // namespace
 
-TEST_CASE("liveness: arcs into walls make no more legs than chords, plus 4 for each contact") {
+TEST_CASE("liveness: an arc into walls has at most 4 legs for each contact more than its chords") {
     for (const double yaw : {0.0, 0.4, std::numbers::pi}) {
         CAPTURE(yaw);
         const Scene scene(rooms(0.5, yaw));
@@ -128,7 +128,8 @@ TEST_CASE("liveness: arcs into walls make no more legs than chords, plus 4 for e
     }
 }
 
-TEST_CASE("liveness: an arc stops at a straight wall, waits until it is parallel, and leaves") {
+TEST_CASE(
+    "liveness: on an arc a robot stops at a wall, waits until it is parallel to it, and leaves") {
     const Scene scene(test::drawn_map({"..........", "..........", "..........", "##########"}));
     Planners planners(scene);
     // 0.5 m/s at -0.3 rad from a millimetre before contact, 1 rad/s to the left.
@@ -152,7 +153,8 @@ TEST_CASE("liveness: an arc stops at a straight wall, waits until it is parallel
     CHECK(std::abs(robot.leg.to.y - (1.2 + 0.5 * (1 - std::cos(t)))) < 2e-6);
 }
 
-TEST_CASE("liveness: backward and right arcs, corners and map borders also stop the robot") {
+TEST_CASE(
+    "liveness: arcs driven backward or to the right also stop at walls, corners and map borders") {
     const Scene scene(test::drawn_map({"........", "...##...", "...##...", "........"}));
     Planners planners(scene);
     const auto legs_at = [&](Vec3 at, double heading, double v, double w) {
@@ -180,8 +182,7 @@ TEST_CASE("liveness: backward and right arcs, corners and map borders also stop 
     }
 }
 
-TEST_CASE(
-    "liveness: range finders shorter than the kept distance make at most one leg per stride") {
+TEST_CASE("liveness: with a range below the kept distance, each stride makes at most one leg") {
     const Scene scene(rooms(0.5, 0.0));
     Planners planners(scene);
     test::Draw draw(11);
@@ -204,7 +205,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("liveness: a path beside a wall has no more legs than cells, and arrives") {
+TEST_CASE(
+    "liveness: a path to a goal that begins at a wall arrives, with no more legs than cells") {
     const Scene scene(rooms(0.5, 0.4));
     Planners planners(scene);
     for (std::uint64_t i = 0; i < 100; ++i) {

@@ -37,7 +37,7 @@ bool stands(const Leg& leg) {
 
 }  // namespace
 
-TEST_CASE("movement: a default movement and its copies are Fixed") {
+TEST_CASE("movement: a default movement and its copies stand still, as Fixed does") {
     Movement none;
     Movement copy = none;
     Movement fixed = Fixed{};
@@ -47,7 +47,7 @@ TEST_CASE("movement: a default movement and its copies are Fixed") {
     CHECK(sizeof(Movement) == sizeof(void*));
 }
 
-TEST_CASE("movement: a moved-from movement is Fixed") {
+TEST_CASE("movement: after a move out of it, a movement stands still, as Fixed does") {
     Movement goal = ToGoal{.to = {9, 2, 0}};
     Movement taken = std::move(goal);
     CHECK(leg_of(taken).to == Vec3{9, 2, 0});
@@ -65,7 +65,7 @@ TEST_CASE("movement: a copy continues independently") {
     CHECK(leg_of(copy).to == Vec3{9, 2, 0});
 }
 
-TEST_CASE("movement: a leg beyond the largest time keeps its speed") {
+TEST_CASE("movement: a leg that would end after the largest time has the right speed") {
     const MetersPerSecond slow{0.1};
     for (const double metres : {1e7, 1e9}) {  // 3 and 317 years
         CAPTURE(metres);

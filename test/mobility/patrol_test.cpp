@@ -15,7 +15,7 @@ namespace patrol_test {
 using namespace rovernet;
 using test::LoneMover;
 
-TEST_CASE("patrol: visits its places round and round") {
+TEST_CASE("patrol: a robot visits the positions of its path in turn, again and again") {
     const Scene field;
     Planners planners(field);
     LoneMover robot(planners, 0, {0, 0, 1});
@@ -29,7 +29,7 @@ TEST_CASE("patrol: visits its places round and round") {
     }
 }
 
-TEST_CASE("patrol: goes around the walls") {
+TEST_CASE("patrol: a robot goes around walls") {
     const Scene map(test::drawn_map({".......", "...#...", "...#...", "...#..."}));
     Planners planners(map);
     LoneMover robot(planners, 0, {0.5, 0.5}, 0.3_m);
@@ -44,7 +44,7 @@ TEST_CASE("patrol: goes around the walls") {
     CHECK(arrivals < 50);
 }
 
-TEST_CASE("patrol: ends if there is no path to a place") {
+TEST_CASE("patrol: if there is no path to a position, the robot is blocked") {
     const Scene map(test::drawn_map({"...#...", "...#..."}));
     Planners planners(map);
     const Legs nobody;
@@ -57,7 +57,7 @@ TEST_CASE("patrol: ends if there is no path to a place") {
     CHECK(std::get<Blocked>(step).goal == Vec3{6.5, 0.5});
 }
 
-TEST_CASE("patrol: rests if all its places are where it is") {
+TEST_CASE("patrol: if all positions of the path are equal, the robot rests there") {
     const Scene field;
     Planners planners(field);
     const Legs nobody;
@@ -70,7 +70,7 @@ TEST_CASE("patrol: rests if all its places are where it is") {
     }
 }
 
-TEST_CASE("patrol: an empty list of places, or a speed that is not > 0, is refused") {
+TEST_CASE("patrol: an empty path, or a speed that is not > 0, is refused") {
     const Scene field;
     Planners planners(field);
     LoneMover robot(planners);

@@ -64,7 +64,8 @@ TEST_CASE("planner: the straight line is used where it is passable") {
     CHECK(*path == Path{{0.5, 0.5}, {4.5, 0.5}});
 }
 
-TEST_CASE("planner: a robot that does not fit through the door takes a detour, or finds no path") {
+TEST_CASE(
+    "planner: a robot too wide for a door takes a detour; if there is none, no path is found") {
     const auto map = drawn_map(
         {
             "............",
@@ -113,12 +114,13 @@ TEST_CASE("planner: there is no path into a wall, off the map or into a closed r
     CHECK(planner.shortest_path({2.5, 2.5}, {4.5, 4.5}));
 }
 
-TEST_CASE("planner: no path cuts a corner, not even at a point") {
+TEST_CASE("planner: no path passes between two walls that touch at a corner") {
     const Scene scene(drawn_map({".#", "#."}));
     CHECK_FALSE(shortest_path(scene, {0.2, 1.7}, {1.6, 0.5}, 0_m));
 }
 
-TEST_CASE("planner: finds a path exactly where a flood fill finds one, and it is passable") {
+TEST_CASE(
+    "planner: a path is found exactly where a flood fill finds one, and the robot fits along it") {
     test::Draw draw(31);
     for (int trial = 0; trial < 40; ++trial) {
         const OccupancyGrid grid = test::random_map(draw, 30, 20, 20 + draw.below(20));
@@ -140,7 +142,8 @@ TEST_CASE("planner: finds a path exactly where a flood fill finds one, and it is
     }
 }
 
-TEST_CASE("planner: around the end of a wall the path is near the taut string") {
+TEST_CASE(
+    "planner: around the end of a wall the path is less than 1 % longer than the shortest one") {
     // A wall from the lower edge to y = 6 m, from x = 9.6 m to 10.6 m. The string goes round its
     // upper corners at the distance of the radius: a straight part and an arc on either side.
     std::vector<std::string> rows(40, std::string(100, '.'));
@@ -167,7 +170,7 @@ TEST_CASE("planner: around the end of a wall the path is near the taut string") 
     CHECK(longest < 1.01);
 }
 
-TEST_CASE("planner: ends between the cells of a narrow corridor are reached") {
+TEST_CASE("planner: in a narrow corridor, ends between cell centres are reached") {
     // The corridor is 2 m wide and its middle is a grid line: no cell centre in it is free.
     const Scene scene(drawn_map({
         "......",
@@ -211,7 +214,7 @@ TEST_CASE("planner: a radius that is negative or not a number is refused") {
                     std::invalid_argument);
 }
 
-TEST_CASE("planner: reports that there is a path exactly where it finds one") {
+TEST_CASE("planner: has_way() is true exactly where a path is found") {
     test::Draw draw(32);
     for (const double radius : {0.0, 0.3, 0.7, 1.2}) {
         const Scene scene(test::random_map(draw, 30, 20, 12));
@@ -224,7 +227,7 @@ TEST_CASE("planner: reports that there is a path exactly where it finds one") {
     }
 }
 
-TEST_CASE("planner: a path is the same when requested again, and after many others") {
+TEST_CASE("planner: a path that is requested again, also after many others, is the same") {
     test::Draw draw(33);
     const Scene scene(test::random_map(draw, 40, 30, 9));
     Planner planner(scene, 0.3_m);

@@ -48,7 +48,7 @@ struct Crowd {
 
 }  // namespace
 
-TEST_CASE("random_direction: the density of positions is uniform, at the start and later") {
+TEST_CASE("random_direction: positions are uniformly distributed, at the start and later") {
     const RandomDirection model{.area = hall, .min_speed = {0.5}, .max_speed = {5}};
     for (const Duration t : {0s, 15s, 60s, 300s}) {
         CHECK(std::abs(Crowd(model, t).places.uniform_chi_square_sigmas()) < most_chi_sigmas);
@@ -65,13 +65,14 @@ TEST_CASE("random_direction: the mean speed does not change with time") {
     }
 }
 
-TEST_CASE("random_direction: with uniform angles at a border robots gather along the borders") {
+TEST_CASE("random_direction: with border_turn uniform, robots gather along the borders") {
     const RandomDirection model{
         .area = hall, .min_speed = {0.5}, .max_speed = {5}, .border_turn = BorderTurn::uniform};
     CHECK(Crowd(model, 300s).places.uniform_chi_square_sigmas() > 20);
 }
 
-TEST_CASE("random_direction: the mean leg is pi times area over border length (Cauchy)") {
+TEST_CASE(
+    "random_direction: the mean length of a leg is pi times area over border length (Cauchy)") {
     const Scene field;
     Planners planners(field);
     LoneMover robot(planners);
@@ -85,7 +86,7 @@ TEST_CASE("random_direction: the mean leg is pi times area over border length (C
     CHECK(lengths.errors_off(3.141592653589793 * 6000 / 320, lengths.deviation()) < most_errors);
 }
 
-TEST_CASE("random_direction: rests after each leg") {
+TEST_CASE("random_direction: a robot rests after each leg") {
     const Scene field;
     Planners planners(field);
     LoneMover robot(planners, 5, {20, 30});
@@ -104,7 +105,7 @@ TEST_CASE("random_direction: rests after each leg") {
     }
 }
 
-TEST_CASE("random_direction: stops before a wall") {
+TEST_CASE("random_direction: a robot stops before a wall") {
     const Scene map(test::drawn_map({"..........", "..........", ".......#..", ".........."}));
     Planners planners(map);
     int at_wall = 0, clear = 0;
@@ -123,7 +124,8 @@ TEST_CASE("random_direction: stops before a wall") {
     CHECK(clear > 0.9 * at_wall);
 }
 
-TEST_CASE("random_direction: cannot begin outside its area or without room") {
+TEST_CASE(
+    "random_direction: a start outside the area is refused; a robot that fits nowhere is blocked") {
     const Scene field;
     Planners planners(field);
     LoneMover outside(planners, 0, {101, 30});

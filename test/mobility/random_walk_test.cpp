@@ -26,7 +26,7 @@ constexpr double most_chi_sigmas = 4.5;
 
 }  // namespace
 
-TEST_CASE("random_walk: density and speeds are uniform, at the start and later") {
+TEST_CASE("random_walk: positions and speeds are uniformly distributed, at the start and later") {
     const Scene field;
     Planners planners(field);
     const RandomWalk model{
@@ -46,7 +46,7 @@ TEST_CASE("random_walk: density and speeds are uniform, at the start and later")
     }
 }
 
-TEST_CASE("random_walk: the mean square distance is that of independent steps") {
+TEST_CASE("random_walk: the mean squared distance from the start is that of independent steps") {
     const Scene field;
     Planners planners(field);
     // E[d^2] = steps (v step)^2, and d^2 / E is nearly exponential: its deviation is its mean.
@@ -111,7 +111,7 @@ TEST_CASE("random_walk: legs are continuous, stay in area and map, and cross no 
     }
 }
 
-TEST_CASE("random_walk: invalid parameters are refused, and without room the robot is blocked") {
+TEST_CASE("random_walk: invalid parameters are refused, and a robot that fits nowhere is blocked") {
     const Scene field;
     Planners planners(field);
     const auto refused = [&](RandomWalk model) {

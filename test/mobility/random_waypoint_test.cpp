@@ -89,18 +89,19 @@ double stationary_density(double x, double y) {
 
 }  // namespace
 
-TEST_CASE("random_waypoint: the mean leg is 0.5214 of the side of a square") {
+TEST_CASE("random_waypoint: the mean length of a leg is 0.5214 of the side of a square") {
     const Sample legs = every_other_leg(200, 200, 40'000);
     CHECK(legs.errors_off(200 * 0.5214054331647207, 200 * 0.247931) < most_errors);
     CHECK(std::abs(legs.deviation() / (200 * 0.247931) - 1) < 0.02);  // 4 / sqrt(2 n)
 }
 
-TEST_CASE("random_waypoint: the mean leg in 1500 m x 300 m is 524.639 m") {
+TEST_CASE("random_waypoint: the mean length of a leg in 1500 m x 300 m is 524.639 m") {
     const double deviation = std::sqrt((1500. * 1500 + 300. * 300) / 6 - 524.639 * 524.639);
     CHECK(every_other_leg(1500, 300, 40'000).errors_off(524.639, deviation) < most_errors);
 }
 
-TEST_CASE("random_waypoint: legs are continuous in place and time, within area and speeds") {
+TEST_CASE(
+    "random_waypoint: legs follow each other without gaps, within the given area and speeds") {
     const Scene field;
     Planners planners(field);
     LoneMover robot(planners);
@@ -130,7 +131,7 @@ TEST_CASE("random_waypoint: legs are continuous in place and time, within area a
     CHECK(rests == 1000);
 }
 
-TEST_CASE("random_waypoint: the stationary mean speed equals the table at every time") {
+TEST_CASE("random_waypoint: the mean speed equals the stationary one in the table, at any time") {
     const test::Vectors vectors("rwp_speed_decay.csv");
     int checked = 0;
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -150,7 +151,8 @@ TEST_CASE("random_waypoint: the stationary mean speed equals the table at every 
     CHECK(checked == 18);
 }
 
-TEST_CASE("random_waypoint: the start is right also for speeds down to a micrometre a second") {
+TEST_CASE(
+    "random_waypoint: the mean speed at the start is right also for speeds down to 1e-6 m/s") {
     const double low = 1e-6, high = 20, mean = 1.1896799778838094;  // rwp_speed_decay.csv
     const double square = (high * high - low * low) / (2 * std::log(high / low));
     const RandomWaypoint model{.area = box(50, 50), .min_speed = {low}, .max_speed = {high}};
@@ -158,7 +160,7 @@ TEST_CASE("random_waypoint: the start is right also for speeds down to a microme
     CHECK(speeds.errors_off(mean, std::sqrt(square - mean * mean)) < most_errors);
 }
 
-TEST_CASE("random_waypoint: from the classic start the mean speed decays to the stationary one") {
+TEST_CASE("random_waypoint: after a classic start, the mean speed falls to the stationary one") {
     const double low = 0.1, high = 20, nominal = 10.05, stationary = 3.755909399773321;
     for (const StartState start : {StartState::uniform, StartState::here}) {
         const RandomWaypoint model{
@@ -173,7 +175,7 @@ TEST_CASE("random_waypoint: from the classic start the mean speed decays to the 
     }
 }
 
-TEST_CASE("random_waypoint: the density of positions is the exact one, at the start and later") {
+TEST_CASE("random_waypoint: positions have the exact stationary density, at the start and later") {
     // Half of the last digit of the published values, and the sum's own error.
     constexpr double printed = 1e-5;
     CHECK(std::abs(stationary_density(0.5, 0.5) - 2.20135) < printed);
@@ -199,7 +201,7 @@ TEST_CASE("random_waypoint: the density of positions is the exact one, at the st
     }
 }
 
-TEST_CASE("random_waypoint: the steady state in 1000 m x 600 m agrees with other simulators") {
+TEST_CASE("random_waypoint: the stationary state in 1000 m x 600 m passes the test of ns-3") {
     // ns-3's test of its steady-state random waypoint model, with its tolerances.
     const RandomWaypoint model{.area = box(1000, 600), .min_speed = {0.01}, .max_speed = {20}};
     for (const Duration t : {Duration{1ms}, Duration{1000s}}) {
@@ -237,7 +239,7 @@ TEST_CASE("random_waypoint: the share of robots at rest is E[P] / (E[P] + E[T]) 
     }
 }
 
-TEST_CASE("random_waypoint: begins at the place that `start` selects") {
+TEST_CASE("random_waypoint: `start` selects where a robot begins") {
     const Scene field;
     Planners planners(field);
     RandomWaypoint here{.area = box(10, 10), .start = StartState::here};
@@ -252,7 +254,7 @@ TEST_CASE("random_waypoint: begins at the place that `start` selects") {
     CHECK(x.errors_off(5, 10 / std::sqrt(12.0)) < most_errors);
 }
 
-TEST_CASE("random_waypoint: a movement set during the run begins at the robot's position") {
+TEST_CASE("random_waypoint: if it is set during the run, it begins at the robot's position") {
     Network net;
     const NodeId robot = net.add({.name = "A", .at = {77, 88}});
     net.run_until(start_of_run + 5s);
@@ -280,7 +282,8 @@ TEST_CASE("random_waypoint: another robot does not change a robot's motion") {
     CHECK(places(false) == places(true));
 }
 
-TEST_CASE("random_waypoint: no trip exceeds the top speed, and slow trips remain frequent") {
+TEST_CASE(
+    "random_waypoint: no trip exceeds the top speed, and slow trips are as frequent as in theory") {
     const Scene field;
     Planners planners(field);
     Sample v;
@@ -295,7 +298,7 @@ TEST_CASE("random_waypoint: no trip exceeds the top speed, and slow trips remain
     CHECK(v.errors_off(1.0820212806667227, 0.427) < most_errors);  // rwp_speed_decay.csv, [0.5, 2]
 }
 
-TEST_CASE("random_waypoint: on a map it starts and goes only where its body fits") {
+TEST_CASE("random_waypoint: on a map a robot starts and goes only where it fits") {
     const Scene office(test::drawn_map({
         "..........",
         ".####.###.",
@@ -346,7 +349,7 @@ TEST_CASE("random_waypoint: on a map mean speed and share at rest do not change 
     }
 }
 
-TEST_CASE("random_waypoint: without room or path it is blocked") {
+TEST_CASE("random_waypoint: a robot that fits nowhere is blocked") {
     const Scene walled(test::drawn_map({"###", "#.#", "###"}));
     Planners planners(walled);
     for (const StartState start : {StartState::stationary, StartState::uniform, StartState::here}) {

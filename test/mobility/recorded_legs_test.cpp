@@ -25,7 +25,8 @@ Leg leg(Duration start, Duration end, Vec3 from, Vec3 velocity) {
 
 }  // namespace
 
-TEST_CASE("recorded legs: follow one another, with rests between them, and then end") {
+TEST_CASE(
+    "recorded legs: a robot follows the legs with rests between them, and then the movement ends") {
     const Scene scene;
     Planners planners(scene);
     LoneMover robot(planners);
@@ -40,7 +41,8 @@ TEST_CASE("recorded legs: follow one another, with rests between them, and then 
     CHECK_FALSE(robot.walk(model));
 }
 
-TEST_CASE("recorded legs: a leg ends where the robot changed to the next one") {
+TEST_CASE(
+    "recorded legs: a leg that was replaced before its end is cut where the next leg starts") {
     const Scene scene;
     Planners planners(scene);
     LoneMover robot(planners);

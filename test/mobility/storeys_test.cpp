@@ -71,7 +71,7 @@ std::vector<Vec3> corners(const std::vector<Vec3>& path, Vec3 at) {
 
 }  // namespace
 
-TEST_CASE("storeys: a robot climbs stairs at its speed in space") {
+TEST_CASE("storeys: on stairs a robot moves at its speed along the sloped (3D) path") {
     const auto scene = building();
     Network net({.scene = scene});
     const NodeId robot = net.add({.name = "R",
@@ -89,7 +89,7 @@ TEST_CASE("storeys: a robot climbs stairs at its speed in space") {
     CHECK(net.position(robot) == Vec3{7, 1, 3});
 }
 
-TEST_CASE("storeys: paths go around the walls of their storey, and stairs are straight") {
+TEST_CASE("storeys: a path goes around the walls of its storey, and straight along stairs") {
     // Below the door is at the right, above at the left.
     const auto below = corners({{1, 4, 0}}, {1, 1, 0});
     REQUIRE(below.size() > 2);
@@ -107,7 +107,7 @@ TEST_CASE("storeys: paths go around the walls of their storey, and stairs are st
     CHECK(all[2] == Vec3{5, 4, 3});
 }
 
-TEST_CASE("storeys: stairs into a wall or off the map are not a path") {
+TEST_CASE("storeys: no path leads over stairs into a wall or off the map") {
     CHECK(corners({{5, 4, 3}}, {5, 1, 0}).empty());        // the wall below stands in the way
     CHECK(corners({{5, 2.5, 3}}, {9, 2.5, 0}).empty());    // it would end in the wall above
     CHECK(corners({{-1, 1, 3}}, {1, 1, 0}).empty());       // beyond the map
@@ -119,7 +119,8 @@ TEST_CASE("storeys: stairs into a wall or off the map are not a path") {
     CHECK_FALSE(planners.has_way({5, 1, 0}, {5, 4, 3}, body));
 }
 
-TEST_CASE("storeys: a timetable counts the length of stairs in space") {
+TEST_CASE(
+    "storeys: a timed path takes the sloped (3D) length of stairs, not their length on the map") {
     const auto scene = building();
     Network net({.scene = scene});
     const NodeId robot = net.add({.name = "R",
@@ -130,7 +131,7 @@ TEST_CASE("storeys: a timetable counts the length of stairs in space") {
     CHECK(near(net.position(robot), {1 + 1.6, 1, 1.2}));
 }
 
-TEST_CASE("storeys: range finders of movements see the walls of their storey") {
+TEST_CASE("storeys: the range finder of a movement sees the walls of the robot's storey") {
     const auto scene = building();
     Planners planners(*scene);
     const Legs none;
@@ -145,7 +146,7 @@ TEST_CASE("storeys: range finders of movements see the walls of their storey") {
     CHECK(near(ahead({9, 1, 3}), 1));
 }
 
-TEST_CASE("storeys: random movements stay on their storey and outside walls") {
+TEST_CASE("storeys: robots with random movements stay on their storey and outside walls") {
     const auto scene = building();
     Planners planners(*scene);
     Wander wander{};

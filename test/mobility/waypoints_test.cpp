@@ -66,7 +66,7 @@ std::shared_ptr<const Scene> scene_of(const std::vector<std::string>& rows) {
 
 }  // namespace
 
-TEST_CASE("waypoints: a path at a speed takes its length over the speed") {
+TEST_CASE("waypoints: the time for a path is its length divided by the speed") {
     Walk walk(Waypoints{.path = {{10, 0, 0}, {10, 5, 0}}, .speed = {2}});
     CHECK(near(walk.at(1s), {2, 0, 0}));
     CHECK(near(walk.at(4500ms), {9, 0, 0}));
@@ -80,7 +80,7 @@ TEST_CASE("waypoints: a path at a speed takes its length over the speed") {
     CHECK(walk.diary->arrivals.size() == 1);
 }
 
-TEST_CASE("waypoints: by timetable the robot is at each place at the given time") {
+TEST_CASE("waypoints: with times, a robot is at each position at the given time") {
     const std::vector<TimedPoint> table{
         {3s, {7, 0, 0}}, {4s, {7, 1, 0}}, {7'777'777'777ns, {-3, 2, 1}}};
     Walk walk(Waypoints{.timed = table});
@@ -92,7 +92,7 @@ TEST_CASE("waypoints: by timetable the robot is at each place at the given time"
     CHECK(walk.diary->arrivals[0].time == table.back().time);
 }
 
-TEST_CASE("waypoints: the same place twice in the timetable is a rest") {
+TEST_CASE("waypoints: if a position follows itself with a later time, the robot rests there") {
     Walk walk(Waypoints{.timed = {{2s, {2, 0, 0}}, {5s, {2, 0, 0}}, {6s, {3, 0, 0}}}});
     CHECK(walk.at(2s) == Vec3{2, 0, 0});
     CHECK(walk.at(4s) == Vec3{2, 0, 0});
@@ -100,21 +100,22 @@ TEST_CASE("waypoints: the same place twice in the timetable is a rest") {
     CHECK(walk.at(6s) == Vec3{3, 0, 0});
 }
 
-TEST_CASE("waypoints: a timed place whose time has passed is skipped") {
+TEST_CASE("waypoints: a position whose time has already passed is skipped") {
     Walk walk(Waypoints{.timed = {{2s, {2, 0, 0}}, {1s, {50, 0, 0}}, {4s, {4, 0, 0}}}});
     CHECK(walk.at(2s) == Vec3{2, 0, 0});
     CHECK(near(walk.at(3s), {3, 0, 0}));
     CHECK(walk.at(4s) == Vec3{4, 0, 0});
 }
 
-TEST_CASE("waypoints: after the timetable the path continues at its speed") {
+TEST_CASE("waypoints: after the last position with a time, the path continues at its speed") {
     Walk walk(Waypoints{.timed = {{2s, {1, 0, 0}}}, .path = {{1, 4, 0}}, .speed = {4}});
     CHECK(walk.at(2s) == Vec3{1, 0, 0});
     CHECK(near(walk.at(2500ms), {1, 2, 0}));
     CHECK(walk.at(3s) == Vec3{1, 4, 0});
 }
 
-TEST_CASE("waypoints: legs are continuous, and each ends where its velocity leads") {
+TEST_CASE(
+    "waypoints: each leg starts where the previous one ended, and ends where its velocity leads") {
     test::Draw draw(17);
     for (int run = 0; run < 30; ++run) {
         Waypoints way{.speed = {draw.uniform(0.1, 30)}};
@@ -171,7 +172,7 @@ TEST_CASE("waypoints: to a goal behind a wall the robot goes around the wall") {
     CHECK(std::abs(seconds(walk.diary->arrivals[0].time) - length) <= slack);
 }
 
-TEST_CASE("waypoints: around a wall the timetable is exact to the nanosecond") {
+TEST_CASE("waypoints: also on a detour around a wall, given times are met to the nanosecond") {
     const auto scene = scene_of({"...........", ".....#.....", ".....#.....", ".....#....."});
     Walk walk(Waypoints{.timed = {{20s, {9.5, 0.5}}, {40s, {1.5, 0.5}}}}, {1.5, 0.5}, scene);
     CHECK(walk.at(20s) == Vec3{9.5, 0.5});
@@ -199,7 +200,8 @@ TEST_CASE("waypoints: a goal inside a wall or off the map is refused") {
     }
 }
 
-TEST_CASE("waypoints: an empty path, or one to the robot's position, is a rest") {
+TEST_CASE(
+    "waypoints: with an empty path, or a path to its position, a robot rests and has arrived") {
     for (const auto& path : {std::vector<Vec3>{}, {{3, 4, 0}}, {{3, 4, 0}, {3, 4, 0}}}) {
         Walk walk(Waypoints{.path = path}, {3, 4, 0});
         CHECK(walk.at(1min) == Vec3{3, 4, 0});

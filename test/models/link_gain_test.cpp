@@ -23,24 +23,24 @@ constexpr double tolerance = 1e-12;  // [dB]
 
 }  // namespace
 
-TEST_CASE("link gain: two devices of 2007 have a budget of 91.53 dB (45 mW, -75 dBm)") {
+TEST_CASE("link gain: two radios with the default values have a budget of 91.53 dB") {
     constexpr double half_a_digit = 0.005;  // [dB]
     CHECK(near(link_budget(Radio{}, Radio{}).value, 91.53, half_a_digit));
 }
 
-TEST_CASE("link gain: the budget adds gains, and subtracts cable losses and sensitivity") {
+TEST_CASE("link gain: the budget is power plus gains, minus cable losses, minus the sensitivity") {
     const Radio base{.power = 20_dBm, .antenna_gain = 5_dB, .cable_loss = 2_dB};
     const Radio robot{.sensitivity = -90_dBm, .antenna_gain = 3_dB, .cable_loss = 0.5_dB};
     // 20 + 5 - 2 + 3 - 0.5 + 90
     CHECK(near(link_budget(base, robot).value, 115.5, tolerance));
 }
 
-TEST_CASE("link gain: a less sensitive receiver has a smaller budget") {
+TEST_CASE("link gain: a receiver with a sensitivity 10 dB worse has a budget 10 dB smaller") {
     const Radio deaf{.sensitivity = -70_dBm}, keen{.sensitivity = -80_dBm};
     CHECK(near((link_budget({}, keen) - link_budget({}, deaf)).value, 10, tolerance));
 }
 
-TEST_CASE("link gain: the directions of a link differ only by powers and sensitivities") {
+TEST_CASE("link gain: the budgets of the two directions differ only by powers and sensitivities") {
     const Radio loud{.power = 20_dBm, .antenna_gain = 5_dB, .cable_loss = 2_dB};
     const Radio quiet{.power = 10_dBm, .antenna_gain = 3_dB};
     CHECK(near((link_budget(loud, quiet) - link_budget(quiet, loud)).value, 10, tolerance));
@@ -52,7 +52,7 @@ TEST_CASE("link gain: a path loss equal to the budget gives a level equal to the
     CHECK(near(received_power(from, to, link_budget(from, to)).value, -82, tolerance));
 }
 
-TEST_CASE("link gain: level and margin of the medium follow from the path loss") {
+TEST_CASE("link gain: the level and the margin of a link are computed from its path loss") {
     const Radio from{.power = 20_dBm, .antenna_gain = 5_dB, .cable_loss = 2_dB};
     const Radio to{.sensitivity = -90_dBm, .antenna_gain = 3_dB, .cable_loss = 0.5_dB};
     Legs legs;
@@ -90,7 +90,8 @@ double gain_at(const Radio& radio, double angle, double heading = 0) {
 
 }  // namespace
 
-TEST_CASE("antennas: a table is interpolated linearly in dB, around the whole turn") {
+TEST_CASE(
+    "antennas: the table of a pattern is interpolated linearly in dB, all around the circle") {
     const Radio radio{.antenna = AntennaShape::table,
                       .antenna_direction = Radians{30 * degree},
                       .antenna_pattern = {{{0, 0}, {90, -9}, {180, -20}, {270, -4}}}};
@@ -107,7 +108,7 @@ TEST_CASE("antennas: a table is interpolated linearly in dB, around the whole tu
     CHECK(pattern_gain(radio, {}, {0, 0, 9}).value == 0);  // straight above
 }
 
-TEST_CASE("antennas: a sector antenna loses 3 dB at half its beamwidth, and is limited behind") {
+TEST_CASE("antennas: a sector antenna loses 3 dB at half its beamwidth, and front_to_back behind") {
     for (const double width : {20.0, 60.0, 120.0, 300.0}) {
         const Radio radio{.antenna = AntennaShape::cosine,
                           .antenna_beamwidth = Radians{width * degree},
@@ -124,7 +125,7 @@ TEST_CASE("antennas: a sector antenna loses 3 dB at half its beamwidth, and is l
     }
 }
 
-TEST_CASE("antennas: gains depend on poses only if an antenna is directional") {
+TEST_CASE("antennas: poses are used only for directional antennas, whose gain depends on them") {
     const Radio plain{.antenna_gain = 2_dB, .cable_loss = 1_dB};
     Radio sector = plain;
     sector.antenna = AntennaShape::cosine;

@@ -117,7 +117,7 @@ TEST_CASE("csma: stations that begin together collide, unless each draws a backo
               3 * std::sqrt(1.0 / (window + 1) / 400));
 }
 
-TEST_CASE("csma: a station waits for a DIFS of idle medium, and for the slots of a backoff") {
+TEST_CASE("csma: a station waits until the medium is idle for a DIFS, then for its backoff slots") {
     const WifiTiming timing = Csma{}.timing();
     for (const bool immediate : {true, false}) {
         const Csma own{.immediate_access = immediate};
@@ -168,7 +168,8 @@ TEST_CASE("csma: saturated stations have the throughput of Bianchi's model") {
     }
 }
 
-TEST_CASE("csma: access to an idle medium takes a DIFS, and airtimes equal the standard") {
+TEST_CASE(
+    "csma: a frame on an idle medium is sent after a DIFS, with the airtime of the standard") {
     Room cell(2, Csma{}, {.rate = {11e6}});
     cell.net.at(start_of_run + 1ms,
                 [&] { cell.net.send(cell.nodes[0], cell.nodes[1], "", {.size = 995}); });
@@ -207,7 +208,7 @@ double microseconds_of_answer(double rate, std::vector<BitRate> basic_rates) {
 
 }  // namespace
 
-TEST_CASE("csma: a response uses the highest basic rate up to that of the frame") {
+TEST_CASE("csma: a response uses the highest basic rate that is not above the rate of the frame") {
     const std::vector<BitRate> standard = mandatory_rates(WifiStandard::b);
     const auto ack_us = [](double rate) { return 192 + std::ceil(8 * 14 / rate * 1e6); };
     CHECK(microseconds_of_answer(11e6, standard) == doctest::Approx(ack_us(11e6)));
@@ -241,7 +242,7 @@ TEST_CASE("csma: a slot of length 0, and an empty list of basic rates, are refus
     CHECK_THROWS_AS(Network({.access = Csma{.basic_rates = {{{0}}}}}), std::invalid_argument);
 }
 
-TEST_CASE("csma: an unanswered unicast is sent seven times and then dropped") {
+TEST_CASE("csma: a unicast that is not acknowledged is sent seven times and then dropped") {
     Room cell(2, Csma{}, {}, 1000);
     cell.net.at(start_of_run, [&] { cell.net.send(cell.nodes[0], cell.nodes[1], "x"); });
     cell.net.run_for(1s);
@@ -249,7 +250,7 @@ TEST_CASE("csma: an unanswered unicast is sent seven times and then dropped") {
     CHECK(cell.ledger->drops[DropReason::retries] == 1);
 }
 
-TEST_CASE("csma: after an unanswered RTS no data is sent") {
+TEST_CASE("csma: if an RTS is not answered, no data is sent") {
     Room cell(2, Csma{.rts_threshold = 0}, {}, 1000);
     cell.net.at(start_of_run, [&] { cell.net.send(cell.nodes[0], cell.nodes[1], "x"); });
     cell.net.run_for(1s);
@@ -273,7 +274,7 @@ TEST_CASE("csma: hidden senders collide, and an RTS prevents this") {
     CHECK(delivered[true] > 2 * delivered[false]);
 }
 
-TEST_CASE("csma: a full queue drops frames, and switching off drops waiting frames") {
+TEST_CASE("csma: a full queue drops new frames, and switching a radio off drops waiting frames") {
     Room cell(2, Csma{.queue = 5});
     cell.net.at(start_of_run, [&] {
         for (int i = 0; i < 8; ++i)
@@ -299,7 +300,8 @@ TEST_CASE("csma: receivers that forward at the same time collide; jitter prevent
     CHECK(delivered[true] == 5);
 }
 
-TEST_CASE("csma: saturated broadcasts go one hop, without a router, at the theoretical rate") {
+TEST_CASE(
+    "csma: saturated broadcasts need no router, and have the theoretical throughput over one hop") {
     const BroadcastCell cell;
     for (const int n : {2, 10}) {
         Room room(n, cell.csma(), {.rate = cell.rate});
@@ -314,7 +316,7 @@ TEST_CASE("csma: saturated broadcasts go one hop, without a router, at the theor
     }
 }
 
-TEST_CASE("saturated traffic without an access model is refused") {
+TEST_CASE("csma: saturated traffic without an access model is refused") {
     Room cell(2, NoAccess{});
     CHECK_THROWS_AS(cell.net.saturate(cell.nodes[0], cell.nodes[1], 10), std::invalid_argument);
     CHECK_THROWS_AS(cell.net.send(cell.nodes[0], cell.nodes[0], "x"), std::invalid_argument);
@@ -353,7 +355,7 @@ std::string flooded(const ReceptionModel& reception, const AccessModel& access, 
 
 }  // namespace
 
-TEST_CASE("the fast run gives the same records as a run over all pairs with single events") {
+TEST_CASE("reference mode: the fast mode gives the same records") {
     for (const Db shadowing : {Db{0}, Db{4}}) {
         for (const ReceptionModel& model :
              {ReceptionModel{Threshold{}}, ReceptionModel{Collision{}}, ReceptionModel{Sinr{}}}) {

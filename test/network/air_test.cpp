@@ -260,7 +260,8 @@ Propagation listed<Disc>() {
 
 }  // namespace
 
-TEST_CASE("air: frames interfere as in a check of all pairs, while robots move, jump and switch") {
+TEST_CASE(
+    "air: interference equals a check of all pairs, while robots move, jump and are switched") {
     for (const Propagation& model :
          {Propagation{LogDistance{.exponent = 2, .sigma = Db{0}}},
           Propagation{LogDistance{.exponent = 2, .sigma = Db{4}}}, Propagation{Slope{}}}) {
@@ -271,7 +272,7 @@ TEST_CASE("air: frames interfere as in a check of all pairs, while robots move, 
     }
 }
 
-TEST_CASE("air: frames interfere as in a check of all pairs, under every model") {
+TEST_CASE("air: interference equals a check of all pairs, with every propagation model") {
     for_each_model([]<class Model>() {
         auto fates = play(listed<Model>(), 6);
         CHECK(fates[Fate::waiting] > 20);
@@ -314,7 +315,7 @@ struct OpenField {
 
 }  // namespace
 
-TEST_CASE("air: a robot that jumps keeps the frames on air at its old position") {
+TEST_CASE("air: if a robot jumps, frames on air still reach it as at its old position") {
     for (const bool jumps : {false, true}) {
         OpenField space;
         const NodeId there = space.add(0), here = space.add(1e6), robot = space.add(1);
@@ -374,7 +375,7 @@ TEST_CASE("air: with collision, an ignored frame affects no later frame, as in n
     }
 }
 
-TEST_CASE("air: frames of another network do not interfere, unless it is open") {
+TEST_CASE("air: frames of a network with another essid do not interfere, unless its gate is open") {
     for (const Gate gate : {Gate::network, Gate::none}) {
         OpenField space;
         const Radio ours{.power = {0}, .essid = "ours"};
@@ -403,7 +404,7 @@ TEST_CASE("air: with sinr, a receiver locked onto a frame misses a stronger one"
     }
 }
 
-TEST_CASE("air: with sinr, a frame missed for an earlier one does not lock its receiver") {
+TEST_CASE("air: with sinr, a frame that was missed does not lock the receiver") {
     OpenField space{Sinr{}};
     const NodeId robot = space.add(0), strong = space.add(1);
     const NodeId first = space.add(20), second = space.add(-40);

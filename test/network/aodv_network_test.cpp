@@ -125,7 +125,8 @@ void check_ends(const Run& run, int delivered, int lost) {
 
 }  // namespace
 
-TEST_CASE("aodv over radio: packets equal the small graphs with an ideal MAC, also after a break") {
+TEST_CASE(
+    "aodv over radio: packet counts equal those on graphs with an ideal MAC, also after a break") {
     struct Case {
         const char* name;
         const std::vector<Vec3>& places;
@@ -157,7 +158,7 @@ TEST_CASE("aodv over radio: packets equal the small graphs with an ideal MAC, al
     }
 }
 
-TEST_CASE("aodv over radio: packets equal ns-2.35 under 802.11 with RTS") {
+TEST_CASE("aodv over radio: with 802.11 and RTS, packet counts equal those of ns-2.35") {
     const Run run(line5, 4, 3, Csma{.rts_threshold = 0}, {.profile = AodvProfile::ns2});
     CHECK(of(run.before, aodv::request_kind) == 4);
     CHECK(of(run.before, aodv::reply_kind) == 4);

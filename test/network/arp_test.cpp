@@ -72,7 +72,8 @@ struct Row {
 
 }  // namespace
 
-TEST_CASE("arp: a robot requests a neighbour's address once, and the neighbour learns its own") {
+TEST_CASE(
+    "arp: a robot requests a neighbour's address only once, and the neighbour learns the robot's") {
     Row row(3);
     row.say(1, 0);
     row.net.run_for(1s);
@@ -100,7 +101,7 @@ TEST_CASE("arp: one frame waits for an address, and a later one replaces it") {
     CHECK(row.heard() == "drop ARP 0, REQUEST 0>1, REPLY 1>0, REQUEST 0>1, REPLY 1>0, data 0>1");
 }
 
-TEST_CASE("arp: a neighbour that does not answer is asked three times") {
+TEST_CASE("arp: a neighbour that does not answer gets three requests") {
     Row row(2);
     row.net.switch_off({1});
     row.say(0, 1);
@@ -114,7 +115,8 @@ TEST_CASE("arp: a neighbour that does not answer is asked three times") {
     CHECK(row.heard() == "REQUEST 0>1, REPLY 1>0, data 0>1");
 }
 
-TEST_CASE("arp: the fourth frame to a silent neighbour ends the search for its address") {
+TEST_CASE(
+    "arp: the fourth frame to a silent neighbour is dropped, and ends the search for its address") {
     Row row(2);
     row.net.switch_off({1});
     for (int i = 0; i < 4; ++i) {
@@ -138,7 +140,7 @@ TEST_CASE("arp: an address is forgotten after arp_timeout") {
     CHECK_THROWS_AS(Row(2, {.arp = true, .arp_timeout = Duration{0}}), std::invalid_argument);
 }
 
-TEST_CASE("arp: a robot that is switched off loses its addresses and the waiting frame") {
+TEST_CASE("arp: a robot that is switched off loses the waiting frame") {
     Row row(2);
     row.net.switch_off({1});
     row.net.run_for(1ms);
@@ -150,7 +152,8 @@ TEST_CASE("arp: a robot that is switched off loses its addresses and the waiting
     CHECK(row.heard() == "REQUEST 0>1, drop END 0");
 }
 
-TEST_CASE("arp: a neighbour that does not answer is a broken link for the routing protocol") {
+TEST_CASE(
+    "arp: a neighbour that does not answer is reported to the routing protocol as a broken link") {
     Row row(3);
     row.net.route(Aodv{.profile = AodvProfile::ns2, .jitter = {}});
     row.net.send({0}, {2}, "", {.size = 64});

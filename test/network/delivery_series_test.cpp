@@ -13,7 +13,7 @@ namespace delivery_series_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 
-TEST_CASE("delivery series: has each message's share of receivers, in the order of sending") {
+TEST_CASE("delivery series: each message has its share of receivers, in the order of sending") {
     Network net({.propagation = Disc{.range = Meters{10}}});
     net.route(Flood{.ttl = 5});
     const auto series = std::make_shared<DeliverySeries>();

@@ -177,7 +177,7 @@ int compare(const std::function<void(NetworkSettings&)>& choose) {
 
 }  // namespace
 
-TEST_CASE("doors: a door closes and opens exact to the nanosecond, for receptions and levels") {
+TEST_CASE("doors: receptions and levels change at the nanosecond at which a door closes or opens") {
     const auto with = [](const Propagation& model) {
         return compare([&](NetworkSettings& settings) { settings.propagation = model; });
     };
@@ -198,7 +198,7 @@ TEST_CASE("doors: have no effect on models that ignore walls") {
 }
 
 TEST_CASE(
-    "doors: with variation or in reference mode, a closed door is a wall and an open one nothing") {
+    "doors: also with shadowing, with fading and in reference mode, only a closed door is a wall") {
     CHECK(compare([](NetworkSettings& settings) {
               settings.propagation = MultiWall{};
               settings.shadowing = {.model = ShadowingModel::link};
@@ -213,7 +213,7 @@ TEST_CASE(
           }) > 20);
 }
 
-TEST_CASE("doors: the fast and the reference mode agree on frames across a change") {
+TEST_CASE("doors: the fast and the reference mode agree on frames during which a door changes") {
     for (const ReceptionModel& reception : {ReceptionModel(Collision{.capture_ratio = 3_dB}),
                                             ReceptionModel(Sinr{.interference_cut = 20_dB})}) {
         const auto log_of = [&](bool reference) {
@@ -227,7 +227,7 @@ TEST_CASE("doors: the fast and the reference mode agree on frames across a chang
     }
 }
 
-TEST_CASE("doors: a frame on air when a door closes interferes as it was sent") {
+TEST_CASE("doors: a frame that is on air when a door closes interferes as through the open door") {
     // Robot 3 receives the first frame, through the open door; the second, of which only what the
     // closed door lets through arrives, begins 1 ns after the door closed.
     const auto fates = [](Kind kind, Duration first, Duration second) {
@@ -260,7 +260,8 @@ TEST_CASE("doors: a frame on air when a door closes interferes as it was sent") 
     CHECK(fates(Kind::changes, closes - 1us, closes - 1ns) == Fate::collided);
 }
 
-TEST_CASE("doors: an earlier frame of a sender behind a closed door still interferes") {
+TEST_CASE(
+    "doors: a frame that was sent before a door closed still interferes behind the closed door") {
     const auto fate_of = [](Kind kind, bool reference) {
         NetworkSettings of = settings(kind);
         of.propagation = MultiWall{};
@@ -316,7 +317,7 @@ TEST_CASE("doors: links change at the nanosecond at which a door closes or opens
     }
 }
 
-TEST_CASE("doors: links of a moving robot have the state of the scene at each time") {
+TEST_CASE("doors: the links of a moving robot at each time are those of the doors at that time") {
     // The door fills the gap, or a part of it: then its ends are where links change.
     for (const auto& [bottom, top] : {std::pair{3.0, 5.0}, {3.0, 4.0}, {3.75, 3.9}}) {
         Door half = door();
@@ -347,7 +348,8 @@ TEST_CASE("doors: links of a moving robot have the state of the scene at each ti
     }
 }
 
-TEST_CASE("doors: doors closed at the start, and the number of reachable robots, are right") {
+TEST_CASE(
+    "doors: a door may be closed at the start, and the number of reachable robots follows it") {
     Door early = door();
     early.closes = {0s};
     early.opens = {1s};

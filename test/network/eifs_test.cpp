@@ -96,7 +96,7 @@ void collide(Listener& l, std::uint32_t bytes) {
 
 }  // namespace
 
-TEST_CASE("eifs: a frame that was begun and lost requires an EIFS from its end on") {
+TEST_CASE("eifs: a frame whose reception was begun and failed requires an EIFS after its end") {
     for (const auto& [rule, expected] : {std::pair{EifsRule::standard, eifs},
                                          {EifsRule::ns2, eifs + difs},
                                          {EifsRule::none, difs}}) {
@@ -108,7 +108,8 @@ TEST_CASE("eifs: a frame that was begun and lost requires an EIFS from its end o
     }
 }
 
-TEST_CASE("eifs: a frame that began while the receiver was locked requires a DIFS") {
+TEST_CASE(
+    "eifs: a frame that began while the receiver was locked requires an EIFS only as in ns-2") {
     for (const auto& [rule, expected] : {std::pair{EifsRule::standard, difs},
                                          {EifsRule::ns2, eifs + difs},
                                          {EifsRule::none, difs}}) {
@@ -118,7 +119,7 @@ TEST_CASE("eifs: a frame that began while the receiver was locked requires a DIF
     }
 }
 
-TEST_CASE("eifs: an undetected preamble requires a DIFS") {
+TEST_CASE("eifs: an undetected preamble requires an EIFS only as in ns-2") {
     for (const auto& [rule, expected] : {std::pair{EifsRule::standard, difs},
                                          {EifsRule::ns2, eifs + difs},
                                          {EifsRule::none, difs}}) {
@@ -131,7 +132,7 @@ TEST_CASE("eifs: an undetected preamble requires a DIFS") {
     }
 }
 
-TEST_CASE("eifs: a frame that began while the station sent requires a DIFS") {
+TEST_CASE("eifs: a frame that began while the station sent requires an EIFS only as in ns-2") {
     for (const auto& [rule, expected] : {std::pair{EifsRule::standard, difs},
                                          {EifsRule::ns2, eifs + difs},
                                          {EifsRule::none, difs}}) {
@@ -144,7 +145,7 @@ TEST_CASE("eifs: a frame that began while the station sent requires a DIFS") {
     }
 }
 
-TEST_CASE("eifs: a frame abandoned for an acknowledgement requires a DIFS") {
+TEST_CASE("eifs: a frame abandoned to send an acknowledgement requires an EIFS only as in ns-2") {
     for (const auto& [rule, expected] : {std::pair{EifsRule::standard, difs},
                                          {EifsRule::ns2, eifs + difs},
                                          {EifsRule::none, difs}}) {
@@ -157,7 +158,7 @@ TEST_CASE("eifs: a frame abandoned for an acknowledgement requires a DIFS") {
     }
 }
 
-TEST_CASE("eifs: a frame that ends while the station sends requires nothing") {
+TEST_CASE("eifs: a frame that ends while the station sends requires only a DIFS") {
     for (const double x : {-200.0, -400.0}) {  // decodable, and sensed only
         for (const EifsRule rule : {EifsRule::standard, EifsRule::ns2}) {
             Listener l(rule, Sinr{}, 550);
@@ -170,7 +171,7 @@ TEST_CASE("eifs: a frame that ends while the station sends requires nothing") {
     }
 }
 
-TEST_CASE("eifs: a frame that is sensed but too weak to decode requires an EIFS only as in ns-2") {
+TEST_CASE("eifs: a frame too weak to decode requires an EIFS only as in ns-2") {
     for (const auto& [rule, expected] : {std::pair{EifsRule::standard, difs},
                                          {EifsRule::ns2, eifs + difs},
                                          {EifsRule::none, difs}}) {
@@ -184,7 +185,7 @@ TEST_CASE("eifs: a frame that is sensed but too weak to decode requires an EIFS 
     }
 }
 
-TEST_CASE("eifs: a frame without errors ends the EIFS; in ns-2 nothing does") {
+TEST_CASE("eifs: a frame without errors ends the EIFS, but not with the rule of ns-2") {
     for (const auto& [rule, expected] :
          {std::pair{EifsRule::standard, 215us + difs}, {EifsRule::ns2, eifs + difs}}) {
         Listener l(rule);

@@ -89,7 +89,7 @@ constexpr double share = 0.03;
 
 }  // namespace
 
-TEST_CASE("flows: a near sender and a far hidden sender get the throughput of ns-2 and ns-3") {
+TEST_CASE("flows: a near sender and a far hidden one have the throughput of ns-2 and ns-3") {
     const Csma as_ns2{.basic_rates = {{{1e6}}}, .header = 34};
     const double collision = near_and_far.frames_per_second(Collision{}, as_ns2);
     CHECK(collision == doctest::Approx(106.3).epsilon(share));  // ns-2
@@ -105,7 +105,7 @@ TEST_CASE("flows: a chain of five stations has the throughput of ns-2 and ns-3")
           doctest::Approx(207.6).epsilon(share));  // ns-3
 }
 
-TEST_CASE("flows: with EIFS as in ns-2 each flow has the throughput of ns-2") {
+TEST_CASE("flows: with the EIFS rule of ns-2, each flow has the throughput of ns-2") {
     const Csma as_ns2{.cca_time = 0us,
                       .turnaround = 0us,
                       .cw_min = 30,
@@ -123,7 +123,7 @@ TEST_CASE("flows: with EIFS as in ns-2 each flow has the throughput of ns-2") {
     CHECK(sensed.by_flow(Collision{}, standard, 60s)[0] > 45);
 }
 
-TEST_CASE("flows: a frame that the receiver never began requires no EIFS, as in ns-3") {
+TEST_CASE("flows: if lost preambles require no EIFS, the throughput is that of ns-3") {
     Csma as_ns3{.header = 36};
     as_ns3.cca_time = 4us;  // in which ns-3 finds a preamble
     as_ns3.turnaround = 0us;

@@ -84,7 +84,8 @@ constexpr Time begin = start_of_run;
 
 }  // namespace
 
-TEST_CASE("link watch: links that are up at the start are reported then, in the order of robots") {
+TEST_CASE(
+    "link watch: links that are up at the start are reported at once, in the order of robots") {
     const Scene field;
     Harness network{&field};
     for (const double x : {0.0, 8.0, 16.0}) network.add(Disc{.range = 10_m}, resting({x, 0, 0}));
@@ -98,7 +99,8 @@ TEST_CASE("link watch: links that are up at the start are reported then, in the 
     CHECK_FALSE(network.watch.next());  // nobody moves
 }
 
-TEST_CASE("link watch: links of a passing robot go up and down, by each sender's model") {
+TEST_CASE(
+    "link watch: as a robot passes, each direction goes up and down by the model of its sender") {
     const Scene field;
     Harness network{&field};
     network.add(Disc{.range = 10_m}, resting({}));
@@ -136,7 +138,7 @@ TEST_CASE("link watch: a new leg cancels the changes predicted for the old one")
     CHECK(network.take().empty());
 }
 
-TEST_CASE("link watch: one call reports all due changes, and no cancelled ones") {
+TEST_CASE("link watch: one call reports all changes that are due, and none that were cancelled") {
     const Scene field;
     Harness network{&field};
     network.add(Disc{.range = 10_m}, resting({}));
@@ -150,8 +152,7 @@ TEST_CASE("link watch: one call reports all due changes, and no cancelled ones")
                                                     {begin + 30s, a, b, true}});
 }
 
-TEST_CASE(
-    "link watch: a change at the end of a leg is reported once, before or after the new leg") {
+TEST_CASE("link watch: a change at the end of a leg is reported once, whichever leg is current") {
     const Scene field;
     for (const bool served_first : {false, true}) {
         Harness network{&field};
@@ -167,7 +168,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("link watch: switching a radio takes its links down and up") {
+TEST_CASE(
+    "link watch: switching a radio off takes its links down, and switching it on brings them up") {
     const Scene field;
     Harness network{&field};
     network.add(Disc{.range = 10_m}, resting({}));
@@ -280,7 +282,7 @@ TEST_CASE("link watch: a model of unknown shape is sampled as long as robots mov
                                                     {begin + 20s, b, a, true}});
 }
 
-TEST_CASE("link watch: a model of unknown shape is sampled as far as the run lasts, not the legs") {
+TEST_CASE("link watch: a model of unknown shape is sampled only as far as the run has come") {
     const Scene field;
     Harness network{&field, {.tolerance = 1ms, .min_dwell = 100ms}};
     int looks = 0;
@@ -308,7 +310,7 @@ TEST_CASE("link watch: too many robots are refused") {
     CHECK_THROWS_AS(network.watch.start(begin), RunError);
 }
 
-TEST_CASE("link watch: a directional antenna that turns in place changes links, leg by leg") {
+TEST_CASE("link watch: if a directional antenna turns in place, its links change, leg by leg") {
     const Scene field;
     Harness network{&field, {.tolerance = 1us, .min_dwell = 10ms}};
     const Radio sector{.antenna = AntennaShape::cosine, .antenna_beamwidth = Radians{1}};

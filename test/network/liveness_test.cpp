@@ -49,13 +49,14 @@ TEST_CASE("liveness: a robot with a leg each nanosecond ends the run with its na
     }
 }
 
-TEST_CASE("liveness: ten robots that stall the time together are found") {
+TEST_CASE(
+    "liveness: if ten robots together keep the time from advancing, the run ends with an error") {
     Network net;
     for (int i = 0; i < 10; ++i) net.add({.name = {}, .at = {}, .move = Creep{0ns}});
     CHECK(stall(net, 1s).starts_with("robot \"r"));
 }
 
-TEST_CASE("liveness: many simultaneous events of different robots are no stall") {
+TEST_CASE("liveness: many simultaneous events of different robots do not end the run") {
     Network net;
     for (int i = 0; i < 500; ++i) net.add({.name = {}, .at = {}, .move = Creep{1us, 1}});
     CHECK(stall(net, 11ms).empty());

@@ -133,7 +133,7 @@ TEST_CASE("load: a transmission to 10,000 robots in one place is one event, and 
     CHECK(crowd.net.events() == 2 * messages);  // an action and a frame
 }
 
-TEST_CASE("load: of 1,000 robots in one place 30 send at once, and nobody receives anything") {
+TEST_CASE("load: if 30 of 1,000 robots in one place send at once, nobody receives anything") {
     constexpr int robots = 1000, senders = 30;
     for (const ReceptionModel& model : {ReceptionModel{Collision{}}, ReceptionModel{Sinr{}}}) {
         CAPTURE(model.name());
@@ -153,7 +153,8 @@ TEST_CASE("load: of 1,000 robots in one place 30 send at once, and nobody receiv
     }
 }
 
-TEST_CASE("load: 300 robots in one place flood with sinr and csma, one frame each") {
+TEST_CASE(
+    "load: in a flood of 300 robots in one place with sinr and csma, each robot sends one frame") {
     constexpr int robots = 300;
     Watched crowd(disc(1, Sinr{}, Csma{}), {.ttl = 5});
     crowd.add_crowd(robots);
@@ -258,7 +259,7 @@ TEST_CASE("load: robots at 1e9 and 1e12 m behave like robots at the origin") {
     }
 }
 
-TEST_CASE("load: a robot returns over 1e9 m, and its links are found on the way") {
+TEST_CASE("load: when a robot returns from 1e9 m away, its links are found") {
     Watched world(disc(1000));
     world.add({0, 500});
     const NodeId far = world.net.add(
@@ -286,7 +287,7 @@ TEST_CASE("load: with range 0 only robots in one place hear each other") {
     }
 }
 
-TEST_CASE("load: with range 0 robots that pass through each other keep their links") {
+TEST_CASE("load: with range 0, robots that pass through each other lose every link that they get") {
     Network net(disc(0));
     const auto links = std::make_shared<Links>();
     net.add_sink(links);
@@ -298,7 +299,7 @@ TEST_CASE("load: with range 0 robots that pass through each other keep their lin
     CHECK(net.events() < 20);
 }
 
-TEST_CASE("load: under threshold, two frames in the same nanosecond are both received, in order") {
+TEST_CASE("load: with threshold, two frames in the same nanosecond are received in sending order") {
     for (const std::uint32_t first : {0U, 1U}) {
         Watched world(disc(15));
         world.add({0, 20, 10, 10});
@@ -352,7 +353,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("load: csma decides on a frame exactly 18 us in advance") {
+TEST_CASE("load: csma is committed to a frame exactly 18 us before it is sent") {
     // 802.11b decides a turnaround of 5 us before it sends, by what arrived 13 us before that.
     for (const Duration later : {Duration{0}, Duration{18us}, Duration{18'001}}) {
         CAPTURE(later.count());
@@ -441,7 +442,7 @@ TEST_CASE("load: events before a storm reached the limit are not lost") {
     CHECK(metrics.deliveries == 9);
 }
 
-TEST_CASE("load: robots that change all the time without traffic leave no data behind") {
+TEST_CASE("load: robots that move all the time without traffic take no more memory") {
     Watched watched(disc(10, Collision{}));
     watched.add({0, 1});
     watched.send(0, 1ms);

@@ -97,8 +97,7 @@ struct House {
 
 }  // namespace
 
-TEST_CASE(
-    "doors: a moving robot stops before a door that has closed, and continues when it opens") {
+TEST_CASE("doors: a moving robot stops before a closed door, and continues when the door opens") {
     House house({door({1s}, {10s})});
     const NodeId a = house.add({2, 4, 0}, ToGoal{.to = {11, 4, 0}, .speed = {1}});
     // The door's side is at 6.4 m; the body has 0.3 m.
@@ -119,7 +118,7 @@ TEST_CASE(
     CHECK(house.diary->moves[3].leg.velocity == house.diary->moves[0].leg.velocity);
 }
 
-TEST_CASE("doors: a robot waits at a closed door, because it plans with open doors") {
+TEST_CASE("doors: paths are planned as if all doors were open, so a robot waits at a closed door") {
     House house({door({0s}, {20s})});
     const NodeId a = house.add({2, 1.5, 0}, Waypoints{.path = {{2, 4, 0}, {11, 4, 0}, {11, 2, 0}}});
     CHECK(near(house.at(15s, a), {6.1, 4, 0}));
@@ -135,7 +134,7 @@ TEST_CASE("doors: a door that opens before the robot arrives does not stop it") 
     CHECK(house.diary->arrivals.size() == 1);
 }
 
-TEST_CASE("doors: with two doors in a row the robot waits at the first, then at the second") {
+TEST_CASE("doors: a robot that passes two doors waits at the first, then at the second") {
     Door second = door({0s}, {12s});
     second.from.x = second.to.x = 9;
     second.from.y = 1;
@@ -149,7 +148,7 @@ TEST_CASE("doors: with two doors in a row the robot waits at the first, then at 
     CHECK(near(house.at(20s, a), {11, 4, 0}, 0));
 }
 
-TEST_CASE("doors: a change of another door does not affect a waiting robot") {
+TEST_CASE("doors: a robot that waits at a door is not affected by changes of another door") {
     Door other = door({6s, 8s}, {7s, 9s});
     other.from = {9, 1, 0};
     other.to = {9, 2, 0};
@@ -160,7 +159,7 @@ TEST_CASE("doors: a change of another door does not affect a waiting robot") {
     CHECK(near(house.at(30s, a), {11, 4, 0}, 0));
 }
 
-TEST_CASE("doors: a robot touched by a closing door is caught until the door opens") {
+TEST_CASE("doors: a robot in the way of a closing door stands until the door opens") {
     House house({door({4s}, {10s})});
     const NodeId a = house.add({2, 4, 0}, ToGoal{.to = {11, 4, 0}, .speed = {1}});
     const NodeId b = house.add({6.5, 3.5, 0}, Fixed{});
@@ -191,13 +190,13 @@ TEST_CASE("doors: a driven robot stops at a closed door, and continues when the 
     CHECK(near(timed.at(30s, b), {6.1, 4, 0}));
 }
 
-TEST_CASE("doors: recorded movement passes closed doors like walls") {
+TEST_CASE("doors: robots with recorded movements go through closed doors, as through walls") {
     House house({door({0s}, {})});
     const NodeId a = house.add({2, 4, 0}, Straight{.to = {11, 4, 0}, .speed = {1}});
     CHECK(near(house.at(9s, a), {11, 4, 0}, rounding));
 }
 
-TEST_CASE("doors: a robot that waits and is switched off continues after both have ended") {
+TEST_CASE("doors: a robot switched off while it waits goes on once it is on and the door is open") {
     House house({door({1s}, {10s})});
     const NodeId a = house.add({2, 4, 0}, ToGoal{.to = {11, 4, 0}, .speed = {1}});
     house.network.at(start_of_run + 6s, [&] { house.network.switch_off(a); });
@@ -215,7 +214,8 @@ TEST_CASE("doors: a robot that waits and is switched off continues after both ha
     CHECK(near(early.at(30s, b), {11, 4, 0}, 0));
 }
 
-TEST_CASE("doors: a turning robot, and a waiting robot with a new movement, are handled") {
+TEST_CASE(
+    "doors: a turning robot also waits at a door, and a waiting robot follows a new movement") {
     House house({door({0s}, {10s})});
     const NodeId a = house.network.add({.name = "a",
                                         .at = {2, 4, 0},
@@ -232,7 +232,8 @@ TEST_CASE("doors: a turning robot, and a waiting robot with a new movement, are 
     CHECK(near(house.at(20s, a), {11, 4, 0}, 0));
 }
 
-TEST_CASE("doors: no robot of any model passes a closed door, or is stuck for ever") {
+TEST_CASE(
+    "doors: with every movement model, robots pass no closed door and do not get stuck for ever") {
     const std::vector<Duration> closes{500ms, 4s, 9s, 16s}, opens{2s, 7s, 12s};
     Door half = door({1s, 6s, 11s}, {3s, 8s, 14s});
     half.from = {3, 1, 0};

@@ -47,7 +47,8 @@ Robot surveyor() {
 
 }  // namespace
 
-TEST_CASE("motion: turning in place takes angle over turn rate, and is in the records") {
+TEST_CASE(
+    "motion: turning in place takes the angle divided by the turn rate, and is recorded as a leg") {
     Network net;
     const auto diary = std::make_shared<Diary>();
     net.add_sink(diary);
@@ -69,7 +70,7 @@ TEST_CASE("motion: turning in place takes angle over turn rate, and is in the re
     CHECK(near(net.heading(s).value, pi_) + near(net.heading(s).value, -pi_) == 1);
 }
 
-TEST_CASE("motion: a robot turns the shorter way round, also across the half turn") {
+TEST_CASE("motion: a robot turns the shorter way round, also across the heading of 180 degrees") {
     Network net;
     const NodeId s = net.add({.name = "s",
                               .at = {},
@@ -117,7 +118,7 @@ TEST_CASE("motion: no leg is faster than the robot's top speed") {
     CHECK(near(net.position(late), Vec3{10, 0, 0}));
 }
 
-TEST_CASE("motion: a robot placed elsewhere rests there; a stopped robot rests where it is") {
+TEST_CASE("motion: a robot placed elsewhere rests there, and a stopped robot rests where it is") {
     Network net;
     const NodeId a = net.add({.name = "a", .at = {}, .move = ToGoal{.to = {100, 0, 0}}});
     net.run_until(start_of_run + 10s);
@@ -142,7 +143,7 @@ TEST_CASE("motion: invalid parameters of a robot are refused") {
     CHECK(net.size() == 0);
 }
 
-TEST_CASE("links: a robot that loses a signal reacts 1 us later") {
+TEST_CASE("links: a callback for a lost signal is called 1 us after the loss") {
     Network net({.propagation = Disc{.range = Meters{50}}});
     const NodeId base = net.add({.name = "base", .at = {}});
     const NodeId rover =
@@ -161,7 +162,7 @@ TEST_CASE("links: a robot that loses a signal reacts 1 us later") {
     CHECK(net.links(rover, net.now())[0].node == base);
 }
 
-TEST_CASE("links: records have every change once, in order of time, and end in the right state") {
+TEST_CASE("links: every change is recorded once, in the order of time") {
     struct Book {
         std::vector<std::pair<double, bool>> changes = {};
         KindMask kinds() const { return kind_links; }
@@ -195,7 +196,7 @@ TEST_CASE("links: records have every change once, in order of time, and end in t
     }
 }
 
-TEST_CASE("links: changed movements leave no events behind") {
+TEST_CASE("links: movements that were replaced leave no events behind") {
     struct Watcher {
         KindMask kinds() const { return kind_links; }
         void on(const Record&, const RecordContext&) {}
@@ -215,7 +216,7 @@ TEST_CASE("links: changed movements leave no events behind") {
     CHECK(net.events() < 4 * plans);  // an action each, a look each, and a few more
 }
 
-TEST_CASE("links: without a listener no links are searched, and events are the same") {
+TEST_CASE("links: if no sink wants link changes, links are not searched") {
     struct Watcher {
         KindMask kinds() const { return kind_links; }
         void on(const Record&, const RecordContext&) {}

@@ -42,7 +42,7 @@ TEST_CASE("name table: names are numbered in order of insertion, and found again
     check_many(table, 5000);
 }
 
-TEST_CASE("name table: at every size all names are found and no others") {
+TEST_CASE("name table: at every size, all names in the table are found, and no others") {
     NameTable table;
     for (int n = 0; n < 200; ++n) {
         for (int i = 0; i <= n; ++i) {
@@ -52,7 +52,8 @@ TEST_CASE("name table: at every size all names are found and no others") {
     }
 }
 
-TEST_CASE("name table: reserving memory before or in between has no effect") {
+TEST_CASE(
+    "name table: reserving memory, before or between insertions, has no effect on the result") {
     NameTable table;
     table.reserve(100);
     check_many(table, 300);
@@ -66,7 +67,7 @@ TEST_CASE("name table: reserving memory before or in between has no effect") {
     CHECK(other[0] == "ada");
 }
 
-TEST_CASE("name table: any bytes are a name, also none") {
+TEST_CASE("name table: a name may consist of any bytes, or of none") {
     const std::vector<std::string_view> names = {""sv,     "\0"sv, "\0\0"sv,
                                                  "a\0b"sv, "a"sv,  "\xff\xfe"sv};
     NameTable table;

@@ -179,7 +179,7 @@ NetworkSettings disc(double range) { return {.propagation = Disc{.range = {range
 
 }  // namespace
 
-TEST_CASE("network: the same seed gives the same run, another seed or replication another") {
+TEST_CASE("network: equal seeds give equal runs; another seed or replication gives another run") {
     const Run first = Busy(1).run();
     CHECK(first.lines.size() > 5000);
     CHECK(Busy(1).run() == first);
@@ -187,14 +187,15 @@ TEST_CASE("network: the same seed gives the same run, another seed or replicatio
     CHECK(Busy(1, false, 1).run().fingerprint != first.fingerprint);
 }
 
-TEST_CASE("network: a robot that joins last and out of range changes no other robot's records") {
+TEST_CASE(
+    "network: adding a robot that is out of range does not change the records of other robots") {
     const Run alone = Busy(1).run();
     const Run with_stranger = Busy(1, true).run();
     CHECK(with_stranger.lines == alone.lines);
     CHECK(with_stranger.events > alone.events);
 }
 
-TEST_CASE("network: a run in pieces of any size is the same run") {
+TEST_CASE("network: a run in parts of any size gives the same result as one run") {
     const Run whole = Busy(5).run();
     SUBCASE("event by event") {
         Busy pieces(5);
@@ -202,7 +203,7 @@ TEST_CASE("network: a run in pieces of any size is the same run") {
         }
         CHECK(pieces.result() == whole);
     }
-    SUBCASE("in steps of time that cut receptions apart") {
+    SUBCASE("in steps that end between receptions of a frame") {
         Busy pieces(5);
         while (pieces.net.now() < Busy::end) {
             pieces.net.run_until(std::min(Busy::end, pieces.net.now() + 333'333ns));
@@ -212,7 +213,8 @@ TEST_CASE("network: a run in pieces of any size is the same run") {
     }
 }
 
-TEST_CASE("network: advance serves at most the given number of events and returns whether done") {
+TEST_CASE(
+    "network: advance() serves at most the given number of events, and returns whether it ended") {
     Busy busy(5);
     CHECK_FALSE(busy.net.advance(Busy::end, 10));
     CHECK(busy.net.events() == 10);
@@ -249,7 +251,7 @@ TEST_CASE("network: over kilometres, with overlapping frames, records stay in or
     }
 }
 
-TEST_CASE("network: a near robot answers before a far robot has received") {
+TEST_CASE("network: a near robot answers a frame before a far robot has received it") {
     Network net({.propagation = Disc{.range = 700_m}});
     for (const double x : {0.0, 1.0, 650.0}) net.add({.name = {}, .at = {x, 0}});
     net.route(Flood{.jitter = Duration{0}});
@@ -280,7 +282,7 @@ TEST_CASE("network: a frame arrives after its airtime and the delay at the speed
     CHECK(heard->all[2].time == end + 100'069ns);  // 100,069.23 ns
 }
 
-TEST_CASE("network: a message's size on air is its payload, unless a size is given") {
+TEST_CASE("network: if no size is given, the size of a message on air is that of its payload") {
     Network net(disc(10));
     for (int i = 0; i < 2; ++i) net.add(robot_at(0));
     net.route(OneHop{});
@@ -292,7 +294,7 @@ TEST_CASE("network: a message's size on air is its payload, unless a size is giv
     CHECK(heard->all[0].time == start_of_run + airtime_64_bytes);
 }
 
-TEST_CASE("network: a user's router and sink are plain structs, held by value or shared") {
+TEST_CASE("network: a plain struct can be a router or a sink") {
     struct Count {
         int* received;
         KindMask kinds() const { return kind_of<Received>(); }
@@ -323,7 +325,7 @@ TEST_CASE("network: a router that sends during reception gets an error") {
     CHECK_THROWS_AS(net.run_for(1s), std::invalid_argument);
 }
 
-TEST_CASE("network: a message is delivered to callbacks once, 1 us after its reception") {
+TEST_CASE("network: callbacks for a message are called once, 1 us after its reception") {
     Network net(disc(1000));
     for (const double x : {0.0, 300.0, 300.0}) net.add(robot_at(x));
     net.route(Flood{});
@@ -413,7 +415,7 @@ TEST_CASE("network: a robot that is off stands still, and continues when it is o
     CHECK(arrivals[0] <= start_of_run + 13s + 1us);
 }
 
-TEST_CASE("network: a robot off from the start begins to move when it is switched on") {
+TEST_CASE("network: a robot that is off at the start begins to move when it is switched on") {
     Network net;
     net.add({.name = {}, .at = {}, .move = ToGoal{.to = {10, 0, 0}, .speed = {1}}});
     net.switch_off({0});
@@ -451,7 +453,7 @@ TEST_CASE("network: a callback on arrival can start the next movement") {
     CHECK(net.position({0}) == Vec3{1, 2, 0});
 }
 
-TEST_CASE("network: a movement that was replaced does not return") {
+TEST_CASE("network: a movement that was replaced has no effect any more") {
     Network net;
     net.add({.name = {}, .at = {}, .move = ToGoal{.to = {10, 0, 0}, .speed = {1}}});
     int arrivals = 0;
@@ -487,7 +489,7 @@ TEST_CASE("network: a periodic action is called every period, first after one pe
 }
 
 TEST_CASE("network: at the event limit a run fails, however little time passes") {
-    SUBCASE("a flood that forwards every copy") {
+    SUBCASE("a flood in which every copy is forwarded") {
         NetworkSettings settings = disc(10);
         settings.event_limit = 20'000;
         Network net(settings);
@@ -497,13 +499,13 @@ TEST_CASE("network: at the event limit a run fails, however little time passes")
         CHECK_THROWS_AS(net.run_for(1h), RunError);
         CHECK(net.events() <= 20'000);
     }
-    SUBCASE("an action that repeats itself at once") {
+    SUBCASE("an action that schedules itself at the current time") {
         Network net({.event_limit = 1000});
         std::function<void()> again = [&] { net.at(net.now(), again); };
         net.at(start_of_run, again);
         CHECK_THROWS_AS(net.run_for(1s), RunError);
     }
-    SUBCASE("a movement of steps that lead nowhere") {
+    SUBCASE("a movement whose legs lead nowhere") {
         struct Fidget {
             Step next_leg(Mover& mover) {
                 return straight_leg(mover, mover.position, mover.now + 1ns);
@@ -573,7 +575,7 @@ TEST_CASE("network: a refused robot leaves nothing behind") {
     CHECK(net.metrics().deliveries == 1);
 }
 
-TEST_CASE("network: sending without a protocol and a second protocol are refused") {
+TEST_CASE("network: sending without a routing protocol, and a second protocol, are refused") {
     Network net;
     net.add(robot_at(0));
     CHECK_THROWS_AS(net.send({0}, everyone, "F"), std::invalid_argument);
@@ -594,7 +596,7 @@ TEST_CASE("network: a robot that joins during the run takes part at once") {
     CHECK(net.position({1}) == Vec3{5, 0, 0});
 }
 
-TEST_CASE("network: without metrics, asking for them is an error") {
+TEST_CASE("network: if metrics are off, requesting them throws an error") {
     Network net({.metrics = false});
     CHECK_THROWS_AS(net.metrics(), std::invalid_argument);
 }

@@ -93,7 +93,8 @@ std::shared_ptr<ReceptionLog> run(const Setting& setting, std::uint32_t seed) {
 
 }  // namespace
 
-TEST_CASE("order: joint events for several receptions give the records of an event for each") {
+TEST_CASE(
+    "order: one event for several receptions gives the records of an event for each of them") {
     for (Setting setting : settings()) {
         for (std::uint32_t seed = 1; seed <= 4; ++seed) {
             CAPTURE(seed);
@@ -109,13 +110,13 @@ TEST_CASE("order: joint events for several receptions give the records of an eve
     }
 }
 
-TEST_CASE("order: a router gets its receptions in order, at the time of the last one") {
+TEST_CASE("order: a router gets receptions in the order of time, at the time of the last one") {
     const auto always_in_order = std::make_shared<bool>(true);
     Playground({}, 1).run(WatchedFlood{.always_in_order = always_in_order});
     CHECK(*always_in_order);
 }
 
-TEST_CASE("order: a run that pauses between receptions is the same run") {
+TEST_CASE("order: a run that is paused between receptions gives the same result") {
     const auto whole = Playground({}, 1).run(Flood{.jitter = 100us});
     const auto in_steps = Playground({}, 1).run(Flood{.jitter = 100us}, 1'777ns);
     CHECK(in_steps->receptions == whole->receptions);
@@ -133,7 +134,7 @@ TEST_CASE("order: in reference mode receptions at different times are separate e
 }
 
 TEST_CASE(
-    "order: few and many receivers receive in order of time: spread, in rings or at one place") {
+    "order: few and many receivers, spread, in rings or in one place, receive in order of time") {
     test::Draw draw(17);
     for (const bool delayed : {true, false}) {
         for (const int count : {2, 13, 60, 64, 65, 66, 67, 130, 400}) {
@@ -158,7 +159,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("order: receivers that are light seconds away are in order, too") {
+TEST_CASE("order: receivers light seconds away also receive in the order of time") {
     Network net({.propagation = Disc{.range = Meters{1e10}}});
     auto log = std::make_shared<ReceptionLog>();
     net.add_sink(Sink{log});
@@ -171,7 +172,7 @@ TEST_CASE("order: receivers that are light seconds away are in order, too") {
     CHECK(order == std::vector{NodeId{4}, NodeId{2}, NodeId{3}, NodeId{1}});
 }
 
-TEST_CASE("order: a robot reacts at the time at which the frame ends at another robot") {
+TEST_CASE("order: a robot can react at the very time at which the frame ends at another robot") {
     constexpr double microsecond = 299.792458;  // [m] at the speed of light
     Network net({.propagation = Disc{.range = Meters{1000}}});
     auto log = std::make_shared<ReceptionLog>();

@@ -115,7 +115,7 @@ struct Line {
 
 }  // namespace
 
-TEST_CASE("own phy: receivers of a frame depend on its coding, by every search method") {
+TEST_CASE("own phy: who receives a frame depends on its coding, with every search method") {
     for (const bool reference : {false, true}) {
         for (const auto& model :
              {Propagation{Friis{}}, Propagation{LogDistance{.exponent = 2, .sigma = Db{0}}}}) {
@@ -156,7 +156,7 @@ TEST_CASE("own phy: the coding determines the duration of the preamble") {
     }
 }
 
-TEST_CASE("own phy: frames of other codings are rejected, by sinr and by capture") {
+TEST_CASE("own phy: sinr and capture reject interference from frames of other codings") {
     const auto delivered = [](const ReceptionModel& reception, BitRate second, double other) {
         Network net({.reception = reception, .access = AtOnce{.phy = {.other = other}}});
         for (const double x : {0.0, 10.0, 20.0}) {

@@ -118,7 +118,7 @@ TEST_CASE("protocols: records are in the order of time") {
     });
 }
 
-TEST_CASE("protocols: every message to one robot is delivered or lost, once") {
+TEST_CASE("protocols: every unicast is either delivered or lost, exactly once") {
     for_each_case([](Router router, const AccessModel& access, bool arp) {
         const bool routes = router.traits().routes_unicasts;
         const auto checker = run(std::move(router), access, arp);

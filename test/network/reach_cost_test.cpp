@@ -37,13 +37,13 @@ MetricValues after_messages(int messages, std::optional<bool> reach) {
 
 }  // namespace
 
-TEST_CASE("reach: is measured while that is cheap") {
+TEST_CASE("reach: for few messages, reach is measured without a request") {
     const MetricValues values = after_messages(100, {});
     CHECK(values.reach_known);
     CHECK(values.reach == 1.0 / 19);
 }
 
-TEST_CASE("reach: is not measured where it would take most of the run, unless requested") {
+TEST_CASE("reach: if measuring it would take most of the run, reach is measured only on request") {
     const MetricValues cheap = after_messages(2'000, {});
     CHECK_FALSE(cheap.reach_known);
     CHECK_FALSE(cheap.reach);

@@ -115,7 +115,7 @@ using Lines = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("router port: a unicast reaches the protocol only at its next hop") {
+TEST_CASE("router port: only the next hop of a unicast passes it to the protocol") {
     Row row;
     row.net.route(Scripted{.diary = row.diary});
     row.net.send({1}, {2}, "hello");
@@ -126,7 +126,7 @@ TEST_CASE("router port: a unicast reaches the protocol only at its next hop") {
     CHECK(metrics.delivery_ratio == 1.0);
 }
 
-TEST_CASE("router port: a unicast sent without the protocol does not reach it") {
+TEST_CASE("router port: a unicast that the protocol did not send is not passed to the protocol") {
     Row row;
     row.net.route(Scripted{.diary = row.diary});
     row.net.send({1}, {2}, "hello", {.one_hop = true});
@@ -158,7 +158,8 @@ TEST_CASE("router port: a protocol that overhears gets unicasts for others, with
     }
 }
 
-TEST_CASE("router port: levels match their receptions if a robot is switched off meanwhile") {
+TEST_CASE(
+    "router port: each reception has its own level, also after another receiver is switched off") {
     const auto levels_of = [](double off_at) {
         const auto diary = std::make_shared<Diary>(*Row().diary);
         Network net({.propagation = Friis{}});
@@ -178,7 +179,7 @@ TEST_CASE("router port: levels match their receptions if a robot is switched off
     CHECK(both[0] > both[1]);
 }
 
-TEST_CASE("router port: csma reports acknowledged, given up, queue full or switched off") {
+TEST_CASE("router port: csma reports if a frame was acknowledged, sent, given up or never sent") {
     const Csma one_place{.queue = 1};
     SUBCASE("acknowledged") {
         Row row(Csma{});
@@ -198,7 +199,7 @@ TEST_CASE("router port: csma reports acknowledged, given up, queue full or switc
         row.net.send({0}, everyone, "hello");
         CHECK(row.run() == Lines{"sent", "1 hears hello"});
     }
-    SUBCASE("no room") {
+    SUBCASE("the queue is full") {
         Row row(one_place);
         row.net.route(Scripted{.diary = row.diary});
         for (const char* word : {"a", "b"}) row.net.send({0}, {1}, word);
@@ -215,7 +216,8 @@ TEST_CASE("router port: csma reports acknowledged, given up, queue full or switc
     }
 }
 
-TEST_CASE("router port: a result is never reported inside a call to the link layer, and may send") {
+TEST_CASE(
+    "router port: results are reported after the call to the link layer, and may cause sending") {
     Row row(Csma{.queue = 1});
     int more = 3;
     row.diary->send = [](LinkLayer& link, NodeId node, MessageId message) {
@@ -280,7 +282,7 @@ TEST_CASE("router port: a frame that waits for its send time may be changed or c
                              "0 hears x", "2 hears x"});
 }
 
-TEST_CASE("router port: a sender that is off at the send time gets the result") {
+TEST_CASE("router port: if a sender is off at the send time, the protocol gets the result `off`") {
     Row row;
     row.diary->send = [](LinkLayer& link, NodeId node, MessageId message) {
         link.send({.message = message, .sender = node, .ttl = 5, .hops = 1}, {}, link.now() + 2ms);
@@ -292,7 +294,7 @@ TEST_CASE("router port: a sender that is off at the send time gets the result") 
     CHECK(row.run() == Lines{"1 off", "off", "1 on"});
 }
 
-TEST_CASE("router port: frames for one next hop are taken from the queue, except one on air") {
+TEST_CASE("router port: take_queued returns the frames for one next hop, except a frame on air") {
     for (const AccessModel& access : {AccessModel{Csma{}}, AccessModel{Aloha{}}}) {
         CAPTURE(access.name());
         Row row(access);
@@ -320,7 +322,8 @@ TEST_CASE("router port: frames for one next hop are taken from the queue, except
     }
 }
 
-TEST_CASE("router port: nodes start in the order of their keys at the start, or when added") {
+TEST_CASE(
+    "router port: nodes start in the order of their keys, and later ones when they are added") {
     Row row(NoAccess{}, 5);
     row.net.route(Scripted{.diary = row.diary});
     CHECK(row.diary->lines.empty());
@@ -338,7 +341,7 @@ TEST_CASE("router port: nodes start in the order of their keys at the start, or 
     CHECK(row.diary->lines.size() == 6);
 }
 
-TEST_CASE("router port: a message to one robot goes one hop if the protocol only floods") {
+TEST_CASE("router port: if the protocol only floods, a unicast is sent directly, over one hop") {
     struct Everyone {
         int* asked;
         Hops initial_ttl() const { return 1; }

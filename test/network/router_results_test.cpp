@@ -138,8 +138,7 @@ struct Row {
 
 }  // namespace
 
-TEST_CASE(
-    "results: access models none and aloha are an ideal MAC, with results at the frame's end") {
+TEST_CASE("results: without csma, a frame is acknowledged exactly if its next hop receives it") {
     for (const AccessModel& access : {AccessModel{NoAccess{}}, AccessModel{Aloha{}}}) {
         CAPTURE(access.name());
         Row row(access);
@@ -161,7 +160,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("results: a frame that collides at its next hop ends with retries, without an ACK") {
+TEST_CASE(
+    "results: without csma, a frame that collides at its next hop ends with the result `retries`") {
     Network net({.propagation = Disc{.range = {100}}, .reception = Collision{}});
     for (int i = 0; i < 3; ++i) net.add({.name = {}, .at = {80.0 * i, 0, 0}});
     const auto script = std::make_shared<Script>();
@@ -172,7 +172,8 @@ TEST_CASE("results: a frame that collides at its next hop ends with retries, wit
     CHECK(script->results == std::vector{SendResult::retries, SendResult::retries});
 }
 
-TEST_CASE("salvage: a packet that is sent again does not count as lost") {
+TEST_CASE(
+    "salvage: a packet that the protocol sends again after a failure does not count as lost") {
     Row row(Csma{}, 4);
     row.net.switch_off({1});
     row.script->sent = [](LinkLayer& link, const QueuedFrame& f, SendResult result) {
@@ -194,7 +195,7 @@ TEST_CASE("salvage: a packet that is sent again does not count as lost") {
     CHECK(row.lines("sf") == Lines{"s0", "s0"});
 }
 
-TEST_CASE("take_queued: after retries it returns all frames for the broken hop") {
+TEST_CASE("take_queued: after a failed frame, it returns all queued frames for the same next hop") {
     for (const std::uint32_t rts : {2347U, 0U}) {
         CAPTURE(rts);
         Row row(Csma{.rts_threshold = rts});
@@ -224,7 +225,7 @@ TEST_CASE("take_queued: after retries it returns all frames for the broken hop")
     }
 }
 
-TEST_CASE("take_queued: a station whose queue was emptied sends the next frame") {
+TEST_CASE("take_queued: a station whose queue was emptied can send later frames") {
     Row row(Csma{});
     row.net.switch_off({1});
     row.script->sent = [&](LinkLayer& link, const QueuedFrame& f, SendResult result) {
@@ -241,8 +242,7 @@ TEST_CASE("take_queued: a station whose queue was emptied sends the next frame")
     CHECK(row.script->results == std::vector{SendResult::retries, SendResult::acked});
 }
 
-TEST_CASE(
-    "drops: a drop inside on_receive is recorded after the reception of its node, at its time") {
+TEST_CASE("drops: a drop inside on_receive is recorded after the node's reception, at its time") {
     Row row(NoAccess{}, 4);
     row.net.add({.name = {}, .at = {80, 20, 0}, .radio = {.rate = {1e6}}});
     row.script->send = [](LinkLayer& link, NodeId node, MessageId m) {
@@ -268,7 +268,8 @@ TEST_CASE(
     CHECK(no_route == 2);
 }
 
-TEST_CASE("held: a message that the protocol still holds at the end is sent and not delivered") {
+TEST_CASE(
+    "end of the run: a message that the protocol still holds counts as sent and not delivered") {
     Row row;
     row.script->keeps = true;
     row.script->send = [](LinkLayer& link, NodeId, MessageId m) { link.hold(m); };
@@ -306,7 +307,7 @@ TEST_CASE("size: a frame may have a different size at each hop") {
     CHECK(row.net.metrics().deliveries == 1);
 }
 
-TEST_CASE("headers: a header is freed after its last frame, and its packets allocate no memory") {
+TEST_CASE("headers: a header is freed after its last frame, and new headers need no new memory") {
     Row row;
     std::vector<std::uint32_t> forgotten;
     row.script->send = [](LinkLayer& link, NodeId node, MessageId m) {
@@ -354,7 +355,7 @@ TEST_CASE("headers: a header is freed after its last frame, and its packets allo
     CHECK(test::allocations() == before);
 }
 
-TEST_CASE("priority: control packets go before messages, after the frame in contention") {
+TEST_CASE("priority: control packets overtake messages, but not the frame already in contention") {
     for (const bool priority : {false, true}) {
         CAPTURE(priority);
         Row row(Csma{.priority = priority});
@@ -395,7 +396,8 @@ TEST_CASE("priority: a control packet displaces the last message of a full queue
     CHECK(row.lines("D") == Lines{"D0 IFQ?", "D0 CBK"});
 }
 
-TEST_CASE("traces: a protocol describes its control packets, and no other packets") {
+TEST_CASE(
+    "traces: the protocol's description is written for control packets, and for no other packets") {
     Row row;
     std::string lines;
     const auto trace = std::make_shared<Ns2Trace>([&](std::string_view text) { lines += text; });
@@ -422,7 +424,7 @@ TEST_CASE("traces: a protocol describes its control packets, and no other packet
     CHECK(packets == 4);    // s AGT, r RTR, s RTR, r AGT
 }
 
-TEST_CASE("snr: is a reception's level over the noise floor of its receiver") {
+TEST_CASE("snr: the SNR of a reception is its level over the receiver's noise floor") {
     Network net({.propagation = Friis{}});
     for (const double x : {0.0, 30.0}) {
         net.add({.name = {}, .at = {x, 0, 0}, .radio = {.noise_figure = Db{9}}});
@@ -445,9 +447,8 @@ TEST_CASE("snr: is a reception's level over the noise floor of its receiver") {
 }
 
 #ifndef NDEBUG
-TEST_CASE(
-    "references: a debug build reports a message released too often or still held at the end") {
-    SUBCASE("released") {
+TEST_CASE("references: a debug build reports a message that is released too often, or never") {
+    SUBCASE("released too often") {
         Row row;
         row.script->send = [](LinkLayer& link, NodeId, MessageId m) { link.release(m); };
         CHECK_THROWS_WITH(
@@ -455,7 +456,7 @@ TEST_CASE(
             "the routing protocol released message 0 (of an application), to which it "
             "holds no reference");
     }
-    SUBCASE("held") {
+    SUBCASE("never released") {
         Row row;
         row.script->send = [](LinkLayer& link, NodeId, MessageId m) { link.hold(m); };
         row.net.send({0}, {1}, "x");

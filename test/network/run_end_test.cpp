@@ -37,7 +37,8 @@ constexpr NodeId a{0}, b{1}, c{2};
 
 }  // namespace
 
-TEST_CASE("end of the run: a message cut off by it does not count in delivery ratio and reach") {
+TEST_CASE(
+    "end of the run: a message that nobody has received yet is not in delivery ratio and reach") {
     Line net(2);
     net.send(a, everyone, "first");
     net.run_for(1s);
@@ -81,7 +82,7 @@ TEST_CASE("unicast: a unicast that its destination cannot hear is dropped with a
     CHECK(values.cut_off == 0);
 }
 
-TEST_CASE("unicast: reach counts its destination, if a chain of links leads there") {
+TEST_CASE("unicast: a message counts for reach only if a chain of links leads to its destination") {
     Line net(4);
     net.send(a, b, "near");
     net.run_for(1s);
@@ -95,7 +96,7 @@ TEST_CASE("unicast: reach counts its destination, if a chain of links leads ther
     CHECK(net.metrics().reach == 0.5);
 }
 
-TEST_CASE("flows: each flow is counted separately, and each robot's deliveries") {
+TEST_CASE("flows: messages are counted for each flow, and deliveries for each robot") {
     Line net(3, {.metric_parts = {.flows = true, .robots = true}});
     net.send(a, everyone, "one", {.size = 100, .flow = 1});
     net.run_for(1s);

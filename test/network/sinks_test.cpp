@@ -46,7 +46,7 @@ using Lines = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("sinks: begin before the first record and finish after the last") {
+TEST_CASE("sinks: begin() is called before the first record, and finish() after the last") {
     Pair pair;
     const auto told = std::make_shared<Told>();
     pair.net.add_sink(told);
@@ -60,7 +60,8 @@ TEST_CASE("sinks: begin before the first record and finish after the last") {
     CHECK(told->lines == Lines{"begin 7/3 a b text", "sent", "sent", "dropped", "finish"});
 }
 
-TEST_CASE("sinks: a sink added later begins then; a removed sink gets no more records") {
+TEST_CASE(
+    "sinks: for a sink added later, begin() is called then; a removed sink gets no more records") {
     Pair pair;
     pair.net.run_for(1s);
     const auto first = std::make_shared<Told>(), second = std::make_shared<Told>();
@@ -74,7 +75,7 @@ TEST_CASE("sinks: a sink added later begins then; a removed sink gets no more re
     CHECK(second->lines.size() == 6);  // two sent, two cut off
 }
 
-TEST_CASE("sinks: received powers are in receptions only on request") {
+TEST_CASE("sinks: receptions have received powers only on request") {
     struct Levels {
         KindMask more;
         std::vector<double> levels{};

@@ -98,7 +98,7 @@ const std::vector<Variation>& variations() {
 
 }  // namespace
 
-TEST_CASE("variation: the fast run and the run over all pairs agree to the last level") {
+TEST_CASE("variation: the fast mode and the reference mode agree to the last level") {
     const std::vector<ReceptionModel> receptions = {Sinr{}, Collision{.capture_ratio = Db{6}},
                                                     Threshold{}, Collision{.capture_ratio = Db{6}}};
     for (std::size_t i = 0; i < variations().size(); ++i) {
@@ -109,20 +109,20 @@ TEST_CASE("variation: the fast run and the run over all pairs agree to the last 
     }
 }
 
-TEST_CASE("variation: fast run and run over all pairs agree if stations sense each other") {
+TEST_CASE("variation: the fast mode and the reference mode agree also with csma") {
     const auto fast = play(variations()[3], Sinr{}, Csma{}, false);
     CHECK(fast->all.size() > 200);
     CHECK(fast->all == play(variations()[3], Sinr{}, Csma{}, true)->all);
 }
 
-TEST_CASE("variation: a run cut into a thousand steps has the same levels") {
+TEST_CASE("variation: a run in a thousand steps has the same levels as one run") {
     for (const Variation& v : {variations()[2], variations()[3]}) {
         CHECK(play(v, Threshold{}, NoAccess{}, false)->all ==
               play(v, Threshold{}, NoAccess{}, false, 1000)->all);
     }
 }
 
-TEST_CASE("variation: a received level is at least the sensitivity, including its fading") {
+TEST_CASE("variation: a received level, with its fading, is at least the sensitivity") {
     int strong = 0;
     const auto log = play(variations()[1], Threshold{}, NoAccess{}, false);
     for (const auto& [time, node, fate, level] : log->all) {

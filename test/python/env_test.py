@@ -93,7 +93,7 @@ class Shapes(unittest.TestCase):
             parallel_api_test(rn.ParallelEnv(ROW, nothing), num_cycles=100)
             parallel_api_test(rn.ParallelEnv(FAILING, nothing), num_cycles=100)
 
-    def test_a_step_is_the_same_after_the_same_reset(self):
+    def test_a_step_after_a_reset_with_the_same_seed_has_the_same_results(self):
         """What the checker of gymnasium asks for, its infos included."""
         env, results = rn.Env(SPEAKING, lambda session, heard: len(heard)), []
         for _ in range(2):
@@ -105,7 +105,7 @@ class Shapes(unittest.TestCase):
 
 
 class ParallelEnv(unittest.TestCase):
-    def test_actions_drive_and_observations_are_poses(self):
+    def test_actions_drive_robots_and_observations_are_their_poses(self):
         env = rn.ParallelEnv(still(2), lambda session, heard: session.pose[:, 0], step=1)
         observations, infos = env.reset(seed=3)
         self.assertEqual(env.session.seed, 3)
@@ -125,7 +125,7 @@ class ParallelEnv(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "no agent 'x'; expected one of r0, r1"):
             env.step({"x": [0, 0]})
 
-    def test_messages_are_in_the_infos_of_who_heard_them(self):
+    def test_a_message_is_in_the_infos_of_the_robots_that_received_it(self):
         env = rn.ParallelEnv(ROW, nothing)
         env.reset()
         env.session.send("B", b"F")
@@ -134,7 +134,7 @@ class ParallelEnv(unittest.TestCase):
         self.assertEqual([each.at for each in infos["C"]["heard"]], ["C"])
         self.assertEqual(infos["B"]["heard"], [])
 
-    def test_a_robot_that_is_off_is_terminated_and_the_end_truncates_the_others(self):
+    def test_a_robot_switched_off_is_terminated_and_the_end_of_the_run_truncates_the_others(self):
         env = rn.ParallelEnv(FAILING, nothing)
         env.reset()
         lives, ends = [], []
@@ -149,12 +149,12 @@ class ParallelEnv(unittest.TestCase):
         env.reset()
         self.assertEqual(env.agents, ["A", "B"])
 
-    def test_who_is_terminated_at_the_end_is_not_truncated(self):
+    def test_a_robot_terminated_at_the_end_is_not_truncated(self):
         env = rn.ParallelEnv(FAILING, nothing, step=1, terminated=lambda session, heard: [True, False])
         env.reset()
         self.assertEqual(env.step({})[2:4], ({"A": True, "B": False}, {"A": False, "B": True}))
 
-    def test_episodes_without_a_seed_differ_and_repeat(self):
+    def test_a_reset_without_a_seed_increments_the_last_seed(self):
         env = rn.ParallelEnv(ROW, nothing, seed=5)
         seeds = []
         for seed in (None, None, None, 9, None):
@@ -162,7 +162,7 @@ class ParallelEnv(unittest.TestCase):
             seeds.append(env.session.seed)
         self.assertEqual(seeds, [5, 6, 7, 9, 10])
 
-    def test_observations_actions_and_ends_of_ones_own(self):
+    def test_functions_of_the_user_can_define_observations_actions_and_termination(self):
         said = spaces.Discrete(2)
 
         def speak(session, actions):
@@ -187,7 +187,7 @@ class ParallelEnv(unittest.TestCase):
             env.reset()
             env.step({})
 
-    def test_errors_of_a_reward_are_raised(self):
+    def test_an_error_in_the_reward_function_is_raised_by_step(self):
         def fail(session, heard):
             raise ZeroDivisionError
         env = rn.ParallelEnv(ROW, fail)
@@ -197,7 +197,7 @@ class ParallelEnv(unittest.TestCase):
 
 
 class Env(unittest.TestCase):
-    def test_one_controller_drives_all(self):
+    def test_an_env_takes_one_array_of_actions_and_returns_one_reward(self):
         env = rn.Env(FAILING, lambda session, heard: -session.pose[0, 0], robots=["A"])
         observation, info = env.reset(seed=1)
         self.assertEqual(observation.tolist(), [[0, 0, 0]])
@@ -213,7 +213,7 @@ class Env(unittest.TestCase):
         self.assertAlmostEqual(reward, -1)
         self.assertIsInstance(reward, float)
 
-    def test_it_ends_once_all_robots_are_off(self):
+    def test_an_env_terminates_only_when_all_its_robots_are_off(self):
         env = rn.Env(FAILING, lambda session, heard: 0, robots=["B"])
         env.reset()
         ends = [env.step(np.zeros((1, 2)))[2:4] for _ in range(3)]
@@ -234,7 +234,7 @@ def no_rewards(session, heard):
 
 
 class Copies(unittest.TestCase):
-    def test_a_copy_begins_its_episode_anew_and_goes_on_as_the_environment_does(self):
+    def test_a_copy_restarts_its_episode_and_then_continues_like_the_original(self):
         env = rn.Env(SPEAKING, no_reward, set={"radio.power": "10 dBm"}, seed=5, step=0.5)
         env.reset()
         env.step(np.ones(env.action_space.shape))
@@ -253,7 +253,7 @@ class Copies(unittest.TestCase):
         action = {agent: np.array([1.0, 0.0]) for agent in agents.agents}
         self.assertEqual(str(copied.step(action)), str(agents.step(action)))
 
-    def test_a_scan_is_observed(self):
+    def test_scans_can_be_the_observations(self):
         scene = still(2)
         for robot in scene["robot"]:
             robot["scan"] = {"beams": 5, "range": 12}
@@ -273,7 +273,7 @@ class Copies(unittest.TestCase):
 
 
 class Spaces(unittest.TestCase):
-    def test_box(self):
+    def test_samples_of_a_box_are_inside_it_and_repeatable(self):
         box = spaces.Box(np.array([-1, 0, -np.inf, -np.inf]), np.array([1, np.inf, 0, np.inf]), dtype=np.float64)
         self.assertEqual((box.shape, box.dtype), ((4,), np.dtype(float)))
         box.seed(3)
@@ -291,13 +291,13 @@ class Spaces(unittest.TestCase):
         self.assertEqual(spaces.Box(0, 1, (2,)), spaces.Box(0, 1, (2,)))
         self.assertNotEqual(spaces.Box(0, 1, (2,)), spaces.Box(0, 1, (3,)))
 
-    def test_discrete(self):
+    def test_a_discrete_space_contains_its_whole_numbers_only(self):
         space = spaces.Discrete(3, start=-1)
         self.assertEqual({int(space.sample()) for _ in range(100)}, {-1, 0, 1})
         self.assertTrue(0 in space and np.int64(1) in space)
         self.assertFalse(2 in space or 0.5 in space or "a" in space)
 
-    def test_dict(self):
+    def test_a_dict_space_contains_values_with_all_its_keys_only(self):
         space = spaces.Dict({"say": spaces.Discrete(2), "drive": spaces.Box(-1, 1, (2,), np.float64)})
         self.assertTrue(space.contains(space.sample()))
         self.assertFalse(space.contains({"say": 1}))

@@ -8,7 +8,7 @@ from scenes import TREE
 
 
 class Examples(unittest.TestCase):
-    def test_each_prints_what_is_expected(self):
+    def test_each_example_prints_its_expected_output(self):
         programs = [path for path in TREE.glob("examples/*/*.py") if "import rovernet" in path.read_text()]
         self.assertTrue(programs)
         for program in programs:

@@ -13,7 +13,7 @@ from scenes import RESCUE, ROW, TREE, FolderTest, command
 
 
 class Run(FolderTest):
-    def test_gives_what_the_command_prints(self):
+    def test_a_run_has_the_results_that_the_command_prints(self):
         run = rn.run(RESCUE, set={"propagation.model": "friis"}, seed=3)
         code, out, _ = command("run", RESCUE, "--set", "propagation.model=friis", "--seed", 3, "--json",
                                folder=self.folder)
@@ -27,13 +27,13 @@ class Run(FolderTest):
         self.assertIsNone(run.folder)
         self.assertEqual(list(self.folder.iterdir()), [self.folder / "runs"])  # the command's
 
-    def test_timeline_is_that_of_the_readme(self):
+    def test_the_timeline_begins_as_in_the_readme(self):
         first, second = rn.run(RESCUE).timeline[:2]
         self.assertEqual((first["robot"], first["text"]), ("A", "arrives at (29.20, 3.60) m"))
         self.assertEqual(f"{first['t_ns'] / 1e9:.6f}", "9.109388")
         self.assertEqual(second, {"t_ns": 10_000_000_000, "robot": "A", "text": 'says "F"'})
 
-    def test_writes_a_folder_if_it_is_given_one(self):
+    def test_a_run_with_out_writes_a_folder_that_replay_verifies(self):
         run = rn.run(RESCUE, out=self.folder / "out")
         self.assertEqual(run.folder, str(self.folder / "out"))
         names = {path.name for path in (self.folder / "out").iterdir()}
@@ -41,7 +41,7 @@ class Run(FolderTest):
         code, out, _ = command("replay", self.folder / "out" / "trace.tr", "--verify", folder=self.folder)
         self.assertEqual((code, out.split()[0]), (0, "identical:"), out)
 
-    def test_a_dict_is_the_file_with_the_same_tables(self):
+    def test_a_dict_gives_the_same_run_as_a_file_with_the_same_tables(self):
         path = self.write("row.toml", """
             [scenario]
             name = "row"
@@ -74,7 +74,7 @@ class Run(FolderTest):
         self.assertEqual(numbers.fingerprint, texts.fingerprint)
         self.assertNotEqual(numbers.fingerprint, rn.run(ROW).fingerprint)
 
-    def test_progress_is_told_and_its_error_ends_the_run(self):
+    def test_progress_gets_the_finished_share_and_an_error_in_it_ends_the_run(self):
         told = []
         rn.run(ROW, progress=told.append)
         self.assertTrue(told and all(0 <= share <= 1 for share in told), told)
@@ -85,7 +85,7 @@ class Run(FolderTest):
             rn.run(ROW, progress=fail, out=self.folder / "out")
         self.assertEqual(list((self.folder / "out").iterdir()), [])
 
-    def test_two_runs_in_two_threads_are_as_one_after_the_other(self):
+    def test_runs_in_four_threads_give_the_same_results_as_one_after_the_other(self):
         expected = [rn.run(RESCUE, seed=seed).fingerprint for seed in range(4)]
         found = [None] * 4
 
@@ -98,7 +98,7 @@ class Run(FolderTest):
             thread.join()
         self.assertEqual(found, expected)
 
-    def test_notices_are_warnings(self):
+    def test_warnings_have_the_text_of_the_notices_of_the_command(self):
         path = self.write("w.world", 'position ( name "r" pose [1 1 0] wifi ( model "friis" ) unknown_key 3 )\n')
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
@@ -110,7 +110,7 @@ class Run(FolderTest):
 
 
 class Records(unittest.TestCase):
-    def test_receptions_are_those_that_the_metrics_count(self):
+    def test_there_are_as_many_records_as_the_metrics_count(self):
         run = rn.run(RESCUE)
         received = run.records("received")
         self.assertEqual(len(received), run.metrics["receptions"])
@@ -120,12 +120,12 @@ class Records(unittest.TestCase):
         self.assertEqual(len(run.records("sent")), run.metrics["messages"])
         self.assertEqual({run.names[i] for i in received["robot"]}, set("ABCDE"))
 
-    def test_kept_records_are_those_that_a_second_run_finds(self):
+    def test_kept_records_equal_those_found_by_a_second_run(self):
         kept = rn.run(RESCUE, records=["received", "moved"])
         for kind in "received", "moved":
             np.testing.assert_array_equal(kept.records(kind), rn.run(RESCUE).records(kind))
 
-    def test_time_and_level_are_those_of_physics(self):
+    def test_delay_and_level_of_a_frame_follow_the_speed_of_light_and_friis(self):
         """B hears A at Friis's level, and 150 m later than it would at once."""
         light = 299_792_458.0  # [m/s]
         scene = {"radio.power": "15 dBm", "medium.propagation_delay": True}
@@ -134,7 +134,7 @@ class Records(unittest.TestCase):
         self.assertEqual(first["t_ns"] - at_once["t_ns"], round(150 / light * 1e9))
         self.assertAlmostEqual(first["level"], 15 - 20 * np.log10(4 * np.pi * 150 * 2450e6 / light), places=9)
 
-    def test_every_kind_is_an_array_of_its_columns(self):
+    def test_each_kind_of_record_is_an_array_with_the_expected_columns(self):
         run = rn.run(ROW)
         columns = {
             "sent": "t_ns robot uid to size flow ttl",
@@ -161,7 +161,7 @@ class Records(unittest.TestCase):
 
 
 class Errors(FolderTest):
-    def test_a_mistake_in_a_file_is_told_as_the_command_tells_it(self):
+    def test_a_mistake_in_a_file_has_the_message_of_the_command_with_line_and_column(self):
         path = self.write("bad.toml", RESCUE.read_text().replace('"raytrace_2007"', '"raytrace_2070"')
                           .replace('"map.yaml"', f'"{TREE}/examples/rescue/map.yaml"'))
         code, _, printed = command("run", path, folder=self.folder)
@@ -175,13 +175,13 @@ class Errors(FolderTest):
         self.assertIn('did you mean "raytrace_2007"?', error.message)
         self.assertIsInstance(error, ValueError)
 
-    def test_a_missing_file_has_no_line(self):
+    def test_the_error_for_a_missing_file_has_no_line(self):
         with self.assertRaises(rn.InputError) as raised:
             rn.run(self.folder / "absent.toml")
         self.assertIsNone(raised.exception.line)
         self.assertEqual(raised.exception.file, str(self.folder / "absent.toml"))
 
-    def test_a_mistake_in_a_dict_is_told_with_its_place(self):
+    def test_the_error_for_a_mistake_in_a_dict_names_its_keys(self):
         def place(scenario, **options):
             with self.assertRaises(rn.InputError) as raised:
                 rn.run(scenario, **options)
@@ -212,7 +212,7 @@ class Errors(FolderTest):
         with self.assertRaisesRegex(ValueError, "seed: found \"x\"; expected a whole number"):
             rn.run(ROW, seed="x")
 
-    def test_a_run_without_end_is_a_run_error(self):
+    def test_a_run_beyond_the_event_limit_is_a_run_error(self):
         with self.assertRaisesRegex(rn.RunError, "event"):
             rn.run(ROW, set={"scenario.event_limit": 3})
 

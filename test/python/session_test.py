@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""rovernet.Session: steps, views, commands, callbacks, errors; the same run as through other doors."""
+"""rovernet.Session: steps, views, commands, callbacks, errors; the same run as through other interfaces."""
 import gc
 import json
 import os
@@ -37,7 +37,7 @@ def drive_as_the_controller(session):
         session.step()
 
 
-class Doors(FolderTest):
+class SameRun(FolderTest):
     def test_the_same_controller_gives_the_same_run_in_lock_step_and_in_python(self):
         session = rn.Session(ROW, seed=9, out=self.folder / "python")
         drive_as_the_controller(session)
@@ -51,7 +51,7 @@ class Doors(FolderTest):
         inputs = [(self.folder / door / "inputs.jsonl").read_text().split("\n") for door in ("python", "live")]
         self.assertEqual(inputs[0][1:], inputs[1][1:])  # the first line has the version
 
-    def test_the_log_of_inputs_makes_the_run_again(self):
+    def test_replay_of_the_logged_inputs_reproduces_the_run(self):
         with rn.Session(ROW, seed=9, out=self.folder / "run") as session:
             drive_as_the_controller(session)
             fingerprint = session.fingerprint
@@ -60,14 +60,14 @@ class Doors(FolderTest):
         self.assertTrue(out.startswith("identical: 69 inputs, fingerprint "), out)  # with 3 stops at the end
         self.assertNotIn(fingerprint, out)
 
-    def test_nothing_commanded_is_the_run_of_the_command(self):
+    def test_a_session_without_commands_has_the_same_results_as_rn_run(self):
         session = rn.Session(ROW, step=0.3)
         while not session.done:
             session.step()
         self.assertEqual(session.fingerprint, rn.run(ROW).fingerprint)
         self.assertEqual(session.metrics | {"flows": None}, rn.run(ROW).metrics | {"flows": None})
 
-    def test_a_failure_within_with_leaves_no_results(self):
+    def test_an_exception_in_a_with_block_leaves_no_result_files(self):
         with self.assertRaises(KeyError):
             with rn.Session(ROW, out=self.folder / "run") as session:
                 session.step()
@@ -78,7 +78,7 @@ class Doors(FolderTest):
 
 
 class Steps(unittest.TestCase):
-    def test_a_driven_robot_is_on_its_arc(self):
+    def test_a_driven_robot_follows_its_arc(self):
         session = rn.Session(still(3), robots=["r1"])
         session.drive([[0.5, 0.2]])
         for _ in range(20):
@@ -89,7 +89,7 @@ class Steps(unittest.TestCase):
         np.testing.assert_allclose(session.twist, [[0.5, 0.2]], atol=1e-12)
         self.assertEqual((session.time, session.t_ns), (2.0, 2_000_000_000))
 
-    def test_a_row_of_nan_leaves_a_robot_as_it_is(self):
+    def test_a_row_of_nan_leaves_the_command_of_a_robot_unchanged(self):
         session = rn.Session(still(2))
         session.drive([[1, 0], [1, 0]])
         session.step()
@@ -103,7 +103,7 @@ class Steps(unittest.TestCase):
         session.step()
         np.testing.assert_allclose(session.pose[0, 0], 0.25, atol=1e-9)
 
-    def test_a_robot_goes_to_a_place_and_stops(self):
+    def test_a_robot_drives_towards_a_goal_and_stops_on_command(self):
         session = rn.Session(still(1), step=1)
         session.go_to("r0", (3, 4), speed=2)
         session.step()
@@ -112,7 +112,7 @@ class Steps(unittest.TestCase):
         session.step()
         np.testing.assert_allclose(session.pose[0, :2], [1.2, 1.6], atol=1e-9)
 
-    def test_an_argument_of_a_wrong_type_is_named_with_what_was_expected(self):
+    def test_the_error_for_a_wrong_type_names_the_argument_and_what_was_expected(self):
         session = rn.Session(RESCUE, step=1)
         robot = r'robot: expected the name of a robot, such as "A"'
         for call, why in (
@@ -152,7 +152,7 @@ class Steps(unittest.TestCase):
         open_field = rn.Session(still(1), step=1)
         open_field.go_to("r0", (1e6, -1e6))
 
-    def test_a_place_without_room_is_an_error_and_a_goal_without_a_way_is_told(self):
+    def test_a_position_without_room_is_an_error_and_a_goal_without_a_path_sets_no_way(self):
         session = rn.Session(RESCUE, robots=["A", "B"], step=1)
         for x, y, why in ((-5, 3, r"off the map, which goes from \(0, 0\) to \(48, 24\) m"),
                           (2, 6, "in a wall, or nearer to one than the radius of robot A")):
@@ -167,7 +167,7 @@ class Steps(unittest.TestCase):
         session.step()
         self.assertEqual(session.no_way.tolist(), [False, False])
 
-    def test_range_finders_measure_what_stands_around(self):
+    def test_range_finders_measure_distances_to_other_robots(self):
         scene = still(3)
         for robot, beams in zip(scene["robot"], (3, 3, 1)):
             robot["scan"] = {"beams": beams, "range": 20}
@@ -191,7 +191,7 @@ class Steps(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "robot r0 has no range finder"):
             rn.Session(still(1)).scan()
 
-    def test_links_are_those_of_neighbors(self):
+    def test_the_matrix_of_links_has_the_levels_of_neighbors(self):
         session = rn.Session(ROW)
         links = session.links()
         self.assertEqual(links.shape, (3, 3))
@@ -216,7 +216,7 @@ class Steps(unittest.TestCase):
         np.testing.assert_allclose(stairs, 3 * np.arange(1, 51) / 50, atol=1e-9)
         self.assertEqual(set(go(13.2, 2)), {3})
 
-    def test_a_robot_is_put_elsewhere(self):
+    def test_place_moves_a_robot_at_the_next_step_and_stops_it(self):
         session = rn.Session(still(2))
         session.drive([[1, 0.5], [0, 0]])
         session.step()
@@ -230,7 +230,7 @@ class Steps(unittest.TestCase):
         session.step()
         self.assertEqual((session.pose[1].tolist(), session.z[1]), ([3, 4, -1.5], 5))
 
-    def test_messages_are_heard_with_their_way(self):
+    def test_a_received_message_has_origin_last_hop_hops_port_and_level(self):
         session = rn.Session(ROW, robots=["C", "B"])
         session.send("C", b"\0F", port=7)
         heard = session.step()
@@ -240,12 +240,12 @@ class Steps(unittest.TestCase):
         self.assertIn("b'\\x00F'", repr(heard[0]))
         self.assertAlmostEqual(heard[0].rssi, session.neighbors("B")["rssi"][1], places=9)
 
-    def test_a_unicast_is_heard_by_its_receiver_only(self):
+    def test_a_unicast_is_received_only_by_its_destination(self):
         session = rn.Session(ROW)
         session.send("B", b"x", to="C")
         self.assertEqual([h.at for h in session.step()], ["C"])
 
-    def test_reset_begins_anew(self):
+    def test_reset_repeats_the_run_or_starts_another_one_with_a_new_seed(self):
         session = rn.Session(ROW, seed=4)
 
         def played():
@@ -260,7 +260,7 @@ class Steps(unittest.TestCase):
         self.assertEqual(session.seed, 5)
         self.assertNotEqual(played(), first)
 
-    def test_at_its_end_it_says_what_to_do(self):
+    def test_a_session_that_has_ended_refuses_to_step_until_a_reset(self):
         session = rn.Session(ROW, step=3)
         session.step()
         self.assertEqual((session.done, session.time, session.end), (True, 2.0, 2.0))
@@ -274,7 +274,7 @@ class Steps(unittest.TestCase):
         session.reset()
         session.step()
 
-    def test_records_are_kept_while_it_runs(self):
+    def test_requested_records_can_be_read_during_and_after_the_run(self):
         session = rn.Session(ROW, records=["sent"])
         session.send("B", b"F")
         session.step()
@@ -290,7 +290,7 @@ class Steps(unittest.TestCase):
 
 
 class Neighbors(unittest.TestCase):
-    def test_they_are_those_of_the_command(self):
+    def test_neighbors_equal_the_links_that_the_command_prints(self):
         session = rn.Session(SEARCH)
         found = session.neighbors("A")
         code, out, _ = command("links", SEARCH, "--robot", "A", "--json")
@@ -319,7 +319,7 @@ class Views(unittest.TestCase):
         self.assertEqual(pose[0, 0], 0)
         self.assertEqual(pose.__array_interface__["data"], session.pose.__array_interface__["data"])
 
-    def test_a_view_lives_as_long_as_it_is_used(self):
+    def test_an_array_of_poses_stays_valid_after_its_session_is_deleted(self):
         session = rn.Session(still(1000))
         pose = session.pose
         del session
@@ -328,7 +328,7 @@ class Views(unittest.TestCase):
         self.assertEqual(pose[:, 0].tolist(), [10.0 * i for i in range(1000)])
         del filler
 
-    def test_a_session_is_gone_with_its_last_user(self):
+    def test_a_session_in_a_reference_cycle_is_freed(self):
         session = rn.Session(still(1))
         session.on_record("sent", lambda row: session.time)  # a circle
         gone = weakref.ref(session)
@@ -338,7 +338,7 @@ class Views(unittest.TestCase):
 
 
 class Commands(unittest.TestCase):
-    def test_every_command_can_be_given_by_its_keys(self):
+    def test_command_with_keys_has_the_effect_of_the_function_with_that_name(self):
         def by_functions(session, n):
             session.drive([[0.1 * n, -0.2], [np.nan, np.nan], [np.nan, np.nan]], timeout=0.25)
             if n == 3:
@@ -370,7 +370,7 @@ class Commands(unittest.TestCase):
         self.assertEqual(*fingerprints)
         self.assertEqual(*poses)
 
-    def test_keys_and_numbers_are_checked(self):
+    def test_command_refuses_invalid_keys_numbers_and_types(self):
         session = rn.Session(ROW)
         for words, keys in (("expected v, w, timeout; or goal, speed; or stop", {}), ("expected v", {"v": 1, "goal": (1, 2)}),
                             ("expected v", {"vv": 1}), ("goal is missing", {"speed": 1}), ("data is missing", {"port": 1}),
@@ -396,7 +396,7 @@ class BadInput(unittest.TestCase):
         with self.assertRaisesRegex(error, words):
             use(*arguments, **options)
 
-    def test_shapes(self):
+    def test_arrays_of_a_wrong_shape_are_refused(self):
         drive = self.session.drive
         self.refused(r"expected numbers of shape \(3, 2\), got \(2, 2\)", drive, [[1, 1], [1, 1]])
         self.refused(r"expected numbers of shape \(3, 2\), got \(6,\)", drive, np.zeros(6))
@@ -406,7 +406,7 @@ class BadInput(unittest.TestCase):
         self.refused(r"expected numbers of shape \(3, 2\), got <class 'list'>", drive, [[1, 2], [3]])
         self.refused("expected a place", self.session.go_to, "A", (1, 2, 3, 4))
 
-    def test_numbers(self):
+    def test_numbers_out_of_range_are_refused(self):
         self.refused("speed of robot B must be from -1000 to 1000 m/s, got 5000", self.session.drive,
                      [[0, 0], [5000, 0], [0, 0]])
         self.refused("turn rate of robot C must be", self.session.drive, [[0, 0], [0, 0], [0, np.inf]])
@@ -424,14 +424,14 @@ class BadInput(unittest.TestCase):
         self.session.step()
         self.assertEqual(self.session.pose[0].tolist(), [0, 0, 0])
 
-    def test_names(self):
+    def test_unknown_or_repeated_names_of_robots_are_refused(self):
         self.refused('no robot "Z"; expected one of A, B, C', self.session.send, "Z", b"")
         self.refused('no robot "Z"', self.session.send, "A", b"", to="Z")
         self.refused("expected another robot", self.session.send, "A", b"", to="A")
         self.refused("listed twice", rn.Session, ROW, robots=["A", "A"])
         self.refused("not among those", rn.Session(ROW, robots=["A"]).stop, "B")
 
-    def test_types(self):
+    def test_values_of_a_wrong_type_are_refused(self):
         for use in (lambda: self.session.send("A", "text"), lambda: self.session.send("A", None),
                     lambda: self.session.go_to("A", "there"), lambda: self.session.place("A", (1, 2)), lambda: self.session.stop(0),
                     lambda: self.session.reset("seed"), lambda: self.session.reset(-1),
@@ -441,7 +441,7 @@ class BadInput(unittest.TestCase):
 
 
 class Callbacks(unittest.TestCase):
-    def test_records_are_told_in_order_and_what_is_commanded_holds_from_the_next_step(self):
+    def test_a_callback_gets_records_in_order_and_its_commands_take_effect_in_the_next_step(self):
         session, told = rn.Session(ROW, records=["received"]), []
 
         def answer(row):
@@ -463,7 +463,7 @@ class Callbacks(unittest.TestCase):
         self.assertEqual(session.metrics["messages"], 2)
         self.assertEqual(len(told), count)
 
-    def test_an_error_ends_the_step_and_is_raised_there(self):
+    def test_an_error_in_a_callback_ends_the_step_and_is_raised_by_step(self):
         session = rn.Session(ROW, step=1)
 
         def fail(row):
@@ -477,7 +477,7 @@ class Callbacks(unittest.TestCase):
         session.step()
         self.assertEqual(session.t_ns, 1_500_000_000)
 
-    def test_an_error_while_it_begins_or_ends_is_raised_there(self):
+    def test_an_error_in_a_callback_during_reset_or_finish_is_raised_by_them(self):
         session = rn.Session(ROW)
 
         def fail(row):
@@ -489,7 +489,7 @@ class Callbacks(unittest.TestCase):
         session.on_record("moved", None)
         session.step()
 
-    def test_the_session_refuses_to_step_within_a_step(self):
+    def test_a_callback_may_not_step_reset_or_finish_its_session(self):
         session = rn.Session(ROW, step=1)
         for use in (session.step, session.reset, session.finish, lambda: session.on_record("sent", None)):
             session.reset()
@@ -497,7 +497,7 @@ class Callbacks(unittest.TestCase):
             with self.assertRaisesRegex(rn.RunError, "in a step"):
                 session.step()
 
-    def test_it_may_be_asked_from_a_callback(self):
+    def test_a_callback_may_read_time_poses_and_names(self):
         session, asked = rn.Session(ROW, step=1), []
         session.on_record("sent", lambda row: asked.append((session.t_ns, session.pose[1, 0], session.names)))
         session.step()
@@ -513,7 +513,7 @@ BUSY = {
 
 
 class Threads(unittest.TestCase):
-    def test_ctrl_c_ends_a_step_and_a_run_within_200_ms_and_the_session_goes_on(self):
+    def test_ctrl_c_ends_a_long_step_or_run_soon_and_the_session_remains_usable(self):
         session = rn.Session(BUSY, step=1e5)
         for use in (session.step, lambda: rn.run(BUSY)):
             threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
@@ -524,7 +524,7 @@ class Threads(unittest.TestCase):
             self.assertLess(time.monotonic() - begun, 5)  # 0.3 + 0.2 on a quiet machine
         self.assertGreater(session.time, 0)
 
-    def test_other_threads_run_during_a_step_and_are_refused_by_its_session(self):
+    def test_other_threads_run_during_a_step_but_may_not_use_its_session(self):
         session = rn.Session(BUSY, step=1e5)
         refused = []
 
@@ -541,7 +541,7 @@ class Threads(unittest.TestCase):
         self.assertEqual(len(refused), 4)
         self.assertIn("in a step", refused[0])
 
-    def test_two_sessions_in_two_threads_are_as_one_after_the_other(self):
+    def test_sessions_in_two_threads_give_the_same_runs_as_one_after_the_other(self):
         def play(seed, found):
             session = rn.Session(ROW, seed=seed)
             for _ in range(5):
@@ -565,7 +565,7 @@ def resident_kib():
 
 
 class Leaks(unittest.TestCase):
-    def test_ten_thousand_resets_take_no_memory(self):
+    def test_ten_thousand_resets_add_less_than_1_mib_of_memory(self):
         session = rn.Session(ROW, records=["received"])
         session.on_record("sent", lambda row: None)
 

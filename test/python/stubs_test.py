@@ -27,13 +27,13 @@ class Stubs(unittest.TestCase):
     def classes(self):
         return {each.name: each for each in self.stub.body if isinstance(each, ast.ClassDef)}
 
-    def test_the_same_classes_and_functions(self):
+    def test_the_stub_has_the_classes_and_functions_of_the_module(self):
         functions = {each.name for each in self.stub.body if isinstance(each, ast.FunctionDef)}
         public = {name for name in vars(_core) if not name.startswith("_")}
         self.assertEqual(functions | set(self.classes()), public)
         self.assertEqual(public | {"Env", "ParallelEnv", "spaces", "__version__"}, set(rovernet.__all__))
 
-    def test_the_same_members_and_parameters(self):
+    def test_the_stub_has_the_members_and_parameters_of_each_class(self):
         for name in "Heard", "Run", "Session":
             real, stub = getattr(_core, name), self.classes()[name]
             members = {each.name: each for each in stub.body if isinstance(each, ast.FunctionDef)}
@@ -45,13 +45,13 @@ class Stubs(unittest.TestCase):
                 if not is_property:
                     self.assertEqual(parameters_in_stub(members[key]), parameters_in_module(vars(real)[key]), key)
 
-    def test_everything_is_described(self):
+    def test_every_public_member_has_a_docstring(self):
         for name in "Heard", "Run", "Session":
             for key, member in vars(getattr(_core, name)).items():
                 if not key.startswith("_"):
                     self.assertGreater(len((member.__doc__ or "").split("\n", 1)[-1]), 5, f"{name}.{key}")
 
-    def test_types_are_shipped(self):
+    def test_the_package_contains_py_typed(self):
         self.assertTrue((Path(rovernet.__file__).parent / "py.typed").exists())
 
 

@@ -227,7 +227,7 @@ struct RandomNetwork {
 
 }  // namespace
 
-TEST_CASE("flood: with duplicates forwarded, counts equal the walks of the graph") {
+TEST_CASE("flood: with duplicates forwarded, counts equal the numbers of walks in the graph") {
     for (const auto& [graph, by_ttl, suppressed] : exact_counts()) {
         for (const auto& [ttl, exact] : by_ttl) {
             const std::string which = graph.name + ", ttl " + std::to_string(ttl);
@@ -261,7 +261,7 @@ TEST_CASE("flood: with TTL 1 only the neighbours hear the source") {
     }
 }
 
-TEST_CASE("flood: along a line a message goes exactly as far as its TTL") {
+TEST_CASE("flood: along a line a message goes exactly as many hops as its TTL") {
     for (int ttl = 1; ttl <= 8; ++ttl) {
         const Ledger run = flooded(grid(20, 1, 0), {.ttl = ttl});
         CHECK(run.delivered == static_cast<std::uint64_t>(ttl));
@@ -269,7 +269,7 @@ TEST_CASE("flood: along a line a message goes exactly as far as its TTL") {
     }
 }
 
-TEST_CASE("flood: with the TTL in the payload its first byte counts, separately for each message") {
+TEST_CASE("flood: with ttl_in_payload, the first byte of each message's payload is its TTL") {
     const auto run = [](const Graph& graph, const Flood& flood, const std::string& payload) {
         return flooded(graph, flood, 1, 1.1_m, payload);
     };
@@ -296,7 +296,7 @@ TEST_CASE("flood: with the TTL in the payload its first byte counts, separately 
 }
 
 TEST_CASE(
-    "flood: with duplicates forwarded, the source forwards echoes and does not deliver them") {
+    "flood: with duplicates forwarded, the source forwards its own message, but delivers none") {
     const Ledger run = flooded(complete(2), {.ttl = 5, .duplicates = Duplicates::forward});
     CHECK(run.forwards_of.at({0}) == 2);
     CHECK(run.forwards_of.at({1}) == 2);
@@ -320,7 +320,7 @@ TEST_CASE("flood: TTL 260 crosses 260 hops") {
     CHECK(run.delivered == 260);
 }
 
-TEST_CASE("flood: upgrade reaches more robots than first copies alone, both within the TTL") {
+TEST_CASE("flood: upgrade reaches more robots than first copies alone, and only within the TTL") {
     std::uint64_t upgraded = 0, first_only = 0, possible = 0;
     for (std::uint32_t seed = 1; seed <= 40; ++seed) {
         const RandomNetwork random(seed);
@@ -394,7 +394,8 @@ TEST_CASE("flood: with duplicates forwarded, each copy of a message has its own 
     CHECK(echoes->sent[1] - echoes->sent[0] != -gap_heard);
 }
 
-TEST_CASE("flood: many messages of many robots are each delivered once to every other robot") {
+TEST_CASE(
+    "flood: if many robots send many messages, each one is delivered once to every other robot") {
     Network net({.propagation = Disc{.range = 1.1_m}});
     for (const Vec3 p : grid(4, 4, 0).at) net.add({.name = {}, .at = p});
     const Flood flood{.ttl = 20};
@@ -437,7 +438,8 @@ TEST_CASE("flood: robots that join during a flood hear and forward the message")
     }
 }
 
-TEST_CASE("flood: counts balance when robots are switched off and on during floods") {
+TEST_CASE(
+    "flood: all receptions are accounted for if robots are switched off and on during floods") {
     for (const auto duplicates : {Duplicates::suppress, Duplicates::forward}) {
         const Flood flood{.ttl = 4, .duplicates = duplicates};
         Network net({.propagation = Disc{.range = 1.1_m}});

@@ -49,7 +49,8 @@ TEST_CASE("flood: of copies with the same TTL the first is forwarded") {
     CHECK(node.link.sent[0].queued.heard_from == NodeId{7});
 }
 
-TEST_CASE("flood: with upgrade, a message that ended at its TTL continues with a higher TTL") {
+TEST_CASE(
+    "flood: with upgrade, a message without TTL left continues if a copy with more is heard") {
     for (const bool upgrade : {true, false}) {
         Hearer node(upgrade);
         CHECK(node.hear(1) == Fate::ttl);

@@ -78,7 +78,8 @@ TEST_CASE("graph: a flood reaches every node within its ttl, over the fewest hop
     }
 }
 
-TEST_CASE("graph: a unicast over an edge is acked, without an edge it ends with retries") {
+TEST_CASE(
+    "graph: a unicast over an edge is acknowledged, and without an edge it ends after retries") {
     std::map<SendResult, int> results;
     Graph graph(3, {{0, 1}, {1, 2}}, Direct{&results});
     graph.send(0, 1, start_of_run);
@@ -93,7 +94,8 @@ TEST_CASE("graph: a unicast over an edge is acked, without an edge it ends with 
     CHECK(results[SendResult::retries] == 2);
 }
 
-TEST_CASE("fake link layer: a protocol takes queued frames by next hop; others end and are freed") {
+TEST_CASE(
+    "fake link layer: ended frames are freed, and take_queued returns the others by next hop") {
     FakeLinkLayer link(3);
     std::map<SendResult, int> results;
     Direct protocol{&results};

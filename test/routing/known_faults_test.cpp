@@ -29,8 +29,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "without the fault of ns-3: a request with an older number keeps the route back to its "
-    "originator") {
+    "without the fault of ns-3: an older request does not change the route to its originator") {
     AodvNode n;
     n.hear(1, request(7, 5, 1, 20), 2);
     n.hear(2, request(7, 5, 2, 19), 1);
@@ -41,8 +40,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "without the fault of ns-3: a request makes a broken route back to its originator valid "
-    "again") {
+    "without the fault of ns-3: a request makes a broken route to its originator valid again") {
     AodvNode n;
     n.learn(7, 1, 20, 3);
     n.link.time += 4s;
@@ -51,16 +49,14 @@ TEST_CASE(
     CHECK(n.route(7)->is_valid);
 }
 
-TEST_CASE(
-    "without the fault of ns-3: a neighbour does not get the number of a request's originator") {
+TEST_CASE("without the fault of ns-3: a neighbour's route does not get the originator's number") {
     AodvNode n;
     n.hear(2, request(7, 5, 1, 20), 3);
     REQUIRE(n.route(2));
     CHECK(n.route(2)->number != n.route(7)->number);
 }
 
-TEST_CASE(
-    "without the fault of ns-3: the number of a lost destination is incremented before the RERR") {
+TEST_CASE("without the fault of ns-3: a lost destination's number is incremented before the RERR") {
     AodvNode n;
     n.pass_reply(7, 2, 5, 1, 9);
     n.forward(7, 2, 5);
@@ -71,16 +67,15 @@ TEST_CASE(
     CHECK(errors[0].second.lost.back().number == 10);
 }
 
-TEST_CASE("without the fault of INET: equal ids of two originators are two requests") {
+TEST_CASE(
+    "without the fault of INET: requests of two originators with equal ids are two requests") {
     AodvNode n;
     CHECK(n.hear(2, request(7, 5, 1)) == Fate::waiting);
     CHECK(n.hear(2, request(8, 5, 1)) == Fate::waiting);
     CHECK(n.hear(2, request(7, 5, 1)) == Fate::duplicate);
 }
 
-TEST_CASE(
-    "without the fault of ns-2: two neighbours that repair one route do not send messages to each "
-    "other") {
+TEST_CASE("without the fault of ns-2: a repair accepts no reply as old as the broken route") {
     // Node 0 loses its route to 5 and repairs it. The answer of a neighbour whose own route went
     // over node 0 has the number of the broken route, and is not accepted.
     AodvNode n({.local_repair = true});
@@ -118,7 +113,7 @@ TEST_CASE("without the fault of ns-2: messages without a route cause at most ten
     CHECK(n.link.drops.size() == 50);
 }
 
-TEST_CASE("without the fault of ns-2: a search without an answer ends, and so do its packets") {
+TEST_CASE("without the fault of ns-2: an unanswered search ends, and its messages are dropped") {
     for (const bool as_ns2 : {false, true}) {
         AodvNode n({.profile = as_ns2 ? AodvProfile::ns2 : AodvProfile::rfc});
         for (int i = 0; i < 3; ++i) n.send(5);
@@ -129,7 +124,8 @@ TEST_CASE("without the fault of ns-2: a search without an answer ends, and so do
     }
 }
 
-TEST_CASE("without the fault of ns-2: requests of DSR grow only by the address of each node") {
+TEST_CASE(
+    "without the fault of ns-2: a request of DSR grows at each node only by the node's address") {
     DsrNode n;
     n.request(path({7}), 5, 1);
     n.request(path({7, 1}), 5, 2);

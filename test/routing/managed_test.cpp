@@ -68,7 +68,7 @@ struct Relay {
 
 }  // namespace
 
-TEST_CASE("managed, M1: the first copy with remaining hops is queued with one less") {
+TEST_CASE("managed, M1: the first copy with hops left is queued, with a hop limit smaller by one") {
     for (const char* role : {"", "client", "router", "router_late"}) {
         Relay node(role);
         const Reception r = node.hear(3);
@@ -81,7 +81,8 @@ TEST_CASE("managed, M1: the first copy with remaining hops is queued with one le
     }
 }
 
-TEST_CASE("managed, M1: a copy with hop limit 0 is delivered only; a mute node relays nothing") {
+TEST_CASE(
+    "managed, M1: a copy with hop limit 0 is only delivered, and a mute node relays nothing") {
     Relay last;
     const Reception at_the_end = last.hear(0);
     CHECK(at_the_end.fate == Fate::ttl);
@@ -95,7 +96,8 @@ TEST_CASE("managed, M1: a copy with hop limit 0 is delivered only; a mute node r
     CHECK(mute.link.sent.empty());
 }
 
-TEST_CASE("managed, M1: a source sends its message at once, once, with the full hop limit") {
+TEST_CASE(
+    "managed, M1: a source sends its message immediately, only once, with the full hop limit") {
     Relay node;
     node.router.send(node.link, {1}, node.message);
     REQUIRE(node.link.sent.size() == 1);
@@ -110,7 +112,8 @@ TEST_CASE("managed, M1: a source sends its message at once, once, with the full 
     CHECK(node.link.sent.size() == 1);
 }
 
-TEST_CASE("managed, M2: -20 to 10 dB map to windows of 3 to 8, clamped") {
+TEST_CASE(
+    "managed, M2: an SNR of -20 to 10 dB maps to a window of 3 to 8; values beyond are clamped") {
     const std::vector<std::pair<double, int>> windows{
         {-40, 3},  {-20, 3}, {-15, 3},  {-14.5, 4},       {-14, 4}, {-8.1, 5},
         {-7.5, 5}, {-2, 6},  {-0.9, 6}, {0, 6},           {3.9, 6}, {4, 7},
@@ -121,7 +124,8 @@ TEST_CASE("managed, M2: -20 to 10 dB map to windows of 3 to 8, clamped") {
     }
 }
 
-TEST_CASE("managed, M2: routers wait 0 to 2 CW - 1 slots, others 16 to 16 + 2^CW - 1") {
+TEST_CASE(
+    "managed, M2: routers wait 0 to 2 CW - 1 slots, and other roles 16 to 16 + 2^CW - 1 slots") {
     const auto slots = [](const char* role, double drawn, Db snr) {
         Relay node(role);
         node.link.drawn = drawn;
@@ -142,7 +146,8 @@ TEST_CASE("managed, M2: routers wait 0 to 2 CW - 1 slots, others 16 to 16 + 2^CW
     }
 }
 
-TEST_CASE("managed, M4: a duplicate heard while queued cancels the relay of a client") {
+TEST_CASE(
+    "managed, M4: if a client hears a duplicate while its copy is queued, it does not relay") {
     for (const char* role : {"", "client"}) {
         Relay node(role);
         node.hear(3);
@@ -156,7 +161,7 @@ TEST_CASE("managed, M4: a duplicate heard while queued cancels the relay of a cl
     }
 }
 
-TEST_CASE("managed, M4: a duplicate does not stop a router from relaying") {
+TEST_CASE("managed, M4: a router relays also if it hears a duplicate") {
     Relay node("router");
     node.hear(3);
     const auto slots = node.slots();
@@ -165,7 +170,7 @@ TEST_CASE("managed, M4: a duplicate does not stop a router from relaying") {
 }
 
 TEST_CASE(
-    "managed, M4: a late router waits behind the slots of all others after a duplicate, once") {
+    "managed, M4: after a first duplicate, a late router waits behind the slots of all others") {
     Relay node("router_late");
     node.link.drawn = 0.1;
     node.hear(3, -8_dB);
@@ -191,7 +196,7 @@ TEST_CASE("managed, M4: copies after the send time cancel nothing") {
     }
 }
 
-TEST_CASE("managed, M4: a reused handle of the link layer is not confused with the own copy") {
+TEST_CASE("managed, M4: if the copy's handle has passed to another frame, that frame stays") {
     Relay node;
     node.hear(3);
     node.link.sent[0].queued.frame.sender = NodeId{3};
@@ -200,7 +205,7 @@ TEST_CASE("managed, M4: a reused handle of the link layer is not confused with t
 }
 
 TEST_CASE(
-    "managed, M5: a duplicate with a higher hop limit replaces a queued copy, in every role") {
+    "managed, M5: in every role, a duplicate with a higher hop limit replaces the queued copy") {
     for (const char* role : {"", "router", "router_late"}) {
         Relay node(role);
         node.hear(1, -20_dB);
@@ -214,7 +219,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("managed, M5: the replacing copy has its own draw") {
+TEST_CASE("managed, M5: the delay of the replacing copy is drawn anew") {
     Relay node;
     node.link.drawn_at = {{0, 0.25}, {1, 0.75}};
     node.hear(1);
@@ -223,7 +228,7 @@ TEST_CASE("managed, M5: the replacing copy has its own draw") {
     CHECK(node.slots() == 16 + 192);
 }
 
-TEST_CASE("managed, M5: without a queued copy, a higher hop limit is an ordinary duplicate") {
+TEST_CASE("managed, M5: if no copy is queued, a higher hop limit has no effect") {
     Relay ended;
     ended.hear(0);
     CHECK(ended.hear(1).fate == Fate::duplicate);
@@ -235,7 +240,7 @@ TEST_CASE("managed, M5: without a queued copy, a higher hop limit is an ordinary
     CHECK(cancelled.queued().empty());
 }
 
-TEST_CASE("managed, M6: a repetition of the source is relayed again if no copy is queued") {
+TEST_CASE("managed, M6: a message that its source repeats is relayed again if no copy is queued") {
     Relay node;
     node.link.drawn_at = {{0, 0.25}, {1, 0.75}};
     CHECK(node.hear(5).delivered);
@@ -306,7 +311,8 @@ constexpr int seeds = 200;
 
 }  // namespace
 
-TEST_CASE("managed on graphs: along a line 3 relays carry hop limit 3 to the fourth node") {
+TEST_CASE(
+    "managed on graphs: along a line, hop limit 3 reaches the fourth node over three relays") {
     CHECK(flooded(5, line(5)) == Flooded{4, {{1, 1}, {2, 2}, {3, 3}, {4, 4}}});
     CHECK(flooded(6, line(6)) == Flooded{4, {{1, 1}, {2, 2}, {3, 3}, {4, 4}}});
     for (int h = 1; h <= 7; ++h) {
@@ -315,7 +321,8 @@ TEST_CASE("managed on graphs: along a line 3 relays carry hop limit 3 to the fou
     }
 }
 
-TEST_CASE("managed on graphs: in a clique of clients the first relay cancels the others") {
+TEST_CASE(
+    "managed on graphs: if all nodes are clients in range, the first relay cancels the others") {
     // Relays of the same slot cannot cancel each other: n - 1 nodes in 256 slots, and the first
     // slot is shared by two of them with a probability below (n - 1) / 512.
     for (const std::uint32_t n : {3U, 5U, 10U}) {
@@ -331,7 +338,8 @@ TEST_CASE("managed on graphs: in a clique of clients the first relay cancels the
     }
 }
 
-TEST_CASE("managed on graphs: in a clique with r routers only the routers relay") {
+TEST_CASE(
+    "managed on graphs: if all nodes are neighbours and some are routers, only the routers relay") {
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         for (const int r : {1, 2, 4}) {
             std::vector<std::string_view> roles(8, "client");
@@ -362,7 +370,8 @@ TEST_CASE("managed on graphs: mute nodes never relay") {
     CHECK(flooded(5, star) == Flooded{5, around.hops});
 }
 
-TEST_CASE("managed on graphs: over a diamond the second relay cancels the third, 3 in all") {
+TEST_CASE(
+    "managed on graphs: a node that hears the message from two relays does not relay it itself") {
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         CAPTURE(seed);
         const Flooded run = flooded(4, {{0, 1}, {0, 2}, {1, 3}, {2, 3}}, {.seed = seed});
@@ -370,7 +379,8 @@ TEST_CASE("managed on graphs: over a diamond the second relay cancels the third,
     }
 }
 
-TEST_CASE("managed on graphs: the node with the weakest signal of the source relays first") {
+TEST_CASE(
+    "managed on graphs: the node that hears the source with the weakest signal relays first") {
     // Node 2 is far: its 8 slots lie before most of the 256 of node 1, so it loses 4 / 256 at most.
     int far_first = 0;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
@@ -383,7 +393,7 @@ TEST_CASE("managed on graphs: the node with the weakest signal of the source rel
     CHECK(far_first >= seeds - 12);
 }
 
-TEST_CASE("managed on graphs: a longer but faster path ends the flood, or is replaced in time") {
+TEST_CASE("managed on graphs: a faster but longer path may use up the hop limit") {
     // 0-1-2-3, and a long way 0-4-5-2 of routers, which relay before client 1.
     const std::vector<Graph::Edge> edges{{0, 1}, {1, 2}, {2, 3}, {0, 4}, {4, 5}, {5, 2}};
     Options options{.roles = {"", "", "", "", "router", "router"},

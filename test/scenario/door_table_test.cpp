@@ -84,7 +84,9 @@ TEST_CASE("door: a closed door has the loss of its material, by default the mode
     }
 }
 
-TEST_CASE("door: its material is set by the scenario, whatever the walls' materials are called") {
+TEST_CASE(
+    "door: the material of a door is looked up in the scenario's materials, even if it is named "
+    "like the walls") {
     const House house;
     const Scenario s =
         house.scenario(map + "[scene.materials]\nwall = { per_crossing = \"9 dB\" }\n" + door +
@@ -99,7 +101,7 @@ TEST_CASE("door: its material is set by the scenario, whatever the walls' materi
     CHECK(std::abs((level(0s) - level(10s)).value - 9) < 1e-9);
 }
 
-TEST_CASE("door: is printed and read back unchanged") {
+TEST_CASE("door: a printed door is read back unchanged") {
     const House house;
     const std::string text = map + materials + door + times +
                              "material = \"wood\"\nthickness = \"8 cm\"\n" +
@@ -118,7 +120,7 @@ TEST_CASE("door: is printed and read back unchanged") {
     CHECK(first.notices.empty());
 }
 
-TEST_CASE("door: errors have a position, and say what was expected") {
+TEST_CASE("door: an error in a door has its position in the file, and what was expected") {
     const House house;
     struct Mistake {
         std::string text, where;

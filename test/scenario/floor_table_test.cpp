@@ -104,7 +104,7 @@ TEST_CASE("floors: walls of each storey and the ceiling attenuate a link") {
     CHECK(report_link(friis, "a", "b", start_of_run).ceiling_loss.value == 0);
 }
 
-TEST_CASE("floors: a link report counts the floors of the model, with their loss") {
+TEST_CASE("floors: a link report has the number of floors that the model counts, and their loss") {
     const Building building;
     const std::string high =
         "[[robot]]\nname = \"a\"\nat = [\"0 m\", \"0 m\"]\n"
@@ -174,7 +174,9 @@ TEST_CASE("floors: a ceiling may be a slab of a material of ITU-R P.2040") {
                slab));
 }
 
-TEST_CASE("floors: materials of the scenario apply to all maps, those of a file to its map") {
+TEST_CASE(
+    "floors: materials of the scenario apply to all maps, materials of a file beside a map only to "
+    "this map") {
     const Building building;
     const std::string model = "[propagation]\nmodel = \"multi_wall\"\n";
     const std::string shared =
@@ -194,7 +196,9 @@ TEST_CASE("floors: materials of the scenario apply to all maps, those of a file 
           std::string::npos);
 }
 
-TEST_CASE("floors: a map.yaml contains its own size, and wall_height counts from each floor") {
+TEST_CASE(
+    "floors: the size of a storey may come from its map.yaml, and wall_height is measured from "
+    "each floor") {
     const Building building;
     const std::string yaml = "[[scene.floor]]\nheight = \"3 m\"\nmap = \"small.yaml\"\n";
     const Scenario low = building.scenario("[scene]\nwall_height = \"50 cm\"\n" + ground() + yaml +
@@ -206,7 +210,7 @@ TEST_CASE("floors: a map.yaml contains its own size, and wall_height counts from
     CHECK(low.walls->crossings({0, 0.5, 3.6}, {9, 0.5, 3.6}).empty());
 }
 
-TEST_CASE("floors: are printed and read back unchanged, and --set changes one") {
+TEST_CASE("floors: printed storeys are read back unchanged, and --set changes a single one") {
     const Building building;
     const std::string text =
         ground("ceiling = { per_crossing = \"15 dB\" }\n") +
@@ -223,7 +227,7 @@ TEST_CASE("floors: are printed and read back unchanged, and --set changes one") 
     CHECK(higher.walls->storeys().floor(2) == 7);
 }
 
-TEST_CASE("floors: errors have a position and say what was expected") {
+TEST_CASE("floors: an error in a storey has its position in the file, and what was expected") {
     const Building building;
     const std::string map_and = "[scene]\nmap = \"ground.png\"\nsize = [\"10 m\", \"1 m\"]\n";
     const std::vector<Mistake> mistakes{

@@ -350,14 +350,16 @@ TEST_CASE("scenario: every key of the file is read into its field") {
     CHECK(s.study.exclude.size() == 1);
 }
 
-TEST_CASE("scenario: printed with every default, it reads back as the same scenario") {
+TEST_CASE("scenario: a scenario printed with all defaults is read back unchanged") {
     for (const auto& text : {robot_a, every_key}) {
         const std::string once = printed(read(text));
         CHECK(printed(read(once)) == once);
     }
 }
 
-TEST_CASE("scenario: the test scenario with every key has every key that is printed") {
+TEST_CASE(
+    "scenario: every key that is printed occurs in the test scenario that is meant to have all "
+    "keys") {
     std::vector<std::string> given, shown;
     list_keys(parse_toml(every_key, ""), "", given);
     list_keys(Value(to_document(read(every_key))), "", shown);
@@ -372,7 +374,7 @@ TEST_CASE("scenario: the test scenario with every key has every key that is prin
     }
 }
 
-TEST_CASE("scenario: in the test scenario with every key no key has its default value") {
+TEST_CASE("scenario: in the test scenario that has all keys, no key has its default value") {
     const Table all = to_document(read(every_key));
     const Table usual = to_document(read(robot_a));
     for (const char* name : {"scenario", "scene", "radio", "medium", "routing", "trace", "study"}) {
@@ -384,7 +386,8 @@ TEST_CASE("scenario: in the test scenario with every key no key has its default 
     }
 }
 
-TEST_CASE("scenario: the keys of a model that is not chosen are kept, for a sweep") {
+TEST_CASE(
+    "scenario: keys of a model that is not selected are kept, so a sweep can select this model") {
     const std::string text = "[propagation]\nmodel = \"friis\"\nexponent = 3\nrange = \"50 m\"\n";
     const Scenario s = read(text + robot_a);
     CHECK(std::get<LogDistance>(s.propagation.parameters).exponent == 3);
@@ -394,7 +397,7 @@ TEST_CASE("scenario: the keys of a model that is not chosen are kept, for a swee
     CHECK(std::get<Disc>(swapped.propagation.parameters).range == Meters{50});
 }
 
-TEST_CASE("scenario: a coefficient given once applies to both models that have one") {
+TEST_CASE("scenario: the key `coefficient` sets the coefficient of both models that have one") {
     const Scenario s = read("[propagation]\ncoefficient = 22\n" + robot_a);
     CHECK(std::get<ItuIndoor>(s.propagation.parameters).coefficient == 22);
     CHECK(std::get<Raytrace2007>(s.propagation.parameters).coefficient == 22);
@@ -415,7 +418,9 @@ TEST_CASE("scenario: a robot's own keys override [radio] and [propagation]") {
     CHECK(std::get<LogDistance>(s.propagation.parameters).sigma == Db{5});
 }
 
-TEST_CASE("scenario: radios of an OFDM standard have its preamble and rate, unless given") {
+TEST_CASE(
+    "scenario: with an OFDM standard, radios get its preamble and rate, unless the scenario sets "
+    "them") {
     const std::string ofdm = robot_a + "[access]\nmodel = \"csma\"\nstandard = \"802.11a\"\n";
     CHECK(read(ofdm).robots[0].radio.preamble == 20us);
     CHECK(read(ofdm).robots[0].radio.rate == BitRate{54e6});
@@ -425,7 +430,7 @@ TEST_CASE("scenario: radios of an OFDM standard have its preamble and rate, unle
     CHECK(read(robot_a + "[access]\nmodel = \"csma\"").robots[0].radio.preamble == 192us);
 }
 
-TEST_CASE("scenario: traffic can name robots of a count") {
+TEST_CASE("scenario: traffic can name a single robot of those created with `count`") {
     const std::string robots = "[[robot]]\nname = \"r\"\ncount = 3\nat = [\"0 m\", \"0 m\"]\n";
     CHECK_NOTHROW(read(robots + "[[traffic]]\nfrom = \"r2\"\npayload = \"x\"\n"));
     CHECK_THROWS_AS(read(robots + "[[traffic]]\nfrom = \"r3\"\npayload = \"x\"\n"), InputError);
@@ -454,7 +459,7 @@ TEST_CASE("--set: a power without a unit is in watts") {
     CHECK(std::abs(s.radio.power.value - 20) < rounding_db);
 }
 
-TEST_CASE("--set: the last of two options for one key counts") {
+TEST_CASE("--set: the last of two options for one key is used") {
     CHECK(with(robot_a, {"scenario.seed=2", "scenario.seed=3"}).scenario.seed == 3);
 }
 

@@ -64,7 +64,9 @@ std::pair<double, double> wall_db(const std::string& file, const ScenarioOptions
 
 }  // namespace
 
-TEST_CASE("scene: walls of an image follow the wall factor, light greys are not walls") {
+TEST_CASE(
+    "scene: dark pixels of a map image are walls with the loss of the wall factor, light grey "
+    "pixels are not") {
     const TemporaryFolder folder;
     folder.write("m.png", picture());
     const auto [there, back] = wall_db(folder.write("s.toml", pair));
@@ -72,7 +74,9 @@ TEST_CASE("scene: walls of an image follow the wall factor, light greys are not 
     CHECK(there == back);
 }
 
-TEST_CASE("scene: for a map path of another machine, the map beside the scenario is suggested") {
+TEST_CASE(
+    "scene: if the path of a map does not exist, a map of the same name beside the scenario is "
+    "suggested") {
     const TemporaryFolder folder;
     folder.write("m.png", picture());
     std::string elsewhere = pair;
@@ -158,7 +162,8 @@ TEST_CASE("scene: a link between antennas above the walls is clear") {
     CHECK(near(wall_db(file, slanted).first, 20 * stretched));
 }
 
-TEST_CASE("scene: a box of half a metre at wall factor 1 costs 50 dB in both directions") {
+TEST_CASE(
+    "scene: a box 0.5 m thick with wall factor 1 attenuates a link by 50 dB in both directions") {
     const TemporaryFolder folder;
     const std::string robot = "position ( name \"%\" pose [@ 0 0] wifi ( model \"raytrace\" ) )\n";
     std::string world = "model ( size [0.5 4] pose [2.5 0 0] color \"brown\" )\n";

@@ -135,7 +135,7 @@ TEST_CASE("schema: each movement model has the keys that its reader knows") {
     }
 }
 
-TEST_CASE("schema: values have the type, the unit and the limits that the reader wants") {
+TEST_CASE("schema: values have the type, the unit and the limits that the reader requires") {
     const auto agree = [](const std::string& text) {
         CAPTURE(text);
         const bool is_right = error_of(text).empty();

@@ -99,8 +99,7 @@ TEST_CASE("traffic file: content other than CBR over UDP is an error with its po
           std::string::npos);
 }
 
-TEST_CASE(
-    "traffic file: [traffic] plays the file beside a movement file; [[traffic]] can be added") {
+TEST_CASE("traffic file: a file named in [traffic] or [[traffic]] adds its flows to the scenario") {
     const TemporaryFolder folder;
     folder.write("cbr.tcl", flow(0, 1, 2, "1.0"));
     folder.write("scen.tcl", "$node_(1) set X_ 1.0\n$node_(2) set X_ 9.0\n");

@@ -70,7 +70,7 @@ TEST_CASE("unlikely: a usual scenario gives no notice") {
     CHECK(notices_of("[radio]\nfrequency = \"868 MHz\"\n" + robot_a).empty());
 }
 
-TEST_CASE("unlikely: a power of so many watts as one says dBm gives a notice") {
+TEST_CASE("unlikely: a power such as 17 W, where 17 dBm is usual, gives a notice") {
     check_notice("[radio]\npower = \"17 W\"\n" + robot_a,
                  {"s.toml:2:9: power: 17 W are 42.3 dBm", "did you mean \"17 dBm\"?"});
     for (const char* power : {"37 dBm", "5 W", "100 W"})
@@ -93,7 +93,7 @@ TEST_CASE("unlikely: a rate that the standard does not have gives a notice") {
     CHECK(notices_of("[radio]\nrate = \"54 Mb/s\"\n" + robot_a).empty());  // nobody's standard
 }
 
-TEST_CASE("unlikely: a payload that reads like a size gives one notice for all") {
+TEST_CASE("unlikely: payloads that look like sizes, such as 64 B, give one notice for all") {
     const auto traffic = [](const std::string& lines) {
         return "[[traffic]]\nfrom = \"A\"\n" + lines + "\n";
     };
@@ -127,7 +127,9 @@ TEST_CASE("unlikely: a unicast under a flood goes one hop, with a notice unless 
     CHECK(to_toml(to_document(scenario)).find("hops = 1\n") != std::string::npos);
 }
 
-TEST_CASE("unlikely: switching on a robot that is on gives a notice, and off likewise") {
+TEST_CASE(
+    "unlikely: switching a robot on that is already on, or off that is already off, gives a "
+    "notice") {
     check_notice(robot_a + "on = [\"1 s\"]\noff = [\"5 s\"]\n",
                  {":4:6: on: ", "on already at 1 s"});
     check_notice(robot_a + "off = [\"1 s\", \"2 s\"]\n", {":4:7: off: ", "off already at 2 s"});
@@ -142,7 +144,8 @@ TEST_CASE("unlikely: robots that start off the map give one notice") {
     check_notice(on_map + two, {"robot \"B\"", "1 m off the map", "and 1 more"});
 }
 
-TEST_CASE("unlikely: a metre-thick wall without a material gives a notice with rays") {
+TEST_CASE(
+    "unlikely: with the model rays, a wall drawn 1 m thick without a material gives a notice") {
     const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n";
     const std::string rays = "[propagation]\nmodel = \"rays\"\n";
     check_notice(on_map + robot + rays,
@@ -155,7 +158,7 @@ TEST_CASE("unlikely: a metre-thick wall without a material gives a notice with r
     CHECK(notices_of(on_map + given + robot + rays).empty());
 }
 
-TEST_CASE("unlikely: a thick wall without a material gives a notice with multi_wall") {
+TEST_CASE("unlikely: with the model multi_wall, a thick wall without a material gives a notice") {
     // A block 0.9 m thick in cells of 10 cm; on_map has cells of 1 m, and no thinner walls.
     const TemporaryFolder folder;
     test::PngPicture picture{.width = 40, .height = 20, .rows = {}};
@@ -186,7 +189,8 @@ TEST_CASE("unlikely: a thick wall without a material gives a notice with multi_w
               .empty());
 }
 
-TEST_CASE("unlikely: a coefficient N that already includes walls gives a notice with a map") {
+TEST_CASE(
+    "unlikely: on a map, a coefficient N that already includes the loss of walls gives a notice") {
     const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n";
     const std::string own = "propagation = { model = \"raytrace_2007\" }\n";
     const std::string rays = "[propagation]\nmodel = \"raytrace_2007\"\n";
@@ -252,7 +256,9 @@ TEST_CASE("unlikely: a robot in a wall of a Stage world gives a notice, because 
     }
 }
 
-TEST_CASE("unlikely: a clearance slightly too small is printed with enough digits") {
+TEST_CASE(
+    "unlikely: a clearance slightly smaller than the radius is printed with enough digits to see "
+    "it") {
     const TemporaryFolder folder;
     folder.write("wall.png",
                  test::png_bytes({.width = 4, .height = 1, .rows = {{0, 255, 255, 255}}}));
@@ -273,7 +279,9 @@ radius = "0.01 m"
     CHECK(refused.find("its radius of 0.01 m (clearance 0.00996 m)") != std::string::npos);
 }
 
-TEST_CASE("unlikely: a robot that chooses a model has only that model's parameters") {
+TEST_CASE(
+    "unlikely: a robot with a model of its own uses that model's parameters, not those of "
+    "[propagation]") {
     const TemporaryFolder folder;
     const auto loss = [&](const std::string& own) {
         const Scenario s = loaded(folder,
@@ -310,7 +318,8 @@ TEST_CASE("memory: more robots than fit into memory are refused before any is cr
     CHECK(available_memory() > 100'000'000);
 }
 
-TEST_CASE("unlikely: coherent sums with walls oblique to the cells give a notice") {
+TEST_CASE(
+    "unlikely: a coherent sum of rays gives a notice if a wall is oblique to the map's grid") {
     // A wall of 30 cm through the middle of a room of 6 m, in cells of 5 cm.
     const auto room = [](double slope) {
         std::vector<std::string> rows(80, std::string(120, '.'));
@@ -337,7 +346,7 @@ TEST_CASE("unlikely: coherent sums with walls oblique to the cells give a notice
     CHECK(notices("power", room(0.4)).empty());
 }
 
-TEST_CASE("unlikely: [access] eifs still accepts true and false, which are standard and none") {
+TEST_CASE("unlikely: [access] eifs still accepts true for standard and false for none") {
     const TemporaryFolder folder;
     const auto csma = [&](const std::string& keys) {
         return *loaded(folder, "[access]\nmodel = \"csma\"\n" + keys + robot_a).access.as<Csma>();
@@ -426,7 +435,9 @@ TEST_CASE("traffic: robots that send simultaneously give a notice if their frame
     CHECK(noted(csma, each_second + "count = 5\n", "start = \"5 s\"\n") == 1);
 }
 
-TEST_CASE("words: a suggestion has the type of the value, and `off` gets no suggestion") {
+TEST_CASE(
+    "words: an error suggests a value of the right type, and none if two values differ only in a "
+    "number") {
     const TemporaryFolder folder;
     const auto error = [&](const std::string& text) {
         return error_of([&] { loaded(folder, text + robot_a); });

@@ -87,7 +87,8 @@ OccupancyGrid map_of(const std::string& polygon) {
 
 }  // namespace
 
-TEST_CASE("chord_exact: the length inside the polygon is the published one, in both directions") {
+TEST_CASE(
+    "chord_exact: the length inside the polygon equals the published one, in both directions") {
     int checked = 0;
     for (const Row& row : vectors()) {
         // A triangle has a slanted edge; a map of cells has none.

@@ -13,7 +13,7 @@
 namespace counted_bits_test {
 using namespace rovernet;
 
-TEST_CASE("counted bits: the count of members below a number equals that of a set") {
+TEST_CASE("counted bits: the number of members below any number is right") {
     test::Draw draw(41);
     for (const int end : {0, 1, 63, 64, 65, 1000}) {
         std::set<std::size_t> members;

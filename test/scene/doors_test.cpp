@@ -28,7 +28,7 @@ std::shared_ptr<const Scene> room() {
 
 }  // namespace
 
-TEST_CASE("door: is closed from its closing nanosecond to the one before it opens") {
+TEST_CASE("door: a door is closed from its closing time on, up to the nanosecond before it opens") {
     const Door door{.from = {}, .to = {1, 0, 0}, .closes = {2s, 6s}, .opens = {4s}};
     CHECK_FALSE(door.is_closed(begin));
     CHECK_FALSE(door.is_closed(begin + 2s - 1ns));
@@ -39,7 +39,8 @@ TEST_CASE("door: is closed from its closing nanosecond to the one before it open
     CHECK(door.is_closed(begin + 6000s));
 }
 
-TEST_CASE("door: a closed door is a wall of its length and thickness, in any direction") {
+TEST_CASE(
+    "door: a closed door acts as a wall of the door's length and thickness, in any direction") {
     const Scene open(test::drawn_map(std::vector<std::string>(40, std::string(40, ' '))));
     for (const double degrees : {0.0, 30.0, 90.0, 135.0, 180.0, 210.0, 270.0, 300.0}) {
         const double turn = degrees * std::numbers::pi / 180;
@@ -68,7 +69,7 @@ TEST_CASE("door: a closed door is a wall of its length and thickness, in any dir
     }
 }
 
-TEST_CASE("scene changes: there is one for each time at which the set of closed doors changes") {
+TEST_CASE("scene changes: each time at which a door opens or closes gives one change") {
     const auto open = room();
     const Door a{.from = {1, 2, 0}, .to = {2, 2, 0}, .closes = {1s, 5s}, .opens = {3s, 6s}};
     const Door b{.from = {2, 1, 0}, .to = {2, 2, 0}, .closes = {3s}, .opens = {5s}};
@@ -89,7 +90,7 @@ TEST_CASE("scene changes: there is one for each time at which the set of closed 
     CHECK(scene_changes(open, {}).empty());
 }
 
-TEST_CASE("door: a door of a building exists only on its storey") {
+TEST_CASE("door: in a building with storeys, a door is closed on its own storey only") {
     auto ground = test::drawn_map({"####", "#  #", "#  #", "####"});
     auto upper = ground;
     upper.origin.z = 3;
@@ -107,7 +108,7 @@ TEST_CASE("door: a door of a building exists only on its storey") {
     CHECK(doors.passable({2, 1.5, 0}, {2, 2.5, 0}, 0_m));
 }
 
-TEST_CASE("door: walls beside a door do not change") {
+TEST_CASE("door: closing a door does not change the walls beside it") {
     test::Draw draw(7);
     const Scene open(test::random_map(draw, 30, 30, 12));
     const Door door{.from = {14, 3, 0}, .to = {16, 5, 0}, .closes = {0s}};

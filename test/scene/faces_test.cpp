@@ -51,7 +51,8 @@ Vec3 direction(const Face& f) { return {-f.normal.y, f.normal.x, 0}; }
 
 }  // namespace
 
-TEST_CASE("faces: a rectangle has its four edges exactly, also one cell thick") {
+TEST_CASE(
+    "faces: the faces of a rectangle are exactly its four edges, also if it is one cell thick") {
     for (const int thick : {1, 2, 7}) {
         OccupancyGrid grid;
         grid.columns = 120, grid.rows = 20;
@@ -77,7 +78,7 @@ TEST_CASE("faces: a rectangle has its four edges exactly, also one cell thick") 
     }
 }
 
-TEST_CASE("faces: a wall drawn at any angle has two long faces at that angle and place") {
+TEST_CASE("faces: a wall drawn at any angle has two long faces with its angle and position") {
     constexpr double cell = 0.05, length = 6;
     for (const double thick : {0.15, 0.3}) {
         for (int degrees = 1; degrees < 90; degrees += 2) {
@@ -114,7 +115,8 @@ TEST_CASE("faces: a thin line whose cells touch at corners has two faces") {
         CHECK(between(direction(f), {1 / std::sqrt(1.16), 0.4 / std::sqrt(1.16)}) < 0.2 * degree);
 }
 
-TEST_CASE("faces: corners of rooms and doors stay in place, bumps of a cell do not split a wall") {
+TEST_CASE(
+    "faces: corners of rooms and doors are exact, and a bump of one cell does not split a face") {
     const Scene room(test::drawn_map({"############",  //
                                       "#..........#",  //
                                       "#..........#",  //
@@ -138,7 +140,7 @@ TEST_CASE("faces: corners of rooms and doors stay in place, bumps of a cell do n
     CHECK(long_faces(scene, 0.5).size() == 2);
 }
 
-TEST_CASE("faces: form a closed line around each wall, with the wall's cells on the left") {
+TEST_CASE("faces: the faces of a wall form a closed line, with the wall's cells on its left") {
     test::Draw draw(3);
     for (int trial = 0; trial < 20; ++trial) {
         const Scene scene(test::random_map(draw, 40, 30, 10 + trial));
@@ -154,7 +156,7 @@ TEST_CASE("faces: form a closed line around each wall, with the wall's cells on 
     }
 }
 
-TEST_CASE("faces: a point of a drawn edge belongs to the face of this edge") {
+TEST_CASE("faces: a point on an edge of a drawn wall belongs to the face of this edge") {
     const Scene scene(slanting_wall(6, 0.3, 30 * degree));
     const auto faces = scene.faces()->all();
     int found = 0;
@@ -175,7 +177,8 @@ TEST_CASE("faces: a point of a drawn edge belongs to the face of this edge") {
     CHECK_FALSE(scene.faces()->at({3.5, 3.5}, 0));
 }
 
-TEST_CASE("faces: a face ends where the material changes, and none is between two materials") {
+TEST_CASE(
+    "faces: a face ends where the material changes, and there is no face between two materials") {
     OccupancyGrid grid = test::drawn_map({"......", ".####.", "......"});
     grid.cell_materials.assign(grid.cells.size(), 0);
     grid.cell_materials[9] = grid.cell_materials[10] = 1;
@@ -191,7 +194,8 @@ TEST_CASE("faces: a face ends where the material changes, and none is between tw
     CHECK_FALSE(scene.faces()->at({2.5, 1}, 1));
 }
 
-TEST_CASE("faces: a rotated map has rotated faces; an open field none; threads get the same") {
+TEST_CASE(
+    "faces: a rotated map has rotated faces, an open field none; all threads get the same faces") {
     OccupancyGrid grid = test::drawn_map({"......", ".####.", "......"}, 0.5);
     grid.yaw = 25 * degree;
     grid.origin = {3, -4};
@@ -208,7 +212,7 @@ TEST_CASE("faces: a rotated map has rotated faces; an open field none; threads g
     CHECK(Scene{}.faces() == nullptr);
 }
 
-TEST_CASE("faces: have the thickness of their wall, at any angle and beside a junction") {
+TEST_CASE("faces: each face has the thickness of its wall, at any angle and beside a junction") {
     for (int degrees = 0; degrees < 90; degrees += 5) {
         CAPTURE(degrees);
         const Scene scene(slanting_wall(6, 0.3, degrees * degree));

@@ -37,7 +37,8 @@ TEST_CASE("free space: a cell is free exactly if the robot fits at its centre") 
     }
 }
 
-TEST_CASE("free space: a step is allowed exactly if it is passable and cuts no corner") {
+TEST_CASE(
+    "free space: a step between cells is allowed exactly where the robot fits and cuts no corner") {
     test::Draw draw(22);
     for (const double radius : {0.0, 0.2, 0.5, 0.6, 1.0, 1.5, 2.7}) {
         const Scene scene(test::random_map(draw, 40, 50, 1));
@@ -60,7 +61,7 @@ TEST_CASE("free space: a step is allowed exactly if it is passable and cuts no c
     }
 }
 
-TEST_CASE("free space: a corridor as wide as the robot is wide enough, at any decimals") {
+TEST_CASE("free space: a robot fits into a corridor of exactly its own width, at any cell size") {
     for (const int centimetres : {3, 5, 10, 15, 30})
         for (std::size_t width = 1; width <= 21; width += 2) {
             std::vector<std::string> rows(width + 2, ".....");
@@ -73,7 +74,8 @@ TEST_CASE("free space: a corridor as wide as the robot is wide enough, at any de
         }
 }
 
-TEST_CASE("free space: parts are connected by steps, and numbered by their first cells") {
+TEST_CASE(
+    "free space: cells joined by steps form a part, and parts are numbered by their first cells") {
     test::Draw draw(23);
     for (int trial = 0; trial < 30; ++trial) {
         const int columns = 1 + draw.below(40), rows = 1 + draw.below(30);

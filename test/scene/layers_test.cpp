@@ -45,7 +45,7 @@ const Material wood{.name = "wood", .per_metre = DbPerMeter{10}};
 
 }  // namespace
 
-TEST_CASE("layers: adjacent walls of two materials are two crossings, of one material one") {
+TEST_CASE("layers: adjacent walls are one crossing if their material is equal, otherwise two") {
     OccupancyGrid grid = drawn_map({".####."});
     grid.cell_materials = {0, 1, 1, 2, 2, 0};
     const Scene scene(grid, {Material{}, brick, wood});
@@ -77,7 +77,8 @@ TEST_CASE("layers: the loss is equal in both directions, to the last bit") {
     }
 }
 
-TEST_CASE("layers: overlapping walls of one material count once, of two materials twice") {
+TEST_CASE(
+    "layers: where two walls overlap, the length counts twice only if their materials differ") {
     const Scene same({box(1, 0, 2, 1), box(2, 0, 2, 1)}, {Material{}});
     CHECK(near(same.wall_length({0, 0.5}, {9, 0.5}), 3));
     CHECK(same.crossings({0, 0.5}, {9, 0.5}).size() == 1);
@@ -93,7 +94,8 @@ TEST_CASE("layers: a box turned by 45 degrees is crossed along its diagonal") {
     CHECK(near(scene.wall_length({0, std::sqrt(2)}, {10, std::sqrt(2)}), 2 * std::sqrt(2)));
 }
 
-TEST_CASE("layers: a link above the walls is clear, a link through their top is partly inside") {
+TEST_CASE(
+    "layers: a link above the walls crosses none; a link through a wall's top is partly inside") {
     const Scene scene(box(4, 0, 2, 1), {Material{.height = Meters{2}}});
     CHECK(near(scene.wall_length({0, 0.5, 1}, {10, 0.5, 1}), 2));
     CHECK(scene.wall_length({0, 0.5, 2}, {10, 0.5, 2}) == 0);
@@ -139,7 +141,7 @@ TEST_CASE("layers: a cell of the planning grid is free only if no obstacle enter
     CHECK(in_doubt == 0);
 }
 
-TEST_CASE("layers: a planning grid with too many cells uses larger cells, as few as necessary") {
+TEST_CASE("layers: if a planning grid has too many cells, its cells grow, but only as necessary") {
     const std::vector<OccupancyGrid> maps{drawn_map({"#..", "..."}, 0.01), box(60, 30, 1, 1)};
     const OccupancyGrid grid = planning_grid(maps);
     const double cells = 1.0 * grid.columns * grid.rows;

@@ -85,7 +85,8 @@ const std::string good = "image: map.pgm\nresolution: 0.05\norigin: [1, 2, 0]\n"
 
 }  // namespace
 
-TEST_CASE("ROS map: sizes, origin and yaw are taken over; the first image row is the top") {
+TEST_CASE(
+    "ROS map: size, origin and yaw are read, and the image's first row is the top of the map") {
     const TemporaryFolder folder;
     folder.write("map.pgm", "P2 2 3 255  254 254  0 254  205 0");
     const OccupancyGrid grid = read_ros_map(folder.write("map.yaml",
@@ -119,7 +120,7 @@ TEST_CASE("ROS map: the image is searched beside the YAML file, or at an absolut
     CHECK_THROWS_AS(read_ros_map(folder.write("d.yaml", "image: a.pgm" + rest)), InputError);
 }
 
-TEST_CASE("ROS map: both thresholds are strict; the defaults are 0.65 and 0.25") {
+TEST_CASE("ROS map: gray exactly at a threshold is unknown; the defaults are 0.65 and 0.25") {
     // occ = 1 - gray / 255: 89 -> 0.65098, 90 -> 0.64706, 191 -> 0.25098, 192 -> 0.24706
     CHECK(cells_of({0, 89, 90, 191, 192, 255}) ==
           Cells{occupied, occupied, unknown, unknown, free_cell, free_cell});
@@ -161,7 +162,8 @@ TEST_CASE("ROS map: in scale mode a pixel that is not opaque is unknown") {
     CHECK(cells_of({0, 128, 255}, "mode: scale") == Cells{occupied, unknown, free_cell});
 }
 
-TEST_CASE("ROS map: in raw mode a sample is a percentage of occupancy, above 100 unknown") {
+TEST_CASE(
+    "ROS map: in raw mode a pixel is the occupancy in percent, and values above 100 are unknown") {
     const Cells expected{free_cell, free_cell, unknown, unknown,
                          occupied,  occupied,  unknown, unknown};
     CHECK(cells_of({0, 24, 25, 65, 66, 100, 101, 255}, "mode: raw") == expected);
@@ -169,7 +171,7 @@ TEST_CASE("ROS map: in raw mode a sample is a percentage of occupancy, above 100
     CHECK(cells_of({0, 255}, "mode: trinary") == Cells{occupied, free_cell});
 }
 
-TEST_CASE("ROS map: errors name line and column, and say what to do") {
+TEST_CASE("ROS map: errors name line and column, and what to write instead") {
     CHECK(error_of(good) == "");
     CHECK(contains(error_of("resolution: 0.05\norigin: [0, 0, 0]"), "no key \"image\""));
     CHECK(contains(error_of("image: map.pgm\norigin: [0, 0, 0]"), "no key \"resolution\""));
@@ -203,7 +205,7 @@ TEST_CASE("ROS map: a key of another program gives a notice, a misspelt key is a
                    "2:1 unknown key \"resolutoin\""));
 }
 
-TEST_CASE("ROS map: a threshold that is not given adapts to the given one, with a notice") {
+TEST_CASE("ROS map: a missing threshold that would contradict the given one is set equal to it") {
     CHECK(notices_of("occupied_thresh: 0.05\n") ==
           std::vector<std::string>{
               "map.yaml:4:18: no key free_thresh, whose default 0.25 does not go with "
@@ -248,7 +250,7 @@ TEST_CASE("ROS map: resolution and origin are checked") {
     CHECK(contains(origin("{x: 0}"), "origin is a map"));
 }
 
-TEST_CASE("ROS map: a file that is not YAML, or no file, is an error with its position") {
+TEST_CASE("ROS map: a missing file, or one that is not YAML, is refused with its position") {
     CHECK(contains(error_of("image: [map.pgm\nresolution: 1\n"), "not valid YAML"));
     CHECK_FALSE(error_of("image: [map.pgm\nresolution: 1\n").starts_with("0:0"));
     CHECK(contains(error_of(""), "no \"key: value\" lines"));
@@ -278,7 +280,7 @@ TEST_CASE("image map: an image is scaled to its size, and dark pixels are walls"
                               free_cell, free_cell});
 }
 
-TEST_CASE("image map: a fully transparent pixel is free, a half transparent one has its colour") {
+TEST_CASE("image map: a fully transparent pixel is free; any other pixel counts by its colour") {
     const TemporaryFolder folder;
     const std::string path =
         folder.write("map.png", png_bytes({.width = 3,
@@ -287,7 +289,7 @@ TEST_CASE("image map: a fully transparent pixel is free, a half transparent one 
     CHECK(image_map(path, 3_m, 1_m).cells == Cells{free_cell, occupied, occupied});
 }
 
-TEST_CASE("image map: a size that is not positive and finite is an error of the caller") {
+TEST_CASE("image map: a size that is not positive and finite throws std::invalid_argument") {
     const TemporaryFolder folder;
     const std::string path = folder.write("map.pgm", "P2 1 1 255 0");
     CHECK_THROWS_AS(image_map(path, 0_m, 1_m), std::invalid_argument);

@@ -40,7 +40,8 @@ constexpr RangeFinder all_around{.beams = 361, .from = Radians{-pi}, .to = Radia
 
 }  // namespace
 
-TEST_CASE("range finder: the walls of a square room are at 4 m / max(|cos|, |sin|)") {
+TEST_CASE(
+    "range finder: in a square room of 8 m, the walls are measured at 4 m / max(|cos|, |sin|)") {
     const Scene scene(room());
     const auto ways = measured(all_around, scene, {5, 5});
     for (int i = 0; i < all_around.beams; ++i) {
@@ -70,7 +71,8 @@ TEST_CASE("range finder: beams rotate with the robot and with the map") {
     for (std::size_t i = 0; i < 3; ++i) CHECK(near(on_turned_map[i], ahead[i]));
 }
 
-TEST_CASE("range finder: a robot is a disc at distance D cos a - sqrt(r^2 - D^2 sin^2 a)") {
+TEST_CASE(
+    "range finder: another robot is measured as a disc, at D cos a - sqrt(r^2 - D^2 sin^2 a)") {
     const RangeFinder fan{.beams = 101, .from = Radians{-0.5}, .to = Radians{0.5}};
     const double distance = 3, radius = 0.4;
     const auto ways = measured(
@@ -95,7 +97,8 @@ TEST_CASE("range finder: measures the nearest object, wall or robot") {
     CHECK(near(measured(one, scene, {5, 5}, 0, {{{8, 5}, Meters{1}}, {{7, 5}, Meters{1}}})[0], 1));
 }
 
-TEST_CASE("range finder: without an object it measures its range, inside an object 0") {
+TEST_CASE(
+    "range finder: a beam that meets nothing returns the range, a beam from inside an object 0") {
     CHECK(measured({}, {}, {0, 0}) == std::vector<double>(181, 8));
     const Scene scene(room());
     CHECK(measured(all_around, scene, {0.5, 0.5}) == std::vector<double>(361, 0));
@@ -104,14 +107,14 @@ TEST_CASE("range finder: without an object it measures its range, inside an obje
     CHECK(measured(short_sighted, scene, {5, 5}) == std::vector<double>(3, 0.5));
 }
 
-TEST_CASE("range finder: sees over walls that are lower than itself") {
+TEST_CASE("range finder: a range finder sees over walls that are lower than itself") {
     const Scene scene({room()}, {Material{.height = Meters{1}}});
     const RangeFinder one{.beams = 1, .from = Radians{0}, .to = Radians{0}};
     CHECK(near(measured(one, scene, {5, 5, 0.5})[0], 4));
     CHECK(measured(one, scene, {5, 5, 1.5})[0] == 8);
 }
 
-TEST_CASE("range finder: a walk along the beam in steps of a centimetre gives the same distance") {
+TEST_CASE("range finder: stepping along a beam by centimetres gives the same distance") {
     Draw draw(7);
     const Scene scene(random_map(draw, 60, 40, 5));
     for (int n = 0; n < 10; ++n) {

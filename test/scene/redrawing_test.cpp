@@ -52,7 +52,7 @@ Scene with_metal(OccupancyGrid map) {
 
 }  // namespace
 
-TEST_CASE("redrawing: split cells have the same walls, to the last bit") {
+TEST_CASE("redrawing: a map whose cells are split has the same walls, to the last bit") {
     Draw draw(7);
     OccupancyGrid map = test::random_map(draw, 23, 17, 30);
     map.cell_width = map.cell_height = 0.25;
@@ -68,7 +68,8 @@ TEST_CASE("redrawing: split cells have the same walls, to the last bit") {
     }
 }
 
-TEST_CASE("redrawing: a joined cell is a wall if any of the four is, of the first one's material") {
+TEST_CASE(
+    "redrawing: four cells join to a wall if any of them is one, with the first wall's material") {
     const OccupancyGrid joined = join_cells(two_materials({"....?",  //
                                                            ".....",  //
                                                            "..#..",  //
@@ -79,7 +80,7 @@ TEST_CASE("redrawing: a joined cell is a wall if any of the four is, of the firs
     CHECK(joined.cell_materials[1] == 2);
 }
 
-TEST_CASE("redrawing: a lone wall of one cell is not joined with its neighbours") {
+TEST_CASE("redrawing: a map of a single cell is not joined into larger cells") {
     CHECK(drawing(join_cells(drawn_map({"#"}))) == std::vector<std::string>{"#"});
     CHECK(join_cells(drawn_map({"#"})).cell_width == 1);
 }
@@ -90,7 +91,7 @@ TEST_CASE("redrawing: joining split cells gives the original map") {
     CHECK(drawing(join_cells(split_cells(map))) == drawing(map));
 }
 
-TEST_CASE("redrawing: an outlined wall has no hole, and thin walls stay") {
+TEST_CASE("redrawing: the outline of a wall has no gap, and thin walls are unchanged") {
     const OccupancyGrid outlined = outline_walls(drawn_map({"########.#",  //
                                                             "########.#",  //
                                                             "########.#",  //
@@ -103,7 +104,8 @@ TEST_CASE("redrawing: an outlined wall has no hole, and thin walls stay") {
                                                         ".........#"});
 }
 
-TEST_CASE("redrawing: a hollow wall is filled up to its width, by the nearest wall's material") {
+TEST_CASE(
+    "redrawing: a hollow wall up to the given width is filled with the nearest side's material") {
     const OccupancyGrid map = two_materials(hollow);
     const OccupancyGrid filled = fill_walls(map, Meters{1});
     CHECK(drawing(filled)[2] == ".#######.");
@@ -113,7 +115,7 @@ TEST_CASE("redrawing: a hollow wall is filled up to its width, by the nearest wa
     CHECK(drawing(fill_walls(map, Meters{0.5})) == drawing(map));
 }
 
-TEST_CASE("redrawing: an area that is open, or wider than a wall, is not filled") {
+TEST_CASE("redrawing: an area that is open, or wider than the given width, is not filled") {
     const OccupancyGrid open = drawn_map({"####", "#...", "####"});
     CHECK(drawing(fill_walls(open, Meters{5})) == drawing(open));
     const OccupancyGrid room = drawn_map({"#####", "#...#", "#...#", "#...#", "#####"});
@@ -121,13 +123,14 @@ TEST_CASE("redrawing: an area that is open, or wider than a wall, is not filled"
     CHECK(drawing(fill_walls(room, Meters{3}))[2] == "#####");
 }
 
-TEST_CASE("redrawing: an outlined wall that is filled is the original wall") {
+TEST_CASE("redrawing: outlining a wall and filling the outline gives the original wall") {
     const OccupancyGrid wall = drawn_map({".......", ".#####.", ".#####.", ".#####.", "......."});
     CHECK(drawing(outline_walls(wall)) != drawing(wall));
     CHECK(drawing(fill_walls(outline_walls(wall), Meters{1})) == drawing(wall));
 }
 
-TEST_CASE("scene: its maps give the same walls again, of one map or several") {
+TEST_CASE(
+    "scene: a scene built again from its own maps has the same walls, for one map or several") {
     OccupancyGrid turned = drawn_map({"#.#", ".##"}, 0.5);
     turned.yaw = 0.3;
     turned.origin = {4, 1};
@@ -145,7 +148,8 @@ TEST_CASE("scene: its maps give the same walls again, of one map or several") {
     }
 }
 
-TEST_CASE("scene: given other walls for radio, robots keep the obstacles of the scene") {
+TEST_CASE(
+    "scene: if radio uses the walls of another scene, robots keep the obstacles of their own") {
     const Scene own(drawn_map({"...", ".#.", "..."}));
     const Scene other = with_metal(drawn_map({"#..", "#..", "#.."}));
     const Scene both = own.with_walls_of(other);

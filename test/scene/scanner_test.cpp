@@ -45,7 +45,7 @@ double way_in_room(double x, double y, double angle) {
 
 }  // namespace
 
-TEST_CASE("scanner: at the robot's centre it equals the range finder, bit by bit") {
+TEST_CASE("scanner: at the robot's centre, a scanner measures the same bits as the range finder") {
     const Scanner scanner{.finder = {.beams = 77, .range = Meters{20}}};
     const Scene scene(room());
     const std::vector<RoundBody> bodies = {{{7, 6}, Meters{0.3}}};
@@ -54,7 +54,7 @@ TEST_CASE("scanner: at the robot's centre it equals the range finder, bit by bit
     CHECK(measured(scanner, scene, {{3, 4}, Radians{0.7}}, bodies) == plain);
 }
 
-TEST_CASE("scanner: beams start at its position on the robot, and rotate with both") {
+TEST_CASE("scanner: beams start at the scanner's position, and rotate with scanner and robot") {
     const Scanner scanner{
         .finder = {.beams = 91, .range = Meters{20}}, .at = {0.5, -0.25}, .heading = Radians{2}};
     for (const double heading : {0.0, 0.4, 3.0, -1.5}) {
@@ -68,7 +68,7 @@ TEST_CASE("scanner: beams start at its position on the robot, and rotate with bo
     }
 }
 
-TEST_CASE("scanner: each beam of a ring has its own origin and direction") {
+TEST_CASE("scanner: in a ring of sensors each beam has its own origin and direction") {
     const Scanner ring{.finder = {.kind = RangeFinderKind::sonar, .range = Meters{20}},
                        .at = {0.1, 0},
                        .heading = Radians{0.3},
@@ -93,13 +93,14 @@ TEST_CASE("scanner: each beam of a ring has its own origin and direction") {
     CHECK(both[1] == 2);
 }
 
-TEST_CASE("scanner: a beam of a ring sees robots from its origin") {
+TEST_CASE("scanner: each beam of a ring detects robots from the origin of the beam") {
     const Scanner ring{.angles = {Radians{0}}, .places = {{0.5, 0.25}}};
     const std::vector<RoundBody> bodies = {{{4, 2.25}, Meters{0.5}}};
     CHECK(std::abs(measured(ring, {}, {{1, 2}, Radians{0}}, bodies)[0] - 2) < rounding);
 }
 
-TEST_CASE("scanner: has its own name or that of its kind; sizes must match") {
+TEST_CASE(
+    "scanner: an unnamed scanner is called by its kind, and an output of a wrong size is refused") {
     Scanner scanner{.finder = {.kind = RangeFinderKind::ranger}};
     CHECK(scanner.label() == "ranger");
     scanner.name = "rear";

@@ -81,7 +81,8 @@ TEST_CASE("scene: an invalid grid is refused") {
     CHECK_THROWS_AS(Scene{grid}, std::invalid_argument);
 }
 
-TEST_CASE("crossings: entry and exit of a wall are at its position") {
+TEST_CASE(
+    "crossings: entry and exit are the distances at which the segment enters and leaves a wall") {
     const Scene scene(drawn_map({"..#...##.."}, 0.5));
     const auto found = scene.crossings({0, 0.25}, {5, 0.25});
     REQUIRE(found.size() == 2);
@@ -107,7 +108,7 @@ TEST_CASE("crossings: distances are along the 3-D segment") {
     CHECK(near(found[0].length, 1.25));
 }
 
-TEST_CASE("crossings: a vertical segment counts only inside a wall") {
+TEST_CASE("crossings: a vertical segment has wall length only inside a wall, not on its face") {
     const Scene scene(drawn_map({".##."}));
     CHECK(scene.wall_length({1.5, 0.5, 0}, {1.5, 0.5, 3}) == 3);
     CHECK(scene.wall_length({2, 0.5, 0}, {2, 0.5, 3}) == 3);  // on the edge of two wall cells
@@ -116,7 +117,7 @@ TEST_CASE("crossings: a vertical segment counts only inside a wall") {
     CHECK(scene.wall_length({1.5, 0.5, 3}, {1.5, 0.5, 0}) == 3);
 }
 
-TEST_CASE("crossings: a ray along the shared edge of two cells is inside") {
+TEST_CASE("crossings: a ray along the common edge of two wall cells is inside the wall") {
     const Scene scene(drawn_map({
         "......",
         ".###..",
@@ -131,7 +132,7 @@ TEST_CASE("crossings: a ray along the shared edge of two cells is inside") {
     CHECK(near(scene.wall_length({2, 4}, {2, 0}), 2));
 }
 
-TEST_CASE("crossings: a ray along an outer edge is outside") {
+TEST_CASE("crossings: a ray along an outer edge of a wall is outside the wall") {
     const Scene scene(drawn_map({"....", ".##.", ".##.", "...."}));
     CHECK(scene.crossings({0, 1}, {4, 1}).empty());
     CHECK(scene.crossings({0, 3}, {4, 3}).empty());
@@ -139,14 +140,14 @@ TEST_CASE("crossings: a ray along an outer edge is outside") {
     CHECK(scene.crossings({3, 4}, {3, 0}).empty());
 }
 
-TEST_CASE("crossings: the edge of the map is an outer edge") {
+TEST_CASE("crossings: a ray along the edge of the map is outside the walls") {
     const Scene scene(drawn_map({"##", "##"}));
     CHECK(scene.crossings({-1, 0}, {3, 0}).empty());
     CHECK(scene.crossings({2, -1}, {2, 3}).empty());
     CHECK(near(scene.wall_length({-1, 1}, {3, 1}), 2));
 }
 
-TEST_CASE("crossings: touching a corner does not count") {
+TEST_CASE("crossings: a ray that only touches a corner of a wall does not cross the wall") {
     const Scene scene(drawn_map({"...", ".#.", "..."}));
     CHECK(scene.crossings({0, 1}, {2, 3}).empty());
     CHECK(scene.crossings({0, 2}, {2, 0}).empty());
@@ -154,7 +155,7 @@ TEST_CASE("crossings: touching a corner does not count") {
     CHECK(scene.crossings({1, 1.5}, {0, 1.5}).empty());  // starts on the face, going out
 }
 
-TEST_CASE("crossings: a ray through the corner between two cells stays inside the wall") {
+TEST_CASE("crossings: a ray through the corner where two wall cells touch stays inside the wall") {
     const Scene scene(drawn_map({"....", "..#.", ".#..", "...."}));
     const double diagonal = std::sqrt(2.0);
     REQUIRE(scene.crossings({0, 0}, {4, 4}).size() == 1);
@@ -175,7 +176,8 @@ TEST_CASE("crossings: adjacent walls are one crossing") {
     CHECK(near(found[0].length, 4 * std::sqrt(1 + 1.0 / 144)));
 }
 
-TEST_CASE("crossings: a face at a coordinate that is not exactly representable is still a face") {
+TEST_CASE(
+    "crossings: a ray along a face is outside, also if rounding would put it into the next cell") {
     // 0.15 / 0.05 is just below 3, so a point at 0.15 m would lie in the wall of the first map.
     const Scene before(drawn_map({"..#....", "..#...."}, 0.05));
     const Scene behind(drawn_map({"...#...", "...#..."}, 0.05));
@@ -204,7 +206,7 @@ TEST_CASE("crossings: lengths have the same bits in both directions on a rotated
     }
 }
 
-TEST_CASE("crossings: a rotated and shifted map gives the results of the plain map") {
+TEST_CASE("crossings: a map that is rotated and shifted gives the same results as before") {
     OccupancyGrid grid = rooms();
     const Scene plain(grid);
     grid.origin = {2, -1, 0};
@@ -224,7 +226,7 @@ TEST_CASE("crossings: a rotated and shifted map gives the results of the plain m
     }
 }
 
-TEST_CASE("crossings: from a thousand kilometres away they are finite and in order") {
+TEST_CASE("crossings: for ends as far as 1e9 m away, crossings are finite and in order") {
     const Scene scene(rooms());
     for (const double far : {1e6, 1e9}) {
         const auto found = scene.crossings({-far, 2.5}, {far, 2.5});
@@ -239,7 +241,7 @@ TEST_CASE("crossings: from a thousand kilometres away they are finite and in ord
     CHECK(scene.crossings({0.5, 0.5}, {0.5, 0.5}).empty());
 }
 
-TEST_CASE("wall length: with a limit, a result above the limit is only a lower bound") {
+TEST_CASE("wall length: if a limit is given, a result above it is only a lower bound") {
     const Scene scene(drawn_map({".#.#.#.#"}));
     CHECK(near(scene.wall_length({0, 0.5}, {8, 0.5}), 4));
     CHECK(scene.wall_length({0, 0.5}, {8, 0.5}, 4.5) == scene.wall_length({0, 0.5}, {8, 0.5}));
@@ -258,7 +260,7 @@ TEST_CASE("unknown cells: are not walls for radio, but obstacles for robots") {
     CHECK(scene.passable({0, 2.6}, {5, 2.6}, 0.5_m));
 }
 
-TEST_CASE("occupied: left and lower edges belong to a cell, right and upper edges do not") {
+TEST_CASE("occupied: a cell includes its left and lower edges, but not its right and upper edges") {
     const Scene scene(drawn_map({"...", ".#.", "..."}));
     CHECK(scene.occupied({1, 1}));
     CHECK(scene.occupied({1.5, 1.5}));
@@ -267,7 +269,7 @@ TEST_CASE("occupied: left and lower edges belong to a cell, right and upper edge
     CHECK_FALSE(scene.occupied({-1e30, 1e30}));
 }
 
-TEST_CASE("inside map: edges belong to the map") {
+TEST_CASE("inside map: points on the edges of the map are inside") {
     const Scene scene(rooms());
     CHECK(scene.inside_map({0, 0}));
     CHECK(scene.inside_map({6, 5}));
@@ -275,7 +277,7 @@ TEST_CASE("inside map: edges belong to the map") {
     CHECK_FALSE(scene.inside_map({3, -0.001}));
 }
 
-TEST_CASE("clearance: is the distance to the nearest of all rectangles") {
+TEST_CASE("clearance: the clearance is the distance to the nearest of all wall rectangles") {
     test::Draw draw(7);
     for (int trial = 0; trial < 30; ++trial) {
         OccupancyGrid grid =
@@ -296,7 +298,7 @@ TEST_CASE("clearance: is the distance to the nearest of all rectangles") {
     }
 }
 
-TEST_CASE("passable: a gap exactly as wide as the robot is wide enough") {
+TEST_CASE("passable: a robot fits through a gap of exactly its own width") {
     const Scene scene(drawn_map({"#####", ".....", ".....", "#####"}));
     CHECK(scene.passable({0, 2}, {5, 2}, 1_m));
     CHECK_FALSE(scene.passable({0, 2}, {5, 2}, 1.000001_m));
@@ -306,7 +308,7 @@ TEST_CASE("passable: a gap exactly as wide as the robot is wide enough") {
     CHECK_FALSE(scene.passable({2, -1}, {2, 9}, 0_m));  // straight through, ends far away
 }
 
-TEST_CASE("passable: a corridor as wide as the robot is wide enough, at any decimals") {
+TEST_CASE("passable: a robot fits through a corridor of exactly its own width, at any cell size") {
     for (const double cell : {0.03, 0.05, 0.1, 0.15, 0.3})
         for (std::size_t width = 1; width <= 20; ++width) {
             std::vector<std::string> rows(width + 2, ".....");
@@ -319,7 +321,7 @@ TEST_CASE("passable: a corridor as wide as the robot is wide enough, at any deci
         }
 }
 
-TEST_CASE("passable: agrees with the distance sampled along the segment") {
+TEST_CASE("passable: the result agrees with the distance sampled along the segment") {
     const Scene scene(drawn_map({".......", "..##...", "..##...", "......."}));
     test::Draw draw(8);
     constexpr double walked_error = 3e-3;  // spacing of the walk over half a metre of distance
@@ -354,7 +356,7 @@ TEST_CASE("passable: on a large map no obstacle near the path is missed") {
     }
 }
 
-TEST_CASE("scene: bounds, rectangles and counts are in metres") {
+TEST_CASE("scene: bounds and wall rectangles are in metres, in world coordinates") {
     OccupancyGrid grid = drawn_map({"..", "##"}, 0.5);
     grid.origin = {10, 20, 0};
     const Scene scene(grid);

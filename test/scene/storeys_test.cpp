@@ -62,7 +62,7 @@ TEST_CASE("storeys: a horizontal link crosses the walls of its own storey") {
     }
 }
 
-TEST_CASE("storeys: each part of a link between storeys crosses the walls of its storey") {
+TEST_CASE("storeys: each part of a link between storeys crosses the walls of the storey it is in") {
     const Scene scene = two_storeys();
     // It rises 1 m per metre and passes the ceiling at x = 3: both pillars stand in its way.
     const double slope = std::sqrt(2.0);
@@ -76,7 +76,7 @@ TEST_CASE("storeys: each part of a link between storeys crosses the walls of its
     CHECK(near(scene.wall_length({0, 1.5, -0.25}, {6, 1.5, 5.75}), slope * 1.75));
 }
 
-TEST_CASE("storeys: the length inside walls equals the count of sampled points in the maps") {
+TEST_CASE("storeys: the length inside walls agrees with points sampled along the link") {
     test::Draw draw(24);
     constexpr int points = 20'000;
     for (int trial = 0; trial < 30; ++trial) {
@@ -129,7 +129,8 @@ TEST_CASE("storeys: lengths and losses have equal bits in both directions") {
     }
 }
 
-TEST_CASE("storeys: the height of a wall counts from its floor, and ends at the ceiling") {
+TEST_CASE(
+    "storeys: the height of a wall is measured from its floor, and the wall ends at the ceiling") {
     const Scene low = two_storeys({Material{.height = Meters{2}}});
     CHECK(near(low.wall_length({0, 1.5, 1.9}, {6, 1.5, 1.9}), 1));
     CHECK(low.wall_length({0, 1.5, 2.1}, {6, 1.5, 2.1}) == 0);
@@ -139,7 +140,7 @@ TEST_CASE("storeys: the height of a wall counts from its floor, and ends at the 
     CHECK(high.crossings({0, 1.5, 3.5}, {6, 1.5, 3.5}).size() == 1);
 }
 
-TEST_CASE("storeys: ceilings between two heights are listed from below") {
+TEST_CASE("storeys: the ceilings between two heights are listed from the lowest to the highest") {
     const std::vector<OccupancyGrid> maps{on_floor(drawn_map(ground), 0),
                                           on_floor(drawn_map(ground), 3),
                                           on_floor(drawn_map(ground), 6)};
@@ -171,7 +172,8 @@ TEST_CASE("storeys: a robot avoids the obstacles of its own storey") {
     CHECK(scene.passable({0.5, 1.5, 3}, {2.7, 1.5, 3}, body));
 }
 
-TEST_CASE("storeys: on the stairs each part of the path avoids the walls of its storey") {
+TEST_CASE(
+    "storeys: on stairs, each part of the path avoids the walls of the storey in which it is") {
     const Scene scene = two_storeys();
     const Meters body{0.2};
     // Up over the lower pillar, which ends at the ceiling: blocked below, and free if the ceiling
@@ -197,7 +199,8 @@ TEST_CASE("storeys: a range finder sees the walls of its storey") {
     CHECK(near(way[0], 2.5));
 }
 
-TEST_CASE("storeys: a storey is a scene of its map, and all maps together give the scene again") {
+TEST_CASE(
+    "storeys: each storey is a scene of its map, and a scene's maps build the same scene again") {
     const Scene scene = two_storeys();
     CHECK(scene.storey_at(3).crossings({0, 1.5, 4}, {6, 1.5, 4})[0].entry == doctest::Approx(3));
     CHECK(scene.storey(0).storeys().size() == 1);
@@ -219,7 +222,7 @@ TEST_CASE("storeys: a storey is a scene of its map, and all maps together give t
     CHECK(bare.with_walls_of(again).wall_length({0, 1.5, 4}, {6, 1.5, 4}) == doctest::Approx(1));
 }
 
-TEST_CASE("storeys: several maps on one floor are one storey") {
+TEST_CASE("storeys: several maps at one floor height form one storey") {
     OccupancyGrid beside = on_floor(drawn_map(upper), 3);
     beside.origin.x = 6;
     const Scene scene({on_floor(drawn_map(ground), 0), on_floor(drawn_map(upper), 3), beside},
@@ -232,7 +235,7 @@ TEST_CASE("storeys: several maps on one floor are one storey") {
     CHECK_FALSE(scene.inside_map({11, 1, 0}));
 }
 
-TEST_CASE("storeys: ceilings without storeys, too few ceilings, and infinite floors are refused") {
+TEST_CASE("storeys: a wrong number of ceilings, and a floor height of NaN, are refused") {
     CHECK_THROWS_AS(two_storeys({Material{}}, {{}, {}}), std::invalid_argument);
     CHECK_THROWS_AS(Scene({drawn_map(ground)}, {Material{}}, {Material{}}), std::invalid_argument);
     CHECK_THROWS_AS(Scene(std::vector<OccupancyGrid>{}, {Material{}}, {Material{}}),

@@ -157,7 +157,7 @@ double length_of(const Ray& r) { return std::hypot(r.b.u - r.a.u, r.b.v - r.a.v)
 
 }  // namespace
 
-TEST_CASE("wall index: crossings equal those of the occupied cells one by one") {
+TEST_CASE("wall index: crossings equal those found by testing all occupied cells one by one") {
     for_random_rays(11, [](const World& world, const Ray& ray, test::Draw&) {
         const double length = length_of(ray);
         if (length < 1e-6) return;
@@ -172,7 +172,7 @@ TEST_CASE("wall index: crossings equal those of the occupied cells one by one") 
     });
 }
 
-TEST_CASE("wall index: tiles give the same bits as testing every rectangle") {
+TEST_CASE("wall index: the search by tiles gives the same bits as testing every rectangle") {
     for_random_rays(12, [](const World& world, Ray ray, test::Draw&) {
         if (std::pair(ray.b.u, ray.b.v) < std::pair(ray.a.u, ray.a.v)) std::swap(ray.a, ray.b);
         if (ray.a.u == ray.b.u || ray.a.v == ray.b.v) return;  // on grid lines: see the cells test
@@ -182,7 +182,7 @@ TEST_CASE("wall index: tiles give the same bits as testing every rectangle") {
     });
 }
 
-TEST_CASE("wall index: from far away, past the corners of tiles, no tile is missed") {
+TEST_CASE("wall index: a ray from far away past the corners of tiles misses no tile") {
     test::Draw draw(17);
     const OccupancyGrid grid = test::random_map(draw, 200, 200, 50);
     const WallIndex index = index_of(grid);
@@ -211,7 +211,8 @@ TEST_CASE("wall index: the result does not depend on the division into rectangle
     });
 }
 
-TEST_CASE("wall index: both directions give the same lengths to the last bit, mirrored") {
+TEST_CASE(
+    "wall index: both directions give mirrored crossings, with equal lengths to the last bit") {
     for_random_rays(14, [](const World& world, const Ray& ray, test::Draw&) {
         const double length = length_of(ray);
         std::vector<Crossing> forth, back;
@@ -230,7 +231,7 @@ TEST_CASE("wall index: both directions give the same lengths to the last bit, mi
     });
 }
 
-TEST_CASE("wall index: with a limit, results below it are exact, and all others are above it") {
+TEST_CASE("wall index: lengths up to a given limit are exact, and longer ones are only above it") {
     for_random_rays(15, [](const World& world, const Ray& ray, test::Draw& draw) {
         const double all = std::numeric_limits<double>::infinity();
         const double exact = world.index.solid_length(ray.a, ray.b, length_of(ray), all);
@@ -244,7 +245,7 @@ TEST_CASE("wall index: with a limit, results below it are exact, and all others 
     });
 }
 
-TEST_CASE("wall index: solid length is the sum of the crossings") {
+TEST_CASE("wall index: the solid length is the sum of the lengths of all crossings") {
     for_random_rays(16, [](const World& world, const Ray& ray, test::Draw&) {
         if (ray.a == ray.b) return;
         std::vector<Crossing> found;
@@ -261,7 +262,8 @@ TEST_CASE("wall index: solid length is the sum of the crossings") {
     });
 }
 
-TEST_CASE("wall index: an outer row of free cells changes only the coordinates") {
+TEST_CASE(
+    "wall index: adding an outer border of free cells to a map does not change the crossings") {
     const OccupancyGrid tight = test::drawn_map({"##", "##"});
     const OccupancyGrid wide = test::drawn_map({"....", ".##.", ".##.", "...."});
     std::vector<Crossing> inner, outer;

@@ -38,7 +38,8 @@ constexpr Vec3 middle{side * cell_side / 2 + 1e-4, side* cell_side / 2 + 1e-4, 0
 
 }  // namespace
 
-TEST_CASE("wall thickness: of a straight wall is right at any angle, within a cell") {
+TEST_CASE(
+    "wall thickness: the thickness of a straight wall is right within one cell, at any angle") {
     for (const double thickness : {0.1, 0.3, 0.6}) {
         for (int degrees = 0; degrees < 180; degrees += 5) {
             CAPTURE(thickness);
@@ -49,7 +50,8 @@ TEST_CASE("wall thickness: of a straight wall is right at any angle, within a ce
     }
 }
 
-TEST_CASE("wall thickness: 12 cm in cells of 5 cm is more than 10 cm, at any angle") {
+TEST_CASE(
+    "wall thickness: a wall of 12 cm in cells of 5 cm measures at least 10 cm, at any angle") {
     for (int degrees = 0; degrees < 180; ++degrees) {
         CAPTURE(degrees);
         const double angle = degrees * std::numbers::pi / 180;
@@ -66,7 +68,8 @@ TEST_CASE("wall thickness: 12 cm in cells of 5 cm is more than 10 cm, at any ang
     }
 }
 
-TEST_CASE("wall thickness: where a thin wall continues as a thick one, each has its own") {
+TEST_CASE(
+    "wall thickness: where a thin wall continues as a thick one, each part has its own thickness") {
     OccupancyGrid grid = with_wall(0, 0);
     const auto draw = [&](int from, int to, int cells) {
         for (int column = from; column < to; ++column)
@@ -84,7 +87,8 @@ TEST_CASE("wall thickness: where a thin wall continues as a thick one, each has 
     }
 }
 
-TEST_CASE("wall thickness: is 0 outside walls; at a crossing of walls that of the thinner") {
+TEST_CASE(
+    "wall thickness: outside walls it is 0; where two walls cross, it is that of the thinner one") {
     OccupancyGrid grid = with_wall(0.1, 0);
     for (std::size_t i = 0; i < grid.cells.size(); ++i) {
         if (i % side >= 90 && i % side < 110) grid.cells[i] = Cell::occupied;  // 40 cm, upright
@@ -97,7 +101,7 @@ TEST_CASE("wall thickness: is 0 outside walls; at a crossing of walls that of th
     CHECK(Scene{}.wall_thickness({0, 0}).value == 0);
 }
 
-TEST_CASE("wall thickness: simultaneous threads get the same first result") {
+TEST_CASE("wall thickness: threads that request it first, at the same time, get the same result") {
     const Scene scene(with_wall(0.3, 0.5));
     std::vector<double> found(4);
     std::vector<std::thread> threads;

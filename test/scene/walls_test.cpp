@@ -76,7 +76,7 @@ const std::vector<double> angles{0, 1, 3, 7, 12, 20, 26.565, 33, 40, 45, 52, 61,
 
 }  // namespace
 
-TEST_CASE("walls: a straight wall is one wall, at any angle, also for grazing rays") {
+TEST_CASE("walls: a straight wall counts as one wall, at any angle, also for grazing rays") {
     const double thick = 0.15;  // [m]
     int in_parts = 0;
     for (const double angle : angles)
@@ -98,7 +98,8 @@ TEST_CASE("walls: a straight wall is one wall, at any angle, also for grazing ra
     CHECK(in_parts > 100);  // the cells alone would tell otherwise
 }
 
-TEST_CASE("walls: a ray along a wall that touches its steps passes no wall") {
+TEST_CASE(
+    "walls: a ray along a slanted wall that only touches the steps of its cells passes no wall") {
     int touching = 0;
     for (const double angle : {7.0, 20.0, 33.0, 52.0}) {
         const double cell = 0.05, thick = 0.15;
@@ -116,7 +117,7 @@ TEST_CASE("walls: a ray along a wall that touches its steps passes no wall") {
     CHECK(touching > 10);
 }
 
-TEST_CASE("walls: two walls are two, at any distance, across the cells and along them") {
+TEST_CASE("walls: two parallel walls 12 cm apart count as two, at any angle") {
     for (const double angle : angles)
         for (const double cell : {0.02, 0.05}) {
             const double apart = 0.12, thick = 0.15;  // [m]
@@ -134,7 +135,7 @@ TEST_CASE("walls: two walls are two, at any distance, across the cells and along
         }
 }
 
-TEST_CASE("walls: along the cells each crossing is a separate wall") {
+TEST_CASE("walls: if walls are parallel to the cells, each crossing is a separate wall") {
     // Rooms of 2 m with doors and corners, and two walls a cell apart, in cells of 10 cm.
     Drawing office{0, {}};
     for (const double at : {-6.0, -4.0, -2.0, 0.0, 2.0, 4.0, 6.0}) {
@@ -159,7 +160,7 @@ TEST_CASE("walls: along the cells each crossing is a separate wall") {
     CHECK(near > 100);
 }
 
-TEST_CASE("walls: a wall drawn as an outline is one wall, with its drawn thickness") {
+TEST_CASE("walls: a wall drawn as an outline counts as one wall, with its drawn thickness") {
     int hollow = 0;
     for (const double thick : {0.15, 0.3})
         for (const double angle : angles)
@@ -181,7 +182,8 @@ TEST_CASE("walls: a wall drawn as an outline is one wall, with its drawn thickne
     CHECK(hollow > 45);  // of 60; others are too thin
 }
 
-TEST_CASE("walls: the rings of a room without doors are one wall, with open ends two") {
+TEST_CASE(
+    "walls: the outline of a closed room counts as one wall, two lines with open ends as two") {
     for (const double angle : {0.0, 20.0}) {
         Drawing room{angle * degree,
                      {{-4, -3, 4, -2.8}, {-4, 2.8, 4, 3}, {-4, -3, -3.8, 3}, {3.8, -3, 4, 3}}};
@@ -212,7 +214,8 @@ TEST_CASE("walls: a gap that ends at the border of the map is not the inside of 
     CHECK(Scene(test::drawn_map(closed, 0.1)).walls({0.05, 0.3}, {0.95, 0.35}).size() == 1);
 }
 
-TEST_CASE("walls: a closed door is a separate wall, and the wall around it stays one") {
+TEST_CASE(
+    "walls: a closed door counts as a separate wall, and the wall beside it still counts as one") {
     const double thick = 0.15;
     const Drawing drawing{20 * degree,
                           {{-5.5, -thick / 2, -0.5, thick / 2}, {0.5, -thick / 2, 5.5, thick / 2}}};
@@ -233,7 +236,8 @@ TEST_CASE("walls: a closed door is a separate wall, and the wall around it stays
         }
 }
 
-TEST_CASE("walls: a wall left at its steps takes a loss per crossing once") {
+TEST_CASE(
+    "walls: a ray that leaves a slanted wall at its cells' steps pays the crossing loss once") {
     const double thick = 0.15;
     const Drawing drawing{20 * degree, {{-5.5, -thick / 2, 5.5, thick / 2}}};
     const Scene scene(drawing.map(0.05));

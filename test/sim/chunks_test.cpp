@@ -12,7 +12,7 @@
 namespace chunks_test {
 using namespace rovernet;
 
-TEST_CASE("chunks: values are found by number and stay in place") {
+TEST_CASE("chunks: values are found by their index and never move in memory") {
     Chunks<std::unique_ptr<int>> list;
     std::vector<const std::unique_ptr<int>*> places;
     for (int i = 0; i < 1000; ++i) {
@@ -48,7 +48,7 @@ TEST_CASE("chunks: a copy has its own values") {
     CHECK(list.size() == 101);
 }
 
-TEST_CASE("slots: a freed slot is reused with its old value, and values stay in place") {
+TEST_CASE("slots: a freed slot is reused with its old value, and values never move in memory") {
     Slots<std::vector<int>> slots;
     std::vector<const std::vector<int>*> places;
     for (std::size_t i = 0; i < 200; ++i) {

@@ -50,7 +50,7 @@ TEST_CASE("complex: a quotient times its denominator is the numerator") {
     }
 }
 
-TEST_CASE("complex: e^z turns by the imaginary part and grows by the real one") {
+TEST_CASE("complex: e^z agrees with the standard library, and is exactly 0 where it underflows") {
     for (const Complex z : {Complex{0, 0}, Complex{1, 2}, Complex{-30, 100}, Complex{-700, -3}}) {
         CHECK(near(math::exp(z), std::exp(z), 1e-14));
     }

@@ -16,14 +16,14 @@ const std::vector<std::string> models = {"disc", "friis", "two_ray", "itu_indoor
 
 }  // namespace
 
-TEST_CASE("location: a position in a file, a whole file and an option have their printed forms") {
+TEST_CASE("location: text() prints file:line:column, the file alone, or the option") {
     CHECK(Location{"rescue.toml", 9, 4}.text() == "rescue.toml:9:4");
     CHECK(Location{"office.png"}.text() == "office.png");
     CHECK(Location{.source = "--set radio.power=3", .is_option = true}.text() ==
           "--set radio.power=3");
 }
 
-TEST_CASE("input error: prints the position, then the message") {
+TEST_CASE("input error: what() returns the position, then the message") {
     const InputError error({"rescue.toml", 9, 4}, "unknown model \"log_distnace\"");
     CHECK(std::string(error.what()) == "rescue.toml:9:4: unknown model \"log_distnace\"");
     CHECK(error.message() == "unknown model \"log_distnace\"");
@@ -31,12 +31,12 @@ TEST_CASE("input error: prints the position, then the message") {
     CHECK(std::string(InputError({}, "no input").what()) == "no input");
 }
 
-TEST_CASE("run error: is distinguished from an input error") {
+TEST_CASE("run error: a RunError is not an InputError") {
     CHECK_THROWS_AS(throw RunError("too many events"), RunError);
     CHECK(!std::is_base_of_v<InputError, RunError>);
 }
 
-TEST_CASE("did you mean: a typing error finds its word") {
+TEST_CASE("did you mean: for a misspelt word the nearest known word is suggested") {
     CHECK(did_you_mean("log_distnace", models) == "did you mean \"log_distance\"?");
     CHECK(did_you_mean("fris", models) == "did you mean \"friis\"?");
     CHECK(did_you_mean("a", {"B", "A"}) == "did you mean \"A\"?");
@@ -49,7 +49,7 @@ TEST_CASE("did you mean: a typing error finds its word") {
     CHECK(did_you_mean("distance", models) == "did you mean \"log_distance\"?");
 }
 
-TEST_CASE("did you mean: without a near word there is no suggestion") {
+TEST_CASE("did you mean: if no known word is near, nothing is suggested") {
     CHECK(did_you_mean("hovercraft", models).empty());
     CHECK(did_you_mean("", models).empty());
     CHECK(did_you_mean("disc", {}).empty());

@@ -63,7 +63,7 @@ std::vector<Leg> kinds_of_legs() {
 
 }  // namespace
 
-TEST_CASE("legs: a leg is returned bit for bit, as the first or after any other") {
+TEST_CASE("legs: a stored leg is read back bit for bit, as a node's first leg or a later one") {
     const auto kinds = kinds_of_legs();
     for (const Leg& first : kinds) {
         for (const Leg& second : kinds) {
@@ -76,7 +76,7 @@ TEST_CASE("legs: a leg is returned bit for bit, as the first or after any other"
     }
 }
 
-TEST_CASE("legs: a node's position follows from its leg, to the last bit, also after its end") {
+TEST_CASE("legs: a node is exactly at the position that its leg gives, also after the leg's end") {
     Legs legs;
     for (const Leg& leg : kinds_of_legs()) {
         const NodeId node = legs.add(leg);
@@ -86,7 +86,7 @@ TEST_CASE("legs: a node's position follows from its leg, to the last bit, also a
     }
 }
 
-TEST_CASE("legs: among many changes every node has its last leg") {
+TEST_CASE("legs: after many changes every node has the leg that it got last") {
     constexpr std::uint32_t nodes = 50;
     const auto kinds = kinds_of_legs();
     Legs legs;

@@ -21,7 +21,7 @@ double worst_erfc_ulp(double from, double to) {
 
 }  // namespace
 
-TEST_CASE("erfc: errors are below the stated ulps, in the middle and far in the tail") {
+TEST_CASE("erfc: errors are below the stated bound in ulps, in the middle and far in the tail") {
     CHECK(worst_erfc_ulp(-0.5, 0.5) < bound_ulp);
     CHECK(worst_erfc_ulp(0.49, 0.51) < bound_ulp);  // where the ways part
     CHECK(worst_erfc_ulp(0.5, 4) < bound_ulp);
@@ -39,7 +39,7 @@ TEST_CASE("erfc: values equal the published ones") {
     CHECK(std::abs(1 - math::erfc(2) - 0.9953222650) < half_a_digit);
 }
 
-TEST_CASE("erfc: both sides of 0 add up to 2, and it never increases") {
+TEST_CASE("erfc: erfc(x) and erfc(-x) add up to 2, and erfc never increases") {
     double before = 2;
     for (double x = -6.5; x < 28; x += 1e-3) {
         const double here = math::erfc(x);

@@ -78,7 +78,8 @@ TEST_CASE("logarithms: errors are below one ulp, near 1 and far from it") {
     CHECK(worst_log_ulp(0, Limits::min()) < log_bound_ulp);  // subnormal
 }
 
-TEST_CASE("powers: errors are below the stated ulps, inside and outside the normal range") {
+TEST_CASE(
+    "powers: errors are below the stated bounds in ulps, inside and outside the normal range") {
     CHECK(worst_ulp(math::exp2, long_exp2, -1, 1) < exp2_bound_ulp);
     CHECK(worst_ulp(math::exp2, long_exp2, -1022, 1024) < exp2_bound_ulp);
     CHECK(worst_ulp(math::exp2, long_exp2, -1075, -1022) < exp2_bound_ulp);
@@ -91,7 +92,8 @@ TEST_CASE("powers: errors are below the stated ulps, inside and outside the norm
     CHECK(worst_ulp(math::exp10, long_exp10, -323, -307) < exp10_bound_ulp);
 }
 
-TEST_CASE("log(1 + x), e^x - 1: errors are below the stated ulps, near 0 and far from it") {
+TEST_CASE(
+    "log(1 + x), e^x - 1: errors are below the stated bounds in ulps, near 0 and far from it") {
     const auto exact_log = [](long double x) { return std::log1p(x); };
     const auto log_ulp = [&](double a, double b) {
         return worst_ulp(math::log1p, exact_log, a, b);
@@ -125,7 +127,7 @@ TEST_CASE("log(1 + x), e^x - 1: limits and the sign of zero are right") {
     }
 }
 
-TEST_CASE("logarithms: are exact wherever the result is an integer") {
+TEST_CASE("logarithms: the result is exact wherever it is an integer") {
     for (int n = -1074; n <= 1023; ++n) CHECK(math::log2(std::ldexp(1.0, n)) == n);
     for (int n = 0; n <= 22; ++n) CHECK(math::log10(std::stod("1e" + std::to_string(n))) == n);
     CHECK(same_bits(math::log(1), 0.0));
@@ -133,7 +135,7 @@ TEST_CASE("logarithms: are exact wherever the result is an integer") {
     CHECK(same_bits(math::log10(1), 0.0));
 }
 
-TEST_CASE("powers: are exact wherever a double can be") {
+TEST_CASE("powers: powers of 2 and 10 are exact wherever a double can represent them") {
     for (int n = -1074; n <= 1023; ++n) CHECK(math::exp2(n) == std::ldexp(1.0, n));
     for (int n = 0; n <= 22; ++n) CHECK(math::exp10(n) == std::stod("1e" + std::to_string(n)));
 }
@@ -243,7 +245,7 @@ TEST_CASE("sine and cosine: errors are below one ulp, in the first octant and af
     CHECK(worst_sincos_ulp(-1e9, 1e9) < sincos_bound_ulp);
 }
 
-TEST_CASE("sine and cosine: every digit is right next to their zeros") {
+TEST_CASE("sine and cosine: errors are at most one ulp at the doubles nearest to their zeros") {
     // The doubles nearest to multiples of pi / 2; computed to 400 bits, then rounded.
     struct Known {
         double x, sin, cos;
@@ -277,7 +279,7 @@ TEST_CASE("sine and cosine: are odd and even to the last bit, and exact at 0") {
     }
 }
 
-TEST_CASE("sine and cosine: are NaN beyond a thousand million radians, for infinity and for NaN") {
+TEST_CASE("sine and cosine: results are NaN beyond 1e9 radians, for infinity and for NaN") {
     CHECK(std::isfinite(sine(1e9)));
     for (const double x : {std::nextafter(1e9, 2e9), -2e9, Limits::max(), Limits::infinity(),
                            -Limits::infinity(), Limits::quiet_NaN()}) {

@@ -9,7 +9,7 @@
 namespace power_of_ten_test {
 using namespace rovernet;
 
-TEST_CASE("power of ten: the decimal point moves, and nothing is rounded twice") {
+TEST_CASE("power of ten: multiplying a decimal number by a power of ten rounds only once") {
     CHECK(times_power_of_ten(3730.3, -2) == 37.303);
     CHECK(times_power_of_ten(-0.7, -1) == -0.07);
     CHECK(times_power_of_ten(2412.3, 6) == 2412300000.0);
@@ -17,7 +17,8 @@ TEST_CASE("power of ten: the decimal point moves, and nothing is rounded twice")
     CHECK(times_power_of_ten(0.1, 0) == 0.1);
 }
 
-TEST_CASE("power of ten: zero, the largest and the smallest numbers keep their sign") {
+TEST_CASE(
+    "power of ten: results that are zero, overflow or underflow keep the sign; NaN stays NaN") {
     CHECK(times_power_of_ten(0, 3) == 0);
     CHECK(std::signbit(times_power_of_ten(-0.0, 3)));
     CHECK(times_power_of_ten(1e308, 3) == HUGE_VAL);

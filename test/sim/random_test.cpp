@@ -145,7 +145,8 @@ TEST_CASE("philox: outputs equal the published known answers of Random123") {
         Counter{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1});
 }
 
-TEST_CASE("combine: outputs equal the published splitmix64, and the order matters") {
+TEST_CASE(
+    "combine: outputs equal the published splitmix64, and the order of the arguments matters") {
     constexpr std::uint64_t golden = 0x9e3779b97f4a7c15;
     constexpr std::uint64_t first_of_seed_0 = 0xe220a8397b1dcdaf;
     CHECK(combine(0, golden + 1234567 - first_of_seed_0) == 6457827717110365317);
@@ -180,7 +181,7 @@ TEST_CASE("random: equal keys give equal bits with every compiler") {
     CHECK(sum == 0x26bf317e6803070b);
 }
 
-TEST_CASE("random: purposes keep their numbers") {
+TEST_CASE("random: the number of each purpose stays as it was first assigned") {
     CHECK(static_cast<int>(Purpose::flood_jitter) == 1);
     CHECK(static_cast<int>(Purpose::link_shadowing) == 2);
     CHECK(static_cast<int>(Purpose::placement) == 3);
@@ -196,7 +197,7 @@ TEST_CASE("uniform: moments and distribution are right") {
     CHECK(kolmogorov_smirnov(u, [](double x) { return x; }) < ks_bound);
 }
 
-TEST_CASE("uniform: draws are midpoints of a grid, so never 0 or 1") {
+TEST_CASE("uniform: draws are midpoints of the cells of a grid, so they are never 0 or 1") {
     for (std::size_t i = 0; i < samples; ++i) {
         const double cell = std::ldexp(uniform(nth_key(i)), 52);
         REQUIRE(cell - std::floor(cell) == 0.5);
@@ -237,7 +238,7 @@ TEST_CASE("normal quantile: agrees with Boost.Math from tail to tail") {
     CHECK(normal_quantile(0x1p-53) > -8.21);
 }
 
-TEST_CASE("below: gives every value equally often, and never n") {
+TEST_CASE("below: below(n) gives every value equally often, and never n") {
     std::array<double, 10> count{};
     for (std::size_t i = 0; i < samples; ++i) ++count.at(below(nth_key(i), count.size()));
     const double expected = static_cast<double>(samples) / 10;
@@ -251,7 +252,7 @@ TEST_CASE("below: gives every value equally often, and never n") {
     }
 }
 
-TEST_CASE("random: neighbouring keys in any field are independent") {
+TEST_CASE("random: keys that differ by 1 in any field give independent numbers") {
     std::array<double, 6> product{};
     for (std::size_t i = 0; i < samples; ++i) {
         const Key key = small_key(i);
@@ -264,7 +265,7 @@ TEST_CASE("random: neighbouring keys in any field are independent") {
     for (const double p : product) CHECK(mean_is(p / static_cast<double>(samples), 0, 1));
 }
 
-TEST_CASE("random: incrementing any field flips every bit half of the time") {
+TEST_CASE("random: incrementing any field of a key flips each bit of the result half of the time") {
     std::array<std::array<int, 64>, 6> flips{};
     for (std::size_t i = 0; i < samples / 4; ++i) {
         const auto near = neighbours(small_key(i));
@@ -280,7 +281,7 @@ TEST_CASE("random: incrementing any field flips every bit half of the time") {
     }
 }
 
-TEST_CASE("random: small keys never collide") {
+TEST_CASE("random: keys with small numbers never collide") {
     std::vector<std::uint64_t> all;
     for (std::size_t i = 0; i < samples; ++i) {
         all.push_back(bits(small_key(i)));
@@ -322,7 +323,8 @@ TEST_CASE("pair draws: moments and distribution over all pairs of some robots ar
     }
 }
 
-TEST_CASE("pair draws: pairs that share robots are independent, also around a ring") {
+TEST_CASE(
+    "pair draws: pairs that share a robot have independent draws, also around a ring of pairs") {
     const PairDraws draws(1, 0, Purpose::link_shadowing);
     const auto x = [&](std::uint64_t a, std::uint64_t b) {
         return std::sqrt(12.0) * (draws.uniform(a, b) - 0.5);  // mean 0, standard deviation 1
@@ -345,7 +347,8 @@ TEST_CASE("pair draws: pairs that share robots are independent, also around a ri
     }
 }
 
-TEST_CASE("pair draws: a neighbour in key, seed, replication or purpose flips half of the bits") {
+TEST_CASE(
+    "pair draws: adding 1 to a key, seed, replication or purpose flips each bit half of the time") {
     std::array<std::array<int, 64>, 8> flips{};
     for (std::size_t i = 0; i < samples / 4; ++i) {
         const auto near = near_pairs(i);

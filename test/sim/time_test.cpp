@@ -23,7 +23,7 @@ TEST_CASE("time: seconds become the nearest nanosecond") {
     CHECK(from_seconds(std::numeric_limits<double>::denorm_min()) == 0ns);
 }
 
-TEST_CASE("time: half a nanosecond is rounded away from zero, and slightly less to zero") {
+TEST_CASE("time: half a nanosecond is rounded away from zero, and slightly less towards zero") {
     constexpr double step = 0x1p-10;  // [s] 976,562.5 ns
     for (int n = -9; n <= 9; n += 2) {
         CHECK(from_seconds(n * step).count() == std::llround(n * 976'562.5));
@@ -31,7 +31,7 @@ TEST_CASE("time: half a nanosecond is rounded away from zero, and slightly less 
     }
 }
 
-TEST_CASE("time: nanoseconds survive conversion to seconds and back, for 13 days") {
+TEST_CASE("time: up to 13 days, nanoseconds converted to seconds and back are unchanged") {
     constexpr std::int64_t thirteen_days = std::int64_t{1} << 50;
     for (std::int64_t n = 1; n < thirteen_days; n = n * 3 / 2 + 1) {
         CHECK(from_seconds(seconds(Duration{n})) == Duration{n});
@@ -59,7 +59,7 @@ TEST_CASE("time: after 30 years a nanosecond still counts, which a double would 
     CHECK((late + 1ns) - late == 1ns);
 }
 
-TEST_CASE("time: 0.1 s plus 0.2 s equals 0.3 s, so that ties are ties (S34)") {
+TEST_CASE("time: 0.1 s plus 0.2 s equals 0.3 s, so events at these times are simultaneous (S34)") {
     CHECK(start_of_run + from_seconds(0.1) + from_seconds(0.2) == start_of_run + from_seconds(0.3));
 }
 

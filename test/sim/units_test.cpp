@@ -38,7 +38,7 @@ TEST_CASE("power to level: ten times the power is 10 dB, exactly") {
     CHECK(to_dbm({1000}).value == 30);
 }
 
-TEST_CASE("power to level is the inverse of ten to the power of a tenth of the level") {
+TEST_CASE("power to level: a level converted to a power and back is unchanged") {
     for (double level = -150; level <= 60; level += 0.37) {
         CAPTURE(level);
         CHECK(near(to_dbm({std::pow(10, level / 10)}).value, level, round_trip * 10));
@@ -54,7 +54,8 @@ TEST_CASE("power to level: only a positive power has a level") {
     CHECK(std::isfinite(to_dbm({std::numeric_limits<double>::denorm_min()}).value));
 }
 
-TEST_CASE("units: levels take gains and losses, and differ by a ratio, but do not add") {
+TEST_CASE(
+    "units: a level plus dB is a level, the difference of two levels is in dB, levels do not add") {
     CHECK(10_dBm + 3_dB == 13_dBm);
     CHECK(10_dBm - 3_dB == 7_dBm);
     CHECK(10_dBm - 4_dBm == 6_dB);
@@ -64,7 +65,7 @@ TEST_CASE("units: levels take gains and losses, and differ by a ratio, but do no
     static_assert(std::is_same_v<decltype(1_m / 2_m), double>);
 }
 
-TEST_CASE("units: literals carry their scale") {
+TEST_CASE("units: literals apply the factor of their prefix, as 2450_MHz is 2.45e9 Hz") {
     CHECK((2450_MHz).value == 2.45e9);
     CHECK((5.5_Mbps).value == 5.5e6);
     CHECK(3 * 2_m + 1.5_m - 0.5_m == 7_m);

@@ -99,7 +99,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "balance: means over common cells are right where failed runs would reverse their order") {
+    "balance: means over common cells are right even if failed runs would reverse the order of "
+    "plain means") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), biased);
     const Answers all = answers(store, {.group_by = by_ttl, .common = true});
@@ -125,7 +126,7 @@ TEST_CASE(
     CHECK(coverage_text(held) == "7 runs failed");
 }
 
-TEST_CASE("balance: a run without a value, and a run not made, are missing cells") {
+TEST_CASE("balance: a run without a value and a run that was not made are missing cells") {
     const TemporaryFolder folder;
     for (const Ending fate : {Ending::undefined, Ending::missing}) {
         const std::string name = fate == Ending::undefined ? "undefined" : "missing";

@@ -8,7 +8,7 @@ namespace command_words_test {
 using namespace rovernet;
 using namespace rovernet::test;
 
-TEST_CASE("command words: a shell reads every word back") {
+TEST_CASE("command words: a shell reads every printed word back unchanged") {
     const std::vector<std::string> words{"plain-1.0/a_b=c:d,+", "",    "two words", "it's", "''",
                                          "\"$HOME\" `id` \\",   "*?[", "~",         "#x",   "a\nb",
                                          "\xc3\xa4;|&<>(){}!%"};
@@ -22,7 +22,9 @@ TEST_CASE("command words: a shell reads every word back") {
     CHECK(shell_word(words[0]) == words[0]);
 }
 
-TEST_CASE("command words: options of a scenario are in the order of their kinds") {
+TEST_CASE(
+    "command words: options of a scenario are printed in a fixed order: --set, --world-path, "
+    "--bitmap, --lenient") {
     const ScenarioOptions options{
         .set = {"a=1", "b=2"}, .world_path = {"w"}, .bitmaps = {"x=y"}, .lenient = true};
     CHECK(shell_command(option_words(options)) ==

@@ -127,7 +127,7 @@ TEST_CASE("coverage: betting intervals cover the truth in 95 % of studies, for a
     }
 }
 
-TEST_CASE("coverage: STaR-Bets reject the true mean in at most 5 % of studies of that n") {
+TEST_CASE("coverage: for a fixed n, STaR-Bets reject the true mean in at most 5 % of studies") {
     constexpr int studies = 600;
     constexpr double level = 0.05;
     const double most = level + 3 * std::sqrt(level * (1 - level) / studies);
@@ -150,7 +150,9 @@ TEST_CASE("coverage: STaR-Bets reject the true mean in at most 5 % of studies of
     }
 }
 
-TEST_CASE("coverage: repeated looks need betting, and STaR-Bets then fail") {
+TEST_CASE(
+    "coverage: intervals that are checked repeatedly must be betting ones, because STaR-Bets then "
+    "fail") {
     constexpr int studies = 400;
     constexpr double level = 0.05;
     const Distribution all = distributions().back();
@@ -169,12 +171,12 @@ TEST_CASE("coverage: repeated looks need betting, and STaR-Bets then fail") {
     CHECK(betting <= most * studies);
 }
 
-TEST_CASE("coverage: Student's t fails, so that this test can detect failures") {
+TEST_CASE("coverage: Student's t covers the truth too seldom, so the test can detect a failure") {
     CHECK(coverage(density(250), 30, 200, IntervalMethod::t) < 0.6);
     CHECK(coverage(density(300), 100, 200, IntervalMethod::t) < 0.5);
 }
 
-TEST_CASE("coverage: where a precision of 0.1 stops, the interval still covers the truth") {
+TEST_CASE("coverage: if a study stops at a precision of 0.1, the interval still covers the truth") {
     constexpr int studies = 200;
     StudyTable table;
     table.precision = 0.1;
@@ -196,7 +198,9 @@ TEST_CASE("coverage: where a precision of 0.1 stops, the interval still covers t
     }
 }
 
-TEST_CASE("coverage: widths are compared with Student's, where that is valid") {
+TEST_CASE(
+    "coverage: for normal values, betting and STaR-Bets are wider than Student's t by the "
+    "documented factors") {
     constexpr int studies = 50;
     constexpr double last_digit = 0.05;
     const auto bounded = [](std::span<const double> values, IntervalMethod method) {
@@ -234,7 +238,9 @@ TEST_CASE("coverage: widths are compared with Student's, where that is valid") {
     }
 }
 
-TEST_CASE("coverage: STaR-Bets are within 10 % of Gaffke's width, whose proof is incomplete") {
+TEST_CASE(
+    "coverage: intervals by STaR-Bets are within 10 % as wide as Gaffke's, whose proof is "
+    "incomplete") {
     constexpr int studies = 20;
     constexpr double last_digit = 0.005, level = (1 - confidence) / 2;
     constexpr std::array<std::size_t, 3> sizes = {10, 30, 100};

@@ -163,7 +163,7 @@ TEST_CASE("damaged stores: an intact store with untyped columns is read without 
     CHECK(joined(errors) == std::string(errors.size(), '\n'));
 }
 
-TEST_CASE("damaged stores: any value in any column is an error or does no harm") {
+TEST_CASE("damaged stores: a wrong value in any column gives an error or does no harm") {
     const Workshop workshop;
     const std::vector<std::string> values = {
         "NULL", "5", "-1", "9e999", "x'00ff41'", "'x'", "'[1,[2,{\"a\":null}]]'", "'{\"a\":5}'"};

@@ -162,7 +162,7 @@ TEST_CASE("least squares: invalid input is refused") {
     CHECK_THROWS_AS(least_squares(data, {true, false}), std::invalid_argument);
 }
 
-TEST_CASE("tobit: unseen far links count; the plain fit equals another program's, too") {
+TEST_CASE("tobit: a fit with unseen far links, and one without, equal those of another program") {
     const Vectors links("fit_censored_links.csv"), expected("fit_censored.csv");
     constexpr double floor = -88;  // [dBm]
     Observations data{.columns = 2}, seen{.columns = 2};
@@ -182,7 +182,7 @@ TEST_CASE("tobit: unseen far links count; the plain fit equals another program's
     CHECK(near(plain.coefficients[1]->value, expected.number(1, "exponent"), 1e-6));
 }
 
-TEST_CASE("tobit: without unseen rows it equals least squares") {
+TEST_CASE("tobit: without unseen rows the fit equals least squares") {
     Observations data{.columns = 2};
     std::vector<bool> unseen;
     for (int i = 0; i < 30; ++i) {
@@ -198,7 +198,7 @@ TEST_CASE("tobit: without unseen rows it equals least squares") {
     CHECK_THROWS_AS(tobit(data, {}), std::invalid_argument);
 }
 
-TEST_CASE("disc fit: the range with the fewest wrong decisions equals the vectors") {
+TEST_CASE("disc fit: the range with the fewest wrong decisions equals that of the test vectors") {
     const Vectors links("fit_links.csv"), expected("fit_disc.csv");
     std::vector<DiscLink> all;
     for (std::size_t i = 0; i < links.size(); ++i) {

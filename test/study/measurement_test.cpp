@@ -59,7 +59,7 @@ vary.robot.A.radius = ["0.3 m", "0.4 m"]
 
 }  // namespace
 
-TEST_CASE("measurement: runs of alternating scenes equal separate runs") {
+TEST_CASE("measurement: runs that alternate between scenes equal separate runs") {
     test::TemporaryFolder folder;
     folder.write("one.pgm", map_with_door(1));
     folder.write("two.pgm", map_with_door(6));
@@ -100,7 +100,8 @@ TEST_CASE("measurement: a changed map is read again") {
     CHECK(fingerprint() == before);
 }
 
-TEST_CASE("measurement: metrics of a run are named before the run, without its map") {
+TEST_CASE(
+    "measurement: the names of a run's metrics are known before the run, even without its map") {
     test::TemporaryFolder folder;
     folder.write("one.pgm", map_with_door(1));
     const std::string text = std::string(walkers).substr(0, std::string(walkers).find("[study]")) +
@@ -120,7 +121,7 @@ TEST_CASE("measurement: metrics of a run are named before the run, without its m
         CHECK(std::find(measured.begin(), measured.end(), name) != measured.end());
 }
 
-TEST_CASE("measurement: is passed through a pipe unchanged") {
+TEST_CASE("measurement: a measurement is written as text and read back unchanged") {
     const Measurement sent{.metrics = {{"a name.with blanks", 0.1 + 0.2}, {"none", {}}},
                            .fingerprint = "0123-4567",
                            .cpu_s = 1.25,

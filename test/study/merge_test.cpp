@@ -56,7 +56,7 @@ TEST_CASE("merge: a shard's runs are copied with their values, and the shard is 
     CHECK_FALSE(fs::exists(folder.path("1.db")));
 }
 
-TEST_CASE("merge: runs in the journal of a killed process are merged") {
+TEST_CASE("merge: runs that a killed process left in the journal of its store are merged") {
     const TemporaryFolder folder;
     Store store = store_with(folder.path("s.db"), 0);
     {

@@ -27,32 +27,34 @@ constexpr double ten_reach = 0.7732;  // the half-width is 0.77266
 
 }  // namespace
 
-TEST_CASE("precision: without one, or when it is reached, no more runs are needed") {
+TEST_CASE("precision: if no precision is wanted, or if it is reached, no more runs are requested") {
     CHECK(replications_for(StudyTable{}, ten, 10) == 10);
     CHECK(replications_for(wanting(ten_reach, 100), ten, 10) == 10);
     CHECK(replications_for(wanting(0.75, 100), ten, 10) == 11);
 }
 
-TEST_CASE("precision: an estimate requests more, at most twice as many, within the limit") {
+TEST_CASE("precision: an estimate requests more runs, at most twice as many, up to the limit") {
     CHECK(replications_for(wanting(0.01, 100), ten, 10) == 20);
     CHECK(replications_for(wanting(0.01, 12), ten, 10) == 12);
     CHECK(replications_for(wanting(0.01, 10), ten, 10) == 10);
     CHECK(replications_for(wanting(0.01, 2), ten, 10) == 10);
 }
 
-TEST_CASE("precision: each estimate requests at least a sixteenth more") {
+TEST_CASE("precision: each estimate requests at least a sixteenth more runs") {
     std::vector<double> many;
     for (int i = 0; i < 320; ++i) many.push_back(ten[static_cast<std::size_t>(i % 10)]);
     const double reach = *reached_precision(wanting(1, 1000), many).half_width;
     CHECK(replications_for(wanting(0.999 * reach, 1000), many, 320) == 340);
 }
 
-TEST_CASE("precision: with fewer than two values it requests twice as many runs") {
+TEST_CASE("precision: with fewer than two values, twice as many runs are requested") {
     CHECK(replications_for(wanting(1, 100), {}, 5) == 10);
     CHECK(replications_for(wanting(1, 100), std::vector<double>{0.5}, 5) == 10);
 }
 
-TEST_CASE("precision: by betting two equal ratios do not reach it, by t they would") {
+TEST_CASE(
+    "precision: two equal ratios do not reach a precision by betting, although they would by "
+    "Student's t") {
     const std::vector<double> two = {0.9759, 0.9759};
     const StudyTable study = wanting(0.01, 1000, "delivery_ratio");
     CHECK_FALSE(reached_precision(study, two).enough);
@@ -61,7 +63,7 @@ TEST_CASE("precision: by betting two equal ratios do not reach it, by t they wou
     CHECK(reached_precision(study, many).enough);
 }
 
-TEST_CASE("precision: by t at least ten values are needed, and not all equal") {
+TEST_CASE("precision: by Student's t at least ten values are needed, and not all of them equal") {
     const StudyTable study = wanting(0.5, 1000);
     const std::vector<double> nine = {1, 1.1, 1, 1.1, 1, 1.1, 1, 1.1, 1};
     CHECK(*reached_precision(study, nine).half_width < 0.05);
@@ -73,7 +75,9 @@ TEST_CASE("precision: by t at least ten values are needed, and not all equal") {
     CHECK(replications_for(study, equal, 50) == 100);
 }
 
-TEST_CASE("precision: the first metric of the study counts, or else the delivery ratio") {
+TEST_CASE(
+    "precision: the metric is the first one of the study, or the delivery ratio if the study lists "
+    "none") {
     StudyTable study;
     CHECK(first_metric(study) == "delivery_ratio");
     study.metrics = {"reach", "events"};

@@ -256,7 +256,7 @@ TEST_CASE("missing, short, doubled or wrong names in a recorded trace are report
           "the attached file x/a cannot be decompressed");
 }
 
-TEST_CASE("control: mutants contain records of robots without a name") {
+TEST_CASE("control: some mutants contain records of robots that have no name") {
     const Sample s;
     int beyond = 0;
     for (std::size_t i = 0; i < s.records.size(); ++i) {

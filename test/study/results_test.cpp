@@ -58,7 +58,9 @@ TEST_CASE("results: by default a row is one point, with mean and interval") {
     CHECK(std::abs(*list[2].low - (101 - half)) < rounding);
 }
 
-TEST_CASE("results: the error for a value of no point lists the values in the study's order") {
+TEST_CASE(
+    "results: the error for a value that no point has lists the existing values in the study's "
+    "order") {
     const TemporaryFolder folder;
     Store store = Store::open_to_write(folder.path("s.db"));
     std::vector<StoredPoint> points;
@@ -126,7 +128,7 @@ TEST_CASE("results: conditions select points, and a condition without a point is
     CHECK_THROWS_AS(answers(store, {.where = {{"radio.pwr", "1"}}}), std::invalid_argument);
 }
 
-TEST_CASE("results: a metric without a value is counted, and has no mean") {
+TEST_CASE("results: a metric that no run defines has no mean, and its undefined runs are counted") {
     const TemporaryFolder folder;
     const auto list = answers(made(folder.path("s.db")), {.metrics = {"hops_mean"}}).list;
     CHECK(list[0].gaps.undefined == 3);
@@ -161,7 +163,7 @@ TEST_CASE("results: CSV has a header, a row per run and metric, and quotes where
     CHECK(std::count(text.begin(), text.end(), '\n') == 25);
 }
 
-TEST_CASE("results: CSV follows conditions, metrics and groups") {
+TEST_CASE("results: CSV has only the requested conditions and metrics, grouped as requested") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"));
     const auto csv = [&](const Question& question) {

@@ -74,7 +74,7 @@ TEST_CASE("slurm: the open chunks are those with unfinished runs") {
     }
 }
 
-TEST_CASE("slurm: ranges name exactly the numbers of an array") {
+TEST_CASE("slurm: the printed ranges contain exactly the numbers of the array") {
     CHECK(array_ranges(std::vector<std::uint64_t>{0, 1, 2, 3, 7, 9, 10}) == "0-3,7,9-10");
     CHECK(array_ranges(std::vector<std::uint64_t>{12}) == "12");
     for (unsigned set = 1; set < 1U << 9; ++set) {
@@ -95,7 +95,7 @@ TEST_CASE("slurm: ranges name exactly the numbers of an array") {
     }
 }
 
-TEST_CASE("slurm: the scripts of a plain sweep can be read") {
+TEST_CASE("slurm: the scripts of a plain sweep have exactly the expected text") {
     CHECK(plain_sweep().job_script() ==
           "#!/bin/bash\n"
           "cd /home/me || exit\n"
@@ -111,7 +111,8 @@ TEST_CASE("slurm: the scripts of a plain sweep can be read") {
           "--store /home/me/s.db --merge \"${shards[@]}\"\n");
 }
 
-TEST_CASE("slurm: the merge runs after the tasks, and the user's options follow ours") {
+TEST_CASE(
+    "slurm: the merge runs after the tasks, and the user's options follow those of rovernet") {
     SlurmSweep sweep = plain_sweep();
     using Words = std::vector<std::string>;
     CHECK(sweep.submit_job() == Words{"sbatch", "--parsable", "--job-name=s", "--array=0-2,5",

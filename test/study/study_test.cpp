@@ -70,14 +70,14 @@ TEST_CASE("study: points are all combinations, and the last key varies fastest")
     CHECK(points_of("") == Texts{"the scenario as it is"});
 }
 
-TEST_CASE("study: keys of a zip vary together, in any position") {
+TEST_CASE("study: keys that are listed in `zip` vary together, in any order of the list") {
     CHECK(points_of("vary.a = [1, 2]\nvary.b = [7, 8]\nvary.c = [3, 4]\nzip = [[\"a\", \"c\"]]") ==
           Texts{"a=1, b=7, c=3", "a=1, b=8, c=3", "a=2, b=7, c=4", "a=2, b=8, c=4"});
     CHECK(points_of("vary.a = [1, 2]\nvary.b = [7, 8]\nvary.c = [3, 4]\nzip = [[\"c\", \"a\", "
                     "\"b\"]]") == Texts{"a=1, b=7, c=3", "a=2, b=8, c=4"});
 }
 
-TEST_CASE("study: a point is skipped if all keys of an exclusion have one of its values") {
+TEST_CASE("study: a point is skipped if each key of an exclusion has one of the excluded values") {
     CHECK(points_of("vary.a = [1, 2, 3]\nvary.b = [7, 8]\nexclude = [{ a = [1, 3], b = 8 }]") ==
           Texts{"a=1, b=7", "a=2, b=7", "a=2, b=8", "a=3, b=7"});
     CHECK(points_of("vary.a = [1, 2]\nvary.b = [7, 8]\nexclude = [{ a = 1 }, { b = 8 }]") ==
@@ -86,7 +86,7 @@ TEST_CASE("study: a point is skipped if all keys of an exclusion have one of its
                          doctest::Contains("excludes every point"), InputError);
 }
 
-TEST_CASE("study: a range includes both ends, without rounding digits") {
+TEST_CASE("study: a range includes both of its ends, and its values have no rounding errors") {
     CHECK(points_of("vary.a = { from = 0, to = 0.5, step = 0.1 }") ==
           Texts{"a=0.0", "a=0.1", "a=0.2", "a=0.3", "a=0.4", "a=0.5"});
     CHECK(points_of("vary.a = { from = 0, to = 0.3, step = 0.1 }") ==  // 0.3 / 0.1 is below 3
@@ -112,7 +112,7 @@ TEST_CASE("study: a million points are accepted, more are an error") {
                          doctest::Contains("more than 1000000 points"), InputError);
 }
 
-TEST_CASE("study: a point's scenario has its values, and its replication") {
+TEST_CASE("study: the scenario of a point has the point's values and the requested replication") {
     const TemporaryFolder folder;
     const std::string path = folder.write(
         "s.toml",
@@ -189,7 +189,8 @@ TEST_CASE("study: a point's id changes exactly if a change affects results") {
     CHECK(ids.insert(id_of(two_robots + "[study]\nmetrics = [\"reach\"]")).second);
 }
 
-TEST_CASE("study: the routing protocol varies, with keys of each protocol in one table") {
+TEST_CASE(
+    "study: the routing protocol can be varied, with keys of several protocols in one table") {
     const TemporaryFolder folder;
     const std::string text = two_robots + R"([study]
 vary."routing.protocol" = ["flood", "aodv"]
@@ -234,7 +235,8 @@ TEST_CASE("study: different materials in the file beside the map are a different
     CHECK(id("3 dB") != id("4 dB"));
 }
 
-TEST_CASE("study: scenes with closed doors are shared by all points that have them") {
+TEST_CASE(
+    "study: all points with the same doors share the scenes in which these doors are closed") {
     const TemporaryFolder folder;
     folder.write("m.pgm", "P2 2 2 255 255 255 255 255");
     const std::string door =

@@ -90,7 +90,7 @@ TEST_CASE("sweep: every replication of every point runs once, and a second sweep
     CHECK(bench.csv() == csv);
 }
 
-TEST_CASE("sweep: a run equals that of a separate network") {
+TEST_CASE("sweep: a run of a sweep equals the run of a separate network") {
     const Bench bench(scattered + study_keys);
     bench.sweep();
     const Store store = Store::open(bench.store());
@@ -125,7 +125,8 @@ TEST_CASE("sweep: results have the same bytes from one worker and from five") {
     CHECK(one.csv() == five.csv());
 }
 
-TEST_CASE("sweep: paths of a replication are searched once, by any number of workers") {
+TEST_CASE(
+    "sweep: paths of robots in a replication are searched only once, with any number of workers") {
     const std::string walk = R"([scenario]
 duration = "60 s"
 [scene]
@@ -166,7 +167,7 @@ vary."propagation.model" = ["friis", "log_distance", "two_ray"]
     }
 }
 
-TEST_CASE("sweep: equal replications at two points have equal robots and positions") {
+TEST_CASE("sweep: the same replication at two points has the same robots at the same positions") {
     // The larger range reaches at least those that the smaller one does.
     const Bench bench(scattered + study_keys);
     bench.sweep({}, {"study.replications=10"});
@@ -249,7 +250,8 @@ TEST_CASE("sweep: a run that takes too long is tried twice, and affects only its
     CHECK(result.failure->error.find("took longer than 3 s") != std::string::npos);
 }
 
-TEST_CASE("sweep: after a stop it stores running runs, and later continues to the same result") {
+TEST_CASE(
+    "sweep: after a stop, running runs are stored, and a later sweep completes the same result") {
     const Bench bench(scattered + study_keys), whole(scattered + study_keys);
     whole.sweep();
     SweepOptions options{.workers = 1};
@@ -282,7 +284,7 @@ TEST_CASE("sweep: all shards together give the whole study") {
     CHECK(bench.csv() == whole.csv());
 }
 
-TEST_CASE("sweep: states of runs are in the order by which shards divide them") {
+TEST_CASE("sweep: states of runs are listed in the order in which shards divide the runs") {
     const Bench bench(scattered + study_keys);
     bench.sweep({.workers = 1, .shard = Shard{1, 2}});
     Study study = bench.study();

@@ -142,7 +142,7 @@ TEST_CASE("workers: a worker that died between tasks is detected and replaced") 
     CHECK(workers.wait(long_enough_s)->kind == TaskEnd::done);
 }
 
-TEST_CASE("workers: waiting ends after its time without a result") {
+TEST_CASE("workers: waiting for a result ends after the given time") {
     Workers workers(1,
                     [](std::uint64_t) -> std::string {
                         for (;;) pause();
@@ -155,7 +155,7 @@ TEST_CASE("workers: waiting ends after its time without a result") {
     CHECK(workers.idle().empty());
 }
 
-TEST_CASE("workers: do not outlive their parent process") {
+TEST_CASE("workers: worker processes do not outlive their parent process") {
     int pids[2];
     REQUIRE(pipe(pids) == 0);
     const pid_t supervisor = fork();

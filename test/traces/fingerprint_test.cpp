@@ -48,17 +48,17 @@ struct Run {
 
 }  // namespace
 
-TEST_CASE("fingerprint: without records it is XXH64 of no bytes") {
+TEST_CASE("fingerprint: without records, it is the XXH64 of an empty input") {
     CHECK(Fingerprint{}.text() == "ef46db3751d8e999");  // the reference value of xxHash
     CHECK(Fingerprint{}.value() == 0xef46db3751d8e999);
 }
 
 // The value is that of another implementation of XXH64, fed with the bytes that the header lists.
-TEST_CASE("fingerprint: is pinned for one record of each kind") {
+TEST_CASE("fingerprint: the value for one record of each kind is the expected constant") {
     CHECK(Run{}.text() == "d05f6eb83126bfae");
 }
 
-TEST_CASE("fingerprint: changes with every covered field") {
+TEST_CASE("fingerprint: every field that it covers changes it") {
     const std::function<void(Run&)> changes[] = {
         [](Run&) {},
         [](Run& r) { r.message.origin = {3}; },
@@ -106,7 +106,7 @@ TEST_CASE("fingerprint: changes with every covered field") {
     CHECK(seen.size() == std::size(changes));
 }
 
-TEST_CASE("fingerprint: listeners, slots, keys and payloads do not change it") {
+TEST_CASE("fingerprint: payloads, keys, and moves below a micrometre do not change it") {
     Run run;
     run.sent.reachable.reset();
     run.message.payload = "other";
@@ -116,7 +116,7 @@ TEST_CASE("fingerprint: listeners, slots, keys and payloads do not change it") {
     CHECK(run.text() == Run{}.text());
 }
 
-TEST_CASE("fingerprint: the same receptions in one record or in several give the same one") {
+TEST_CASE("fingerprint: receptions in one record give the same fingerprint as in several records") {
     Run whole;
     Stream stream;
     stream.messages.add(whole.message);
@@ -129,7 +129,7 @@ TEST_CASE("fingerprint: the same receptions in one record or in several give the
     CHECK(one->value() == two->value());
 }
 
-TEST_CASE("fingerprint: infinite positions have a fingerprint, too") {
+TEST_CASE("fingerprint: positions as far away as 1e300 m have different fingerprints") {
     Run a, b;
     a.moved.leg.to.x = 1e300;
     b.moved.leg.to.x = -1e300;

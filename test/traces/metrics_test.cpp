@@ -36,7 +36,7 @@ struct LineOfFour : Measured {
 
 }  // namespace
 
-TEST_CASE("metrics: without messages there is no division by 0") {
+TEST_CASE("metrics: without messages, metrics that would divide by 0 have no value") {
     const auto v = Metrics{}.values();
     CHECK(v.messages == 0);
     CHECK_FALSE(v.delivery_ratio);
@@ -47,7 +47,8 @@ TEST_CASE("metrics: without messages there is no division by 0") {
     CHECK(v.hops.empty());
 }
 
-TEST_CASE("metrics: a flood of ttl 2 along a line of four equals a manual count") {
+TEST_CASE(
+    "metrics: for a flood with TTL 2 along a line of four robots, they equal a count by hand") {
     const auto v = LineOfFour{}.values();
     CHECK(v.messages == 1);
     CHECK(v.transmissions == 2);
@@ -65,7 +66,7 @@ TEST_CASE("metrics: a flood of ttl 2 along a line of four equals a manual count"
     CHECK(v.hops == std::vector<std::uint64_t>{0, 1, 1});
 }
 
-TEST_CASE("metrics: transmissions of the origin, and repeated ones, save nothing") {
+TEST_CASE("metrics: transmissions of the origin, and repeated ones, do not count as saved") {
     LineOfFour run;  // the thesis's rule: everybody forwards every copy
     const MessageId m{0};
     run.transmit(at(4'000), frame(m, a, 0, 3), b);
@@ -77,7 +78,7 @@ TEST_CASE("metrics: transmissions of the origin, and repeated ones, save nothing
 }
 
 TEST_CASE(
-    "metrics: a new message that reuses a slot does not inherit the relays of the old message") {
+    "metrics: a new message in the slot of an old one does not inherit the old message's relays") {
     LineOfFour run;
     REQUIRE(run.messages.release(MessageId{0}));
     const auto m = run.send(at(9'000), a, 2);
@@ -90,7 +91,8 @@ TEST_CASE(
     CHECK(v.delivery_ratio == 3.0 / 6);
 }
 
-TEST_CASE("metrics: a radio that is off decodes nothing, and loses its waiting copy") {
+TEST_CASE(
+    "metrics: receptions by a radio that is off, and its waiting copies, count as drops (SLP)") {
     LineOfFour run;
     const MessageId m{0};
     run.receive(frame(m, b, 1, 2), {{at(4'000), d, Fate::off, false}});
@@ -100,7 +102,7 @@ TEST_CASE("metrics: a radio that is off decodes nothing, and loses its waiting c
     CHECK(v.drops[2] == DropCount{"SLP", 2});
 }
 
-TEST_CASE("metrics: robots count as destinations once they have joined") {
+TEST_CASE("metrics: robots count as destinations only of messages sent after they joined") {
     LineOfFour run;
     run.place(Vec3{});
     run.send(at(9'000), a, 2);
@@ -116,7 +118,7 @@ TEST_CASE("metrics: a single robot has no destination") {
     CHECK_FALSE(run.values().reach);
 }
 
-TEST_CASE("metrics: percentiles of 1 ... 20 ns are by nearest rank, in any order") {
+TEST_CASE("metrics: percentiles are found by the nearest-rank method, in any order of values") {
     Measured run;
     for (int i = 0; i < 21; ++i) run.place(Vec3{});
     const auto m = run.send(at(0), a, 1);
@@ -130,7 +132,8 @@ TEST_CASE("metrics: percentiles of 1 ... 20 ns are by nearest rank, in any order
     CHECK(latency.mean == 10.5e-9);
 }
 
-TEST_CASE("metrics: request the number of reachable robots from the network") {
+TEST_CASE(
+    "metrics: the number of reachable robots is requested from the network only if it is wanted") {
     constexpr KindMask both = kind_reachable | kind_cheap_reachable;
     const auto asks = [](std::optional<bool> reach) {
         return Metrics(start_of_run, {.reach = reach}).kinds() & both;
@@ -177,7 +180,8 @@ TEST_CASE("metrics: every reason of a drop is counted under its own code") {
     });
 }
 
-TEST_CASE("metrics: a control packet does not inherit counts of the message before") {
+TEST_CASE(
+    "metrics: a control packet in a message's old slot does not inherit the message's counts") {
     Measured run;
     for (int i = 0; i < 3; ++i) run.place(Vec3{10.0 * i, 0, 0});
     const auto m = run.send(at(0), a, 2, 64, 2);

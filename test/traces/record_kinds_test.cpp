@@ -174,8 +174,7 @@ TEST_CASE("kinds of records: fields() describes every member") {
     for_each_kind(check, RecordList<Frame, AirFrame, Leg, Reception>{});
 }
 
-TEST_CASE(
-    "kinds of records: a change of a field changes bytes, text and fingerprint as described") {
+TEST_CASE("kinds of records: changing a field changes bytes, text and fingerprint as described") {
     const World world;
     for_each_kind(
         [&]<class R>() {
@@ -186,7 +185,7 @@ TEST_CASE(
         RecordKinds{});
 }
 
-TEST_CASE("kinds of records: a record is read back from its bytes") {
+TEST_CASE("kinds of records: a record is equal after it was written to bytes and read back") {
     const World world;
     for_each_kind(
         [&]<class R>() {
@@ -229,7 +228,7 @@ TEST_CASE("kinds of records: each kind has its rows in tables, its name and its 
 }
 
 // The layouts are those of format 4, which readers elsewhere were written for.
-TEST_CASE("kinds of records: layouts of recorded traces are pinned") {
+TEST_CASE("kinds of records: the layouts in recorded traces are those of format 4") {
     const std::vector<RecordedKind> kinds = recorded_kinds();
     const std::string frame = "message:v sender:v ttl:v hops:v next_hop:node?";
     const std::string air = frame + " heard_from:node? kind:b attempt:b number:v reserved:z";

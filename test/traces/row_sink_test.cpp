@@ -47,7 +47,7 @@ constexpr NodeId a{0}, b{1}, c{2};
 
 }  // namespace
 
-TEST_CASE("rows: each record of a manual flood is a row, and each reception a row") {
+TEST_CASE("rows: each record gives a row, and a record of receptions one row per reception") {
     const auto rows = std::make_shared<RowSink>(kind_all);
     Stream stream;
     stream.sinks = {rows};
@@ -85,7 +85,7 @@ TEST_CASE("rows: each record of a manual flood is a row, and each reception a ro
     CHECK(cell<bool>(received, 1, "delivered"));
 }
 
-TEST_CASE("rows: columns of each kind, and formats of their cells, are right") {
+TEST_CASE("rows: each kind has the expected columns and cell formats") {
     const char* const expected[] = {
         "t_ns<i8 robot<i4 uid<i8 to<i4 size<i4 flow<i4 ttl<i4",
         "t_ns<i8 robot<i4 uid<i8 origin<i4 heard_from<i4 next_hop<i4 ttl<i4 hops<i4",
@@ -111,7 +111,8 @@ TEST_CASE("rows: columns of each kind, and formats of their cells, are right") {
     }
 }
 
-TEST_CASE("rows: links have their receiver, and legs are evaluated at the record's time") {
+TEST_CASE(
+    "rows: a link is a row of its receiver, and a leg is evaluated at the time of its record") {
     const auto rows = std::make_shared<RowSink>(kind_all);
     Stream stream;
     stream.sinks = {rows};
@@ -128,7 +129,7 @@ TEST_CASE("rows: links have their receiver, and legs are evaluated at the record
     CHECK(cell<double>(moved, 0, "vx") == 3);
 }
 
-TEST_CASE("rows: a table has the offsets of its cells") {
+TEST_CASE("rows: the cells of a table have the values of the records") {
     const auto rows = std::make_shared<RowSink>(kind_of<Received>() | kind_of<Moved>());
     Network network;
     network.add_sink(rows);
@@ -156,7 +157,7 @@ TEST_CASE("rows: a table has the offsets of its cells") {
     CHECK(rows->table(kind_of<Moved>()).size() == 0);
 }
 
-TEST_CASE("rows: kinds have the names of their records, and a misspelt one is refused") {
+TEST_CASE("rows: kinds are found by the names of their records, and a misspelt name is refused") {
     CHECK(record_named("sent") == kind_of<Sent>());
     CHECK(record_named("no_way") == kind_of<NoWay>());
     CHECK(record_named("control_received") == kind_of<ControlReceived>());

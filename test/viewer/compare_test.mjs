@@ -33,7 +33,7 @@ function of_color(page, from, to, color) {
     return pixels(page, from, to, (0xff000000 | b << 16 | g << 8 | r) >>> 0);
 }
 
-test("V9: gained and lost are those of replay --with", () => with_page("both", {}, async page => {
+test("V9: the numbers of gained and lost deliveries equal the output of replay --with", () => with_page("both", {}, async page => {
     const [{ gained, lost }] = told("replay", trace("rescue"), "--with", radio, "--json").radios;
     const text = await page.locator("#compare-panel").innerText();
     assert.equal(gained, 53);
@@ -43,7 +43,7 @@ test("V9: gained and lost are those of replay --with", () => with_page("both", {
     assert.deepEqual(await page.locator("#labels span").allInnerTexts(), ["A: rescue", `B: rescue, with ${radio}`]);
 }));
 
-test("V9: both maps are drawn, side by side and alone, by buttons and by keys", () => with_page("both", { hash: "#t=10.0002" }, async page => {
+test("V9: buttons and keys show both maps side by side, or one of them alone", () => with_page("both", { hash: "#t=10.0002" }, async page => {
     assert.ok(await colors(page, 0, 0.49) >= 5 && await colors(page, 0.51, 1) >= 5);
     // Lines of receptions that are delivered: two in A, four in B.
     const delivered = "#009e73", [a, b] = [await of_color(page, 0, 0.5, delivered), await of_color(page, 0.5, 1, delivered)];
@@ -64,7 +64,7 @@ test("V9: both maps are drawn, side by side and alone, by buttons and by keys", 
     }
 }));
 
-test("V9: a click on a difference goes to its time, its robot and its message, and marks the robots", () => with_page("both", {}, async page => {
+test("V9: a click on a difference selects its time, robot and message, and marks the robot on both maps", () => with_page("both", {}, async page => {
     const button = page.locator("#compare-panel li button").first();
     assert.equal(await button.innerText(), "message 0 at D");
     await button.click();
@@ -83,7 +83,7 @@ test("V9: a click on a difference goes to its time, its robot and its message, a
     assert.match(await page.locator("#legend").innerText(), /gained: in run B only/);
 }));
 
-test("V9: an address restores the runs that were shown", async () => {
+test("V9: a copied address restores the shown run, time, panel and message", async () => {
     let hash = "";
     await with_page("both", {}, async page => {
         await page.keyboard.press("b");
@@ -102,7 +102,7 @@ test("V9: an address restores the runs that were shown", async () => {
     });
 });
 
-test("V9: a message is the same in both runs, whatever its number there", () => with_page("routes-both", {}, async page => {
+test("V9: after a switch to the other run the same message is selected, even if it has another number there", () => with_page("routes-both", {}, async page => {
     const kinds = [...sections(view_file("routes-both")).unpacked.get("messages.kind")], last = kinds.lastIndexOf(0), facts = page.locator("#message-panel .facts").first();
     await page.evaluate(message => window.rovernet.select({ runs: "A", panel: "message", message }), last);
     const told = await facts.innerText();
@@ -115,7 +115,7 @@ test("V9: a message is the same in both runs, whatever its number there", () => 
 }));
 
 for (const colorScheme of ["light", "dark"]) {
-    test(`V9: no rule of access is broken by two runs, ${colorScheme}`, () => with_page("both", { context: { colorScheme, bypassCSP: true }, hash: "#t=10.0002&robots=0,4&message=0&panel=compare" }, async page => {
+    test(`V9: a page of two runs in ${colorScheme} colours violates no accessibility rule of WCAG 2 A or AA`, () => with_page("both", { context: { colorScheme, bypassCSP: true }, hash: "#t=10.0002&robots=0,4&message=0&panel=compare" }, async page => {
         await page.evaluate(fs.readFileSync(path.join(folder, "node_modules/axe-core/axe.min.js"), "utf8"));
         for (const panel of ["compare", "message"]) {
             await page.evaluate(chosen => window.rovernet.select({ panel: chosen }), panel);
@@ -126,7 +126,7 @@ for (const colorScheme of ["light", "dark"]) {
     }));
 }
 
-test("V9: two runs are not cut off at 1024 x 640", () => with_page("both", { context: { viewport: { width: 1024, height: 640 } } }, async page => {
+test("V9: at 1024 x 640 a page of two runs needs no scrolling, and no text is cut off", () => with_page("both", { context: { viewport: { width: 1024, height: 640 } } }, async page => {
     const { wide, high } = await page.evaluate(() => ({ wide: document.documentElement.scrollWidth, high: document.documentElement.scrollHeight }));
     assert.ok(wide <= 1024 && high <= 640, `${wide} x ${high}`);
     const [label, zooms] = await Promise.all(["#labels span:last-child", "#zooms"].map(place => page.locator(place).boundingBox()));
@@ -136,7 +136,7 @@ test("V9: two runs are not cut off at 1024 x 640", () => with_page("both", { con
     assert.deepEqual(cut, []);
 }));
 
-test("links are drawn on both maps, each those of its run", () => with_command(["view", path.join(folder, "rescue"), "--with", radio], address => with_served(address, {}, async page => {
+test("links: each of the two maps shows the links of its own run", () => with_command(["view", path.join(folder, "rescue"), "--with", radio], address => with_served(address, {}, async page => {
     await page.evaluate(() => window.rovernet.select({ t: 10e9, links: true }));
     await page.waitForFunction(() => links_shown(0).length > 0 && links_shown(1).length > 0);
     for (const [i, set] of [[0, []], [1, ["--set", radio]]]) {

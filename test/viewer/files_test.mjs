@@ -9,7 +9,7 @@ import { colors, drawn, folder, launched, most_apart, printed, scenario, told, w
 import { html, sections, view_file } from "./run_file.mjs";
 
 for (const [name, robots] of [["stage", 3], ["movement", 50], ["doors", 2]]) {
-    test(`V22: ${name} opens by itself, with its robots where the command says`, () => with_page(name, {}, async page => {
+    test(`V22: the page of ${name} loads no other file, and its robots are where rovernet where prints them`, () => with_page(name, {}, async page => {
         const { head } = sections(view_file(name));
         assert.equal(head.robots.length, robots);
         assert.ok(await colors(page) >= 5);
@@ -18,7 +18,7 @@ for (const [name, robots] of [["stage", 3], ["movement", 50], ["doors", 2]]) {
     }));
 }
 
-test("V22: an ns-2 trace shows its robots and messages, and says what it does not tell", () => with_page("ns2", {}, async page => {
+test("V22: the page of an ns-2 trace has its robots and messages, and a notice that map and radio are missing", () => with_page("ns2", {}, async page => {
     const { head } = sections(view_file("ns2")), truth = told("trace", "stats", scenario("ns2"), "--json");
     assert.equal(head.counts.messages, truth.messages);
     assert.equal(head.counts.flights, truth.transmissions);
@@ -30,7 +30,7 @@ test("V22: an ns-2 trace shows its robots and messages, and says what it does no
     assert.ok(most < 0.03, `${most} m apart`);
 }));
 
-test("V22: doors close on their own storey", () => with_page("doors", {}, async page => {
+test("V22: on each storey a door is drawn as closed only while it is closed", () => with_page("doors", {}, async page => {
     /** Colours of a line across the place of a door. */
     const across = async (storey, t) => {
         await page.evaluate(state => window.rovernet.select({ ...state, trails: false, view: { x: 11.7, y: 5.05, scale: 200 } }), { storey, t });
@@ -51,7 +51,7 @@ test("V22: doors close on their own storey", () => with_page("doors", {}, async 
     }
 }));
 
-test("V20: a page with a limit is no larger, says what is left out, and has all legs", async () => {
+test("V20: a page with --limit is not larger, states how many frames it omits, and keeps all movements and messages", async () => {
     const whole = sections(view_file("csma")), size = html("csma").length, data = Math.ceil(view_file("csma").length / 3) * 4;
     const limit = Math.floor((size - data / 4) / 1e3), file = path.join(folder, "limited.html");
     assert.match(printed("view", path.join(folder, "csma"), "-o", file, "--limit", `${limit} kB`), /limited.html/);
@@ -69,14 +69,14 @@ test("V20: a page with a limit is no larger, says what is left out, and has all 
     });
 });
 
-test("V21: the page is made without node and npm, the same each time, and is the one that the command writes", () => {
+test("V21: two builds without node and npm give equal pages, with the style and script of the command's page", () => {
     const [page, again] = ["first", "second"].map(name => made_page(name, minify));
     assert.equal(page, again);
     assert.ok(page.length > 50_000);
     for (const [element] of html("rescue").matchAll(/<(style|script)>[^]*?<\/\1>/g)) assert.ok(page.includes(element), `${element.slice(0, 60)} is another`);
 });
 
-test("V23: without WebGL the page draws all the same", async () => {
+test("V23: without WebGL the page still draws its map, with all robots at the right positions", async () => {
     const browser = await launched("--disable-3d-apis");
     try {
         await with_page("rescue", { browser }, async page => {
@@ -91,17 +91,17 @@ test("V23: without WebGL the page draws all the same", async () => {
 });
 
 for (const [what, damage, error] of [
-    ["base64 that is cut off", data => data.slice(0, data.length / 2 & ~3), /cut off/],
-    ["no base64", data => `!${data.slice(1)}`, /no base64/],
+    ["incomplete base64", data => data.slice(0, data.length / 2 & ~3), /cut off/],
+    ["invalid base64", data => `!${data.slice(1)}`, /no base64/],
     ["no run", () => "", /There is no run/],
-    ["another format", data => Buffer.from(Buffer.from(data, "base64").toString("latin1").replace("\"rvw\":1", "\"rvw\":7"), "latin1").toString("base64"), /format 7/],
-    ["a column that is damaged", data => {
+    ["an unknown format", data => Buffer.from(Buffer.from(data, "base64").toString("latin1").replace("\"rvw\":1", "\"rvw\":7"), "latin1").toString("base64"), /format 7/],
+    ["a damaged column", data => {
         const bytes = Buffer.from(data, "base64"), { head } = sections(bytes), legs = head.sections.find(s => s.name === "legs.x");
         bytes.fill(255, 8 + bytes.readUInt32LE(4) + legs.offset, 8 + bytes.readUInt32LE(4) + legs.offset + legs.bytes);
         return bytes.toString("base64");
     }, /legs.x/]
 ]) {
-    test(`V24: a page with ${what} says so`, async () => {
+    test(`V24: a page with ${what} shows a sentence that names the fault`, async () => {
         const file = path.join(folder, "broken.html");
         fs.writeFileSync(file, html("storeys").replace(/(id="run"[^>]*>)([^<]*)/, (_, begin, data) => begin + damage(data)));
         await with_page(file, { error }, async page => {

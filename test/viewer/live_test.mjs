@@ -15,7 +15,7 @@ const state = page => page.evaluate(() => rovernet.parts.live.state());
 function until(page, passes, argument) { return page.waitForFunction(passes, argument); }
 const exact = text => Number(text.replace(/\s/g, ""));
 
-test("V10: the run waits for its page, and goes on in it; pause, step, speed, the past and the present", () =>
+test("V10: a page pauses and steps its run, sets its speed, and shows its past and its present", () =>
     with_command(run(scenario("rescue")), address => with_served(address, {}, async page => {
         await until(page, () => rovernet.parts.live.state().now_ns > 5e8);
         assert.equal(await page.textContent("#present"), "live");
@@ -45,7 +45,7 @@ test("V10: the run waits for its page, and goes on in it; pause, step, speed, th
     })));
 
 for (const name of ["rescue", "csma", "storeys"]) {
-    test(`V14: ${name} has the fingerprint and the receptions that it has without a page`, () =>
+    test(`V14: ${name} has the same fingerprint with and without a page, and the page counts all receptions`, () =>
         with_command(run(scenario(name), "--speed", "200"), address => with_served(address, {}, async page => {
             await until(page, () => rovernet.parts.live.state().ended);
             const { fingerprint, receptions } = told("run", scenario(name), "--json", "--out", path.join(folder, `plain${++number}`));
@@ -58,7 +58,7 @@ for (const name of ["rescue", "csma", "storeys"]) {
         })));
 }
 
-test("V10: Ctrl-C ends the run within a second, with its results, and the page keeps what it has", () =>
+test("V10: Ctrl-C ends the run within 3 s with its results, and the page keeps what it has received", () =>
     with_command(run(scenario("rescue"), "--speed", "10"), (address, server, ended) => with_served(address, {}, async page => {
         await until(page, () => rovernet.parts.live.state().now_ns > 11e9);
         const begin = Date.now();
@@ -71,7 +71,7 @@ test("V10: Ctrl-C ends the run within a second, with its results, and the page k
         assert.ok(fs.existsSync(path.join(folder, `live${number}`, "summary.json")));
     })));
 
-test("V13: a page that is loaded again, and one that comes late, have all of the run", () =>
+test("V13: a reloaded page, and a page that is opened late, show the whole run", () =>
     with_command(run(scenario("rescue"), "--speed", "50"), address => with_served(address, {}, async (page, context) => {
         await until(page, () => rovernet.parts.live.state().now_ns > 30e9);
         await page.reload();
@@ -86,7 +86,7 @@ test("V13: a page that is loaded again, and one that comes late, have all of the
         assert.ok(texts[0].includes(`${messages} messages`), texts[0]);
     })));
 
-test("a page that may control moves a robot and sends, and these are inputs; one that may not is told", () => {
+test("live --view-control: a page moves a robot and sends a message, and its commands are logged as inputs", () => {
     const out = path.join(folder, `live${++number}`);
     return with_command(["live", scenario("rescue"), "--view", "--view-control", "--out", out], (address, server, ended) => with_served(address, {}, async page => {
         await until(page, () => rovernet.parts.live.state().now_ns > 3e8);
@@ -105,7 +105,7 @@ test("a page that may control moves a robot and sends, and these are inputs; one
     }));
 });
 
-test("a page of live --view may look alone: it cannot pause the run", () =>
+test("live --view: without --view-control a page cannot pause the run", () =>
     with_command(["live", scenario("rescue"), "--view", "--out", path.join(folder, `live${++number}`)], address => with_served(address, {}, async page => {
         await until(page, () => rovernet.parts.live.state().now_ns > 3e8);
         assert.equal((await state(page)).controls_time, false);
@@ -117,7 +117,7 @@ test("a page of live --view may look alone: it cannot pause the run", () =>
         assert.equal(await page.textContent("#present"), "to the present");
     })));
 
-test("V13: a server that comes again on the same port shows its run in the page that waited", () =>
+test("V13: a page whose server was killed shows the run of the next server on the same port", () =>
     with_command(run(scenario("rescue")), (address, server, ended) => with_served(address, { faults: /ERR_CONNECTION_(REFUSED|RESET)/ }, async page => {
         await until(page, () => rovernet.parts.live.state().now_ns > 2e8);
         server.kill("SIGKILL");
@@ -129,7 +129,7 @@ test("V13: a server that comes again on the same port shows its run in the page 
         });
     })));
 
-test("a run that goes on tells why a robot misses a message, and its charts; both are those of its trace", () => {
+test("run --view: the reason for a missed message, and the charts, equal those of the recorded trace", () => {
     const out = path.join(folder, `live${++number}`), missed = sections(view_file("rescue")).head.follow[0].message;
     return with_command(["run", scenario("rescue"), "--view", "--record", "--speed", "5", "--out", out], address => with_served(address, {}, async page => {
         await until(page, () => rovernet.parts.live.state().now_ns > 11e9);
@@ -159,7 +159,7 @@ test("a run that goes on tells why a robot misses a message, and its charts; bot
     }));
 });
 
-test("a message in the address is followed again when the page of a run that goes on is loaded again", () =>
+test("run --view: a page that is reloaded during the run selects the message in its address again", () =>
     with_command(run(scenario("rescue"), "--speed", "20"), address => with_served(address, {}, async page => {
         await until(page, () => rovernet.parts.live.state().now_ns > 15e9);
         await page.evaluate(() => rovernet.select({ message: 1 }));

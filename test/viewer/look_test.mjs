@@ -5,7 +5,7 @@ import path from "node:path";
 import test from "node:test";
 import { drawn, folder, with_page, with_served, with_server } from "./page.mjs";
 
-test("small: nothing is cut off at 1024 x 640", () => with_page("csma", { context: { viewport: { width: 1024, height: 640 } } }, async page => {
+test("small window: at 1024 x 640 the page needs no scrolling, and its map is at least 250 pixels high", () => with_page("csma", { context: { viewport: { width: 1024, height: 640 } } }, async page => {
     const { wide, high, map } = await page.evaluate(() => ({
         wide: document.documentElement.scrollWidth, high: document.documentElement.scrollHeight, map: document.getElementById("map").clientHeight
     }));
@@ -13,7 +13,7 @@ test("small: nothing is cut off at 1024 x 640", () => with_page("csma", { contex
 }));
 
 for (const [scheme, least] of [["light", 3], ["dark", 4.5]]) {
-    test(`colours of robots, outcomes and doors stand out from ${scheme} paper`, () => with_page("csma", { context: { colorScheme: scheme } }, async page => {
+    test(`colours of robots, outcomes and doors have enough contrast with the ${scheme} background`, () => with_page("csma", { context: { colorScheme: scheme } }, async page => {
         const contrasts = await page.evaluate(() => {
             const luminance = color => {
                 const [r, g, b] = rovernet.parts.theme.channels(color).map(v => v / 255).map(v => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
@@ -66,7 +66,7 @@ test("names of robots and losses of walls do not cover each other on a small map
     check_apart(texts);
 })));
 
-test("a swarm at rest is whole again after a look at one of its robots", () => with_page("swarm", {}, async page => {
+test("a swarm at rest is drawn completely again after a zoom to one of its robots", () => with_page("swarm", {}, async page => {
     /** Picture of the map as it is drawn first in that view: what is drawn later may mend it. */
     const map = view => page.evaluate(async state => {
         rovernet.select({ t: 0.31e9, ...state });

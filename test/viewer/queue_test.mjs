@@ -32,7 +32,7 @@ async function queue_of(page, robot, t) {
     });
 }
 
-test("the queue of a robot is what it made less what it sent and what found no room", () => with_page("queue", {}, async page => {
+test("queue: its length is the number of messages made, minus those sent and those dropped by the full queue", () => with_page("queue", {}, async page => {
     const frames = sent_frames("queue"), longest = Math.max(...frames.map(frame => frame.queue));
     assert.equal(longest, 20);  // it was full
     for (const { time_s, robot, queue } of frames) {
@@ -42,6 +42,6 @@ test("the queue of a robot is what it made less what it sent and what found no r
     assert.equal(await queue_of(page, 2, 1e9), "");  // it never sent
 }));
 
-test("a robot that sends at once has no queue", () => with_page("rescue", {}, async page => {
+test("queue: the panel of a robot that sends without waiting shows no queue", () => with_page("rescue", {}, async page => {
     assert.equal(await queue_of(page, 0, 10.5e9), "");
 }));

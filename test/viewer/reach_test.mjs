@@ -11,7 +11,7 @@ import { command, folder, scenario, with_command, with_served } from "./page.mjs
 const here = address => address.replace(/\/\/[^:/]+:/, "//127.0.0.1:");
 
 for (const [what, words] of [["view", ["view", path.join(folder, "rescue")]], ["run --view", ["run", scenario("rescue"), "--view", "--out", path.join(folder, "reached")]]]) {
-    test(`--listen: a page of ${what} is loaded again without the token in its address`, () =>
+    test(`--listen: a page of ${what} removes the token from its address and can be reloaded; another tab needs the token`, () =>
         with_command([...words, "--listen", "0.0.0.0"], address => {
             const whole = here(address), bare = whole.split("?")[0], faults = { faults: /403/ };
             assert.match(whole, /\?token=[0-9a-f]{32}$/);
@@ -41,7 +41,7 @@ async function opened(programs) {
     return text;
 }
 
-test("--open opens the address by xdg-open, and says so where there is none", async () => {
+test("view --open: xdg-open opens the address; if xdg-open is missing, a message prints the address", async () => {
     const [with_it, without] = ["with-browser", "without-browser"].map(name => path.join(folder, name));
     for (const each of [with_it, without]) fs.mkdirSync(each);
     fs.writeFileSync(path.join(with_it, "xdg-open"), `#!/bin/sh\necho "$1" > ${with_it}/part && /bin/mv ${with_it}/part ${with_it}/opened\n`, { mode: 0o755 });

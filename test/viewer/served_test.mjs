@@ -27,7 +27,7 @@ function colors_at(page, places) {
     }, places);
 }
 
-test("V7: the pair's budget is that of rovernet link, and each of its walls is lit", () => with_server(path.join(folder, "rescue"), address => with_served(address, {}, async page => {
+test("V7: the link budget of two robots equals rovernet link, and each wall between them is highlighted", () => with_server(path.join(folder, "rescue"), address => with_served(address, {}, async page => {
     const links = [["A", "E"], ["E", "A"]].map(pair => told("link", scenario("rescue"), ...pair, "--at", "10s", "--json"));
     await page.evaluate(state => window.rovernet.select({ ...state, t: 10e9, robots: [0, 4], trails: false, panel: "pair" }), shown);
     await drawn(page);
@@ -57,7 +57,7 @@ test("V7: the pair's budget is that of rovernet link, and each of its walls is l
     });
 })));
 
-test("V8: the level under the pointer is that of the coverage", () => with_server(path.join(folder, "rescue"), address => with_served(address, {}, async page => {
+test("V8: the level shown at the pointer equals the coverage computed by the server", () => with_server(path.join(folder, "rescue"), address => with_served(address, {}, async page => {
     await page.evaluate(state => window.rovernet.select({ ...state, t: 10e9, robots: [1], panel: "robot" }), shown);
     await page.getByRole("button", { name: "coverage", exact: true }).click();
     await page.waitForFunction(() => document.getElementById("legend").textContent.includes("coverage of B"));
@@ -91,7 +91,7 @@ test("V8: the level under the pointer is that of the coverage", () => with_serve
     assert.ok(Math.abs(level - link.rx_power_dbm) < 3, `${level} dBm in the coverage, ${link.rx_power_dbm} in the link`);
 })));
 
-test("V3: why a robot has no message, asked on the served page, is the sentence of trace follow", () => with_server(path.join(folder, "rescue"), address => with_served(address, {}, async page => {
+test("V3: on a served page, the button why? shows the sentence that trace follow prints", () => with_server(path.join(folder, "rescue"), address => with_served(address, {}, async page => {
     const { head } = sections(view_file("rescue")), uids = [...new Set(head.follow.map(row => row.message))].slice(0, 3);
     let asked = 0;
     for (const uid of uids) {
@@ -127,7 +127,7 @@ function answer_to(port, request) {
     });
 }
 
-test("V17: requests that a server of pages may get, and what it answers", () => with_server(path.join(folder, "rescue"), async address => {
+test("V17: the server answers valid requests, and refuses foreign hosts and pages, other methods and unknown paths", () => with_server(path.join(folder, "rescue"), async address => {
     const port = Number(new URL(address).port), own = `127.0.0.1:${port}`;
     const request = (line, ...fields) => `${line} HTTP/1.1\r\n${fields.map(field => field + "\r\n").join("")}\r\n`;
     const upgrade = ["Upgrade: websocket", "Connection: Upgrade", "Sec-WebSocket-Version: 13"], key = "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==";
@@ -161,7 +161,7 @@ test("V17: requests that a server of pages may get, and what it answers", () => 
     }
 }));
 
-test("two tabs of a server are asked apart, and a server that goes is told", () => with_server(path.join(folder, "rescue"), (address, server) => with_served(address, {}, async (page, context) => {
+test("server: two tabs get separate answers, and a page reports that its server has ended", () => with_server(path.join(folder, "rescue"), (address, server) => with_served(address, {}, async (page, context) => {
     const other = await context.newPage();
     await other.goto(address);
     await other.waitForFunction(() => window.rovernet?.ready);

@@ -14,7 +14,7 @@ const passing = 3e9;
 /** Memory that a page which does not read may take: what waits for it, and what the system's allocator keeps [bytes]. */
 const spare = 8e6;
 
-test("V11: a page that does not read for a while stops nobody, takes no memory, and catches up", async () => {
+test("V11: a page that does not read for a while delays nobody, takes little memory, and catches up later", async () => {
     const out = path.join(folder, "slow");
     await with_command(["live", path.join(folder, "many.toml"), "--view", "--set", "scenario.duration=600 s", "--out", out], (address, server, ended) => with_served(address, {}, async page => {
         let got = 0;
@@ -56,7 +56,7 @@ test("V11: a page that does not read for a while stops nobody, takes no memory, 
     }));
 });
 
-test("V12: ten pages of a run have the same of it", () =>
+test("V12: ten pages of one run show the same counts and positions at its end", () =>
     with_command(["run", scenario("rescue"), "--view", "--speed", "30", "--out", path.join(folder, "ten")], address => with_served(address, {}, async (page, context) => {
         const pages = [page];
         while (pages.length < 10) {

@@ -125,7 +125,7 @@ TEST_CASE("links: --history prints a CSV with a line for each link change") {
     CHECK(lines[4] == "50.000000001,B,A,down");
 }
 
-TEST_CASE("where: prints positions, speeds and headings at several times") {
+TEST_CASE("where: positions, speeds and headings are printed at several times") {
     const TemporaryFolder folder;
     folder.write("pair.toml", pair);
     const Json times =
@@ -275,7 +275,7 @@ payload = "F"
     CHECK(again.out == printed.out);
 }
 
-TEST_CASE("where: marks absent robots, and prints times in the given order") {
+TEST_CASE("where: absent robots are marked, and times are printed in the given order") {
     const TemporaryFolder folder;
     folder.write("v.xml",
                  "<fcd-export>\n"

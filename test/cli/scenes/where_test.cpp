@@ -41,7 +41,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("links: the history has the places of both robots, also for one robot and as JSON") {
+TEST_CASE("links: with --places the history has the positions of both robots, in CSV and in JSON") {
     const TemporaryFolder folder;
     folder.write("pair.toml", pair);
     const std::vector<std::string> asked = {
@@ -87,7 +87,8 @@ TEST_CASE("where: prints the gaps of a robot's link as text, CSV and JSON") {
 }
 
 TEST_CASE(
-    "where: one robot's path is printed leg by leg, and a call without robot and time is refused") {
+    "where: the path of one robot is printed leg by leg; a call with neither a robot nor a time is "
+    "refused") {
     const TemporaryFolder folder;
     folder.write("pair.toml", pair);
     const Json times =
@@ -102,7 +103,7 @@ TEST_CASE(
     CHECK(command(folder, {"where", folder.path("pair.toml"), "--robot", "C"}).exit == 2);
 }
 
-TEST_CASE("where: the path of a robot that patrols ends with the time of a round") {
+TEST_CASE("where: the path of a patrolling robot is followed by the duration of one round") {
     const TemporaryFolder folder;
     const std::string path = folder.write("patrol.toml", R"([scenario]
 duration = "100 s"

@@ -81,7 +81,9 @@ TEST_CASE("advise: the number of workers does not change the advice") {
     CHECK(one["reference"]["path_loss"] == "two_ray");
 }
 
-TEST_CASE("advise: interrupted and continued, gives the same advice as without interruption") {
+TEST_CASE(
+    "advise: an interrupted and continued study gives the same advice as one without "
+    "interruption") {
     const Advised advised;
     const auto with_store = advised.words({"--store", advised.store(), "--workers", "1"});
     const Process first(advised.folder, with_store);
@@ -101,7 +103,8 @@ TEST_CASE("advise: interrupted and continued, gives the same advice as without i
     CHECK(strict["criterion"] == "run");
 }
 
-TEST_CASE("advise: at the end of the budget or at Ctrl-C, prints the preliminary verdict") {
+TEST_CASE(
+    "advise: at the end of the time budget or at Ctrl-C, the preliminary verdict is printed") {
     const Advised advised;
     const auto strict = [&](std::vector<std::string> more) {
         std::vector<std::string> words = advised.words({});

@@ -86,7 +86,7 @@ TEST_CASE(
     CHECK(row(all, "airtime_per_byte_us", "aodv")["mean"] > 0);
 }
 
-TEST_CASE("compare --protocols: airtimes equal the airtimes of the frames") {
+TEST_CASE("compare --protocols: the airtime equals the sum of the airtimes of all frames") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", three);
     const Json all = json_of(folder, protocols(file, "flood,aodv"));
@@ -100,7 +100,9 @@ TEST_CASE("compare --protocols: airtimes equal the airtimes of the frames") {
     CHECK(row(all, "airtime_per_byte_us", "flood")["n"] == 3);
 }
 
-TEST_CASE("compare --protocols: gives a notice on one hop, a table per metric, CSV and a picture") {
+TEST_CASE(
+    "compare --protocols: output is a table per metric, CSV and a picture; messages over one hop "
+    "give a notice") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", three);
     auto words = protocols(file, "aodv,flood");

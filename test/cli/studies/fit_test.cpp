@@ -14,7 +14,9 @@ namespace fit_test {
 using namespace rovernet;
 using namespace rovernet::test;
 
-TEST_CASE("fit: the number after +- is half of Student's 95 % interval with groups - 1 degrees") {
+TEST_CASE(
+    "fit: the number after +- is half of Student's 95 % interval, with (groups - 1) degrees of "
+    "freedom") {
     // Measured at three receivers: t(2) is 4.303, and not 1.96.
     const TemporaryFolder folder;
     const std::string file = folder.write("talkers.toml", talkers);

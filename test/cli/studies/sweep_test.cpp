@@ -105,7 +105,9 @@ TEST_CASE("sweep: a dry run lists every point and runs nothing") {
     CHECK(json["runs"] == 200);
 }
 
-TEST_CASE("sweep: exit code 4 if a precision is not reached, with the precision of each point") {
+TEST_CASE(
+    "sweep: if a precision is not reached, the exit code is 4, and the precision of each point is "
+    "printed") {
     const Place place;
     const std::vector<std::string> wanted = {"sweep",       place.file, "--replications",     "2",
                                              "--precision", "0.01",     "--max-replications", "4"};
@@ -209,7 +211,8 @@ TEST_CASE("sweep: a second Ctrl-C does not wait for endless runs") {
     CHECK(sweep.stop().exit == 130);
 }
 
-TEST_CASE("sweep: killed 50 times, it loses and repeats no run, and gives the same results") {
+TEST_CASE(
+    "sweep: a sweep that is killed 50 times loses and repeats no run, and gives the same results") {
     const std::vector<std::string> slow = {"--set", "scenario.duration=30"};
     const auto sweep_of = [&](const Place& p) {
         return std::vector<std::string>{"sweep", p.file, slow[0], slow[1]};
@@ -310,7 +313,9 @@ TEST_CASE("sweep: of two sweeps on one store, the second gets an error") {
     CHECK(first.stop().exit == 130);
 }
 
-TEST_CASE("sweep: a full disk ends it with finished runs kept; with free space it continues") {
+TEST_CASE(
+    "sweep: a full disk ends the sweep and keeps finished runs; with free space the sweep "
+    "continues") {
     const Place place;
     const std::string limited =
         fmt::format("trap '' XFSZ; ulimit -f 200; exec {} sweep {}", ROVERNET_COMMAND, place.file);
@@ -358,7 +363,7 @@ TEST_CASE("sweep: failed runs give exit code 4, and are listed with their comman
     CHECK(failures.out.find("--replication 1\n") != std::string::npos);
 }
 
-TEST_CASE("plot: --y-title gives each metric its title of the y axis") {
+TEST_CASE("plot: --y-title sets the title of the y axis for each metric") {
     const Place place;
     command(place.folder, {"sweep", place.file});
     const std::string picture = place.folder.path("p.svg");
@@ -421,7 +426,9 @@ TEST_CASE("results: options that exclude each other are refused") {
     CHECK(std::count(csv.out.begin(), csv.out.end(), '\n') == 2);
 }
 
-TEST_CASE("compare: other varied keys are fixed; an impossible comparison ends at once") {
+TEST_CASE(
+    "compare: other keys that the study varies keep the file's value; an impossible comparison "
+    "ends at once") {
     const Place place(chatter + "vary.routing.ttl = [1, 2]\n");
     const std::vector<std::string> models = {"compare", place.file, "--replications", "5"};
     const auto with = [&](std::vector<std::string> more) {
@@ -559,7 +566,8 @@ TEST_CASE("compare: assumptions are printed, and can be changed by options") {
 }
 
 TEST_CASE(
-    "compare: the ending of the name selects the kind of picture; other endings are refused") {
+    "compare: the ending of the file name selects the kind of picture; unknown endings are "
+    "refused") {
     const Place place;
     const auto with = [&](const std::string& out) {
         return command(place.folder, {"compare", place.file, "--models", "disc,friis",

@@ -31,7 +31,9 @@ TEST_CASE("help: lists the pages by folder, and prints a page without its hidden
     CHECK(!has(page.out, "-->\n"));
 }
 
-TEST_CASE("help: words that are no topic are searched for, and a page named so comes first") {
+TEST_CASE(
+    "help: words that are not a topic are searched for in all pages, and the best page comes "
+    "first") {
     const TemporaryFolder folder;
     const Ended fading = command(folder, {"help", "Fading"});
     CHECK(fading.exit == 0);
@@ -45,7 +47,7 @@ TEST_CASE("help: words that are no topic are searched for, and a page named so c
     CHECK(has(only.out, "  not-there          What is not there\n"));
 }
 
-TEST_CASE("help: words may name a topic, and a command refers to its --help") {
+TEST_CASE("help: several words may name a topic, and the name of a command leads to its --help") {
     const TemporaryFolder folder;
     CHECK(command(folder, {"help", "first", "run"}).out.starts_with("# Your first run\n"));
     CHECK(command(folder, {"help", ""}).out == command(folder, {"help"}).out);
@@ -53,7 +55,7 @@ TEST_CASE("help: words may name a topic, and a command refers to its --help") {
               .out.starts_with("rovernet run --help explains this command.\n"));
 }
 
-TEST_CASE("help: an unknown topic without a page that has the words suggests the nearest topic") {
+TEST_CASE("help: if no page has the words, the error suggests the topic with the nearest name") {
     const TemporaryFolder folder;
     const Ended ended = command(folder, {"help", "frist-run"});
     CHECK(ended.exit == 2);

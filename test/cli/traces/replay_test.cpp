@@ -71,7 +71,9 @@ bool ends_without_difference(const std::string& line) {
 
 }  // namespace
 
-TEST_CASE("replay of an ns-2 trace compares radios with the first given radio, not with ns-2") {
+TEST_CASE(
+    "replay of an ns-2 trace compares radios with the default radio, not with the results in the "
+    "trace") {
     const TemporaryFolder folder;
     const Ended ended = command(folder, {"replay", sample, "--with", "radio.power=40 dBm;seed=2",
                                          "--with", "radio.power=0 dBm"});

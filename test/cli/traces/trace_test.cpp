@@ -65,7 +65,7 @@ TEST_CASE("trace follow --json agrees with the text, and has the frames of a rec
           "B never was within reach: the only frame came 2.7 dB below its sensitivity.");
 }
 
-TEST_CASE("trace follow prints what an ns-2 trace has about a robot without a scenario") {
+TEST_CASE("trace follow needs no scenario to print what an ns-2 trace has about a robot") {
     const Run run;
     const Ended ended =
         command(run.folder, {"trace", "follow", run.text, "--message", "0", "--robot", "B"});
@@ -74,7 +74,8 @@ TEST_CASE("trace follow prints what an ns-2 trace has about a robot without a sc
     CHECK(ended.out.find("within reach") == std::string::npos);
 }
 
-TEST_CASE("trace takes the folder of a run for the trace in it, the recorded one first") {
+TEST_CASE(
+    "trace: the folder of a run stands for the trace in it, the recorded one if there are two") {
     const Run run;
     const std::string folder = run.folder.path("run");
     const auto stats = [&](const std::string& trace) {

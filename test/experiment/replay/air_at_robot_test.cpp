@@ -51,7 +51,8 @@ constexpr Duration airtime{1'192'000};
 }  // namespace
 
 TEST_CASE(
-    "air at a robot: ten frames make it busy for ten airtimes, at the sender and at a receiver") {
+    "air at a robot: ten frames occupy the channel for ten airtimes, at the sender and at a "
+    "receiver") {
     const Run run(traffic("A", "50 ms"));
     const AirAtRobot sender = run.at(0, 3s), receiver = run.at(1, 3s), far = run.at(2, 3s);
     CHECK(sender.busy == 10 * airtime);
@@ -86,7 +87,8 @@ TEST_CASE(
     CHECK(sensing.at(2, 3s).busy == 10 * airtime);
 }
 
-TEST_CASE("air at a robot: with an index it is the same, and an unknown robot is an error") {
+TEST_CASE(
+    "air at a robot: the result is the same with an index, and an unknown robot is an error") {
     const Run run(traffic("A", "50 ms") + traffic("B", "33 ms"));
     RecordedReader reader(run.path);
     RecordedIndex index;

@@ -203,7 +203,7 @@ TEST_CASE("capture: every frame is recorded at its sender and at all its receive
     CHECK(with_retry > 0);
 }
 
-TEST_CASE("capture: each message has our header before it") {
+TEST_CASE("capture: each message follows a header of rovernet with origin, size, TTL and hops") {
     const CapturedRun run(busy);
     capture_recorded(run.trace, run.capture);
     const std::size_t header = 16 + 24 + 8 + 20 + 8;
@@ -228,7 +228,9 @@ TEST_CASE("capture: each message has our header before it") {
     CHECK(unicasts > 20);
 }
 
-TEST_CASE("tshark reads a capture: no frame is malformed; times, addresses, lengths are ours") {
+TEST_CASE(
+    "tshark reads a capture: no frame is malformed, and times, addresses and lengths equal the "
+    "trace") {
     if (!has_tshark()) return;
     const CapturedRun run(busy);
     capture_recorded(run.trace, run.capture);
@@ -252,7 +254,7 @@ TEST_CASE("capture: a damaged or incomplete trace gives a capture of its intact 
     CHECK_THROWS_AS(capture_recorded(run.folder / "text.tr", run.capture), InputError);
 }
 
-TEST_CASE("capture: an ARP packet to everyone, which only a damaged trace has, is written") {
+TEST_CASE("capture: even a broadcast ARP packet, which only a damaged trace contains, is written") {
     const testing::TempFolder folder;
     const CapturedRun run("[[robot]]\nname = \"A\"\nat = [\"0 m\", \"0 m\"]\n");
     RecordedReader whole(run.trace);

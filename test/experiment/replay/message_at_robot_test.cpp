@@ -63,7 +63,9 @@ const std::string one_message = "[[traffic]]\nfrom = \"A\"\npayload = \"x\"\nsta
 
 }  // namespace
 
-TEST_CASE("message at a robot: for a signal that was too weak, the margin is that of free space") {
+TEST_CASE(
+    "message at a robot: for a signal that was too weak, level and margin equal the free-space "
+    "values") {
     const Run run({0, 1000}, one_message);
     const MessageAtRobot there = run.look(0, 1);
     REQUIRE(there.frames.size() == 1);
@@ -94,7 +96,8 @@ TEST_CASE("message at a robot: a received message is described by sender, time a
     CHECK(back.frames[0].outcome == Outcome::duplicate);
 }
 
-TEST_CASE("message at a robot: a message is missed while off, or in another network") {
+TEST_CASE(
+    "message at a robot: a message can be missed because the robot was off or in another network") {
     const Run off({0, 100}, one_message +
                                 "[[robot]]\nname = \"X\"\nat = [\"50 m\", \"0 m\"]\n"
                                 "off = [\"0.5 s\"]\n");
@@ -138,7 +141,8 @@ TEST_CASE("message at a robot: a message is lost because the receiver was sendin
 }
 
 TEST_CASE(
-    "message at a robot: each attempt of a unicast is a frame; others learn its destination") {
+    "message at a robot: each attempt of a unicast is a frame; at other robots it is for another "
+    "robot") {
     const Run run({0, 100, 200},
                   "[access]\nmodel = \"csma\"\n[[traffic]]\nkind = \"unicast\"\nfrom = \"A\"\nto = "
                   "\"B\"\npayload = \"x\"\nstart = \"1 s\"\n"
@@ -153,7 +157,8 @@ TEST_CASE(
     CHECK(run.says(1, 3).starts_with("D never was within reach: the strongest of 7 frames"));
 }
 
-TEST_CASE("message at a robot: levels and walls in the rescue equal those of the command link") {
+TEST_CASE(
+    "message at a robot: levels and walls in the example rescue equal those of the command link") {
     const std::string file = ROVERNET_EXAMPLES "/rescue/rescue.toml";
     const Run run(file);
     const Scenario scenario = load_scenario(file, {});
@@ -178,7 +183,8 @@ TEST_CASE("message at a robot: levels and walls in the rescue equal those of the
     CHECK(run.says(0, 4).find("wall") != std::string::npos);
 }
 
-TEST_CASE("message at a robot: with an index, which skips chunks, the answer is the same") {
+TEST_CASE(
+    "message at a robot: the answer is the same with an index, which lets the reader skip chunks") {
     // Robots walk and switch off; their frames overlap, and waiting makes messages long.
     const Run run({0, 100, 200, 300}, R"([access]
 model = "csma"

@@ -109,7 +109,8 @@ bool find_pair(std::string& traces, std::string& movements) {
 
 }  // namespace
 
-TEST_CASE("an ns-2 day: robots move and send as in the trace, and messages are flooded") {
+TEST_CASE(
+    "replay of an ns-2 trace: robots move and send as in the trace, and messages are flooded") {
     const RecordedDay day = read_ns2_day(sample, {});
     CHECK(day.robots() == std::vector<std::string>{"n0", "n1", "n2", "n3"});
     CHECK(day.recorded().metrics.messages == 15);
@@ -124,7 +125,8 @@ TEST_CASE("an ns-2 day: robots move and send as in the trace, and messages are f
     CHECK(deliveries(day, {"radio.power=0 dBm"}) == 0);
 }
 
-TEST_CASE("an ns-2 day: messages without routing reach the robots that hear their sender") {
+TEST_CASE(
+    "replay of an ns-2 trace: messages without routing reach the robots that hear their sender") {
     const RecordedDay day = read_ns2_day(sample, {.routing = DayRouting::direct, .movements = {}});
     CHECK(deliveries(day) == 0);
     const PlayedDay strong = day.play({"radio.power=50 dBm"});
@@ -133,7 +135,7 @@ TEST_CASE("an ns-2 day: messages without routing reach the robots that hear thei
     CHECK(strong.metrics.receptions == 15);  // a unicast is for nobody else
 }
 
-TEST_CASE("an ns-2 day: simultaneous senders draw a backoff first, as in ns-2") {
+TEST_CASE("replay of an ns-2 trace: simultaneous senders draw a backoff first, as in ns-2") {
     const TemporaryFolder folder;
     const auto day_of = [&](double apart) {
         std::string text = move_line(0, 0) + move_line(1, 50) + move_line(2, -50);
@@ -159,7 +161,7 @@ TEST_CASE("an ns-2 day: simultaneous senders draw a backoff first, as in ns-2") 
     CHECK(together.starts_together({"access.model=aloha", "reception.model=threshold"}).empty());
 }
 
-TEST_CASE("an ns-2 day: lines that are not in ns-2 format are counted in a notice") {
+TEST_CASE("replay of an ns-2 trace: lines that are not in ns-2 format are counted in a notice") {
     const TemporaryFolder folder;
     const RecordedDay day =
         read_ns2_day(folder.write("half.tr", move_line(0, 0) + move_line(1, 50) +
@@ -171,7 +173,8 @@ TEST_CASE("an ns-2 day: lines that are not in ns-2 format are counted in a notic
 }
 
 TEST_CASE(
-    "an ns-2 day: receptions beyond the radio's range give a notice with a sufficient power") {
+    "replay of an ns-2 trace: receptions beyond the radio's range give a notice with a sufficient "
+    "power") {
     const TemporaryFolder folder;
     const auto day_of = [&](double metres) {
         const std::string heard =
@@ -200,7 +203,7 @@ TEST_CASE(
     CHECK(far.hears_farther({"propagation.model=disc", "propagation.range=397 m"}).empty());
 }
 
-TEST_CASE("an ns-2 day: broadcasts are sent to everyone in range") {
+TEST_CASE("replay of an ns-2 trace: broadcasts are sent to everyone in range") {
     const TemporaryFolder folder;
     const std::string trace = folder.write(
         "all.tr", move_line(0, 0) + move_line(1, 200) + move_line(2, 400) + said(1, 0, 0, "-1"));
@@ -208,7 +211,7 @@ TEST_CASE("an ns-2 day: broadcasts are sent to everyone in range") {
     CHECK(deliveries(read_ns2_day(trace, {.routing = DayRouting::direct, .movements = {}})) == 1);
 }
 
-TEST_CASE("an ns-2 day: the range of its radio is exactly 250 m") {
+TEST_CASE("replay of an ns-2 trace: the range of the default radio is 250 m") {
     const TemporaryFolder folder;
     for (const double x : {249.9, 250.1}) {
         const std::string trace =
@@ -217,7 +220,7 @@ TEST_CASE("an ns-2 day: the range of its radio is exactly 250 m") {
     }
 }
 
-TEST_CASE("an ns-2 day: a robot without a position in the trace is named") {
+TEST_CASE("replay of an ns-2 trace: a robot without a position in the trace is named") {
     const TemporaryFolder folder;
     const std::string trace = folder.write("lost.tr", move_line(0, 0) + said(1, 0, 0, "1"));
     CHECK_THROWS_WITH_AS(
@@ -236,7 +239,9 @@ TEST_CASE("an ns-2 day: a robot without a position in the trace is named") {
                          doctest::Contains("one.tcl: no position of robot 1"), InputError);
 }
 
-TEST_CASE("an ns-2 day: messages without another robot as destination are skipped and counted") {
+TEST_CASE(
+    "replay of an ns-2 trace: messages without another robot as destination are skipped and "
+    "counted") {
     const TemporaryFolder folder;
     const std::string trace =
         folder.write("own.tr", move_line(0, 0) + move_line(1, 9) + said(1, 0, 0, "0") +
@@ -248,14 +253,14 @@ TEST_CASE("an ns-2 day: messages without another robot as destination are skippe
     CHECK(day.play({}).metrics.messages == 1);
 }
 
-TEST_CASE("an ns-2 day: a trace without robots is refused") {
+TEST_CASE("replay of an ns-2 trace: a trace without robots is refused") {
     const TemporaryFolder folder;
     const std::string wired = folder.write("w.tr", "+ 0.1 1 2 cbr 1000 ------- 2 1.0 3.1 0 0\n");
     CHECK_THROWS_WITH_AS(read_ns2_day(wired, {}), doctest::Contains("there is no robot"),
                          InputError);
 }
 
-TEST_CASE("an ns-2 day: M lines alone reproduce the motion within 15 cm") {
+TEST_CASE("replay of an ns-2 trace: M lines alone reproduce the motion within 15 cm") {
     std::string traces, movements;
     if (!find_pair(traces, movements)) return;
     for (const char* name : {"old_aodv_mac.tr", "old_dsdv.tr", "old_dsr.tr"}) {
@@ -274,7 +279,9 @@ TEST_CASE("an ns-2 day: M lines alone reproduce the motion within 15 cm") {
     }
 }
 
-TEST_CASE("an ns-2 day: packet lines of the new format improve this to 1 cm at each line") {
+TEST_CASE(
+    "replay of an ns-2 trace: with packet lines of the new format, positions are within 1 cm at "
+    "each line") {
     std::string traces, movements;
     if (!find_pair(traces, movements)) return;
     const Told told = told_by(traces + "new_aodv_mac.tr");
@@ -291,7 +298,7 @@ TEST_CASE("an ns-2 day: packet lines of the new format improve this to 1 cm at e
     CHECK(deliveries(day) > 0);
 }
 
-TEST_CASE("an ns-2 day: packet lines of the tagged format have positions") {
+TEST_CASE("replay of an ns-2 trace: packet lines of the tagged format have positions") {
     std::string traces, movements;
     if (!find_pair(traces, movements)) return;
     const RecordedDay day = read_ns2_day(traces + "aodv_tag.tr", {});

@@ -17,7 +17,7 @@ namespace ns2_record_test {
 using namespace rovernet;
 using namespace rovernet::testing;
 
-TEST_CASE("an ns-2 trace read as records has the same metrics, places and airtimes") {
+TEST_CASE("an ns-2 trace read as records has the same metrics, positions and airtimes") {
     const TempFolder folder;
     RunOptions to;
     to.folder = folder / ".";

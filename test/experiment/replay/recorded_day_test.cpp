@@ -62,7 +62,8 @@ std::string record(const TemporaryFolder& folder, const std::string& scenario) {
 
 }  // namespace
 
-TEST_CASE("recorded day: with its own radio, gives the recorded result to the last digit") {
+TEST_CASE(
+    "replay of a recorded trace: the recorded radio gives the recorded metrics to the last digit") {
     for (const std::string more :
          {"", "[reception]\nmodel = \"sinr\"\n[access]\nmodel = \"csma\"\n",
           "[study]\nwarmup = \"5 s\"\n"}) {
@@ -79,7 +80,9 @@ TEST_CASE("recorded day: with its own radio, gives the recorded result to the la
     }
 }
 
-TEST_CASE("recorded day: with a weaker radio, loses deliveries, and names the robots") {
+TEST_CASE(
+    "replay of a recorded trace: a weaker radio loses deliveries, and the recorded power loses "
+    "none") {
     const TemporaryFolder folder;
     const RecordedDay day(record(folder, busy_day));
     const PlayedDay weak = day.play({"radio.power=-30 dBm"});
@@ -92,14 +95,14 @@ TEST_CASE("recorded day: with a weaker radio, loses deliveries, and names the ro
     CHECK(back.metrics == day.recorded().metrics);
 }
 
-TEST_CASE("recorded day: an unknown setting is refused by its name") {
+TEST_CASE("replay of a recorded trace: the error for an unknown setting names this setting") {
     const TemporaryFolder folder;
     const RecordedDay day(record(folder, busy_day));
     CHECK_THROWS_WITH_AS(day.play({"propagation.modle=friis"}), doctest::Contains("modle"),
                          InputError);
 }
 
-TEST_CASE("recorded day: with its own radio, robots keep their roles in the protocol") {
+TEST_CASE("replay of a recorded trace: robots keep their roles in the routing protocol") {
     std::string scenario =
         "[scenario]\nduration = \"9 s\"\n[propagation]\nmodel = \"disc\"\nrange = \"9 m\"\n"
         "[routing]\nprotocol = \"managed\"\n"
@@ -115,7 +118,9 @@ TEST_CASE("recorded day: with its own radio, robots keep their roles in the prot
     CHECK(day.recorded().metrics.deliveries > 0);
 }
 
-TEST_CASE("recorded day: a robot without legs stands at its start in the scenario") {
+TEST_CASE(
+    "replay of a recorded trace: a robot without recorded legs stands at its start in the "
+    "scenario") {
     const TemporaryFolder folder;
     RecordedReader trace(record(folder, busy_day));
     RecordedRun run = trace.run();

@@ -281,7 +281,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("recorded trace: a message that is sent twice is refused, as in its text") {
+TEST_CASE("recorded trace: a message that is sent twice is refused, as in a trace in text") {
     const TempFolder folder;
     record(folder / "trace.mcap", [](Stream& stream) {
         const NodeId a = stream.place(Vec3{}), b = stream.place(Vec3{1, 0, 0});

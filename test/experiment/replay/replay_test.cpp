@@ -75,7 +75,8 @@ start = "1 s"
 const std::string examples = ROVERNET_EXAMPLES;
 
 TEST_CASE(
-    "a recorded run of each example reproduces fingerprint and ns-2 trace, and is repeatable") {
+    "the recorded trace of an example gives the run's fingerprint and ns-2 trace, and can be "
+    "repeated") {
     for (const char* name : {"patrol/patrol.toml", "rescue/rescue.toml", "stage/office.world"}) {
         CAPTURE(name);
         const RecordedRunOf run(examples + "/" + name, {});

@@ -36,7 +36,9 @@ RunComparison compare(const std::string& a, const std::string& b, ComparisonChoi
 
 }  // namespace
 
-TEST_CASE("run comparison: gained and lost messages equal the table of replay") {
+TEST_CASE(
+    "run comparison: the numbers of gained and lost deliveries equal those of `rovernet replay "
+    "--with`") {
     const test::TemporaryFolder folder;
     const std::string trace = record(folder, "rescue/rescue.toml", "run");
     const std::string other = folder.path("other.mcap");
@@ -78,7 +80,9 @@ TEST_CASE("run comparison: a run does not differ from itself") {
     CHECK(found.first.is_equal);
 }
 
-TEST_CASE("run comparison: the outcome in the other run is that of the last frame of the message") {
+TEST_CASE(
+    "run comparison: for a lost delivery, the outcome in the other run is that of the message's "
+    "last frame") {
     const test::TemporaryFolder folder;
     const std::string trace = record(folder, "relay/routes.toml", "run");
     const std::string other = folder.path("other.mcap");
@@ -92,7 +96,7 @@ TEST_CASE("run comparison: the outcome in the other run is that of the last fram
     CHECK(collided < found.lost);
 }
 
-TEST_CASE("run comparison: different robots are an error that names one") {
+TEST_CASE("run comparison: traces of different robots are an error that names one of the robots") {
     const test::TemporaryFolder folder;
     const std::string rescue = record(folder, "rescue/rescue.toml", "rescue");
     const std::string patrol = record(folder, "patrol/patrol.toml", "patrol");

@@ -76,7 +76,7 @@ TEST_CASE("a file of ns-2 text is read unchanged") {
     CHECK(all_of(trace.text()) == content(run.text));
 }
 
-TEST_CASE("a recorded trace has the counts, paths and events of the ns-2 trace of its run") {
+TEST_CASE("a recorded trace has the same counts, paths and events as the ns-2 trace of its run") {
     const Rescue run("old", "true");
     const TraceStats told = ns2_stats(old_with_mac(run.recorded).text());
     const TraceStats written = ns2_stats(run.text);

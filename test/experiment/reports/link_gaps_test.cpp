@@ -47,7 +47,8 @@ Scenario read(const test::TemporaryFolder& folder, const std::string& text) {
 }  // namespace
 
 TEST_CASE(
-    "link gaps: a gap is where both access points are too far away, on the way there and back") {
+    "link gaps: a robot has a gap where both access points are out of range, on its way there and "
+    "back") {
     const test::TemporaryFolder folder;
     const Scenario s = read(folder, corridor);
     const double heard = std::sqrt(40.0 * 40.0 - 3.0 * 3.0);  // [m] along the corridor
@@ -69,7 +70,7 @@ TEST_CASE(
     CHECK(near(gaps.lost_path(), 200 - 4 * heard));
 }
 
-TEST_CASE("link gaps: a gap that contains a turn of the path is one gap") {
+TEST_CASE("link gaps: a turn of the path does not divide a gap") {
     const test::TemporaryFolder folder;
     const LinkGaps gaps =
         link_gaps(read(folder, corridor), {.robot = "rover", .partners = {"west"}});
@@ -77,7 +78,9 @@ TEST_CASE("link gaps: a gap that contains a turn of the path is one gap") {
     CHECK(near(seconds(gaps.lost()), 200 - 2 * std::sqrt(40.0 * 40.0 - 3.0 * 3.0)));
 }
 
-TEST_CASE("link gaps: a relay closes the gap in a mesh only, and only if it reaches the partner") {
+TEST_CASE(
+    "link gaps: a relay closes a gap only if it is named as a relay, and only if it reaches the "
+    "partner") {
     const test::TemporaryFolder folder;
     const auto with_relay = [&](const std::string& x) {
         return read(folder,
@@ -122,7 +125,8 @@ TEST_CASE("link gaps: a gap continues while the robot is off, and ends when the 
     CHECK(near(vehicle.lost_share(), 1));
 }
 
-TEST_CASE("link gaps: the history of links has the same times and places") {
+TEST_CASE(
+    "link gaps: a gap begins and ends at the times and positions that the history of links has") {
     const test::TemporaryFolder folder;
     const Scenario s = read(folder, corridor);
     const LinkGaps gaps = link_gaps(s, {.robot = "rover", .partners = {"west"}});
@@ -141,7 +145,7 @@ TEST_CASE("link gaps: the history of links has the same times and places") {
     CHECK(rows[2].to_at == gaps.gaps[0].to);
 }
 
-TEST_CASE("link gaps: a partner that is unknown, twice or the robot itself is an error") {
+TEST_CASE("link gaps: a partner that is unknown, named twice or the robot itself is an error") {
     const test::TemporaryFolder folder;
     const Scenario s = read(folder, corridor);
     CHECK_THROWS_AS(link_gaps(s, {.robot = "rover", .partners = {"wst"}}), std::invalid_argument);

@@ -12,7 +12,7 @@
 namespace link_table_test {
 using namespace rovernet;
 
-TEST_CASE("links: each table is printed before the next one is computed") {
+TEST_CASE("links: each robot's table is handed over before the next table is computed") {
     const test::TemporaryFolder folder;
     const Scenario scenario = load_scenario(folder.write("s.toml", R"([[robot]]
 name = "r"
@@ -31,7 +31,7 @@ place = { area = [["0 m", "0 m"], ["1 m", "1 m"]] }
     CHECK(told == 2);
 }
 
-TEST_CASE("where: plays traffic only if it moves robots") {
+TEST_CASE("where: traffic is simulated only if it can move robots") {
     const test::TemporaryFolder folder;
     const std::string text = R"([[robot]]
 name = "a"

@@ -42,7 +42,9 @@ struct ThreeRobots {
 
 }  // namespace
 
-TEST_CASE("routes: unknown data is empty, and a path has the names of its robots") {
+TEST_CASE(
+    "routes: unknown fields are empty in CSV and null in JSON, and a path lists the names of its "
+    "robots") {
     const ThreeRobots robots;
     const Network& net = robots.net;
     std::string csv, json;
@@ -59,7 +61,9 @@ TEST_CASE("routes: unknown data is empty, and a path has the names of its robots
     CHECK(json.find(R"({"robot":"c","routes":[]})") != std::string::npos);
 }
 
-TEST_CASE("routes: lists one robot, and refuses a robot that the network does not have") {
+TEST_CASE(
+    "routes: a report can be limited to one robot; a robot that the network does not have is "
+    "refused") {
     const ThreeRobots robots;
     const Network& net = robots.net;
     int told = 0;
@@ -73,7 +77,7 @@ TEST_CASE("routes: lists one robot, and refuses a robot that the network does no
                     std::invalid_argument);
 }
 
-TEST_CASE("routes: a router knows whether its protocol has routing tables") {
+TEST_CASE("routes: a report is refused if the routing protocol has no routing tables") {
     CHECK(Router(Paths{}).has_routes());
     Scenario scenario;
     std::size_t with = 0, without = 0;

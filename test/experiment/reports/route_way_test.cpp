@@ -56,7 +56,9 @@ RouteState broken(RouteState route) {
 
 }  // namespace
 
-TEST_CASE("route path: follows the table of each robot on it, with the ages of the routes") {
+TEST_CASE(
+    "route path: each hop comes from the routing table of the robot there, with the age of the "
+    "route") {
     const Row row({{0, {route(3, 1, 3)}}, {1, {route(3, 2, 2, 1s)}}, {2, {route(3, 3, 1)}}});
     const RouteWay way = row.way(3);
     REQUIRE(way.hops.size() == 3);
@@ -69,7 +71,7 @@ TEST_CASE("route path: follows the table of each robot on it, with the ages of t
     CHECK(row.text(3) == "route from r0 to r3: r0 > r1 > r2 > r3, 3 hops, learnt up to 4 s ago");
 }
 
-TEST_CASE("route path: ends at a robot without a route, or with a broken one") {
+TEST_CASE("route path: the path ends at a robot without a route, or with a broken route") {
     CHECK(Row({}).text(3) == "route from r0 to r3 breaks off at r0: it has no route to r3");
     const Row none({{0, {route(3, 1, 3)}}, {1, {route(4, 2, 3)}}});
     CHECK(none.way(3).broken_at == NodeId{1});
@@ -83,7 +85,9 @@ TEST_CASE("route path: ends at a robot without a route, or with a broken one") {
     CHECK(two.text(2).find("r0 > r1 > r2, 2 hops") != std::string::npos);
 }
 
-TEST_CASE("route path: breaks where the next robot does not hear; the tables give the rest of it") {
+TEST_CASE(
+    "route path: the first hop that is not heard breaks the path; later hops still come from the "
+    "tables") {
     const Row far({{0, {route(4, 2, 2)}}, {2, {route(4, 3, 2)}}, {3, {route(4, 4, 1)}}});
     const RouteWay way = far.way(4);
     REQUIRE(way.hops.size() == 3);

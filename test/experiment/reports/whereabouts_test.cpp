@@ -37,7 +37,7 @@ using Presences = std::vector<Presence>;
 
 }  // namespace
 
-TEST_CASE("whereabouts: a vehicle has not departed, is on, and has left") {
+TEST_CASE("whereabouts: a vehicle is first not departed, then on, and at last gone") {
     test::TemporaryFolder folder;
     const Scenario s = load_scenario(folder.write("fcd.xml", two_vehicles), {});
     const auto all =
@@ -48,7 +48,7 @@ TEST_CASE("whereabouts: a vehicle has not departed, is on, and has left") {
     CHECK(all[0].robots[1].position == Vec3{0, 40, 0});  // where it will appear
 }
 
-TEST_CASE("whereabouts: a robot that is switched off is present and off") {
+TEST_CASE("whereabouts: a robot is reported as off from its switching off to its switching on") {
     test::TemporaryFolder folder;
     const Scenario s = load_scenario(
         folder.write("s.toml",
@@ -61,7 +61,7 @@ TEST_CASE("whereabouts: a robot that is switched off is present and off") {
     CHECK(all[2].robots[0].presence == Presence::on);
 }
 
-TEST_CASE("whereabouts: the answers are in the order of the times") {
+TEST_CASE("whereabouts: the answers are in the order of the requested times") {
     test::TemporaryFolder folder;
     const Scenario s = load_scenario(folder.write("fcd.xml", two_vehicles), {});
     const std::vector<Time> times{start_of_run + 3s, start_of_run, start_of_run + 1s, start_of_run};
@@ -71,8 +71,7 @@ TEST_CASE("whereabouts: the answers are in the order of the times") {
     CHECK(all[2].robots[0].position == Vec3{10, 0, 0});
 }
 
-TEST_CASE(
-    "network: a robot that is taken away neither sends nor receives until it is switched on") {
+TEST_CASE("network: take_away switches a robot's radio off until switch_on") {
     Network net;
     const NodeId a = net.add({.name = "a", .at = {}, .radius = {0.7}});
     CHECK(net.robot(a).presence == Presence::on);

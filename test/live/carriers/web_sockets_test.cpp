@@ -181,7 +181,8 @@ TEST_CASE("web sockets: a client that does not read is closed, and others are se
     CHECK(crowded.reason() == 1013);
 }
 
-TEST_CASE("web sockets: a message may exceed the send queue, for a client that reads") {
+TEST_CASE(
+    "web sockets: a client that reads gets even a message that is longer than the send queue") {
     const Echo echo;
     WebClient reader(echo.port);
     reader.send("map");

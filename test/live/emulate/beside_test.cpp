@@ -37,7 +37,9 @@ const std::string to_all = "RN\x01\x00\xff\xff\xff\xff"s;
 
 }  // namespace
 
-TEST_CASE("emulate: Player and ROS clients drive robots whose packets programs send") {
+TEST_CASE(
+    "emulate: Player and ROS clients drive robots while programs send packets over the robots' "
+    "radios") {
     Emulation emulation(three, {"--udp", "127.0.0.1:0", "--player", "127.0.0.1:0", "--rosbridge",
                                 "127.0.0.1:0", "--late", "60 s"});
     const auto port = [&](const std::string& what) { return emulation.port(7, what); };

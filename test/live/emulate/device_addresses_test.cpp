@@ -158,7 +158,7 @@ TEST_CASE("device addresses: more robots than generated addresses in a network g
     CHECK(robots(260, "netmask = \"255.255.0.0\"").empty());
 }
 
-TEST_CASE("emulate: an invalid address ends it with code 3 before anything is created") {
+TEST_CASE("emulate: an invalid address ends the command with code 3 before anything is created") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", two("", "mac = \"01:00:00:00:00:01\""));
     const Ended ended = command(folder, {"emulate", file, "--out", folder.path("out")});

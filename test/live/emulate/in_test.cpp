@@ -178,7 +178,7 @@ TEST_CASE("emulate: only the user of a run gets its namespaces") {
     CHECK(gets_it() == 1);
 }
 
-TEST_CASE("robot listener: a name in use is skipped, and each listener is found") {
+TEST_CASE("robot listener: a second listener for one robot gets another name, and both are found") {
     const std::string robot = "R/.." + std::to_string(getpid());
     const int first = open_listener(getpid(), robot), second = open_listener(getpid(), robot);
     std::set<std::string> marks;

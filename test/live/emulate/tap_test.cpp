@@ -64,7 +64,8 @@ TEST_CASE(
     CHECK_FALSE(has_listeners(run->pid()));
 }
 
-TEST_CASE("emulate: a radio that loses a fifth in each direction loses 36 % of the pings") {
+TEST_CASE(
+    "emulate: a radio that loses 20 % of the frames in each direction loses 36 % of the pings") {
     std::string lossy = tap_scenario;
     lossy.insert(lossy.find("preamble"), "success_rate = 0.8\n");
     const auto run = has_ping() ? emulated_by_tap(lossy) : nullptr;

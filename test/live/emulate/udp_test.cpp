@@ -120,7 +120,8 @@ TEST_CASE("emulate: a late run gives one warning, or fails with --on-late fail")
     CHECK(fails.replay().exit == 0);
 }
 
-TEST_CASE("emulate: a process stopped while idle is late, and fails with --on-late fail") {
+TEST_CASE(
+    "emulate: a run whose process was stopped while idle is late, and fails with --on-late fail") {
     for (const std::string on_late : {"warn", "fail"}) {
         CAPTURE(on_late);
         Emulation run(scenario, {"--udp", "127.0.0.1:0", "--late", "300ms", "--on-late", on_late});
@@ -145,7 +146,7 @@ TEST_CASE("emulate: a process stopped while idle is late, and fails with --on-la
     }
 }
 
-TEST_CASE("emulate --udp: listens only to this machine, and reports a port in use") {
+TEST_CASE("emulate --udp: only this machine can connect, and a port in use is reported") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", scenario);
     const auto emulate = [&](std::vector<std::string> options) {

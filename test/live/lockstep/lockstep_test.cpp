@@ -195,7 +195,8 @@ TEST_CASE("lockstep: an unknown robot gets a list of robots, an unknown key a su
 }
 
 TEST_CASE(
-    "lockstep: time advances to the nearest end of a step when all controllers have requested") {
+    "lockstep: when all controllers have requested a step, time advances to the earliest end of a "
+    "step") {
     Talk talk(three_in_a_row(), {.wait_for = 2});
     CHECK(talk.ask(0, hello_a).empty());
     CHECK(fault(talk.ask(0, step(1))) == "too_early ");
@@ -210,7 +211,9 @@ TEST_CASE(
     CHECK(Json::parse(talk.told[1].back()).at("t_ns") == 300'000'000);
 }
 
-TEST_CASE("lockstep: results do not depend on the order of arrival or of the controllers") {
+TEST_CASE(
+    "lockstep: results do not depend on the order in which requests arrive or controllers "
+    "connect") {
     const auto run = [](bool swapped) {
         Talk talk(three_in_a_row(), {.wait_for = 2});
         const Lockstep::Connection a = 0, b = 1;
@@ -263,7 +266,9 @@ TEST_CASE("lockstep: controllers that leave together do so in the order of their
     }
 }
 
-TEST_CASE("lockstep: each robot has one controller, and columns contain the data of the objects") {
+TEST_CASE(
+    "lockstep: each robot has one controller, and states as columns have the same data as states "
+    "as objects") {
     Talk talk(three_in_a_row(), {.wait_for = 1});
     talk.say(0, hello_a);
     CHECK(fault(talk.ask(1, R"({"type":"hello","protocol":1,"robots":["B","A"],"step":"1 s"})")) ==
@@ -307,8 +312,8 @@ TEST_CASE("lockstep: a robot is placed elsewhere, at rest, with a given or its o
 }
 
 TEST_CASE(
-    "lockstep: a place without room and a goal off the map are errors; a goal without a path is "
-    "reported in the state") {
+    "lockstep: a position without room and a goal off the map are errors; the state reports a goal "
+    "without a path") {
     Talk talk(load_scenario(ROVERNET_EXAMPLES "/rescue/rescue.toml", {}));
     talk.say(0, hello_a);
     for (const char* place : {"[-5,3]", "[24,100]", "[2,6]"}) {
@@ -444,7 +449,8 @@ TEST_CASE("lockstep: a run ends at its end time, and restarts by a reset") {
     CHECK(Json::parse(talk.told[0].back()).at("reason") == "bye");
 }
 
-TEST_CASE("lockstep: a controller that leaves early gets the end, and the others continue") {
+TEST_CASE(
+    "lockstep: a controller that leaves early gets the message `end`, and the others continue") {
     Talk talk(three_in_a_row(), {.wait_for = 2});
     talk.say(0, hello_a);
     talk.say(1, hello_b);
@@ -456,7 +462,9 @@ TEST_CASE("lockstep: a controller that leaves early gets the end, and the others
     CHECK(Json::parse(talk.told[1].back()).at("t_ns") == 300'000'000);
 }
 
-TEST_CASE("lockstep: loss of a controller ends the run, stops its robots, or pauses the run") {
+TEST_CASE(
+    "lockstep: if a controller is lost, the run ends, its robots stop, or the run pauses, as "
+    "configured") {
     const auto lose = [](Talk& talk) {
         talk.say(0, hello_a);
         talk.say(1, hello_b);
@@ -489,7 +497,7 @@ TEST_CASE("lockstep: loss of a controller ends the run, stops its robots, or pau
     CHECK(Json::parse(waits.ask(5, step(3))).at("t_ns") == 300'000'000);
 }
 
-TEST_CASE("lockstep: a run stopped in the middle of a step sends this to its controllers") {
+TEST_CASE("lockstep: if a run is stopped during a step, its controllers get the reason `stopped`") {
     Talk talk(three_in_a_row());
     talk.say(0, hello_a);
     talk.lockstep.received(0, step(1));
@@ -537,7 +545,7 @@ TEST_CASE("lockstep: a first line that is not a JSON object is recognised also d
     CHECK(fault(talk.told[1].back()) == "missing_key protocol");
 }
 
-TEST_CASE("lockstep: a robot driven by another front is refused") {
+TEST_CASE("lockstep: a robot that a client of another protocol drives is refused") {
     Talk talk(three_in_a_row());
     talk.session->attach({NodeId{1}}, "player");
     CHECK(fault(talk.ask(0, R"({"type":"hello","protocol":1,"robots":["A","B"],"step":"1 s"})")) ==
@@ -545,7 +553,8 @@ TEST_CASE("lockstep: a robot driven by another front is refused") {
 }
 
 TEST_CASE(
-    "lockstep: while it waits, patience, ended programs and missing controllers are handled") {
+    "lockstep: a waiting run reports missing controllers, and ends if a controller is slow or has "
+    "ended") {
     using namespace std::chrono_literals;
     std::vector<std::string> said;
     Talk talk(three_in_a_row(),

@@ -92,7 +92,7 @@ TEST_CASE("stepped run: the same commands give the same run as the lock-step pro
     CHECK(by_steps(scenario, 7) != by_steps(scenario, 8));  // delays before forwarding
 }
 
-TEST_CASE("stepped run: its log of inputs reproduces the run") {
+TEST_CASE("stepped run: replay of the input log reproduces the run") {
     const TemporaryFolder folder;
     const std::string fingerprint = by_steps(three_in_a_row(), 7, folder.path("run"));
     const InputReplay replay = replay_inputs(folder.path("run"), {});
@@ -116,7 +116,9 @@ TEST_CASE("stepped run: an interrupted step continues, and the log reproduces th
     CHECK(replay_inputs(folder.path("run"), {}).now == fingerprint);
 }
 
-TEST_CASE("stepped run: poses follow the arc, one row for each robot, always at one address") {
+TEST_CASE(
+    "stepped run: poses follow the arc, in an array with one row per robot that stays at its "
+    "address") {
     SteppedRun run(three_in_a_row(), {.robots = std::vector<std::string>{"C", "A"}});
     const double* pose = run.poses().data();
     CHECK(pose[0] == 300);
@@ -150,7 +152,7 @@ TEST_CASE("stepped run: received messages have time, sender, level and port") {
     CHECK(run.heard().empty());
 }
 
-TEST_CASE("stepped run: ends with the scenario, and can be reset") {
+TEST_CASE("stepped run: a run ends at the end of the scenario, and can then be reset") {
     SteppedRun run(three_in_a_row(), {.step = 1500ms});
     CHECK(step(run));
     CHECK_FALSE(run.is_done());
@@ -198,7 +200,9 @@ TEST_CASE("stepped run: numbers out of range are refused without effect") {
           }) == "robot A is listed twice");
 }
 
-TEST_CASE("stepped run: commands of a sink during commands take effect in the next step") {
+TEST_CASE(
+    "stepped run: a command that a sink gives while commands are applied takes effect in the next "
+    "step") {
     struct Echo {
         SteppedRun** run;
         KindMask kinds() const { return kind_of<Sent>(); }

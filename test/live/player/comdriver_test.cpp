@@ -72,7 +72,9 @@ std::vector<std::string> heard_of(const std::string& message) {
 
 }  // namespace
 
-TEST_CASE("comdriver: each hop decrements the first byte, and forwards while it is above zero") {
+TEST_CASE(
+    "comdriver: each hop decrements the first byte of a message, and forwards it while the byte is "
+    "above 0") {
     using Heard = std::vector<std::string>;
     CHECK(heard_of("\x01"
                    "F") == Heard{"", "0046", "", ""});

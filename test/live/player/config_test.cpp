@@ -76,7 +76,7 @@ TEST_CASE("player configuration: blanks in an address and lists over several lin
     CHECK(config.notices.empty());
 }
 
-TEST_CASE("player configuration: comdrivers and relays belong to the robots whose radio they use") {
+TEST_CASE("player configuration: a comdriver or relay belongs to the robot whose radio it uses") {
     const PlayerConfig config = read(head + R"(
 driver ( name "comdriver" provides [ "6666:opaque:3" ] requires [ "6666:wifi:1" "6666:opaque:2" ]
          mapping [ "192.168.0.1" 6665
@@ -148,7 +148,9 @@ TEST_CASE("player configuration: errors have a position") {
     CHECK_THROWS_AS(read_player_config("/nowhere/two.cfg"), InputError);
 }
 
-TEST_CASE("player listeners: one port per robot, one for all, or the ports of a configuration") {
+TEST_CASE(
+    "player listeners: there is a port for each robot, one port for all, or the ports of a "
+    "configuration") {
     const std::vector<std::string> names = {"r0", "r1", "r2"};
     const FrontListeners ports = player_ports({"127.0.0.1", 7000}, names, {});
     REQUIRE(ports.entries.size() == 3);
@@ -169,7 +171,7 @@ TEST_CASE("player listeners: one port per robot, one for all, or the ports of a 
     CHECK_THROWS_AS(player_ports({"127.0.0.1", 65535}, {"a", "b"}, {}), std::invalid_argument);
 }
 
-TEST_CASE("player listeners: serve robots of tables, of a count and of a movement file") {
+TEST_CASE("player listeners: robots of tables, of a `count` and of a movement file are served") {
     const TemporaryFolder folder;
     folder.write("m.tcl", R"($node_(0) set X_ 1
 $node_(0) set Y_ 2

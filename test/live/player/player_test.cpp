@@ -174,7 +174,9 @@ std::string types(const std::vector<Wire>& all) {
 
 }  // namespace
 
-TEST_CASE("player: a real client's links session gets the same answers as from the original") {
+TEST_CASE(
+    "player: a recorded client that asks for links gets the same answers as from the original "
+    "Player") {
     PlayerTalk talk(player_scenario(pair));
     const auto capture = raw_capture("links_pull.log");
     REQUIRE(capture.size() > 25);
@@ -191,7 +193,9 @@ TEST_CASE("player: a real client's links session gets the same answers as from t
     check_devices(without_synch.theirs[1].payload, without_synch.ours[1].payload);
 }
 
-TEST_CASE("player: a real client's driving session gets the same answers as from the original") {
+TEST_CASE(
+    "player: a recorded client that drives a robot gets the same answers as from the original "
+    "Player") {
     PlayerTalk talk(player_scenario(pair));
     const auto capture = decoded_capture("drive_pull.log");
     REQUIRE(capture.size() > 80);
@@ -208,7 +212,8 @@ TEST_CASE("player: a real client's driving session gets the same answers as from
     CHECK(geometry->payload == doubles({0, 0, 0, 0, 0, 0, 0.4, 0.4, 0.3}));
 }
 
-TEST_CASE("player: a real client in PUSH mode gets the same answers as from the original") {
+TEST_CASE(
+    "player: a recorded client in PUSH mode gets the same answers as from the original Player") {
     PlayerTalk talk(player_scenario(pair));
     auto capture = decoded_capture("drive_push.log");
     for (Captured& each : capture) each.message.robot = each.by_client ? 0 : 6665;
@@ -477,7 +482,7 @@ at = ["0 m", "AWAY"]
     CHECK(float_at(config[0].payload, 24) == 4);
 }
 
-TEST_CASE("player: robots at one port have different indices") {
+TEST_CASE("player: robots at one port have different device indices") {
     PlayerTalk talk(player_scenario(pair), {.places = {{"robot1", 0, 0}, {"robot2", 0, 1}}});
     const auto client = talk.come();
     const auto list = talk.ask(client, request(1, 0, 1));

@@ -103,7 +103,9 @@ TEST_CASE("player: geometry gives the position of a range finder and the origin 
     CHECK(answer(talk, sonar, 0, 9) == "refused");
 }
 
-TEST_CASE("player: at one port each robot has the same number of indices of a kind") {
+TEST_CASE(
+    "player: robots at one port have equally many device indices of a kind, even if they use "
+    "fewer") {
     const std::vector<PlayerPlace> places = {{"robot1", 0, 0}, {"robot2", 0, 1}};
     PlayerTalk alike(player_scenario(with_scans("{ range = \"1 m\" }", "{ range = \"2 m\" }")),
                      {.places = places});

@@ -86,7 +86,9 @@ std::string data_of(LineClient& client, std::uint32_t interface) {
 
 }  // namespace
 
-TEST_CASE("stage: laser and ranger of a world are laser:0 and ranger:0 of its configuration") {
+TEST_CASE(
+    "stage: the laser and the ranger of a world are the devices laser:0 and ranger:0 of its "
+    "configuration") {
     const TemporaryFolder folder;
     folder.write("room.world", world);
     const Process live(folder,

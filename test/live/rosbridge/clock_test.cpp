@@ -37,7 +37,7 @@ TEST_CASE("rosbridge clock: steps with the same end are answered in the order of
     CHECK(clock.next() == start_of_run + 11ms);
 }
 
-TEST_CASE("rosbridge clock: pause and resume precede all steps, the oldest call first") {
+TEST_CASE("rosbridge clock: pause and resume end all unfinished steps, the oldest call first") {
     RosClock clock;
     const auto begin = [&] {
         clock.begin(step("a", 30ms, 1));
@@ -54,7 +54,9 @@ TEST_CASE("rosbridge clock: pause and resume precede all steps, the oldest call 
     CHECK(clock.next() == never);
 }
 
-TEST_CASE("rosbridge clock: a step of a client that has left continues while another pauses time") {
+TEST_CASE(
+    "rosbridge clock: a step of a client that has left continues while another client pauses "
+    "time") {
     RosClock clock;
     CHECK(clock.pause(1, start_of_run).empty());
     clock.begin(step("a", 10ms, 2));
@@ -67,7 +69,7 @@ TEST_CASE("rosbridge clock: a step of a client that has left continues while ano
     CHECK(clock.next() == never);
 }
 
-TEST_CASE("rosbridge clock: of the steps of clients that have left, only the last end is kept") {
+TEST_CASE("rosbridge clock: of all steps of clients that have left, only the latest end is kept") {
     RosClock clock;
     CHECK(clock.pause(1, start_of_run).empty());
     for (RosClock::Connection client = 2; client < 1000; ++client) {

@@ -97,7 +97,8 @@ TEST_CASE("rosbridge listener: clients drive by WebSocket while time is paused a
     CHECK(replay.now == result.run.fingerprint);
 }
 
-TEST_CASE("rosbridge listener: robots of a killed client stop, and no state of it remains") {
+TEST_CASE(
+    "rosbridge listener: robots of a killed client stop, and no state of the client remains") {
     Server server;
     WebClient watcher(server.port);
     call(watcher, "/simulation/pause");

@@ -326,7 +326,9 @@ TEST_CASE("rosbridge: a robot goes to a goal, and is placed elsewhere") {
     CHECK(std::abs(talk.session.network().heading({0}).value - std::numbers::pi / 2) < exact);
 }
 
-TEST_CASE("rosbridge: a goal off the map is answered with a status, with the extent of the map") {
+TEST_CASE(
+    "rosbridge: a goal off the map is answered with a status message that has the extent of the "
+    "map") {
     RosTalk talk(office());
     const auto told = talk.ask(
         R"({"op":"publish","topic":"/A/goal_pose","msg":{"pose":{"position":{"x":448,"y":12}}}})");
@@ -718,7 +720,7 @@ TEST_CASE("rosbridge: subscriptions are limited, and robots of other clients can
     CHECK(talk.told().at(0)["msg"] == "robot C is driven by other programs");
 }
 
-TEST_CASE("rosbridge: messages of roslib are understood (capture)") {
+TEST_CASE("rosbridge: messages captured from the library roslib are understood") {
     const TemporaryFolder folder;
     RosTalk talk(load_scenario(folder.write("r1.toml", R"([scenario]
 duration = "2 s"

@@ -65,7 +65,7 @@ std::string json(const Value* value) { return to_json(*value); }
 
 }  // namespace
 
-TEST_CASE("viewer answers: equal the output of the command line") {
+TEST_CASE("viewer answers: answers equal the output of the command line") {
     const Recorded run;
     ViewerAnswers answers({run.path()});
     const Scenario scenario = load_scenario(rescue, {});
@@ -146,7 +146,7 @@ TEST_CASE("viewer answers: links under the model disc have neither level nor mar
     for (const Value& margin : margins) CHECK(std::holds_alternative<std::monostate>(margin.data));
 }
 
-TEST_CASE("viewer answers: run 1 means the second run") {
+TEST_CASE("viewer answers: the run number 1 selects the second run") {
     const Recorded run;
     const std::string path = run.folder.path("other.mcap");
     RecordedDay(run.path()).record(path, {"propagation.model=friis"});
@@ -288,7 +288,7 @@ TEST_CASE("viewer answers: any input of a page gets an answer in JSON") {
     CHECK(error_of(answers, questions[0]).empty());
 }
 
-TEST_CASE("view server: serves the page, the view file and answers, and nothing else") {
+TEST_CASE("view server: the server gives the page, the view file and answers, and nothing else") {
     const std::string file("RVW1\0\xff data", 12);
     ViewServer server(
         {"127.0.0.1", 0}, file,

@@ -116,7 +116,8 @@ std::map<std::size_t, Numbers> starts_of_legs(const std::vector<std::string>& fi
 
 }  // namespace
 
-TEST_CASE("view front: the parts of a run equal the view of its trace") {
+TEST_CASE(
+    "view front: the parts that a page gets during a run add up to the view of the run's trace") {
     Viewed viewed(rescue());
     viewed.front.opened(1, {});
     viewed.go(viewed.run.session().end());
@@ -139,7 +140,7 @@ TEST_CASE("view front: the parts of a run equal the view of its trace") {
     CHECK(is(viewed.live(), "ended"));
 }
 
-TEST_CASE("view front: without pages the run is not observed") {
+TEST_CASE("view front: a run is observed only after a page has been opened") {
     Viewed viewed(rescue(), {});
     CHECK(viewed.front.next() == never);
     CHECK(viewed.front.limit() == never);
@@ -149,7 +150,9 @@ TEST_CASE("view front: without pages the run is not observed") {
     CHECK(ViewReader(viewed.files[1][0]).numbers("legs.first").size() == 6);
 }
 
-TEST_CASE("view front: a run for a page waits for it, pauses, steps, and changes speed") {
+TEST_CASE(
+    "view front: a run with --view waits for its page, which can pause and step it and change its "
+    "speed") {
     Viewed viewed(rescue(), {.of_time = true, .is_for_page = true, .speed = 1});
     viewed.go(Time(5s));
     CHECK(viewed.now() == start_of_run);
@@ -172,7 +175,8 @@ TEST_CASE("view front: a run for a page waits for it, pauses, steps, and changes
     CHECK(viewed.ask(R"({"id": 4, "op": "pace", "spede": 2})").find("speed") != std::string::npos);
 }
 
-TEST_CASE("view front: pages need permission for changes, and their commands are logged inputs") {
+TEST_CASE(
+    "view front: pages need permission to change a run, and their commands are logged as inputs") {
     Viewed looking(rescue(), {});
     looking.front.opened(1, {});
     CHECK(looking.ask(R"({"id": 1, "op": "pace", "paused": true})").find("--view-control") !=
@@ -208,7 +212,8 @@ TEST_CASE("view front: pages need permission for changes, and their commands are
     CHECK(std::holds_alternative<StopCommand>(inputs[2].command));
 }
 
-TEST_CASE("view front: answers are about the current time") {
+TEST_CASE(
+    "view front: during a run, answers are for the current time, whatever time is requested") {
     Viewed viewed(rescue());
     viewed.front.opened(1, {});
     viewed.go(Time(10s));
@@ -231,7 +236,9 @@ std::string plain(std::string_view answer) {
     return to_json_line(std::move(table));
 }
 
-TEST_CASE("view front: why, and the air of the last second, are those of the recorded trace") {
+TEST_CASE(
+    "view front: during the run, the requests `why` and `air` get the same answers as from the "
+    "recorded trace") {
     Viewed viewed(rescue());
     viewed.front.opened(1, {});
     viewed.go(Time(30s));
@@ -254,7 +261,9 @@ TEST_CASE("view front: why, and the air of the last second, are those of the rec
     CHECK(why[3].find(R"("answer":"E )") != std::string::npos);
 }
 
-TEST_CASE("view history: begins with the first page, keeps two files, and deletes older records") {
+TEST_CASE(
+    "view history: records are kept from the first page on, in two files, and older records are "
+    "deleted") {
     ScenarioRun run(rescue());
     Session& session = run.session();
     session.step(Time(11s));
@@ -316,7 +325,7 @@ TEST_CASE("view front: a slow page gets the rest later, and a late page gets eve
     CHECK(viewed.files[3] == viewed.files[1]);
 }
 
-TEST_CASE("view log: beyond its limit only the oldest frames are removed") {
+TEST_CASE("view log: beyond the limit of the log, only its oldest frames are removed") {
     ViewLog log;
     log.begin("start");
     const std::size_t size = ViewLog::most_frame_bytes / 2 - 10;

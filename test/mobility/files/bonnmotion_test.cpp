@@ -52,7 +52,7 @@ const std::string two_nodes =
 
 }  // namespace
 
-TEST_CASE("bonnmotion: a node is at each of its places at the time of that place") {
+TEST_CASE("bonnmotion: a node is at each of its positions at the time given for it") {
     const auto p = played(two_nodes);
     REQUIRE(p.file.robots().size() == 2);
     CHECK(p.file.robots()[0].name == "n0");
@@ -70,7 +70,8 @@ TEST_CASE("bonnmotion: a node is at each of its places at the time of that place
     CHECK(p.file.end() == start_of_run + from_seconds(20));
 }
 
-TEST_CASE("bonnmotion: commands come in order of time, those of one time in order of the nodes") {
+TEST_CASE(
+    "bonnmotion: commands are in the order of time, and at equal times in the order of the nodes") {
     const auto p = played(two_nodes);
     std::string order;
     for (const auto& c : p.commands) {
@@ -85,7 +86,8 @@ TEST_CASE("bonnmotion: commands come in order of time, those of one time in orde
         "scen.movements is not in order of time: 4 legs are kept in memory"));
 }
 
-TEST_CASE("bonnmotion: of many nodes that start and turn at the same times the first comes first") {
+TEST_CASE(
+    "bonnmotion: of many nodes that turn at the same time, the first in the file comes first") {
     std::string text;
     for (int node = 0; node < 100; ++node) {
         text += "1 0 0 2 1 0 " + std::string(node % 3 == 0 ? "3 1 1 4 5 5" : "4 2 2") + "\n";
@@ -101,7 +103,7 @@ TEST_CASE("bonnmotion: of many nodes that start and turn at the same times the f
     CHECK(disorder == 0);
 }
 
-TEST_CASE("bonnmotion: a node whose first time is later appears then") {
+TEST_CASE("bonnmotion: a node whose first time is after the start appears at this time") {
     const auto p = played("2 1 1 4 3 1\n3 7 7\n");
     CHECK(p.file.robots()[0].appears == start_of_run + from_seconds(2));
     REQUIRE(p.commands.size() == 3);
@@ -115,14 +117,14 @@ TEST_CASE("bonnmotion: a node whose first time is later appears then") {
     CHECK(p.file.end() == start_of_run + from_seconds(4));
 }
 
-TEST_CASE("bonnmotion: positions with z are recognised by the numbers in a line") {
+TEST_CASE("bonnmotion: positions with z are recognised by the number of values in a line") {
     const auto p = played("0 1 2 3 10 11 2 13\n0 4 5 6\n");
     REQUIRE(p.file.robots().size() == 2);
     CHECK(p.file.robots()[1].start == Vec3{4, 5, 6});
     CHECK(near(p.position("n0", 5), {6, 2, 8}));
 }
 
-TEST_CASE("bonnmotion: twelve numbers are 2-D positions if the times then ascend, otherwise 3-D") {
+TEST_CASE("bonnmotion: twelve values are 2-D positions if their times then ascend, otherwise 3-D") {
     CHECK(near(played("0 5 5 1 6 6 2 7 7 3 8 8\n").position("n0", 3), {8, 8, 0}));
     CHECK(near(played("0 9 9 1 5 8 8 2 9 7 7 3\n").position("n0", 9), {7, 7, 3}));
     // One line decides for all.

@@ -99,7 +99,8 @@ TEST_CASE("fcd: a robot in a first timestep after the start appears at that time
     CHECK(near(p.position("a", 1.5), {7, 0, 0}));
 }
 
-TEST_CASE("fcd: persons and containers are robots; z is read; a parked car stays") {
+TEST_CASE(
+    "fcd: persons and containers are robots, z is read, and a parked vehicle stays in place") {
     const auto p = played(
         fcd(step("0",
                  "<person id='p' y='1' x='2' z='3.5' edge='e'/><container id='c' x='0' "
@@ -112,7 +113,7 @@ TEST_CASE("fcd: persons and containers are robots; z is read; a parked car stays
     CHECK(near(p.position("c", 0.5), {0, 2, 0}));
 }
 
-TEST_CASE("fcd: ids are names, with character references and non-ASCII letters") {
+TEST_CASE("fcd: names of robots are the ids, with character references and non-ASCII letters") {
     const auto p = played(
         fcd(step("0", at("a&amp;b&lt;&#65;&#x42;&#xe4;", "0", "0") + at("\xc3\xa4>", "1", "1"))));
     REQUIRE(p.file.robots().size() == 2);
@@ -131,7 +132,7 @@ TEST_CASE("fcd: ids are names, with character references and non-ASCII letters")
     CHECK(error_of(fcd(step("0", at("a&amp", "0", "0")))) != "");
 }
 
-TEST_CASE("fcd: content that an FCD file cannot have is an error with its position") {
+TEST_CASE("fcd: content that is invalid in an FCD file is refused with its position") {
     const auto body = [](const std::string& text) { return error_of(fcd(text)); };
     CHECK(body(step("0", at("a", "0", "0")) + step("1", at("a", "0", "0") + at("a", "1", "0"))) ==
           "fcd.xml:5:76: found \"a\", expected each id once in a timestep");
@@ -190,7 +191,8 @@ TEST_CASE("fcd: an empty export has no robots") {
     CHECK(played("\xef\xbb\xbf" + fcd(step("0", ""))).commands.empty());
 }
 
-TEST_CASE("fcd: tolerant reading skips unknown elements, also nested ones, and broken robots") {
+TEST_CASE(
+    "fcd: in tolerant mode unknown elements, also nested ones, and incomplete robots are skipped") {
     std::string deep;
     for (int i = 0; i < 50; ++i) deep += "<e" + std::to_string(i) + ">";
     for (int i = 50; i-- > 0;) deep += "</e" + std::to_string(i) + ">";
@@ -210,7 +212,8 @@ TEST_CASE("fcd: tolerant reading skips unknown elements, also nested ones, and b
           std::string::npos);
 }
 
-TEST_CASE("fcd: tags and comments across block borders of the file are read correctly") {
+TEST_CASE(
+    "fcd: tags and comments that cross the blocks in which the file is read are read correctly") {
     std::string steps = "<!--" + std::string(600'000, '-') + "-->";
     for (int i = 0; i < 8'000; ++i) {
         steps += step(std::to_string(i), at("a", std::to_string(i), "7") +
@@ -235,7 +238,7 @@ TEST_CASE("fcd: the end of a comment may lie across two blocks") {
     }
 }
 
-TEST_CASE("fcd: many robots that come and go keep their names apart") {
+TEST_CASE("fcd: if many robots come and go, each name keeps its own motion") {
     std::mt19937 draw(2);
     std::string steps;
     std::vector<std::vector<int>> seen(300, std::vector<int>(40, 0));
@@ -289,7 +292,7 @@ TEST_CASE("fcd: a damaged file is read or refused, without a crash") {
     CHECK(refused < 400);
 }
 
-TEST_CASE("fcd: a second, line-based reader gets the same content of SUMO's file") {
+TEST_CASE("fcd: a simple line-based reader finds the same content in a file of SUMO") {
     const char* folder = std::getenv("ROVERNET_MOVEMENTS");
     if (!folder) {
         MESSAGE("ROVERNET_MOVEMENTS is not set: skipped");
@@ -318,7 +321,8 @@ TEST_CASE("fcd: a second, line-based reader gets the same content of SUMO's file
     CHECK(wrong == 0);
 }
 
-TEST_CASE("fcd: positions in degrees are refused, by the file's header or by the speeds") {
+TEST_CASE(
+    "fcd: positions in degrees are recognised by the file's header or by the speeds, and refused") {
     const TemporaryFolder folder;
     const auto refused = [&](const std::string& head, const std::string& places) {
         const std::string error =

@@ -32,7 +32,7 @@ const std::string starts = "$node_(0) set X_ 1\n$node_(1) set X_ 1\n";
 
 }  // namespace
 
-TEST_CASE("late: an ns-2 command after 1e9 s is an error with its line, in any order") {
+TEST_CASE("late: an ns-2 motion that begins or ends after 1e9 s is refused with its line") {
     const std::string at_late = "$ns_ at 2e9 \"$node_(0) setdest 5 5 1\"\n",
                       at_five = "$ns_ at 5 \"$node_(1) setdest 5 5 1\"\n",
                       slow = "$ns_ at 1 \"$node_(0) setdest 500 500 1e-7\"\n",

@@ -29,7 +29,7 @@ std::string first_robot(const std::string& name, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("movement file: the first bytes determine the format, not the name") {
+TEST_CASE("movement file: the format is recognised by the first bytes, not by the name") {
     const std::string tcl = "# nodes: 1\n$node_(4) set X_ 1\n";
     const std::string bonnmotion = "\n# nodes: 1\n +0.5 1 2\n";
     const std::string fcd =
@@ -43,7 +43,7 @@ TEST_CASE("movement file: the first bytes determine the format, not the name") {
     }
 }
 
-TEST_CASE("movement file: a file of another kind is refused as such") {
+TEST_CASE("movement file: a file of another kind is refused, and the error lists the formats") {
     const std::string kinds =
         "a movement file: of ns-2 (setdest), of BonnMotion (.movements) or of SUMO (FCD, XML)";
     CHECK(error_of("") == "file: the file is empty, expected " + kinds);
@@ -60,7 +60,7 @@ TEST_CASE("movement file: a file of another kind is refused as such") {
     CHECK_THROWS_AS(MovementFile("/dev/null"), InputError);
 }
 
-TEST_CASE("movement file: the file may be renamed while it is read") {
+TEST_CASE("movement file: a reader that is moved to another object continues where it was") {
     const TemporaryFolder folder;
     const auto path = folder.write(
         "a", "$ns_ at 1 \"$node_(0) setdest 1 0 1\"\n$ns_ at 2 \"$node_(0) setdest 2 0 1\"\n");

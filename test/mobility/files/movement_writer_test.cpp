@@ -148,7 +148,8 @@ TEST_CASE("writer: an ns-2 movement file has the expected lines") {
           "$ns_ at 2.500000000 \"$node_(2) setdest 7.000000000 9.000000000 0.500000000000\"\n");
 }
 
-TEST_CASE("writer: positions that ns-2 cannot reach are noted in the file") {
+TEST_CASE(
+    "writer: positions with x or y not above 0, which ns-2 cannot use, are noted in the file") {
     const std::vector<Track> tracks = {{"a", {leg(0, 10, {0, 2, 0}, {-3.5, 2, 0})}}};
     CHECK(setdest_text(tracks, at(100))
               .find("# and at one with x or y not above 0; here the least are x -3.50, y 2.00\n") !=
@@ -171,7 +172,7 @@ TEST_CASE("writer: a BonnMotion file has the expected positions and parameters")
     CHECK(bonnmotion_params(high, at(20)).find("J=3D\n") != std::string::npos);
 }
 
-TEST_CASE("writer: with its parameter file, a BonnMotion file has the right dimensions") {
+TEST_CASE("writer: the parameter file gives a BonnMotion file its number of dimensions") {
     const TemporaryFolder folder;
     // A single node, three places in space: twelve numbers.
     const std::vector<Track> tracks = {
@@ -182,7 +183,7 @@ TEST_CASE("writer: with its parameter file, a BonnMotion file has the right dime
     CHECK(distance(p.position("n0", 1.5), {2, 4.5, 5.5}) < bonnmotion_tolerance);
 }
 
-TEST_CASE("writer: a motion cut off by the end is written up to the end") {
+TEST_CASE("writer: a motion that is cut off by the end time is written up to that time") {
     const std::vector<Track> tracks = {
         {"a", {leg(0, 10, {1, 1, 0}, {11, 1, 0}), leg(10, 20, {11, 1, 0}, {1, 1, 0})}}};
     const auto text = setdest_text(tracks, at(4));
@@ -191,7 +192,7 @@ TEST_CASE("writer: a motion cut off by the end is written up to the end") {
     CHECK(bonnmotion_text(tracks, at(4)).ends_with(" 4.000000000 5.000000000 1.000000000\n"));
 }
 
-TEST_CASE("writer: an endless motion needs an end time") {
+TEST_CASE("writer: an endless motion without an end time is refused") {
     Track track{"a", {rest(0, {1, 1, 0})}};
     track.legs[0].velocity = {2, 0, 0};
     const std::vector<Track> tracks = {track};
@@ -220,7 +221,7 @@ TEST_CASE("writer: between two legs and after the last a robot rests") {
     CHECK(distance(p.position("n0", 8), {5, 5, 0}) < setdest_tolerance);
 }
 
-TEST_CASE("writer: a jump is a jump in both file formats") {
+TEST_CASE("writer: a jump is written as a jump in both file formats") {
     const std::vector<Track> tracks = {
         {"a",
          {leg(0, 10, {1, 1, 0}, {11, 1, 0}), leg(5, 10, {50, 60, 7}, {55, 60, 7}),

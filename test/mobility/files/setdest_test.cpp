@@ -46,7 +46,7 @@ const std::string place_0 =
 // The first sixteen cases are those of ns-3's mobility-ns2-trace-helper test, with lines of our
 // own.
 
-TEST_CASE("setdest: positions before the run are start positions") {
+TEST_CASE("setdest: positions that are set without a time are start positions") {
     const auto p = played(place_0);
     REQUIRE(p.file.robots().size() == 1);
     CHECK(p.file.robots()[0].name == "n0");
@@ -72,7 +72,8 @@ TEST_CASE("setdest: comments are accepted everywhere") {
     CHECK(near(p.position("n0", 3), {3, 2, 0}));
 }
 
-TEST_CASE("setdest: a node moves to (25, 0) at 5 m/s from 1 s on, arrives at 6 s and rests") {
+TEST_CASE(
+    "setdest: a setdest command starts at its time, moves at its speed, and ends at its target") {
     const auto p = played("$ns_ at 1.0 \"$node_(0) setdest 25 0 5\"\n");
     CHECK(near(p.velocity("n0", 0.999), {}));
     CHECK(near(p.position("n0", 1), {}));
@@ -101,7 +102,7 @@ TEST_CASE("setdest: a node moves around a square") {
     CHECK(near(p.velocity("n0", 5), {}));
 }
 
-TEST_CASE("setdest: positions at the end of the file are start positions, and take no memory") {
+TEST_CASE("setdest: start positions may follow the motions in the file, and then take no memory") {
     const std::string moves =
         "$ns_ at 1.0 \"$node_(0) setdest 10 2 1\"\n"
         "$ns_ at 2.0 \"$node_(1) setdest 1 1 1\"\n";
@@ -115,7 +116,7 @@ TEST_CASE("setdest: positions at the end of the file are start positions, and ta
     CHECK(played(places + moves).file.end() == p.file.end());
 }
 
-TEST_CASE("setdest: a scheduled position is a jump of one coordinate") {
+TEST_CASE("setdest: a coordinate set at a time is a jump in this coordinate") {
     const auto p = played(
         "$ns_ at 1.0 \"$node_(0) set X_ 10\"\n"
         "$ns_ at 2.0 \"$node_(0) set Y_ 20\"\n"
@@ -132,7 +133,7 @@ TEST_CASE("setdest: a scheduled position is a jump of one coordinate") {
     CHECK(p.file.end() == start_of_run + from_seconds(6));
 }
 
-TEST_CASE("setdest: an invalid line is an error with its number, or is skipped and counted") {
+TEST_CASE("setdest: an invalid line is refused with its number, or in tolerant mode skipped") {
     const std::vector<std::pair<std::string, std::string>> lines = {
         {"$node_() set X_ 1",
          "1: found \"$node_()\", expected a node as in $node_(0), its number "
@@ -191,7 +192,7 @@ TEST_CASE("setdest: an invalid line is an error with its number, or is skipped a
     }
 }
 
-TEST_CASE("setdest: impossible values are errors, or are skipped with one notice for all") {
+TEST_CASE("setdest: impossible values are refused, or in tolerant mode skipped with one notice") {
     const std::vector<std::string> lines = {
         "$node_(0) set X_ NaN",
         "$node_(0) set X_ inf",
@@ -221,7 +222,7 @@ TEST_CASE("setdest: impossible values are errors, or are skipped with one notice
     CHECK(p.file.notices()[0].starts_with("14 lines are left out; the first: "));
 }
 
-TEST_CASE("setdest: robots have the numbers in the file, without robots for missing numbers") {
+TEST_CASE("setdest: robots have the node numbers of the file, and unused numbers give no robots") {
     const auto p = played(
         "$ns_ at 1 \"$node_(7) setdest 8 0 1\"\n"
         "$node_(3) set X_ 3\n"
@@ -264,7 +265,8 @@ TEST_CASE("setdest: numbers in the notation of C and Tcl are accepted") {
     CHECK(near(p.position("n0", 6), {105, 10, 5}));
 }
 
-TEST_CASE("setdest: a new target starts from where the robot then is (ns-3 bug 1219)") {
+TEST_CASE(
+    "setdest: a motion to a new target starts at the robot's current position (ns-3 bug 1219)") {
     const auto p = played(
         "$ns_ at 1 \"$node_(0) setdest 0 10 1\"\n"
         "$ns_ at 6 \"$node_(0) setdest 0 -10 1\"\n");
@@ -301,7 +303,7 @@ TEST_CASE("setdest: a target at the current position causes no motion (ns-3 bug 
     CHECK(p.file.end() == start_of_run + from_seconds(5));
 }
 
-TEST_CASE("setdest: a course of six legs has the right end and height (ns-3 bug 1316)") {
+TEST_CASE("setdest: after six motions, end position and height are right (ns-3 bug 1316)") {
     const auto p = played(
         "$node_(0) set X_ 200\n$node_(0) set Y_ 100\n$node_(0) set Z_ 7\n"
         "$ns_ at 20 \"$node_(0) setdest 500 100 2\"\n"
@@ -330,7 +332,8 @@ TEST_CASE("setdest: commands to ns-2's god are ignored") {
     CHECK(p.file.end() == start_of_run);
 }
 
-TEST_CASE("setdest: an unsorted file is kept in memory, gives one notice and plays the same") {
+TEST_CASE(
+    "setdest: a file out of order is kept in memory, causes one notice and gives the same motion") {
     std::mt19937 draw(3);
     const auto below = [&](unsigned n) { return static_cast<double>(draw() % n); };
     std::vector<std::string> lines;
@@ -386,12 +389,12 @@ TEST_CASE("setdest: simultaneous commands keep the order of the file, also in an
     }
 }
 
-TEST_CASE("setdest: a target that is never reached ends at the limit of time") {
+TEST_CASE("setdest: a motion whose target is never reached ends at the largest time, 9e9 s") {
     const auto p = played("$ns_ at 1 \"$node_(0) setdest 1e9 0 1e-300\"\n");
     CHECK(p.file.end() == start_of_run + from_seconds(9e9));
 }
 
-TEST_CASE("setdest: lines across block borders of the file are read correctly") {
+TEST_CASE("setdest: lines that cross the blocks in which the file is read are read correctly") {
     std::string text = place_0;
     for (int i = 0; text.size() < 1'000'000; ++i) {
         text += "$ns_ at " + std::to_string(i) + " \"$node_(0) setdest " + std::to_string(i) +
@@ -434,7 +437,8 @@ TEST_CASE("setdest: a damaged file is read or refused, without a crash") {
     CHECK(refused < 400);
 }
 
-TEST_CASE("setdest: a scenario written by CMU's setdest keeps its robots in its field") {
+TEST_CASE(
+    "setdest: robots of a scenario written by CMU's setdest stay in the field of the scenario") {
     const char* folder = std::getenv("ROVERNET_MOVEMENTS");
     if (!folder) {
         MESSAGE("ROVERNET_MOVEMENTS is not set: skipped");

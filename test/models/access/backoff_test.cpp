@@ -60,7 +60,7 @@ TEST_CASE("backoff: a slot in which the medium becomes busy does not count") {
     CHECK(s.backoff.grant() == at(118));
 }
 
-TEST_CASE("backoff: no slots count after one frame, or after two consecutive frames") {
+TEST_CASE("backoff: with a backoff of 0 slots, access follows a DIFS after the last frame heard") {
     Station s;
     s.good_frame(20, 60);
     s.ask_while_busy(30, 0);
@@ -69,7 +69,8 @@ TEST_CASE("backoff: no slots count after one frame, or after two consecutive fra
     CHECK(s.backoff.grant() == at(110));
 }
 
-TEST_CASE("backoff: on an idle medium access takes a DIFS from the request on") {
+TEST_CASE(
+    "backoff: if the medium is idle at the request, access follows a DIFS after the request") {
     Station s;
     s.good_frame(20, 60);
     s.ask_while_idle(62);
@@ -96,7 +97,7 @@ TEST_CASE("backoff: a frame with errors requires an EIFS, unless an error-free f
     CHECK(idle.backoff.grant() == at(86));
 }
 
-TEST_CASE("backoff: the medium is busy up to the end of a frame that was lost during it") {
+TEST_CASE("backoff: the medium stays busy to the end of a frame that was given up before its end") {
     Station s;
     s.backoff.energy(at(20), at(60));
     s.backoff.frame_lost(at(40), eifs);
@@ -115,7 +116,7 @@ TEST_CASE("backoff: a reservation counts as busy, and a shorter one does not end
     CHECK(s.backoff.grant() == at(93));
 }
 
-TEST_CASE("backoff: longer interframe spaces delay the slots") {
+TEST_CASE("backoff: a longer DIFS delays the slots") {
     Station s;
     s.timing.difs = 14us;
     s.good_frame(20, 60);
@@ -139,7 +140,8 @@ TEST_CASE("backoff: slots counted before each of several frames add up") {
     CHECK(s.backoff.grant() == at(150 + 3 * 4));
 }
 
-TEST_CASE("backoff: of simultaneous frames the first stops the count, in any order") {
+TEST_CASE(
+    "backoff: of overlapping frames the earliest stops the count of slots, in any order of calls") {
     for (const bool swapped : {false, true}) {
         Station s;
         s.good_frame(20, 60);
@@ -165,7 +167,7 @@ TEST_CASE("backoff: energy that arrives late in a slot is sensed in the next slo
     }
 }
 
-TEST_CASE("backoff: short slots count like long ones") {
+TEST_CASE("backoff: slots of 1 us are counted correctly") {
     Station s;
     s.timing.slot = 1us, s.timing.sifs = 3us, s.timing.difs = 4us;
     s.ask_while_idle(1);
@@ -175,7 +177,7 @@ TEST_CASE("backoff: short slots count like long ones") {
     CHECK(s.backoff.grant() == at(12));
 }
 
-TEST_CASE("backoff: the own frame, its answer and the wait for the answer count as busy") {
+TEST_CASE("backoff: a station's own frame, its answer and the wait for the answer count as busy") {
     Station answered;
     answered.timing.difs = 14us;
     answered.ask_while_idle(20);

@@ -51,7 +51,8 @@ struct Rings {
 
 }  // namespace
 
-TEST_CASE("link changes: the link of a disc is up from the first to the last nanosecond inside") {
+TEST_CASE(
+    "link changes: the link of a disc is up from the first to the last nanosecond within range") {
     const Scene field;
     MovingPair pair{&field};
     pair.add(Disc{.range = 10_m}, resting({}));
@@ -83,8 +84,7 @@ TEST_CASE("link changes: with models that use only the distance, times are exact
     CHECK(seen > 100);
 }
 
-TEST_CASE(
-    "link changes: a path that touches the range gives none, one a nanometre inside gives two") {
+TEST_CASE("link changes: a path that touches the range gives no change, 1 nm further inside two") {
     const Scene field;
     for (const double miss : {10.0, 10.0 - 1e-9}) {
         MovingPair pair{&field};
@@ -97,7 +97,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("link changes: fixed steps miss the share of passes in the vectors, the search none") {
+TEST_CASE(
+    "link changes: fixed steps miss as many passes as in the table, and the search misses none") {
     constexpr double sigmas = 5;
     constexpr std::uint64_t passes = 4000;
     const test::Vectors vectors("contact_miss_fixed_step.csv");
@@ -132,7 +133,7 @@ TEST_CASE("link changes: fixed steps miss the share of passes in the vectors, th
     }
 }
 
-TEST_CASE("link changes: a pair that stays out of range is not sampled") {
+TEST_CASE("link changes: for a pair that stays out of range, the loss is computed at most once") {
     const Scene field;
     const Radio radio{.power = {-30}, .sensitivity = {-75}};
     for (const double miss : {0.0, 100.0}) {
@@ -147,7 +148,8 @@ TEST_CASE("link changes: a pair that stays out of range is not sampled") {
     }
 }
 
-TEST_CASE("link changes: legs that come to rest, endless legs and resting robots are handled") {
+TEST_CASE(
+    "link changes: legs that end in rest, endless legs and resting robots have the right changes") {
     const Scene field;
     const Propagation disc = Disc{.range = 10_m};
     MovingPair pair{&field};
@@ -183,8 +185,7 @@ TEST_CASE("link changes: steps below a nanosecond are refused") {
         CHECK_THROWS_AS(pair.changes(a, b, start_of_run, never, search), std::invalid_argument);
 }
 
-TEST_CASE(
-    "link changes: with a model that uses heights, times are exact for robots of constant height") {
+TEST_CASE("link changes: for two_ray with constant heights the time is exact to 1 ns") {
     const Scene field;
     MovingPair pair{&field};
     const Leg away = moving({10, 0, 0}, {20, 0, 0}, 100s);
@@ -197,8 +198,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "link changes: a robot on the stairs gets the link when it reaches the storey, after its "
-    "closest approach") {
+    "link changes: a robot on stairs gets its link at the storey, after its closest approach") {
     const Scene field;
     MovingPair pair{.scene = &field, .floor_height = Meters{3}};
     const ItuIndoor office{.environment = Environment::office};

@@ -57,7 +57,7 @@ TEST_CASE("link changes: a link through a narrow door is up while no corner is i
     }
 }
 
-TEST_CASE("link changes: over a wall of finite height the top edge decides") {
+TEST_CASE("link changes: over a wall of finite height, a link changes as it passes the top edge") {
     constexpr Duration within = 3ns;
     const Scene scene(OccupancyGrid{.columns = 1,
                                     .rows = 1,
@@ -81,7 +81,7 @@ TEST_CASE("link changes: over a wall of finite height the top edge decides") {
     CHECK(std::chrono::abs(rising[0] - (start_of_run + from_seconds(3 - 20 / 10.1))) <= within);
 }
 
-TEST_CASE("link changes: a short link between two corners, at the least loss, is found") {
+TEST_CASE("link changes: a link that is up only at the least loss between two corners is found") {
     // Along a wall: the less slanted the ray the less wall it pays for; both ends move.
     constexpr double above = 1e-4;  // [dB] of the budget over the least loss
     const Scene scene = wall_with_gap(0, 0.5, {.per_metre = DbPerMeter{40}});
@@ -111,7 +111,7 @@ TEST_CASE("link changes: a short link between two corners, at the least loss, is
     }
 }
 
-TEST_CASE("link changes: a short link behind a wall, at the shortest distance, is found") {
+TEST_CASE("link changes: a link behind a wall that is up only at the shortest distance is found") {
     // Down by 37 dB at the start and at half time, by 51 dB at the end; up within 2.94 m, where
     // 30 log10(200 / d) is the wall's 55 dB.
     const Scene scene(OccupancyGrid{.columns = 1,
@@ -177,7 +177,7 @@ Scene random_scene(test::Draw& draw, bool rich) {
 
 }  // namespace
 
-TEST_CASE("link changes: all changes of dense sampling are found, for every model and direction") {
+TEST_CASE("link changes: for every model, the search finds all changes that dense sampling finds") {
     constexpr auto time = 4s;
     constexpr LinkSearch search{.tolerance = 1ms, .min_dwell = 1ms};
     const std::vector<Propagation> models{Friis{},
@@ -214,7 +214,8 @@ TEST_CASE("link changes: all changes of dense sampling are found, for every mode
     }
 }
 
-TEST_CASE("link changes: behind oblique walls all changes of dense sampling are found") {
+TEST_CASE(
+    "link changes: behind oblique walls the search finds all changes that dense sampling finds") {
     constexpr auto time = 4s;
     constexpr LinkSearch search{.tolerance = 1ms, .min_dwell = 1ms};
     constexpr double cell = 0.05, side = 6, angle = 0.35;
@@ -247,7 +248,7 @@ TEST_CASE("link changes: behind oblique walls all changes of dense sampling are 
     }
 }
 
-TEST_CASE("link changes: between storeys all changes of dense sampling are found") {
+TEST_CASE("link changes: between storeys the search finds all changes that dense sampling finds") {
     constexpr auto time = 4s;
     constexpr LinkSearch search{.tolerance = 1ms, .min_dwell = 1ms};
     const std::vector<Propagation> models{MultiWall{.floor_loss = 6_dB},

@@ -37,7 +37,7 @@ TEST_CASE("range crossing: times of entering and leaving equal the vectors") {
     }
 }
 
-TEST_CASE("range crossing: in three dimensions it equals the two-dimensional case in its plane") {
+TEST_CASE("range crossing: a motion in space has the same times as this motion in its plane") {
     constexpr double tolerance = 1e-12;  // of the rotation
     test::Draw draw(7);
     for (int i = 0; i < 1000; ++i) {
@@ -55,7 +55,7 @@ TEST_CASE("range crossing: in three dimensions it equals the two-dimensional cas
     }
 }
 
-TEST_CASE("range crossing: there is none at rest, without a range, or for infinite numbers") {
+TEST_CASE("range crossing: robots at rest, a range of 0 and infinite numbers give no crossing") {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     constexpr double infinity = std::numeric_limits<double>::infinity();
     CHECK_FALSE(range_crossing({1, 0, 0}, {}, 10));

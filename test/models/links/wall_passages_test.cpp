@@ -35,7 +35,7 @@ bool passes_at(const Scene& scene, const StraightMotion& a, const StraightMotion
 
 }  // namespace
 
-TEST_CASE("wall passages: a line of sight that turns about one end passes the visible corners") {
+TEST_CASE("wall passages: a line that turns about one end has a passage at each visible corner") {
     const Scene scene(box(4, 2, 2, 1));
     const StraightMotion eye{{0, 0, 0}}, far{{10, 0, 0}, {0, 1, 0}};
     // The corner (x, y) is in line with (10, t) at t = 10 y / x.
@@ -48,7 +48,7 @@ TEST_CASE("wall passages: a line of sight that turns about one end passes the vi
     CHECK(times.empty());
 }
 
-TEST_CASE("wall passages: an end that moves through a wall passes its edges") {
+TEST_CASE("wall passages: an end that moves through a wall has a passage at the wall's edges") {
     const Scene scene(box(4, -1, 2, 2));
     for (const double speed : {1.0, 0.625})
         for (const double x : {4.0, 6.0}) {
@@ -58,7 +58,7 @@ TEST_CASE("wall passages: an end that moves through a wall passes its edges") {
         }
 }
 
-TEST_CASE("wall passages: a line of sight that touches a corner and turns back is found") {
+TEST_CASE("wall passages: a line that touches a corner and turns back has a passage there") {
     // The line from (t, 0) to (0, 10 - t) touches the parabola of the points
     // (t^2, (10 - t)^2) / 10 from below; both roots are one.
     constexpr double parted = 1e-6;  // [s] two equal roots, by the rounding of what parts them
@@ -71,7 +71,8 @@ TEST_CASE("wall passages: a line of sight that touches a corner and turns back i
     }
 }
 
-TEST_CASE("wall passages: intersections of overlapping walls of one material count as corners") {
+TEST_CASE(
+    "wall passages: where two walls of one material overlap, the intersection counts as a corner") {
     // A square on its tip, (5, 1) ... (7, 3) its lower right edge, which meets x = 5.5 at 1.5.
     const double side = std::sqrt(8.0), eighth = std::acos(-1.0) / 4;
     const OccupancyGrid tip = box(5, 1, side, side, eighth);
@@ -82,7 +83,7 @@ TEST_CASE("wall passages: intersections of overlapping walls of one material cou
     CHECK_FALSE(passes_at(Scene({tip, post}, {Material{}, Material{}}), a, b, 5));
 }
 
-TEST_CASE("wall passages: an end that rises passes the height of the wall's top") {
+TEST_CASE("wall passages: an end that rises has a passage at the height of the wall's top") {
     const Scene scene(box(4, -1, 2, 2), {{.height = Meters{2}}});
     const StraightMotion lift{{5, 0, 0}, {0, 0, 0.5}}, post{{9, 0, 3}};
     CHECK(passes_at(scene, lift, post, 4));
@@ -93,7 +94,8 @@ TEST_CASE("wall passages: an end that rises passes the height of the wall's top"
     CHECK_FALSE(passes_at(scene, level, beside, 4));
 }
 
-TEST_CASE("wall passages: between storeys the line passes ceilings and bottoms of upper walls") {
+TEST_CASE(
+    "wall passages: a line between storeys has passages at ceilings and feet of upper walls") {
     OccupancyGrid ground = box(-50, -50, 1, 1), upper = box(4, -1, 2, 2);
     ground.cells = {Cell::free};
     upper.origin.z = 3;

@@ -152,7 +152,8 @@ TEST_CASE("medium: cached losses change nothing while robots start, stop, jump a
     }
 }
 
-TEST_CASE("medium: rays of resting robots are traced once, of moving robots each time") {
+TEST_CASE(
+    "medium: rays between resting robots are traced once, rays between moving robots each time") {
     for (const bool moving : {false, true}) {
         const CountedRays counted;
         Twins twins(5);
@@ -175,7 +176,8 @@ TEST_CASE("medium: rays of resting robots are traced once, of moving robots each
     }
 }
 
-TEST_CASE("medium: the judge of a frame gets the losses computed in the search for receivers") {
+TEST_CASE(
+    "medium: the losses computed in the search for receivers are used again to judge the frame") {
     const CountedRays counted;
     Twins twins(6);
     for (std::uint32_t i = 0; i < 20; ++i) {
@@ -205,7 +207,8 @@ TEST_CASE("medium: the judge of a frame gets the losses computed in the search f
     }
 }
 
-TEST_CASE("recent losses: a loss above its cut-off is only a lower bound") {
+TEST_CASE(
+    "recent losses: a stored loss above its cut-off is used only for cut-offs up to its own") {
     RecentLosses losses;
     const RecentLosses::Link link{NodeId{1}, NodeId{2}, {0, 0, 1}, {5, 0, 1}};
     CHECK(!losses.find(link, 90_dB));

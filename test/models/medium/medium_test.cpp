@@ -172,7 +172,8 @@ TEST_CASE("medium: receivers equal a search over all pairs, for every model") {
     });
 }
 
-TEST_CASE("medium: receivers are right with few radio kinds, decided by tables of shadowing") {
+TEST_CASE(
+    "medium: with log_distance and few kinds of radio, receivers equal a search over all pairs") {
     for (const std::size_t kinds : {std::size_t{1}, std::size_t{3}}) {
         CAPTURE(kinds);
         Crowd crowd(12);
@@ -192,7 +193,7 @@ TEST_CASE("medium: receivers are right with few radio kinds, decided by tables o
     }
 }
 
-TEST_CASE("medium: with mixed models the transmitter's model applies") {
+TEST_CASE("medium: if robots have different models, the sender's model applies") {
     Crowd crowd(2);
     std::vector<Propagation> models;
     for_each_model([&]<class Model>() { models.push_back(model<Model>()); });
@@ -247,7 +248,8 @@ TEST_CASE("medium: without propagation delay all receptions end with the frame")
     CHECK(heard[1].time == start_of_run + 1us);
 }
 
-TEST_CASE("medium: a loss equal to the budget is a link, a budget one rounding smaller is none") {
+TEST_CASE(
+    "medium: a loss equal to the budget is a link, and a loss one rounding above it is none") {
     const Scene field;
     Legs legs;
     for (const double x : {0.0, 50.0}) legs.add({.from = {x, 0, 0}, .to = {x, 0, 0}});
@@ -262,7 +264,8 @@ TEST_CASE("medium: a loss equal to the budget is a link, a budget one rounding s
     CHECK_FALSE(hears(std::nextafter(-loss, 0.0)));
 }
 
-TEST_CASE("medium: a radio that is off neither receives nor counts; switched on again, it does") {
+TEST_CASE(
+    "medium: a radio that is off is no receiver and not reachable; switched on again, it is both") {
     const Scene field;
     Medium medium({.scene = &field});
     Legs legs;
@@ -285,7 +288,7 @@ TEST_CASE("medium: a radio that is off neither receives nor counts; switched on 
     CHECK(Reachability::count_anew(medium, {0}, start_of_run, legs) == 4);
 }
 
-TEST_CASE("medium: random radios that are off have no effect") {
+TEST_CASE("medium: with every third radio switched off, receivers equal a search over all pairs") {
     Crowd crowd(4);
     const Propagation friis = Friis{};
     for (std::size_t i = 0; i < robots; ++i) crowd.add(friis);
@@ -294,7 +297,7 @@ TEST_CASE("medium: random radios that are off have no effect") {
 }
 
 TEST_CASE(
-    "medium: reachable robots are the sender's component by Boost.Graph, without the sender") {
+    "medium: reachable robots are the others of the sender's component, as Boost.Graph finds it") {
     for (std::uint32_t seed = 1; seed <= 20; ++seed) {
         Crowd crowd(seed);
         const Propagation disc = Disc{.range = 7_m};
@@ -359,7 +362,7 @@ TEST_CASE("medium: ns-2's default radio decodes to 250 m and senses to 550 m ove
     CHECK(sensors == std::vector{NodeId{2}, NodeId{3}});
 }
 
-TEST_CASE("medium: a lone sender reaches all robots that jump to it") {
+TEST_CASE("medium: a sender without neighbours reaches all robots that jump into its range") {
     const Scene field;
     Medium medium{{.scene = &field}};
     Legs legs;
@@ -379,7 +382,8 @@ TEST_CASE("medium: a lone sender reaches all robots that jump to it") {
     for (std::uint32_t i = 1; i <= jumping; ++i) CHECK(heard[i - 1].node == NodeId{i});
 }
 
-TEST_CASE("medium: the stronger of two frames is that of the higher level, by every method") {
+TEST_CASE(
+    "medium: with every method of comparison, the frame of the higher level is the stronger") {
     const Scene field;
     test::Draw draw(23);
     int stronger = 0, plain = 0;
@@ -435,7 +439,7 @@ TEST_CASE("medium: the bound on neglected interference counts each frame at the 
           doctest::Approx(10 * std::log10(2.0)).epsilon(1e-9));
 }
 
-TEST_CASE("medium: a frame interferes down to the cut-off below the sensitivity, or if sensed") {
+TEST_CASE("medium: a frame interferes if it can be sensed or is above the interference cut-off") {
     const Scene field;
     const Radio radio{.sensitivity = {-85}};  // nothing weaker is sensed; noise of -93.6 dBm
     for (const std::optional<Db> cut : {std::optional<Db>{}, std::optional{Db{6}}}) {

@@ -94,7 +94,8 @@ struct Swarm {
 
 }  // namespace
 
-TEST_CASE("neighbour index: finds the same nodes as a full search, while all move and turn") {
+TEST_CASE(
+    "neighbour index: all nodes that a full search finds are found, while all move and turn") {
     for (std::uint32_t seed = 1; seed <= 60; ++seed) {
         Swarm swarm(seed);
         const double size = std::pow(10, swarm.draw.uniform(0, 5));
@@ -124,7 +125,7 @@ TEST_CASE("neighbour index: finds the same nodes as a full search, while all mov
     }
 }
 
-TEST_CASE("neighbour index: for resting nodes the first test gets nearly the squared distance") {
+TEST_CASE("neighbour index: for resting nodes, the first test knows nearly the squared distance") {
     Swarm swarm(7);
     const auto place = [&] {
         return Vec3{swarm.draw.uniform(0, 1e4), swarm.draw.uniform(0, 1e4), 0};
@@ -162,7 +163,8 @@ TEST_CASE("neighbour index: a node on an endless leg is found") {
     }
 }
 
-TEST_CASE("neighbour index: one node at 1e9 m, coincident nodes, a line and radius 0 are handled") {
+TEST_CASE(
+    "neighbour index: a node at 1e9 m, coincident nodes, nodes on a line and radius 0 are right") {
     Swarm swarm(3);
     for (int i = 0; i < 300; ++i) swarm.add({5, 5, 0}, 0);
     for (int i = 0; i < 300; ++i) swarm.add({10.0 * i, -70, 0}, 1);

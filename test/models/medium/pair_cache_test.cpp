@@ -41,7 +41,7 @@ TEST_CASE("pair cache: a loss is stored for one direction only") {
     CHECK(kept(cache, a, b) == 70);
 }
 
-TEST_CASE("pair cache: a loss is invalid after either end has moved") {
+TEST_CASE("pair cache: a loss becomes invalid when either of its robots moves") {
     for (const NodeId moved : {a, b}) {
         PairCache cache;
         keep(cache, a, b, 70);
@@ -54,7 +54,7 @@ TEST_CASE("pair cache: a loss is invalid after either end has moved") {
     }
 }
 
-TEST_CASE("pair cache: a row filled in any order gives each node its own loss") {
+TEST_CASE("pair cache: each pair gets its own loss, in whatever order losses are stored") {
     PairCache cache;
     for (std::uint32_t round = 0; round < 50; ++round) {
         for (std::uint32_t from = 0; from < 7; ++from) {
@@ -77,7 +77,7 @@ TEST_CASE("pair cache: a row filled in any order gives each node its own loss") 
     }
 }
 
-TEST_CASE("pair cache: losses computed with a smaller cut-off are invalid") {
+TEST_CASE("pair cache: losses computed with a smaller cut-off than the requested one are invalid") {
     PairCache cache;
     keep(cache, a, b, 95);  // more than the budget of 90 dB: who knows how much
     CHECK(kept(cache, a, b, Db{80}) == 95);
@@ -85,7 +85,7 @@ TEST_CASE("pair cache: losses computed with a smaller cut-off are invalid") {
     CHECK(kept(cache, a, b, Db{91}) == std::nullopt);
 }
 
-TEST_CASE("pair cache: a node added to a row later is computed with the row's cut-off") {
+TEST_CASE("pair cache: a loss added later uses the cut-off of the sender's other losses") {
     PairCache cache;
     keep(cache, a, b, 95);
     CHECK(cache.open(a, Db{80}) == budget);

@@ -137,7 +137,8 @@ class RandomWorld {
 
 }  // namespace
 
-TEST_CASE("reachability: counts equal a search without cache, in random worlds of every kind") {
+TEST_CASE(
+    "reachability: counts equal those of a search without cache, in random scenes of ten kinds") {
     const World worlds[] = {
         {.name = "a sparse disc", .model = Disc{.range = {3}}},
         {.name = "a dense disc", .model = Disc{.range = {6}}},

@@ -134,7 +134,8 @@ Emission frame_of(Medium& medium, NodeId from, Time t, const Legs& legs) {
 
 }  // namespace
 
-TEST_CASE("variation: receivers equal a search over all pairs, with sufficient levels") {
+TEST_CASE(
+    "variation: receivers equal a search over all pairs, and their levels reach the sensitivity") {
     for (const Variation& v : variations()) {
         CAPTURE(std::string(v.name));
         Twins twins(v, 3);
@@ -183,7 +184,8 @@ TEST_CASE("variation: shadowing of sigma 0 has no effect") {
     }
 }
 
-TEST_CASE("variation: shadowing of links equals log_distance's sigma, with any model") {
+TEST_CASE(
+    "variation: shadowing of links equals the shadowing of log_distance with the same sigma") {
     Medium own({.scene = &open_field, .seed = 4, .replication = 1});
     Medium over({.scene = &open_field,
                  .shadowing = {.model = ShadowingModel::link, .sigma = Db{7}},
@@ -201,7 +203,8 @@ TEST_CASE("variation: shadowing of links equals log_distance's sigma, with any m
     }
 }
 
-TEST_CASE("variation: a shadowed model is symmetric, bounded by its reach and cut off correctly") {
+TEST_CASE(
+    "variation: a shadowed model is symmetric, within its reach, and applies cut-offs correctly") {
     for (const Shadowing& shadowing : {link_shadowing, field_shadowing}) {
         const Propagation model = Shadowed(Friis{}, shadowing, 3, 5);
         CHECK(model.as<Shadowed>()->base().name() == Friis::name);
@@ -221,7 +224,7 @@ TEST_CASE("variation: a shadowed model is symmetric, bounded by its reach and cu
     }
 }
 
-TEST_CASE("variation: the loss of a link is model plus shadowing, never below 0") {
+TEST_CASE("variation: the loss of a link with strong shadowing is never below 0") {
     const Propagation deep =
         Shadowed(Friis{}, {.model = ShadowingModel::field, .sigma = Db{60}}, 3, 5);
     int none = 0;
@@ -239,7 +242,7 @@ TEST_CASE("variation: shadowing is refused for a model with its own random part"
     CHECK_NOTHROW(medium.add({}, 1, LogDistance{.sigma = Db{0}}));
 }
 
-TEST_CASE("variation: link levels are local means without fading") {
+TEST_CASE("variation: fading has no effect on the levels of links, which are local means") {
     Medium medium({.scene = &open_field, .fading = {.model = FadingModel::rayleigh}}),
         plain({.scene = &open_field});
     Legs legs;
@@ -288,7 +291,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("variation: with fading by place, a robot that returns is heard as before") {
+TEST_CASE(
+    "variation: with fading by place, a robot that returns to a place has the same level again") {
     Medium medium({.scene = &open_field,
                    .fading = {.model = FadingModel::rayleigh, .coherence = Coherence::place}});
     Legs legs;
@@ -309,7 +313,7 @@ TEST_CASE("variation: with fading by place, a robot that returns is heard as bef
     CHECK(later != before);
 }
 
-TEST_CASE("antennas: a sector antenna hears ahead, not behind; its link has both patterns") {
+TEST_CASE("antennas: a sector antenna has its gain ahead, not behind, for sending and receiving") {
     Medium medium({.scene = &open_field});
     Legs legs;
     Radio sector{.antenna = AntennaShape::cosine,
@@ -336,7 +340,7 @@ TEST_CASE("antennas: a sector antenna hears ahead, not behind; its link has both
                      medium.links().level(a, {2}, start_of_run, legs).value, tolerance));
 }
 
-TEST_CASE("antennas: a robot that turns in place gains and loses links in time") {
+TEST_CASE("antennas: a robot that turns in place gains and loses links at the right times") {
     const Scene field;
     test::MovingPair pair{&field};
     Radio sector{.antenna = AntennaShape::cosine, .antenna_beamwidth = Radians{60 * degree}};
@@ -362,7 +366,8 @@ TEST_CASE("antennas: a robot that turns in place gains and loses links in time")
     CHECK(reach.count(pair.medium, a, start_of_run + 18s, pair.legs) == 1);
 }
 
-TEST_CASE("shadowing field: link changes are found within min_dwell, those of a pair to the ns") {
+TEST_CASE(
+    "shadowing field: link changes are found within min_dwell; with shadowing by pair, exactly") {
     const Scene scene;
     for (const Shadowing& shadowing : {link_shadowing, field_shadowing}) {
         Medium medium({.scene = &scene, .shadowing = shadowing, .seed = 5});

@@ -66,7 +66,7 @@ TEST_CASE("error rate: losses of frames of 1000 bytes equal the vectors") {
     CHECK(compared == 47);
 }
 
-TEST_CASE("error rate: success of frames equals the tests of ns-3") {
+TEST_CASE("error rate: the success rates of frames equal those in the tests of ns-3") {
     struct Row {
         Modulation modulation;
         double db;       // SINR of OFDM, level of DSSS [dBm]
@@ -96,7 +96,7 @@ TEST_CASE("error rate: success of frames equals the tests of ns-3") {
     }
 }
 
-TEST_CASE("error rate: a bit error is at most 1/2, and success at most 1") {
+TEST_CASE("error rate: bit error rates are at most 1/2, and probabilities of success at most 1") {
     const double inf = std::numeric_limits<double>::infinity();
     for (const Modulation modulation : all) {
         CAPTURE(static_cast<int>(modulation));
@@ -129,7 +129,7 @@ TEST_CASE("error rate: a stronger signal never has more errors") {
     }
 }
 
-TEST_CASE("error rate: the log of success keeps bit errors below 1e-16") {
+TEST_CASE("error rate: bit error rates below 1e-16 are not lost in the logarithm of success") {
     // 1 - p is 1 in doubles here; a frame is lost with n p.
     for (const Modulation modulation : all) {
         double db = -10;
@@ -141,7 +141,7 @@ TEST_CASE("error rate: the log of success keeps bit errors below 1e-16") {
     }
 }
 
-TEST_CASE("error rate: the success of a frame is the product over its parts") {
+TEST_CASE("error rate: the success of a frame is the product of the successes of its parts") {
     const double header = 192 * log_success(Modulation::dsss_1, ratio(-4));
     const double body = 4000 * log_success(Modulation::cck_11, ratio(5.5));
     constexpr double roundings = 1e-14;  // relative
@@ -235,7 +235,8 @@ double drawn_symbol_error(const std::vector<Word>& words, double Es_over_N0, int
 
 }  // namespace
 
-TEST_CASE("cck: 5.5 Mb/s equals the integral of Pursley and Royster, from a guess to 1e-220") {
+TEST_CASE(
+    "cck: 5.5 Mb/s equals the integral of Pursley and Royster, for error rates down to 1e-220") {
     for (const double b : {0.01, 0.5, 1.0, 2.0, 3.0, 4.5, 5.9, 6.1, 8.0, 10.0, 11.9, 12.1, 15.0,
                            18.0, 20.9, 21.1, 30.0, 45.0}) {
         const double S = b * b / 16;
@@ -246,7 +247,8 @@ TEST_CASE("cck: 5.5 Mb/s equals the integral of Pursley and Royster, from a gues
     }
 }
 
-TEST_CASE("cck: an ideal coherent receiver of the standard's code words is 3 dB better") {
+TEST_CASE(
+    "cck: an ideal coherent receiver of the standard's code words needs 3 dB less than the model") {
     constexpr int symbols = 20'000;
     for (const double db : {-2.0, 0.0, 2.0}) {
         const double S = ratio(db);
@@ -258,7 +260,7 @@ TEST_CASE("cck: an ideal coherent receiver of the standard's code words is 3 dB 
     }
 }
 
-TEST_CASE("cck: two sets of 16 replace the 256 code words of 11 Mb/s within 0.2 dB") {
+TEST_CASE("cck: modelling the 256 code words of 11 Mb/s as two sets of 16 is right within 0.2 dB") {
     constexpr int symbols = 20'000;
     for (const double db : {1.0, 3.0}) {
         const auto model = [](double at_db) {
@@ -272,14 +274,15 @@ TEST_CASE("cck: two sets of 16 replace the 256 code words of 11 Mb/s within 0.2 
     }
 }
 
-TEST_CASE("cck: 11 Mb/s at an SINR equals 5.5 Mb/s at half of it") {
+TEST_CASE("cck: 11 Mb/s has the bit error rate of 5.5 Mb/s at half the SINR") {
     for (double db = -20; db < 15; db += 0.5) {
         CHECK(bit_error_rate(Modulation::cck_11, 2 * ratio(db)) ==
               bit_error_rate(Modulation::cck_5_5, ratio(db)));
     }
 }
 
-TEST_CASE("cck: without a signal a symbol is guessed among 16 or 256") {
+TEST_CASE(
+    "cck: without a signal, a symbol is right with probability 1/16 or 1/256, by the bit rate") {
     constexpr double faint = 1e-12;
     CHECK(test::near(success(4 * log_success(Modulation::cck_5_5, faint)), 1.0 / 16, 1e-5));
     CHECK(test::near(success(8 * log_success(Modulation::cck_11, faint)), 1.0 / 256, 1e-5));
@@ -349,7 +352,8 @@ const Code three_quarters{{{true, true, false}, {true, false, true}}, 15};
 
 }  // namespace
 
-TEST_CASE("ofdm: the bound uses the first weights of the standard's punctured codes") {
+TEST_CASE(
+    "ofdm: the error bound equals that of the first weights of the standard's punctured codes") {
     struct Row {
         Modulation modulation;
         const Code& code;
@@ -394,7 +398,8 @@ TEST_CASE("error rate: all compilers give the same bits") {
     CHECK(sum == 0x478273263e15067e);
 }
 
-TEST_CASE("error rate: above certain_sinr every frame succeeds, 1 dB below it some may fail") {
+TEST_CASE(
+    "error rate: from certain_sinr on every frame succeeds, and 1 dB below it a frame may fail") {
     constexpr double bits = 8 * 0x1p32;
     for (const Modulation modulation : all) {
         CAPTURE(static_cast<int>(modulation));

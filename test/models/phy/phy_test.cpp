@@ -65,7 +65,7 @@ TEST_CASE("every phy: success grows with the signal, and is certain from certain
     });
 }
 
-TEST_CASE("every phy: a rate that it does not list has no coding") {
+TEST_CASE("every phy: a bit rate that the phy does not list has no coding") {
     for_each_phy([](const Phy& phy) {
         CHECK(!phy.coding({3.25e6}));
         CHECK(!phy.coding({0}));
@@ -79,7 +79,7 @@ TEST_CASE("wifi: twelve rates have the error rates of their modulations") {
     CHECK(phy.certain_sinr(*phy.coding(1_Mbps)) == certain_sinr(Modulation::dsss_1));
 }
 
-TEST_CASE("wifi: with a standard's framing, airtimes are whole microseconds or symbols") {
+TEST_CASE("wifi: with the framing of a standard, data takes whole symbols or whole microseconds") {
     // 802.11-2020, 17.4.3: 16 + 8 n + 6 bits in symbols of 216 bits, 4 us each; 106 bytes and the
     // tail just do not fit into four.
     for (const auto& [bytes, symbols] : {std::pair{105U, 4}, {106U, 5}}) {

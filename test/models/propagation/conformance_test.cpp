@@ -140,7 +140,7 @@ TEST_CASE("every model: the loss is finite and not negative, at distance 0 and f
     });
 }
 
-TEST_CASE("every model: the loss does not depend on time or frame, so that it can be cached") {
+TEST_CASE("every model: the loss does not depend on time or frame, so it can be cached") {
     const World world;
     LinkBatch later = world.batch();
     later.at = start_of_run + Duration{12'345'678'901};
@@ -149,7 +149,7 @@ TEST_CASE("every model: the loss does not depend on time or frame, so that it ca
         [&](const auto& model) { CHECK(losses(model, world.batch()) == losses(model, later)); });
 }
 
-TEST_CASE("every model: low frequencies and short distances give no gain") {
+TEST_CASE("every model: the loss is never negative, also at 1 MHz and at short distances") {
     for_each_variant([&](const auto& model) {
         if constexpr (requires { model.environment; }) {
             if (model.environment) return;  // has no row at 1 MHz
@@ -221,7 +221,7 @@ TEST_CASE("every model: the loss of a link does not depend on the rest of the ba
     });
 }
 
-TEST_CASE("every model: beyond its reach for a budget the loss is more than the budget") {
+TEST_CASE("every model: beyond the reach for a budget, the loss exceeds the budget") {
     test::Draw draw(5);
     const Scene open_field;
     for_each_variant([&](const auto& model) {
@@ -296,7 +296,8 @@ TEST_CASE("every model: infinite parameters are refused") {
     CHECK_THROWS_AS(Propagation{Raytrace2007{.wall_factor = inf}}, std::invalid_argument);
 }
 
-TEST_CASE("every model: names are unique and simple words") {
+TEST_CASE(
+    "every model: names are unique and consist of lower-case letters, digits and underscores") {
     std::vector<std::string> names;
     for_each_model([&]<class Model>() { names.emplace_back(Model::name); });
     std::sort(names.begin(), names.end());

@@ -13,14 +13,14 @@ namespace disc_test {
 using namespace rovernet;
 using test::loss_at;
 
-TEST_CASE("disc: the loss is 0 up to the range, including the range itself") {
+TEST_CASE("disc: the loss is 0 up to the range, also exactly at the range") {
     CHECK(loss_at(Disc{.range = 100_m}, 0) == 0);
     CHECK(loss_at(Disc{.range = 100_m}, 99) == 0);
     CHECK(loss_at(Disc{.range = 100_m}, 100) == 0);
     CHECK(test::OneLink{.to = {3, 4, 0}}.loss(Disc{.range = 5_m}) == 0);
 }
 
-TEST_CASE("disc: the loss is 1000 dB one rounding beyond the range") {
+TEST_CASE("disc: just one rounding beyond the range the loss is 1000 dB") {
     CHECK(loss_at(Disc{.range = 100_m}, std::nextafter(100.0, 101.0)) == 1000);
     CHECK(loss_at(Disc{.range = 100_m}, 1e9) == 1000);
 }
@@ -43,7 +43,7 @@ TEST_CASE("disc: a missing range is refused") {
     CHECK_THROWS_AS(Propagation{Disc{}}, std::invalid_argument);
 }
 
-TEST_CASE("disc: its reach is its range, and infinite for a budget of 1000 dB") {
+TEST_CASE("disc: the reach is the range, but infinite for a budget of 1000 dB") {
     CHECK(Disc{.range = 7_m}.reach(91_dB, 2450_MHz) == 7_m);
     CHECK(std::isinf(Disc{.range = 7_m}.reach(1000_dB, 2450_MHz).value));
 }

@@ -66,7 +66,7 @@ const Material concrete{.name = "concrete", .slab = ItuMaterial::concrete, .thic
 
 }  // namespace
 
-TEST_CASE("storeys: a scene without storeys has one, at any antenna height") {
+TEST_CASE("storeys: without a storey height no floors are counted, at any antenna height") {
     const auto loss_at = [](const Propagation& model, double height, Hertz f, Meters storey) {
         const Vec3 to{25, 0, height};
         const std::uint64_t key = 2;
@@ -96,7 +96,7 @@ TEST_CASE("storeys: a scene without storeys has one, at any antenna height") {
         }
 }
 
-TEST_CASE("storeys: multi_wall has the losses of COST 231 between storeys") {
+TEST_CASE("storeys: the losses of multi_wall between storeys equal those of COST 231") {
     const test::Vectors vectors("cost231_multiwall.csv");
     constexpr int light = 1, heavy = 4, apart = 8;  // [cells]: 5 cm, 20 cm
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -132,7 +132,8 @@ TEST_CASE("storeys: multi_wall has the losses of COST 231 between storeys") {
     }
 }
 
-TEST_CASE("storeys: a ceiling has the loss of its material or of the model, never both") {
+TEST_CASE(
+    "storeys: a ceiling costs the loss of its material or else that of the model, never both") {
     const MultiWall model{};
     const auto more = [&](const std::vector<Material>& ceilings) {
         const Scene scene = empty_storeys(ceilings.size() + 1, ceilings);
@@ -168,7 +169,8 @@ TEST_CASE("storeys: there are no ceilings below the lowest floor and above the h
     CHECK(floors(-50, 50).of_model == 0);
 }
 
-TEST_CASE("storeys: itu_indoor counts ceilings if an environment is given") {
+TEST_CASE(
+    "storeys: itu_indoor counts ceilings only if an environment is given and no number of floors") {
     const ItuIndoor office{.environment = Environment::office};
     const Hertz f = 1900_MHz;
     const double d = std::sqrt(64 + 36.0);
@@ -184,7 +186,7 @@ TEST_CASE("storeys: itu_indoor counts ceilings if an environment is given") {
     CHECK(near(loss(ItuIndoor{}, empty_storeys(3, {slab_15, {}}), 1, 7, f), without, tolerance));
 }
 
-TEST_CASE("storeys: raytrace_2007 adds only ceilings that have a loss") {
+TEST_CASE("storeys: raytrace_2007 adds the loss of a ceiling only if its material has a loss") {
     const Raytrace2007 model{.coefficient = 20};
     const double without = loss(model, Scene{}, 1, 4);
     CHECK(near(loss(model, empty_storeys(2), 1, 4), without, tolerance));
@@ -208,7 +210,7 @@ TEST_CASE("storeys: a ceiling blocks the line of sight of itu_site_general") {
     CHECK(loss(office, scene, 1, 4) == loss(blocked, scene, 1, 4));
 }
 
-TEST_CASE("storeys: rays refuses several storeys, also with shadowing") {
+TEST_CASE("storeys: the model rays refuses several storeys") {
     CHECK_NOTHROW(Propagation(Rays{}).check_scene(empty_storeys(1)));
     CHECK_THROWS_AS(Propagation(Rays{}).check_scene(empty_storeys(2)), std::invalid_argument);
     CHECK_NOTHROW(Propagation(MultiWall{}).check_scene(empty_storeys(2)));

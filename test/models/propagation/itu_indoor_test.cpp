@@ -47,7 +47,8 @@ double between(const ItuIndoor& model, double z1, double z2) {
 
 }  // namespace
 
-TEST_CASE("itu_indoor: environment, frequency and floors give the losses of the vectors") {
+TEST_CASE(
+    "itu_indoor: for each environment, frequency and number of floors, losses equal the vectors") {
     const test::Vectors vectors("p1238_classic.csv");
     int used = 0;
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -67,7 +68,7 @@ TEST_CASE("itu_indoor: environment, frequency and floors give the losses of the 
     CHECK(used > 60);
 }
 
-TEST_CASE("itu_indoor: a given coefficient gives the losses of the vectors without floors") {
+TEST_CASE("itu_indoor: with a given coefficient, losses equal the vectors without floors") {
     const test::Vectors vectors("p1238_classic.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         const double d = vectors.number(i, "d_m");
@@ -79,12 +80,12 @@ TEST_CASE("itu_indoor: a given coefficient gives the losses of the vectors witho
     }
 }
 
-TEST_CASE("itu_indoor: without coefficient and environment N is 30") {
+TEST_CASE("itu_indoor: without coefficient and environment, the coefficient N is 30") {
     CHECK(loss_at(ItuIndoor{}, 25) == loss_at(indoor(30), 25));
     CHECK(near(loss_at(ItuIndoor{}, 100) - loss_at(ItuIndoor{}, 10), 30, tolerance));
 }
 
-TEST_CASE("itu_indoor: a given coefficient overrides that of the environment") {
+TEST_CASE("itu_indoor: a given coefficient overrides the coefficient of the environment") {
     const ItuIndoor both = indoor(40, Environment::office);
     CHECK(near(loss_at(both, 100) - loss_at(both, 10), 40, tolerance));
 }
@@ -95,7 +96,8 @@ TEST_CASE("itu_indoor: below 1 m the loss is the value at 1 m") {
     CHECK(loss_at(ItuIndoor{}, 1.001) > at_1_m);
 }
 
-TEST_CASE("itu_indoor: a frequency more than a factor 1.5 from every row is refused") {
+TEST_CASE(
+    "itu_indoor: a frequency that differs by more than a factor of 1.5 from every row is refused") {
     const ItuIndoor office = indoor({}, Environment::office);
     CHECK_NOTHROW(office.check_frequency(601_MHz));
     CHECK_THROWS_AS(office.check_frequency(599_MHz), std::invalid_argument);
@@ -114,7 +116,7 @@ TEST_CASE("itu_indoor: with a given coefficient any frequency is accepted") {
     CHECK_NOTHROW(both.check_frequency(20'000_MHz));
 }
 
-TEST_CASE("itu_indoor: floors need an environment and a row with so many floors") {
+TEST_CASE("itu_indoor: floors are refused without an environment, or if its table row lacks them") {
     CHECK_THROWS_AS(indoor({}, {}, 1).check_frequency(2450_MHz), std::invalid_argument);
     const ItuIndoor two = indoor({}, Environment::office, 2);
     CHECK_THROWS_AS(two.check_frequency(2450_MHz), std::invalid_argument);
@@ -141,13 +143,13 @@ TEST_CASE("itu_indoor: floors are counted from the storeys of the antennas") {
     CHECK(near(between(office, 3, 5.9) - same, 0, tolerance));
 }
 
-TEST_CASE("itu_indoor: heights have no effect with a bare coefficient or given floors") {
+TEST_CASE("itu_indoor: heights have no effect if only a coefficient, or the floors, are given") {
     CHECK(near(between(indoor(30), 1, 7), between(indoor(30), 1, 1), tolerance));
     const ItuIndoor one = indoor({}, Environment::office, 1);
     CHECK(near(between(one, 1, 7), between(one, 1, 1), tolerance));
 }
 
-TEST_CASE("itu_indoor: beyond the last tabulated floor the loss is constant") {
+TEST_CASE("itu_indoor: beyond the last number of floors in the table the loss is constant") {
     const ItuIndoor office = indoor({}, Environment::office);
     const auto rise = [&](double z) {
         return test::OneLink{.frequency = {900e6}, .to = {40, 0, z}}.loss(office) -

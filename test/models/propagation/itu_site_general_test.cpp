@@ -40,7 +40,8 @@ TEST_CASE("itu_site_general: medians equal the vectors, with and without line of
     CHECK(compared >= 48);
 }
 
-TEST_CASE("itu_site_general: the map selects the row; an open field has line of sight") {
+TEST_CASE(
+    "itu_site_general: the map decides whether there is line of sight; on an open field there is") {
     OccupancyGrid grid;
     grid.columns = 20;
     grid.rows = 10;

@@ -43,11 +43,11 @@ TEST_CASE("log_distance: medians equal those of measured buildings") {
     }
 }
 
-TEST_CASE("log_distance: ten times the distance costs 10 n dB") {
+TEST_CASE("log_distance: ten times the distance adds 10 n dB, n being the exponent") {
     CHECK(near(loss_at(median, 500) - loss_at(median, 50), 25, tolerance));
 }
 
-TEST_CASE("log_distance: inside the reference distance the loss is constant, free space") {
+TEST_CASE("log_distance: up to the reference distance the loss is constant, that of free space") {
     const LogDistance model{.sigma = 0_dB, .reference_distance = 10_m};
     for (const double d : {0.0, 1e-9, 5.0, 10.0}) {
         CHECK(near(loss_at(model, d), loss_at(Friis{}, 10), tolerance));
@@ -55,7 +55,8 @@ TEST_CASE("log_distance: inside the reference distance the loss is constant, fre
     CHECK(near(loss_at(model, 100) - loss_at(model, 10), 25, tolerance));
 }
 
-TEST_CASE("log_distance: with exponent 2 and no shadowing it is free space beyond d0") {
+TEST_CASE(
+    "log_distance: with exponent 2 and no shadowing, the loss beyond d0 is that of free space") {
     const LogDistance free{.exponent = 2, .sigma = 0_dB};
     for (const double d : {1.0, 30.0, 5000.0}) {
         CHECK(near(loss_at(free, d), loss_at(Friis{}, d), tolerance));
@@ -69,7 +70,8 @@ TEST_CASE("log_distance: shadowing is the same in both directions, to the last b
     }
 }
 
-TEST_CASE("log_distance: shadowing belongs to the pair, independent of positions and samples") {
+TEST_CASE(
+    "log_distance: the shadowing of a pair does not change with positions or repeated calls") {
     const LogDistance model{};
     const OneLink near_by{.to = {10, 0, 0}}, far_off{.to = {-70, 3, 0}};
     const double first = near_by.loss(model);
@@ -110,7 +112,8 @@ TEST_CASE("log_distance: shadowing has mean 0 and standard deviation sigma over 
     CHECK(near(sd, sigma, k * sigma / std::sqrt(2.0 * n)));
 }
 
-TEST_CASE("log_distance: strong shadowing never gives a negative loss, nor more than 5 sigma") {
+TEST_CASE(
+    "log_distance: strong shadowing gives no loss below 0, or over 5 sigma above the median") {
     const LogDistance model{.sigma = 40_dB};
     int held = 0;
     for (std::uint64_t key = 0; key < 2000; ++key) {
@@ -122,7 +125,7 @@ TEST_CASE("log_distance: strong shadowing never gives a negative loss, nor more 
     CHECK(held > 100);  // the median is 48 dB: 11 % of the links lie below 0
 }
 
-TEST_CASE("log_distance: without sigma nothing is random: keys and seeds have no effect") {
+TEST_CASE("log_distance: with sigma 0, keys and seeds have no effect") {
     const double plain = OneLink{.to = {33, 0, 0}}.loss(median);
     for (std::uint64_t key = 0; key < 20; ++key) {
         const OneLink link{.to = {33, 0, 0}, .from_key = key, .seed = key, .replication = 7};
@@ -135,7 +138,8 @@ TEST_CASE("log_distance: without sigma nothing is random: keys and seeds have no
     CHECK(out == plain);
 }
 
-TEST_CASE("log-distance: the excess is added at every distance, and shifts the reach") {
+TEST_CASE(
+    "log-distance: the excess is added at every distance, and shortens the reach accordingly") {
     const LogDistance plain{.exponent = 3, .sigma = 0_dB};
     LogDistance more = plain;
     more.excess = 7.5_dB;

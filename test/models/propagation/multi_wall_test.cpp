@@ -43,7 +43,8 @@ double loss_through(const Scene& scene, double d, const MultiWall& model = {}, H
 
 }  // namespace
 
-TEST_CASE("multi_wall: losses are those of COST 231 through light and heavy walls and floors") {
+TEST_CASE(
+    "multi_wall: losses through light walls, heavy walls and floors equal those of COST 231") {
     const test::Vectors vectors("cost231_multiwall.csv");
     constexpr int light = 1, heavy = 4, apart = 8;  // [cells]: 5 cm, 20 cm
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -77,7 +78,7 @@ TEST_CASE("multi_wall: losses are those of COST 231 through light and heavy wall
     }
 }
 
-TEST_CASE("multi_wall: a wall has the same loss at any angle, by its own thickness") {
+TEST_CASE("multi_wall: a wall counts as light by its own thickness, at any angle of the ray") {
     // 5 cm thick, the ray at up to 63 degrees to its normal: 11 cm of chord.
     const Scene scene(strip(2, {{20, 1}}));
     const auto loss = [&](Vec3 from, Vec3 to) {
@@ -122,7 +123,8 @@ TEST_CASE("multi_wall: an oblique wall drawn in steps counts as one wall") {
     CHECK(in_parts > 3);
 }
 
-TEST_CASE("multi_wall: a loss given by the material, per crossing or metre, takes precedence") {
+TEST_CASE(
+    "multi_wall: a loss of the wall's material, per crossing or metre, replaces the model's") {
     const auto through = [](Material material) {
         const Scene scene(strip(4, {{20, 4}}), {std::move(material)});
         return loss_through(scene, 3) - loss_through(Scene{}, 3);
@@ -132,7 +134,8 @@ TEST_CASE("multi_wall: a loss given by the material, per crossing or metre, take
     CHECK(near(through({.per_metre = DbPerMeter{30}}), 6, 1e-9));
 }
 
-TEST_CASE("multi_wall: without walls and with exponent 2 it is free space beyond 1 m") {
+TEST_CASE(
+    "multi_wall: without walls and with exponent 2, the loss beyond 1 m is that of free space") {
     for (const double d : {1.0, 7.0, 300.0}) {
         CHECK(near(test::loss_at(MultiWall{}, d), test::loss_at(Friis{}, d), 1e-12));
     }

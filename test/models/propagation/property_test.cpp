@@ -148,7 +148,7 @@ void check_steps(const Scene& scene, bool among_walls) {
 
 }  // namespace
 
-TEST_CASE("property: every loss is finite and not negative, wherever two robots are") {
+TEST_CASE("property: every loss is finite and not negative, for any positions of two robots") {
     CHECK(holds("finite, >= 0", [] {
         const Vec3 from = far_place(), to = far_place();
         for (const auto& [model, steps] : listed()) {
@@ -160,8 +160,7 @@ TEST_CASE("property: every loss is finite and not negative, wherever two robots 
     }));
 }
 
-TEST_CASE(
-    "property: every loss has the same bits in both directions, so that no link flips (S41)") {
+TEST_CASE("property: every loss has the same bits in both directions, so no link flips (S41)") {
     CHECK(holds("reciprocal", [] {
         const Vec3 a = place(), b = place();
         for (const auto& [model, steps] : listed()) {
@@ -173,7 +172,7 @@ TEST_CASE(
     }));
 }
 
-TEST_CASE("property: a batch gives each link its loss, for any size and order") {
+TEST_CASE("property: each link gets its own loss in a batch of any size and order") {
     CHECK(holds("batches", [] {
         const Vec3 from = place();
         std::vector<Vec3> to(static_cast<std::size_t>(*rc::gen::inRange(1, 12)));
@@ -198,13 +197,12 @@ TEST_CASE("property: a batch gives each link its loss, for any size and order") 
     }));
 }
 
-TEST_CASE(
-    "property: a millimetre changes the loss by less than 0.5 dB, except as documented (S04)") {
+TEST_CASE("property: 1 mm changes the loss by less than 0.5 dB, except where documented (S04)") {
     CHECK(holds("steps in the open", [] { check_steps(Scene{}, false); }));
     CHECK(holds("steps among walls", [] { check_steps(rooms(), true); }));
 }
 
-TEST_CASE("property: no model has a step where its equation changes, checked every millimetre") {
+TEST_CASE("property: where a model changes its equation, its loss has no step") {
     // Borders of peers' models lie at 0.5 m, 1 m and 10 m, with steps of 34 and 47 dB (S04, S05).
     const Scene open_field;
     for (const auto& [model, steps] : listed()) {

@@ -84,7 +84,7 @@ constexpr std::array both{RayDiffraction::knife_edge, RayDiffraction::utd};
 
 }  // namespace
 
-TEST_CASE("edge pair: on the line it is asin(rho) / pi, without a face 1/4 + asin(rho) / (2 pi)") {
+TEST_CASE("edge pair: if both edges touch the line, the field is asin(rho) / pi") {
     for (const double along : {0.01, 0.5, 1.0, 4.0, 50.0}) {
         const double rho = std::sqrt(7.0 * 9 / ((7 + along) * (9 + along)));
         const math::Complex field = pair_field({7, along, 9, 0, 0}, wavelength);
@@ -102,8 +102,7 @@ double row_loss(std::vector<RowCorner> corners, double length) {
 
 }  // namespace
 
-TEST_CASE(
-    "edge row: behind n screens in a line 1 / (n + 1) of the field is left; two equal a pair") {
+TEST_CASE("edge row: n screens that touch the line leave 1 / (n + 1) of the field") {
     const std::array limits{0.001, 0.05, 0.3, 0.7, 1.2, 1.75};
     std::vector<RowCorner> corners;
     for (std::size_t n = 1; n <= limits.size(); ++n) {
@@ -117,7 +116,7 @@ TEST_CASE(
                -20 * std::log10(std::abs(pair_field(pair, wavelength))), 0.05));
 }
 
-TEST_CASE("edge row: in deep shadow it is the product of the edges' rays") {
+TEST_CASE("edge row: in deep shadow the field is the product of the diffracted rays of the edges") {
     // A ray that turns by w at an edge has the coefficient 1 / (2 pi w) sqrt(lambda) there.
     const std::vector<RowCorner> corners{{4, 0, 0.9, 0}, {7, 0, 0.8, 1}, {12, 0, 0.9, 2}};
     double field = std::sqrt(20 / (4.0 * 3 * 5 * 8));
@@ -126,7 +125,7 @@ TEST_CASE("edge row: in deep shadow it is the product of the edges' rays") {
     CHECK(near(row_loss(corners, 20), -20 * std::log10(field), 1));
 }
 
-TEST_CASE("edge row: is symmetric and continuous; a corner far below has no effect") {
+TEST_CASE("edge row: the loss is symmetric and continuous; a corner far below hardly changes it") {
     const std::vector<RowCorner> there{{3, 0, 0.2, 0}, {6, 0.1, 0, 1}, {8, 0, 0.05, 2}};
     const std::vector<RowCorner> back{{2, 0, 0.05, 2}, {4, 0.1, 0, 1}, {7, 0, 0.2, 0}};
     CHECK(near(row_loss(there, 10), row_loss(back, 10), 1e-9));
@@ -137,7 +136,8 @@ TEST_CASE("edge row: is symmetric and continuous; a corner far below has no effe
                    row_loss({{3, 0, 0.2, 0}, {6, 0, tiny, 1}, {8, 0, 0.05, 2}}, 10), 0.15));
 }
 
-TEST_CASE("edge pair: a face of length 0 gives a single edge; a far edge leaves the other one") {
+TEST_CASE(
+    "edge pair: a face of length 0 acts as one edge; an edge far below the line has no effect") {
     for (const double bend : {1e-4, 0.01, 0.1}) {
         const double along = 1e-9;
         // A turn by an angle w is shared: bends at both edges by w / 2 over the short face.
@@ -157,7 +157,8 @@ TEST_CASE("edge pair: a face of length 0 gives a single edge; a far edge leaves 
     }
 }
 
-TEST_CASE("rays: behind a solid block the error is 1.2 dB, with knife edges 2.5 dB") {
+TEST_CASE(
+    "rays: behind a solid block the error is at most 1.2 dB with utd and 2.5 dB with knife edges") {
     for (const double width : {0.3, 0.6, 1.0, 2.0}) {
         const test::SoftBody exact(
             {{-width / 2, 0}, {width / 2, 0}, {width / 2, 1}, {-width / 2, 1}}, wavelength);
@@ -201,7 +202,8 @@ TEST_CASE("rays: deep behind a shelf the error is at most 2.5 dB") {
     }
 }
 
-TEST_CASE("rays: along a shelf, and past round or square pillars, a path around is found") {
+TEST_CASE(
+    "rays: a path around is found beside a shelf, round and square pillars, and a container") {
     int number = 0;  // of the body; the seventh is a container
     const auto round = [](double x, double y) { return x * x + y * y < 0.09; };
     const auto slanting = [](double x, double y) {
@@ -224,7 +226,7 @@ TEST_CASE("rays: along a shelf, and past round or square pillars, a path around 
     }
 }
 
-TEST_CASE("rays: the loss is continuous along the border of a block's face, and at its end") {
+TEST_CASE("rays: the loss is continuous across the plane of a block's face, and beyond its end") {
     const Scene wide = drawn(block(-1, 0, 1, 1.5), metal);
     for (const auto by : both) {
         const Rays model{.order = 0, .diffraction = by};
@@ -235,7 +237,7 @@ TEST_CASE("rays: the loss is continuous along the border of a block's face, and 
     }
 }
 
-TEST_CASE("rays: the reflection of a face begins at 0 where a link leaves its plane") {
+TEST_CASE("rays: a reflection from a face grows from 0 as the link leaves the plane of the face") {
     for (const double half : {1.0, 0.2}) {
         const Scene scene = drawn(block(-half, 0, half, 1.5), metal);
         for (const auto by : both)
@@ -248,7 +250,7 @@ TEST_CASE("rays: the reflection of a face begins at 0 where a link leaves its pl
     }
 }
 
-TEST_CASE("rays: 1 mm before the face of a block a link has the loss of 1 mm behind it") {
+TEST_CASE("rays: a link 1 mm in front of a block's face has the loss of a link 1 mm behind it") {
     const Scene wide = drawn(block(-1, 0, 1, 1.5), metal);
     for (const auto by : both) {
         const Rays model{.order = 0, .diffraction = by};
@@ -261,7 +263,7 @@ TEST_CASE("rays: 1 mm before the face of a block a link has the loss of 1 mm beh
     }
 }
 
-TEST_CASE("rays: the loss is continuous at the free end of a wall, with given material or not") {
+TEST_CASE("rays: the loss is continuous at the free end of a wall, with and without a material") {
     for (const auto wall : {ItuMaterial::brick, ItuMaterial::concrete, ItuMaterial::plasterboard})
         for (const Material& material : {Material{}, Material{.slab = wall, .thickness = 0.1_m}}) {
             const Scene scene = drawn(block(-0.05, -9, 0.05, 0), material);
@@ -278,7 +280,7 @@ TEST_CASE("rays: the loss is continuous at the free end of a wall, with given ma
         }
 }
 
-TEST_CASE("rays: paths go around shelves in a row one by one") {
+TEST_CASE("rays: a path goes around all shelves of a row, one after the other") {
     const auto shelves = [](double x, double y) {
         return std::abs(y) < 1 && x > -6 && x < 6 && std::fmod(x + 6, 3) < 0.9;
     };
@@ -291,7 +293,7 @@ TEST_CASE("rays: paths go around shelves in a row one by one") {
     }
 }
 
-TEST_CASE("rays: a thin wall between shelves is crossed on the path around the shelves") {
+TEST_CASE("rays: a path around shelves crosses a thin wall between them and pays its loss") {
     const auto shelf = [](double x, double y) {
         return std::abs(y) < 0.2 && std::abs(std::abs(x) - 3.5) < 0.45;
     };
@@ -308,7 +310,8 @@ TEST_CASE("rays: a thin wall between shelves is crossed on the path around the s
     }
 }
 
-TEST_CASE("rays: behind shelves in a row the loss is continuous where a path begins to graze") {
+TEST_CASE(
+    "rays: behind a row of shelves, the loss is continuous where a path begins to touch a shelf") {
     const auto shelves = [](double width) {
         return [=](double x, double y) {
             return y > -4 && y < 3 && x > -4 && x < 5 && std::fmod(x + 4, 3) < width;
@@ -367,7 +370,7 @@ TEST_CASE("rays: the loss is continuous at shadow borders of pillars and of obli
     }
 }
 
-TEST_CASE("rays: no link loses more than 200 dB over free space") {
+TEST_CASE("rays: no loss exceeds that of free space by more than 200 dB") {
     const auto box = [](double x, double y) {
         return std::max(std::abs(x), std::abs(y)) < 2 && std::max(std::abs(x), std::abs(y)) > 1.8;
     };
@@ -381,7 +384,7 @@ TEST_CASE("rays: no link loses more than 200 dB over free space") {
         }
 }
 
-TEST_CASE("rays: a wall whose material is not given is at most half a metre thick") {
+TEST_CASE("rays: a wall without a given material counts as at most half a metre thick") {
     const Rays straight{.order = 0, .diffraction = RayDiffraction::none};
     for (const double thick : {0.4, 0.5, 0.9, 3.0})
         CHECK(near(

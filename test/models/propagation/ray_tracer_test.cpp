@@ -87,7 +87,7 @@ double reflections(const RayPaths& paths, const RayPath& path) {
 
 }  // namespace
 
-TEST_CASE("ray tracer: number and strength of the images of a room equal the table") {
+TEST_CASE("ray tracer: the images of a room have the number and strength in the table") {
     // The tracer plans in plan: floor and ceiling enter as receivers mirrored in them.
     const test::Vectors vectors("room_images.csv");
     int compared = 0;
@@ -113,7 +113,8 @@ TEST_CASE("ray tracer: number and strength of the images of a room equal the tab
     CHECK(compared >= 50);
 }
 
-TEST_CASE("ray tracer: reflections in a corridor of lossy walls equal the series, by order") {
+TEST_CASE(
+    "ray tracer: reflections in a corridor of lossy walls equal the image series, at each order") {
     const test::Vectors vectors("corridor_lossy_images.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         const double a = vectors.number(i, "a_m"), rho = vectors.number(i, "rho_m");
@@ -135,7 +136,7 @@ TEST_CASE("ray tracer: reflections in a corridor of lossy walls equal the series
     }
 }
 
-TEST_CASE("ray tracer: reflections in a metal corridor equal the series, near the exact field") {
+TEST_CASE("ray tracer: reflections in a metal corridor equal the image series, at each order") {
     const test::Vectors vectors("corridor_pec_modal_vs_images.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         const double a = vectors.number(i, "a_m"), rho = vectors.number(i, "rho_m");
@@ -185,7 +186,7 @@ TEST_CASE("ray tracer: a wall drawn at an angle reflects at that angle") {
     }
 }
 
-TEST_CASE("ray tracer: a path along an oblique wall crosses none of its steps") {
+TEST_CASE("ray tracer: a path along an oblique wall crosses none of the steps of its cells") {
     OccupancyGrid grid;
     grid.columns = grid.rows = 200;
     grid.cell_width = grid.cell_height = 0.05;
@@ -216,7 +217,7 @@ TEST_CASE("ray tracer: a path along an oblique wall crosses none of its steps") 
     }
 }
 
-TEST_CASE("ray tracer: images of two perpendicular walls have their closed form") {
+TEST_CASE("ray tracer: images in perpendicular walls have the lengths of their closed form") {
     const Scene scene = hollow(8, 6, 0.5);
     const Vec3 a{1.2, 2.1, 1}, b{6.3, 4.4, 2.5};
     RayTracer tracer(scene, a, 2, 0.1);
@@ -237,7 +238,7 @@ TEST_CASE("ray tracer: images of two perpendicular walls have their closed form"
     for (std::size_t i = 0; i < found.size(); ++i) CHECK(near(found[i], expected[i], 1e-12));
 }
 
-TEST_CASE("ray tracer: reflections end at the face's ends, horizontally and in height") {
+TEST_CASE("ray tracer: a face reflects only within its ends, horizontally and in height") {
     OccupancyGrid grid = test::drawn_map({"......", ".####.", "......", "......", "......"});
     const Scene scene(grid, {Material{.height = 2_m}});
     const auto count = [&](Vec3 from, Vec3 to) {
@@ -254,7 +255,7 @@ TEST_CASE("ray tracer: reflections end at the face's ends, horizontally and in h
     CHECK(count({1.5, 1}, {4.5, 3.5}) == 0);  // behind the wall
 }
 
-TEST_CASE("ray tracer: paths are equal from both ends, with and without a limit") {
+TEST_CASE("ray tracer: the same paths are found from either end, with and without a limit") {
     test::Draw draw(11);
     const Scene scene(test::random_map(draw, 30, 30, 6));
     const RayMaterials materials(scene.materials(), 2450_MHz, ItuMaterial::concrete, {}, 6_dB);
@@ -282,7 +283,7 @@ TEST_CASE("ray tracer: paths are equal from both ends, with and without a limit"
     CHECK(seen > 300);
 }
 
-TEST_CASE("ray tracer: in the mode for few receivers it finds the same paths") {
+TEST_CASE("ray tracer: the mode for few receivers finds the same paths as the normal mode") {
     test::Draw draw(12);
     const Scene scene(test::random_map(draw, 30, 30, 6));
     std::size_t reflected = 0;

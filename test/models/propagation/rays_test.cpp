@@ -58,7 +58,7 @@ const Rays straight_only{.order = 0, .diffraction = RayDiffraction::none};
 
 }  // namespace
 
-TEST_CASE("rays: in the open they equal free space, for any parameters") {
+TEST_CASE("rays: without walls the loss is that of free space, for any parameters") {
     for (const double d : {0.001, 1.0, 7.0, 300.0, 1e7}) {
         for (const int order : {0, 3})
             for (const auto sum : {RaySum::power, RaySum::coherent})
@@ -67,7 +67,7 @@ TEST_CASE("rays: in the open they equal free space, for any parameters") {
     }
 }
 
-TEST_CASE("rays: the loss of a slab equals P.2040 at the path's angle") {
+TEST_CASE("rays: a slab has the loss of P.2040 at the path's angle") {
     const Material concrete{.slab = ItuMaterial::concrete, .thickness = 0.2_m};
     const Scene scene = drawn(20, 6, 0.1, bar(-10, 10, 0.1), concrete);
     for (const double dx : {0.0, 1.0, 3.0, 6.0, 11.0}) {
@@ -80,7 +80,8 @@ TEST_CASE("rays: the loss of a slab equals P.2040 at the path's angle") {
     }
 }
 
-TEST_CASE("rays: a wall without losses is a slab of `wall` with its drawn thickness") {
+TEST_CASE(
+    "rays: a wall without a loss of its own is a slab of the material `wall`, as thick as drawn") {
     for (const double thick : {0.1, 0.2, 0.3}) {
         const Scene scene = drawn(20, 6, 0.1, bar(-10, 10, thick), {});
         for (const auto wall : {ItuMaterial::concrete, ItuMaterial::glass}) {
@@ -92,7 +93,7 @@ TEST_CASE("rays: a wall without losses is a slab of `wall` with its drawn thickn
     }
 }
 
-TEST_CASE("rays: a material in decibels has its loss, and the model's loss for reflections") {
+TEST_CASE("rays: a material with losses in dB costs them, and reflects with the model's loss") {
     const Material board{.per_crossing = 7_dB, .per_metre = DbPerMeter{30}};
     const Scene scene = drawn(20, 6, 0.1, bar(-10, 10, 0.1), board);
     CHECK(near(loss(straight_only, scene, {0, -2}, {0, 2}), free_space_db(4, f) + 10, 1e-9));
@@ -102,7 +103,8 @@ TEST_CASE("rays: a material in decibels has its loss, and the model's loss for r
                free_space_db(1, f) - 10 * math::log10(direct + mirrored), 1e-9));
 }
 
-TEST_CASE("rays: two fields add with their phases, to a null before a mirror") {
+TEST_CASE(
+    "rays: in a coherent sum two fields add with their phases, with a null close to a mirror") {
     const Material mirror{.per_crossing = 200_dB};
     const Scene scene = drawn(40, 6, 0.1, bar(-20, 20, 0.1), mirror);
     const Rays coherent{.order = 1,
@@ -140,7 +142,8 @@ TEST_CASE("rays: max_paths keeps the strongest paths") {
     CHECK(near(loss(model, scene, from, to), free_space_db(distance(from, to), f), 1e-12));
 }
 
-TEST_CASE("rays: paths left out by max_paths are counted, with their effect on the loss") {
+TEST_CASE(
+    "rays: the paths that max_paths leaves out are counted, and so is their effect on the loss") {
     const Scene scene = drawn(
         12, 8, 0.5, [](double x, double y) { return std::abs(x) > 5.5 || std::abs(y) > 3.5; });
     const Vec3 from{-3, 1}, to{2, -1.3};
@@ -173,7 +176,7 @@ TEST_CASE("rays: behind a screen the path around it has the loss of a knife edge
                0.1));
 }
 
-TEST_CASE("rays: with utd a half screen is within 0.3 dB of Fresnel's field, lit and in shadow") {
+TEST_CASE("rays: behind and beside a half screen, utd is within 0.3 dB of Fresnel's field") {
     const Scene scene = drawn(24, 12, 0.01, bar(-12, 0, 0.01));
     const Rays utd{.order = 0, .diffraction = RayDiffraction::utd};
     for (double x = -1; x < 1; x += 0.05) {
@@ -210,7 +213,8 @@ TEST_CASE("rays: the loss is continuous at the shadow border of a wall") {
         }
 }
 
-TEST_CASE("rays: sheet, wedge and bricks of 1 mm and 10 cm have equal shadows within 1 dB") {
+TEST_CASE(
+    "rays: the shadows of a sheet, a wedge and bricks of 1 cm and 10 cm differ by less than 1 dB") {
     std::vector<Scene> scenes;
     for (const double thick : {0.001, 0.01, 0.1}) {
         const double cell = thick < 0.005 ? 0.001 : 0.01, low = thick == 0.1 ? -0.05 : 0;
@@ -250,7 +254,7 @@ TEST_CASE("rays: thick walls and walls with round ends reflect like thin walls")
     CHECK(near(round, thin, 0.05));
 }
 
-TEST_CASE("rays: no point behind an obstacle between two lit places lacks a path") {
+TEST_CASE("rays: behind an obstacle every point has a path, less than 45 dB below free space") {
     // Behind half a metre the exact wave is up to 42 dB down: see ray_bodies_test.cpp.
     for (const double thick : {0.05, 0.3, 0.5}) {
         CAPTURE(thick);
@@ -265,7 +269,8 @@ TEST_CASE("rays: no point behind an obstacle between two lit places lacks a path
     }
 }
 
-TEST_CASE("rays: half and double cells change the loss of an oblique wall by less than 1 dB") {
+TEST_CASE(
+    "rays: cells of half or double size change the loss of an oblique wall by less than 1 dB") {
     const auto slanting = [](double x, double y) {
         const double along = 0.8 * x + 0.6 * y, off = 0.8 * y - 0.6 * x;
         return std::abs(along) < 3 && std::abs(off) < 0.1;

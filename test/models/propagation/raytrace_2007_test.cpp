@@ -28,7 +28,7 @@ Scene wall(double at, double thickness) {
 
 }  // namespace
 
-TEST_CASE("raytrace_2007: losses equal the vectors, through a wall of that length") {
+TEST_CASE("raytrace_2007: losses equal the vectors, with and without a wall in between") {
     const test::Vectors vectors("thesis_raytrace.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         const double d = vectors.number(i, "d_m");
@@ -44,7 +44,8 @@ TEST_CASE("raytrace_2007: losses equal the vectors, through a wall of that lengt
     }
 }
 
-TEST_CASE("raytrace_2007: on an open field it equals P.1238 with the same coefficient") {
+TEST_CASE(
+    "raytrace_2007: on an open field the loss equals that of P.1238 with the same coefficient") {
     ItuIndoor indoor;
     indoor.coefficient = 25;
     for (const double d : {0.0, 0.5, 1.0, 7.0, 300.0}) {
@@ -52,7 +53,7 @@ TEST_CASE("raytrace_2007: on an open field it equals P.1238 with the same coeffi
     }
 }
 
-TEST_CASE("raytrace_2007: an oblique ray counts its whole length inside the wall") {
+TEST_CASE("raytrace_2007: an oblique ray pays for its whole length inside the wall") {
     constexpr double tolerance = 1e-9;  // [dB], the scene's 1e-9 of a cell is less
     const Scene scene = wall(4, 0.3);
     const OneLink level{.to = {10, 0, 0}, .scene = &scene};

@@ -163,7 +163,7 @@ int disagreements_around(double d, const Setting& setting, const Links& links, s
 
 }  // namespace
 
-TEST_CASE("shadowed range: decides a million links of a thousand networks like the loss") {
+TEST_CASE("shadowed range: for a million links, the decision equals that by the loss") {
     Numbers draw(1);
     int wrong = 0, in_range = 0;
     for (int network = 0; network < 1000; ++network) {
@@ -182,7 +182,7 @@ TEST_CASE("shadowed range: decides a million links of a thousand networks like t
     CHECK(in_range < 800'000);
 }
 
-TEST_CASE("shadowed range: agrees with the loss to the last bit of the distance") {
+TEST_CASE("shadowed range: the limit in distance equals that of the loss, to the last bit") {
     Numbers draw(2);
     int wrong = 0;
     for (int network = 0; network < 500; ++network) {
@@ -204,7 +204,7 @@ TEST_CASE("shadowed range: agrees with the loss to the last bit of the distance"
     CHECK(wrong == 0);
 }
 
-TEST_CASE("shadowed range: agrees with the loss to the last bit of the draw") {
+TEST_CASE("shadowed range: the limit in the random draw equals that of the loss, to the last bit") {
     Numbers draw(3);
     int wrong = 0;
     for (int network = 0; network < 500; ++network) {
@@ -230,7 +230,7 @@ TEST_CASE("shadowed range: agrees with the loss to the last bit of the draw") {
     CHECK(wrong == 0);
 }
 
-TEST_CASE("shadowed range: without sigma it is the largest distance of the model, without a draw") {
+TEST_CASE("shadowed range: with sigma 0, the range is the model's largest distance, for any draw") {
     for (const double budget : {-1.0, 0.0, 40.0, 80.0, 120.0}) {
         CAPTURE(budget);
         const Setting setting{.model = {.sigma = 0_dB}, .budget = {budget}};
@@ -244,7 +244,7 @@ TEST_CASE("shadowed range: without sigma it is the largest distance of the model
     }
 }
 
-TEST_CASE("shadowed range: budgets that no link or every link meets are handled") {
+TEST_CASE("shadowed range: budgets that every link or no link meets are decided correctly") {
     for (const double d2 : {0.0, 1e-300, 1.0, 1e4, 1e300, infinity}) {
         CAPTURE(d2);
         for (std::uint64_t key = 0; key < 50; ++key) {
@@ -291,7 +291,7 @@ TEST_CASE("shadowed range: the loss is computed for less than one link in a hund
     CHECK(sum / looks < 0.002);
 }
 
-TEST_CASE("first look: passes all pairs that may be in range, and few others") {
+TEST_CASE("first look: all pairs that are in range pass, and few others") {
     Numbers draw(77);
     for (int network = 0; network < 40; ++network) {
         const ShadowedLoss loss{.at_reference = draw.uniform(20, 60),
@@ -323,7 +323,7 @@ TEST_CASE("first look: passes all pairs that may be in range, and few others") {
     }
 }
 
-TEST_CASE("first look: works with reach 0 and with infinite reach") {
+TEST_CASE("first look: pairs in range pass also with a reach of 0 and an infinite reach") {
     const ShadowedLoss loss{
         .at_reference = 40, .per_decade = 30, .reference_distance = 1, .sigma = 4};
     const std::uint64_t bits = shadowing_draws(3, 1).bits(1, 2);
@@ -337,7 +337,8 @@ TEST_CASE("first look: works with reach 0 and with infinite reach") {
     }
 }
 
-TEST_CASE("shadowed range: links of a model that offers it are decided by it, with equal results") {
+TEST_CASE(
+    "shadowed range: only log_distance offers it, and its links are then decided as by the loss") {
     for_each_model([]<class Model>() {
         const Propagation model{[] {
             if constexpr (std::same_as<Model, Disc>)

@@ -37,7 +37,7 @@ double parameter(const std::string& text, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("two-ray: losses equal the vectors, over the distance in space") {
+TEST_CASE("two-ray: losses equal the vectors") {
     const test::Vectors vectors("two_ray.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         const double d = vectors.number(i, "d_ground_m");
@@ -50,7 +50,7 @@ TEST_CASE("two-ray: losses equal the vectors, over the distance in space") {
     }
 }
 
-TEST_CASE("two-ray, exact: losses equal the vectors, over three grounds") {
+TEST_CASE("two-ray, exact: losses equal the vectors, for three kinds of ground reflection") {
     const test::Vectors vectors("two_ray.csv");
     const TwoRay horizontal{.form = TwoRayForm::exact, .polarization = Polarization::horizontal};
     const TwoRay vertical{.form = TwoRayForm::exact};
@@ -89,7 +89,7 @@ TEST_CASE("two-ray, exact: a ground with the permittivity of air reflects nothin
     }
 }
 
-TEST_CASE("two-ray: levels equal ns-2.35, with its speed of light") {
+TEST_CASE("two-ray: levels equal those of ns-2.35, if its speed of light is used") {
     const test::Vectors vectors("peer_ns2_loss.csv");
     int compared = 0;
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -135,7 +135,8 @@ TEST_CASE("two-ray: ns-2's radio of 914 MHz receives at 250 m and senses at 550 
     CHECK(near(received(550) / 1.55924e-11, 1, half_a_digit));
 }
 
-TEST_CASE("two-ray: up to the crossover it is free space, without a step there") {
+TEST_CASE(
+    "two-ray: up to the crossover distance the loss is that of free space, without a step there") {
     const double crossover = 4 * std::numbers::pi * 1.5 * 1.5 / (speed_of_light / 914e6);  // 86.2 m
     for (const double d : {0.0, 1.0, 40.0, 0.999999 * crossover}) {
         CHECK(loss_over_ground(1.5, 1.5, d, 914_MHz) == test::loss_at(Friis{}, d, 914_MHz));
@@ -152,13 +153,13 @@ TEST_CASE(
     CHECK(near(loss(2000, 914_MHz), loss(2000, 2450_MHz), tolerance));
 }
 
-TEST_CASE("two-ray: beyond the crossover an antenna of twice the height gains 20 log10(2) dB") {
+TEST_CASE("two-ray: beyond the crossover, doubling the height of an antenna saves 20 log10(2) dB") {
     const double flat = 1e-5;  // [dB] the slant distance grows by 6 m over 10 km
     CHECK(near(loss_over_ground(1, 2, 1e4, 914_MHz) - loss_over_ground(1, 4, 1e4, 914_MHz),
                20 * std::log10(2.0), flat));
 }
 
-TEST_CASE("two-ray: an antenna on the ground or below it counts as the lowest antenna") {
+TEST_CASE("two-ray: an antenna below lowest_antenna counts as at that height") {
     for (const double z : {0.0, -0.0, -1.0, -1e6, 0.05}) {
         CHECK(loss_over_ground(z, z, 100, 2450_MHz) == loss_over_ground(0.1, 0.1, 100, 2450_MHz));
     }
@@ -176,12 +177,12 @@ TEST_CASE("two-ray: both directions are equal to the last bit, also beyond the c
     }
 }
 
-TEST_CASE("two-ray: a higher antenna may have less loss at a longer distance, so heights matter") {
+TEST_CASE("two-ray: at the same distance, a higher antenna may have less loss") {
     CHECK(loss_over_ground(1.5, 3, 500, 914_MHz) < loss_over_ground(1.5, 1.5, 500, 914_MHz));
     CHECK(Propagation(TwoRay{}).shape() == LossShape::by_heights);
 }
 
-TEST_CASE("two-ray: the highest antennas reach exactly as far as the bound") {
+TEST_CASE("two-ray: the reach for a greatest height is exact for antennas of that height") {
     for (const double highest : {-2.0, 0.5, 1.5, 30.0}) {
         const double h = std::max(highest, 0.1);
         for (const double budget : {40.0, 80.0, 95.0, 140.0}) {
@@ -196,12 +197,13 @@ TEST_CASE("two-ray: the highest antennas reach exactly as far as the bound") {
     CHECK(TwoRay{}.reach(102.57078_dB, 914_MHz, 1.5_m).value == doctest::Approx(550).epsilon(1e-4));
 }
 
-TEST_CASE("two-ray: without a bound of heights the reach is that of free space") {
+TEST_CASE("two-ray: if no greatest height is given, the reach is that of free space") {
     const Propagation model = TwoRay{};
     CHECK(model.reach(80_dB, 2450_MHz) == Friis{}.reach(80_dB, 2450_MHz));
 }
 
-TEST_CASE("two-ray, exact: low antennas kilometres apart keep their digits (S08)") {
+TEST_CASE(
+    "two-ray, exact: for low antennas kilometres apart, the loss is right within 1e-4 dB (S08)") {
     TwoRay mirror{.form = TwoRayForm::exact, .polarization = Polarization::horizontal};
     mirror.ground_permittivity = 1e300;
     struct Row {
@@ -218,7 +220,7 @@ TEST_CASE("two-ray, exact: low antennas kilometres apart keep their digits (S08)
     }
 }
 
-TEST_CASE("two-ray, exact: the last null before the far field is finite, 110 dB (S09)") {
+TEST_CASE("two-ray, exact: at the last null before the far field, the loss is 110 dB (S09)") {
     TwoRay mirror{.form = TwoRayForm::exact, .polarization = Polarization::horizontal};
     mirror.ground_permittivity = 1e300;
     constexpr double half_a_digit = 0.005;  // [dB]

@@ -28,7 +28,7 @@ bool survives(const Collision& model, Arrival f, Arrival g) {
 
 }  // namespace
 
-TEST_CASE("collision: frames that overlap are lost, adjacent frames are not") {
+TEST_CASE("collision: frames that overlap are lost, and frames that only adjoin are received") {
     const Arrival first = frame(10, 110, -60), second = frame(60, 160, -60);
     const Arrival third = frame(160, 260, -60);
     CHECK_FALSE(survives({}, first, second));
@@ -37,7 +37,7 @@ TEST_CASE("collision: frames that overlap are lost, adjacent frames are not") {
     CHECK(survives({}, third, second));
 }
 
-TEST_CASE("collision: the first frame survives if it is stronger by exactly the capture ratio") {
+TEST_CASE("collision: the first frame survives if it is stronger by at least the capture ratio") {
     const Collision model{.capture_ratio = Db{10}};
     const Arrival first = frame(0, 100, -50);
     for (const double weaker : {9.99, 10.0}) {
@@ -53,7 +53,7 @@ TEST_CASE("collision: of two frames that begin together the stronger one is rece
     CHECK_FALSE(survives({}, weak, strong));
 }
 
-TEST_CASE("collision: a later frame captures only with CaptureOrder::later") {
+TEST_CASE("collision: a later, stronger frame is received only with CaptureOrder::later") {
     const Arrival weak = frame(0, 100, -80), strong = frame(50, 150, -50);
     for (const auto order : {CaptureOrder::first, CaptureOrder::later}) {
         const Collision model{.capture = order};
@@ -62,7 +62,7 @@ TEST_CASE("collision: a later frame captures only with CaptureOrder::later") {
     }
 }
 
-TEST_CASE("collision: a transmitting node receives nothing before, during and after") {
+TEST_CASE("collision: a node receives no frame that overlaps its own transmission") {
     const Arrival own = own_frame(NodeId{0}, at(90), at(200));
     for (const auto order : {CaptureOrder::first, CaptureOrder::later}) {
         const Collision model{.capture = order};
@@ -73,7 +73,7 @@ TEST_CASE("collision: a transmitting node receives nothing before, during and af
     }
 }
 
-TEST_CASE("collision: with order `first`, a receiver stays with the first frame") {
+TEST_CASE("collision: with CaptureOrder::first, a later frame finds the receiver busy") {
     const Arrival first = frame(0, 100, -50), second = frame(50, 150, -50);
     const Collision in_order, any_order{.capture = CaptureOrder::later};
     CHECK(in_order.finds_receiver_at(second, first));
@@ -82,7 +82,8 @@ TEST_CASE("collision: with order `first`, a receiver stays with the first frame"
     CHECK_FALSE(any_order.finds_receiver_at(second, first));
 }
 
-TEST_CASE("collision: a frame that begins under a frame stronger by the ratio is ignored") {
+TEST_CASE(
+    "collision: a frame that begins during a frame stronger by the capture ratio is ignored") {
     const auto lets_pass = [](Arrival f, Arrival g) {
         return Collision{}.lets_pass(f, g, [](const Arrival& a, const Arrival& b, Db by) {
             return a.level_dbm >= b.level_dbm + by.value;

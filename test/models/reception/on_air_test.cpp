@@ -34,7 +34,7 @@ std::set<std::uint64_t> near(OnAir& on_air, const Emission& frame, Time now,
 
 }  // namespace
 
-TEST_CASE("on air: finds every frame that reaches the receivers of another frame") {
+TEST_CASE("on air: the search finds every frame that reaches a receiver of the given frame") {
     std::size_t found = 0, passed_over = 0;
     for (std::uint32_t seed = 1; seed <= 100; ++seed) {
         CAPTURE(seed);
@@ -77,7 +77,7 @@ TEST_CASE("on air: finds every frame that reaches the receivers of another frame
     CHECK(passed_over > 10'000);
 }
 
-TEST_CASE("on air: extends its search by the distance that the fastest node may have moved") {
+TEST_CASE("on air: the search is extended by the distance that the fastest node may have moved") {
     OnAir on_air;
     on_air.goes(rest({-1e6, 0, 0}), Meters{0});
     on_air.goes(rest({1e6, 0, 0}), Meters{0});
@@ -136,7 +136,7 @@ TEST_CASE("on air: ended frames are removed, oldest first") {
     CHECK(on_air.frames().empty());
 }
 
-TEST_CASE("on air: the state of a node when a frame began is kept as long as the frame") {
+TEST_CASE("on air: the state that a node had when a frame began is stored as long as the frame") {
     constexpr int nodes = 5;
     std::size_t unchanged = 0, changed = 0;
     for (std::uint32_t seed = 1; seed <= 50; ++seed) {
@@ -186,7 +186,7 @@ TEST_CASE("on air: the state of a node when a frame began is kept as long as the
     CHECK(unchanged > 1000);
 }
 
-TEST_CASE("on air: reach() is the interference range, or the diagonal of all antennas if smaller") {
+TEST_CASE("on air: reach() is the interference range, but at most the diagonal of all antennas") {
     OnAir on_air;
     on_air.goes(rest({0, 0, 0}), Meters{0});
     on_air.goes(rest({3, 0, 0}), Meters{4});

@@ -62,7 +62,8 @@ TEST_CASE("sinr: the receiver locks onto the first frame, however strong a later
     CHECK(r.judge(strong) == Fate::collided);
 }
 
-TEST_CASE("sinr: of frames that begin together it locks onto the strongest, in any order") {
+TEST_CASE(
+    "sinr: the receiver locks onto the strongest of the frames that begin together, in any order") {
     for (const bool strong_first : {true, false}) {
         Receiver r;
         const double first = strong_first ? -40 : -80;
@@ -73,7 +74,7 @@ TEST_CASE("sinr: of frames that begin together it locks onto the strongest, in a
     }
 }
 
-TEST_CASE("sinr: the order has no effect if any preamble is detected") {
+TEST_CASE("sinr: if every preamble is detected, the order of simultaneous frames has no effect") {
     Receiver r{.model = {.preamble_threshold = Db{-1000}}};
     const auto weak = r.hear(NodeId{1}, at(0), at(100), -80);
     const auto strong = r.hear(NodeId{2}, at(0), at(100), -40);
@@ -81,7 +82,7 @@ TEST_CASE("sinr: the order has no effect if any preamble is detected") {
     CHECK(r.judge(strong) == Fate::waiting);
 }
 
-TEST_CASE("sinr: a preamble is detected if it exceeds the threshold after 4 us") {
+TEST_CASE("sinr: a preamble is detected if its SINR exceeds the threshold 4 us after it begins") {
     for (const double above : {3.9, 4.1}) {
         Receiver r;
         r.hear(NodeId{1}, at(0), at(20), -60, false);  // is over before the payload begins
@@ -113,7 +114,7 @@ TEST_CASE("sinr: a preamble is detected if it exceeds the threshold after 4 us")
     }
 }
 
-TEST_CASE("sinr: if a preamble is not detected, the receiver is free for the next one") {
+TEST_CASE("sinr: after a preamble that is not detected, the receiver is free for the next frame") {
     Receiver r;
     const auto first = r.hear(NodeId{1}, at(0), at(100), -80);
     const auto second = r.hear(NodeId{2}, at(2), at(202), -60);
@@ -146,7 +147,8 @@ TEST_CASE("sinr: a transmitting node receives nothing, and releases its lock") {
     CHECK(r.judge(next) == Fate::waiting);
 }
 
-TEST_CASE("sinr: a later own transmission does not free the receiver earlier") {
+TEST_CASE(
+    "sinr: the receiver's own later transmission does not release its lock on an earlier frame") {
     Receiver r;
     r.hear(NodeId{1}, at(0), at(100), -50);
     const auto second = r.hear(NodeId{2}, at(10), at(50), -30);
@@ -154,7 +156,7 @@ TEST_CASE("sinr: a later own transmission does not free the receiver earlier") {
     CHECK(r.judge(second) == Fate::collided);
 }
 
-TEST_CASE("sinr: a draw is made where bits may fail, and only there") {
+TEST_CASE("sinr: a random draw decides only frames whose bits may fail") {
     Receiver r;
     const double weak = -94 + certain_sinr(Modulation::cck_11).value - 8;
     for (const bool lucky : {true, false}) {
@@ -167,7 +169,7 @@ TEST_CASE("sinr: a draw is made where bits may fail, and only there") {
     }
 }
 
-TEST_CASE("sinr: interference adds to the noise: equal to it, it costs 3 dB") {
+TEST_CASE("sinr: interference is added to the noise, so as much interference as noise costs 3 dB") {
     constexpr double noise = -94, above = 8.5, bits = 1100;
     const double sinr = math::exp10(above / 10) / 2;
     const double probability = math::exp(bits * log_success(Modulation::cck_11, sinr));
@@ -220,7 +222,7 @@ TEST_CASE("sinr: interference has the same bits in any order of frames (S28)") {
     }
 }
 
-TEST_CASE("sinr: a frame without a signal is lost, without 0 / 0 (S29)") {
+TEST_CASE("sinr: a frame with practically no signal is lost, without a division 0 / 0 (S29)") {
     Receiver r;
     const auto nothing = r.hear(NodeId{1}, at(0), at(100), -10000);
     CHECK(r.judge(nothing) == Fate::garbled);

@@ -69,7 +69,7 @@ TEST_CASE("fading: quantiles of the power equal the vectors") {
     CHECK(test::near(10 * std::log10(rayleigh.quantile(0.01)), -19.98, 0.005));
 }
 
-TEST_CASE("fading: gains are cut at the quantile of 1 - 1e-6, 11.4 dB for rayleigh") {
+TEST_CASE("fading: gains are limited to the quantile of 1 - 1e-6, which is 11.4 dB for rayleigh") {
     CHECK(test::near(Fades({.model = FadingModel::rayleigh}, 1, 0).most().value, 11.404, 5e-4));
     const Fading even{.model = FadingModel::nakagami, .m = 1};
     CHECK(test::near(Fades(even, 1, 0).most().value, 11.404, 5e-4));
@@ -77,7 +77,7 @@ TEST_CASE("fading: gains are cut at the quantile of 1 - 1e-6, 11.4 dB for raylei
     CHECK(test::near(Fades(sight, 1, 0).most().value, 11.404, 5e-4));
 }
 
-TEST_CASE("fading: with a strong line of sight the power is the local mean") {
+TEST_CASE("fading: with a strong line of sight the power stays within 1.5 dB of the local mean") {
     const Fades fades({.model = FadingModel::rician, .k_factor = Db{30}}, 1, 0);
     CHECK(fades.most().value < 1);
     for (std::uint64_t i = 0; i < 100; ++i) {
@@ -85,7 +85,7 @@ TEST_CASE("fading: with a strong line of sight the power is the local mean") {
     }
 }
 
-TEST_CASE("fading: powers of frames have the distribution, with mean 1") {
+TEST_CASE("fading: by frame, powers have the right distribution, with mean 1") {
     for (const Fading& settings : all_settings(Coherence::frame)) {
         const Fades fades(settings, 5, 2);
         std::vector<double> powers;
@@ -97,7 +97,7 @@ TEST_CASE("fading: powers of frames have the distribution, with mean 1") {
     }
 }
 
-TEST_CASE("fading: P(g < 0.1) of rayleigh is 0.09516: a power, not an amplitude") {
+TEST_CASE("fading: P(g < 0.1) of rayleigh is 0.09516, because g is a power and not an amplitude") {
     const Fades fades({.model = FadingModel::rayleigh}, 6, 0);
     int below = 0;
     constexpr int n = 40'000;
@@ -106,7 +106,8 @@ TEST_CASE("fading: P(g < 0.1) of rayleigh is 0.09516: a power, not an amplitude"
     CHECK(test::near(below / double{n}, 0.09516, 4 * std::sqrt(0.09516 / n)));
 }
 
-TEST_CASE("fading: each frame at each receiver has its own gain") {
+TEST_CASE(
+    "fading: the gain depends on the frame and the receiver, not on the receiver's position") {
     const Fades fades({.model = FadingModel::rayleigh}, 5, 2);
     const Fades::Frame frame{11, 4, {}, {9, 0, 0}, frequency};
     Fades::Frame other = frame;
@@ -120,7 +121,7 @@ TEST_CASE("fading: each frame at each receiver has its own gain") {
     CHECK(fades.gain(frame).value == fades.gain(other).value);
 }
 
-TEST_CASE("fading: powers of places have the distribution, with mean 1 over the seeds") {
+TEST_CASE("fading: by place, powers have the right distribution, with mean 1 over the seeds") {
     for (const Fading& settings : all_settings(Coherence::place)) {
         std::vector<double> powers;
         for (std::uint64_t seed = 0; seed < 40; ++seed) {
@@ -135,7 +136,8 @@ TEST_CASE("fading: powers of places have the distribution, with mean 1 over the 
     }
 }
 
-TEST_CASE("fading: a robot that returns finds the same gain, in both directions and any frame") {
+TEST_CASE(
+    "fading: by place, a robot that returns finds the same gain, both ways and for any frame") {
     for (const Fading& settings : all_settings(Coherence::place)) {
         const Fades fades(settings, 5, 2);
         for (int i = 0; i < 50; ++i) {
@@ -149,7 +151,7 @@ TEST_CASE("fading: a robot that returns finds the same gain, in both directions 
     }
 }
 
-TEST_CASE("fading: the power correlation is J0^2 as one end moves (vectors: Jakes)") {
+TEST_CASE("fading: as one end moves, the correlation of the power is J0^2 (table of Jakes)") {
     const test::Vectors vectors("jakes_autocorr_2450MHz.csv");
     std::vector<Fades> seeds;
     for (std::uint64_t seed = 0; seed < 300; ++seed) {
@@ -184,7 +186,7 @@ TEST_CASE("fading: the power correlation is J0^2 as one end moves (vectors: Jake
     CHECK(rows >= 4);
 }
 
-TEST_CASE("fading: a moving robot crosses levels as often as Rice's formula (vectors)") {
+TEST_CASE("fading: a moving robot crosses levels as often as in Rice's formula (table)") {
     const test::Vectors vectors("rayleigh_lcr_afd.csv");
     constexpr int seeds = 40, steps = 2000;
     constexpr double step = 0.02;  // wavelengths
@@ -254,7 +256,7 @@ std::vector<double> crossings_over_theory(double m, const std::vector<double>& l
 
 }  // namespace
 
-TEST_CASE("fading: nakagami of places crosses levels as often as in theory") {
+TEST_CASE("fading: with nakagami fading by place, levels are crossed as often as in theory") {
     constexpr double noise = 0.13;  // of 40 fields of 32 waves, and of a hundred crossings or more
     for (const double m : {0.5, 1.5, 2.0, 3.0}) {
         std::vector<double> levels{-10, -5, 0, 3};

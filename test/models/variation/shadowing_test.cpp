@@ -74,7 +74,7 @@ struct Pairs {
 
 }  // namespace
 
-TEST_CASE("shadowing field: the two directions agree to the last bit") {
+TEST_CASE("shadowing field: both directions of a link agree to the last bit") {
     const ShadowingField field(decorrelation, 7, 1);
     for (std::uint64_t i = 0; i < 200; ++i) {
         const Vec3 a = place(1, i), b = place(2, i);
@@ -83,14 +83,15 @@ TEST_CASE("shadowing field: the two directions agree to the last bit") {
     }
 }
 
-TEST_CASE("shadowing field: is a function of seed, replication and positions") {
+TEST_CASE(
+    "shadowing field: the value depends on seed and replication, and is the same in each call") {
     const Vec3 a{3, 4, 1}, b{40, -2, 1};
     CHECK(ShadowingField(decorrelation, 7, 1)(a, b) == ShadowingField(decorrelation, 7, 1)(a, b));
     CHECK(ShadowingField(decorrelation, 7, 1)(a, b) != ShadowingField(decorrelation, 8, 1)(a, b));
     CHECK(ShadowingField(decorrelation, 7, 1)(a, b) != ShadowingField(decorrelation, 7, 2)(a, b));
 }
 
-TEST_CASE("shadowing field: has mean 0 and variance 1 at any distance of the ends") {
+TEST_CASE("shadowing field: values have mean 0 and variance 1, at any distance between the ends") {
     for (const double apart : {0.1, 3.0, 30.0}) {
         CAPTURE(apart);
         const Moments m = moments([&](std::uint64_t seed, std::uint64_t i) {
@@ -103,7 +104,8 @@ TEST_CASE("shadowing field: has mean 0 and variance 1 at any distance of the end
     }
 }
 
-TEST_CASE("shadowing field: the correlation is e^(-D / d_cor) as either end moves (vectors)") {
+TEST_CASE(
+    "shadowing field: as either end moves, the correlation is e^(-D / d_cor), as in the table") {
     const test::Vectors vectors("field_correlation.csv");
     int rows = 0;
     for (std::size_t row = 0; row < vectors.size(); ++row) {
@@ -126,7 +128,8 @@ TEST_CASE("shadowing field: the correlation is e^(-D / d_cor) as either end move
     CHECK(rows == 4);
 }
 
-TEST_CASE("shadowing field: the correlation is the product as both ends move") {
+TEST_CASE(
+    "shadowing field: as both ends move, the correlation is the product of their correlations") {
     const Moments m = moments([&](std::uint64_t seed, std::uint64_t i) {
         const Vec3 a = place(seed, i), b = a + Vec3{0, 80, 0};
         return Pairs{a, b, a + Vec3{3, 0, 0}, b + Vec3{0, 5, 0}};

@@ -39,8 +39,7 @@ bool has(const std::string& svg, const std::string& text) { return svg.find(text
 
 }  // namespace
 
-TEST_CASE(
-    "budget chart: each bar begins where the one before ends, the margin at the sensitivity") {
+TEST_CASE("budget chart: each bar begins where the previous bar ends; the last bar is the margin") {
     const std::string svg = budget_chart_svg(office());
     const auto gains = bars(svg, "gain"), losses = bars(svg, "loss"), margins = bars(svg, "margin");
     REQUIRE(gains.size() == 1);
@@ -59,7 +58,9 @@ TEST_CASE(
     CHECK(has(svg, "wall &lt;1&gt;"));
 }
 
-TEST_CASE("budget chart: a level below the sensitivity lacks decibels") {
+TEST_CASE(
+    "budget chart: if the level is below the sensitivity, the last bar shows the missing "
+    "decibels") {
     BudgetChart chart = office();
     chart.sensitivity = -40;
     const std::string svg = budget_chart_svg(chart);

@@ -56,7 +56,7 @@ TEST_CASE("chart axis: ticks are multiples of 1, 2 or 5 times a power of ten, wi
     }
 }
 
-TEST_CASE("chart axis: ends at a tick, or slightly beyond one") {
+TEST_CASE("chart axis: an axis ends at a tick, or slightly beyond its last tick") {
     const ChartAxis at_ticks = number_axis(range({2, 97}), false, 11);
     CHECK((at_ticks.low == 0 && at_ticks.high == 100));
     const ChartAxis beyond = number_axis(range({-0.01, 1.01}), false, 7);
@@ -111,7 +111,8 @@ TEST_CASE("chart axis: a value is placed linearly between the ends") {
 }
 
 TEST_CASE(
-    "chart axis: a logarithmic axis has labels at decades, or at 1, 2 and 5 of a few decades") {
+    "chart axis: a logarithmic axis has labels at powers of ten; a short one also at their double "
+    "and fivefold") {
     CHECK(texts(number_axis(range({0.001, 1e4}), true, 8)) == Texts{"0.001", "0.01", "0.1", "1",
                                                                     "10", "100", "1000",
                                                                     "10\xc2\xa0"
@@ -127,7 +128,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("chart axis: small ticks of a decade are at 2 to 9") {
+TEST_CASE("chart axis: small ticks of a logarithmic axis are at 2 to 9 times a power of ten") {
     const ChartAxis axis = number_axis(range({1, 10}), true, 3);
     REQUIRE(axis.ticks.size() == 10);
     for (int i = 0; i < 9; ++i) CHECK(axis.ticks[static_cast<std::size_t>(i)].value == i + 1);
@@ -170,7 +171,7 @@ TEST_CASE("chart axis: labels of ticks have the digits of their step") {
     CHECK(texts(number_axis(range({99.5, 100.5}), false, 3)) == Texts{"99.5", "100.0", "100.5"});
 }
 
-TEST_CASE("chart axis: a value is printed to a hundredth of the axis") {
+TEST_CASE("chart axis: a value is printed with a resolution of a hundredth of the axis") {
     const ChartAxis axis = number_axis(range({0, 1}), false, 6);
     CHECK(axis.text(0.126) == "0.13");
     CHECK(axis.text(1) == "1.00");
@@ -206,7 +207,7 @@ TEST_CASE("chart axis: whole numbers have no ticks with fractions") {
     CHECK_FALSE(few.whole());
 }
 
-TEST_CASE("chart axis: words are in the middle of equal parts") {
+TEST_CASE("chart axis: on an axis of words, each word is in the middle of one of the equal parts") {
     const ChartAxis axis = word_axis({"a", "b", "c", "d"});
     CHECK(std::abs(axis.share(0) - 0.125) < rounding);
     CHECK(std::abs(axis.share(3) - 0.875) < rounding);

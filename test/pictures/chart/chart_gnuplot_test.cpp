@@ -72,12 +72,13 @@ TEST_CASE("gnuplot: a script contains the values and intervals of each series") 
     CHECK(has(text, "set title 't'"));
 }
 
-TEST_CASE("gnuplot: a missing value breaks the line, and a missing interval is not a number") {
+TEST_CASE("gnuplot: a missing value breaks the line, and a missing interval is written as NaN") {
     Chart chart{.series = {{"s", {{.x = 1, .y = 1}, {.x = 2, .y = no_number}, {.x = 3, .y = 3}}}}};
     CHECK(has(chart_gnuplot(chart), "1 1 NaN NaN 0\n\n3 3 NaN NaN 0\n"));
 }
 
-TEST_CASE("gnuplot: a cdf has steps, a heat map cells, and bars stand side by side") {
+TEST_CASE(
+    "gnuplot: a cdf is drawn with steps, a heat map with cells, and bars are drawn side by side") {
     const Chart cdf{.kind = ChartKind::cdf, .series = {{"s", {{.x = 4}, {.x = 2}}}}};
     CHECK(has(chart_gnuplot(cdf), "# x share\n2 0\n2 0.5\n4 1\n4 1\n"));
     Chart two{.kind = ChartKind::heat_map,
@@ -102,7 +103,9 @@ TEST_CASE("gnuplot: texts are in single quotes, on one line") {
     CHECK(has(text, "'it\xe2\x80\x99s `x` \"y\" 5%%' 3"));
 }
 
-TEST_CASE("gnuplot: draws every kind without a warning, and executes no text as a command") {
+TEST_CASE(
+    "gnuplot: every kind of chart is drawn without a warning, and no text is executed as a "
+    "command") {
     if (!gnuplot_is_there()) {
         MESSAGE("skipped: gnuplot is not installed");
         return;

@@ -30,7 +30,8 @@ Chart two_points() {
 
 }  // namespace
 
-TEST_CASE("chart: a reference line of a scatter passes through the marks that it names") {
+TEST_CASE(
+    "chart: a reference line of a scatter chart passes through marks at the points of the line") {
     Chart chart = two_points();
     chart.guides.push_back({.points = {{.x = 1, .y = 1}, {.x = 10, .y = 5}}, .dashed = true});
     const auto svg = svg_elements(drawn(chart));
@@ -45,7 +46,7 @@ TEST_CASE("chart: a reference line of a scatter passes through the marks that it
     CHECK(line[0].attributes.at("stroke-dasharray") != "none");
 }
 
-TEST_CASE("chart: an interval along x is a horizontal whisker, and extends the axis") {
+TEST_CASE("chart: an interval of x values is a horizontal whisker to both sides of its mark") {
     const auto svg = svg_elements(drawn(two_points()));
     const auto whisker = corners(of_class(svg, "whisker").at(0)).at(0);
     const PicturePoint mark = middle(of_class(svg, "mark").at(0));
@@ -55,7 +56,7 @@ TEST_CASE("chart: an interval along x is a horizontal whisker, and extends the a
     CHECK(whisker.at(1).x > mark.x + 10);
 }
 
-TEST_CASE("chart: a band extends from the lower edge to its end, within the axis") {
+TEST_CASE("chart: a band of y values up to a limit is drawn below the limit, with its label") {
     Chart chart = two_points();
     chart.band = 0.5;
     chart.band_label = "nobody knows";

@@ -113,7 +113,7 @@ TEST_CASE("chart: marks stay within the axes, also at the ends and side by side"
     }
 }
 
-TEST_CASE("chart: a point with y = 0.5 is midway between the ticks 0 and 1, and so in x") {
+TEST_CASE("chart: a point halfway between two ticks, in x and in y, is drawn midway between them") {
     for (const ChartKind kind : {ChartKind::lines, ChartKind::scatter}) {
         const auto svg = svg_elements(
             drawn(one_series(kind, {{.x = 0, .y = 0}, {.x = 5, .y = 0.5}, {.x = 10, .y = 1}})));
@@ -126,7 +126,8 @@ TEST_CASE("chart: a point with y = 0.5 is midway between the ticks 0 and 1, and 
     }
 }
 
-TEST_CASE("chart: on a logarithmic axis the geometric mean is midway") {
+TEST_CASE(
+    "chart: on logarithmic axes, the geometric mean of two ticks is drawn midway between them") {
     Chart log = one_series(ChartKind::lines,
                            {{.x = 1, .y = 0.01}, {.x = 10, .y = 1}, {.x = 100, .y = 100}});
     log.log_x = log.log_y = true;
@@ -136,7 +137,7 @@ TEST_CASE("chart: on a logarithmic axis the geometric mean is midway") {
     CHECK(near(p.y, (y_tick(svg, "0.01") + y_tick(svg, "100")) / 2));
 }
 
-TEST_CASE("chart: a band contains the line and ends at the intervals") {
+TEST_CASE("chart: a band contains the line, and its edges are the ends of the intervals") {
     const auto svg = svg_elements(drawn(ramp(ChartKind::lines, 10)));
     const auto line = corners(of_class(svg, "line").at(0)).at(0);
     const auto band = corners(of_class(svg, "band").at(0)).at(0);
@@ -152,7 +153,7 @@ TEST_CASE("chart: a band contains the line and ends at the intervals") {
     CHECK(of_class(svg, "whisker").empty());
 }
 
-TEST_CASE("chart: few points have whiskers from low to high, and no band") {
+TEST_CASE("chart: a chart with few points draws whiskers from low to high, and no band") {
     const auto svg = svg_elements(drawn(ramp(ChartKind::lines, 4)));
     CHECK(of_class(svg, "band").empty());
     const auto found = stems(of_class(svg, "whisker").at(0));
@@ -189,7 +190,7 @@ TEST_CASE("chart: a line is broken where a value is missing") {
     CHECK(has(text, "1 value left out: not finite"));
 }
 
-TEST_CASE("chart: bands, whiskers and axis end at the largest number") {
+TEST_CASE("chart: bands, whiskers and axis end at the limits of the quantity, such as 0 and 1") {
     for (const int points : {4, 9}) {  // whiskers, a band
         Chart ratio = one_series(ChartKind::lines, {});
         ratio.y_limits = {.low = 0, .high = 1};
@@ -284,7 +285,7 @@ TEST_CASE("chart: bars begin at 0 and end at their values, whiskers at the ends 
     CHECK(near(whiskers[0][0].x, first + width / 2));
 }
 
-TEST_CASE("chart: dots replace bars that would look equal") {
+TEST_CASE("chart: if bars would look equal, dots are drawn instead") {
     const auto svg = svg_elements(drawn(one_series(
         ChartKind::bars, {{.category = "a", .y = 95, .low = 94}, {.category = "b", .y = 100}})));
     CHECK(of_class(svg, "bar").empty());
@@ -319,7 +320,8 @@ TEST_CASE("chart: the steps of a cdf rise by the share of points at each x") {
 }
 
 TEST_CASE(
-    "chart: cells are at their words, the first row at the bottom, in the colours of the bar") {
+    "chart: cells of a heat map are at their labels, the first row at the bottom, in the colours "
+    "of the scale") {
     Chart heat = one_series(ChartKind::heat_map, {{.x = 1, .y = 0}, {.x = 2, .y = 50}});
     heat.series.push_back({"above", {{.x = 2, .y = 100}}});
     const std::string text = drawn(heat);
@@ -387,7 +389,9 @@ TEST_CASE("chart: labels of a scatter overlap neither each other nor marks") {
     if (homeless > 0) CHECK(has(text, fmt::format("no room for {} label", homeless)));
 }
 
-TEST_CASE("chart: a label between whiskers is below or above its own, and under no whisker") {
+TEST_CASE(
+    "chart: a label without room beside its mark is above or below its whisker, and overlaps no "
+    "whisker") {
     // Three whiskers too near to one another for a label between them, the middle one the longest
     // at one end or the other; the others' labels stand left and right of their marks.
     for (const double longer : {-0.1, 0.1}) {
@@ -428,7 +432,8 @@ TEST_CASE("chart: a label between whiskers is below or above its own, and under 
     }
 }
 
-TEST_CASE("chart: whiskers beyond a logarithmic axis end at it, without a cap") {
+TEST_CASE(
+    "chart: a whisker that reaches beyond a logarithmic axis ends at the axis, without a cap") {
     Chart scatter = one_series(ChartKind::scatter, {{.x = 1, .y = 10, .low = -1, .high = 20},
                                                     {.x = 2, .y = 5, .low = 4, .high = 6}});
     scatter.log_y = true;
@@ -453,12 +458,13 @@ TEST_CASE("chart: series differ in colour, and in mark or dashes") {
     CHECK(dashes.size() == 4);
 }
 
-TEST_CASE("chart: a mark shows its values under the pointer") {
+TEST_CASE("chart: a mark has a tooltip with its values") {
     const std::string text = drawn(ramp(ChartKind::lines, 4));
     CHECK(has(text, "<title>s: 2, 0.2 (0.15 to 0.3), n = 7</title>"));
 }
 
-TEST_CASE("marks beside a line are hollow, in its colour, and not joined by a line") {
+TEST_CASE(
+    "chart: points given beside a curve are hollow marks in its colour, not joined by a line") {
     Chart chart = one_series(ChartKind::lines, {{.x = 0, .y = 1}, {.x = 5, .y = 2}});
     chart.series.push_back({"beside", {{.x = 2, .y = 1.5}, {.x = 3, .y = 1.2}}, 0});
     const auto svg = svg_elements(drawn(chart));
@@ -478,7 +484,9 @@ TEST_CASE("marks beside a line are hollow, in its colour, and not joined by a li
     CHECK(count("fill", color) == 2);
 }
 
-TEST_CASE("marks without intervals stand at their x, also where they hide one another") {
+TEST_CASE(
+    "chart: marks without intervals are drawn at their x even if they overlap; marks with "
+    "intervals are moved apart") {
     Chart chart{.kind = ChartKind::lines,
                 .series = {{"a", {{.x = 1, .y = 1}, {.x = 2, .y = 2}}},
                            {"b", {{.x = 1, .y = 1}, {.x = 2, .y = 3}}}}};
@@ -496,7 +504,7 @@ TEST_CASE("marks without intervals stand at their x, also where they hide one an
     CHECK(lines()[0] != lines()[1]);
 }
 
-TEST_CASE("axes: a line at zero only where the axis has a zero") {
+TEST_CASE("chart: a line at zero is drawn only if the axis contains zero") {
     const auto zero_lines = [](double low) {
         const Chart chart{.kind = ChartKind::lines,
                           .series = {{"a", {{.x = 1, .y = low}, {.x = 2, .y = 100}}}}};

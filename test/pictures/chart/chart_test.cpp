@@ -85,7 +85,8 @@ TEST_CASE("chart: an empty chart of any kind has a text that says so") {
     }
 }
 
-TEST_CASE("chart: any text is well-formed, and nothing is drawn outside the picture") {
+TEST_CASE(
+    "chart: with any text a chart is well-formed XML, and nothing is drawn outside the picture") {
     const std::string markup = "</text><b a=\"1\">&amp;'\x01\xff %s \\n", longest(200, 'W');
     for (const auto& text : {markup, longest, longest + " " + markup, std::string()}) {
         const std::string svg = chart_svg(gallery(text), {.title = text});
@@ -103,7 +104,7 @@ TEST_CASE("chart: any text is well-formed, and nothing is drawn outside the pict
     }
 }
 
-TEST_CASE("chart: the legend has the key as its title, in every kind of file") {
+TEST_CASE("chart: the legend has the varied key as its title, in SVG and in gnuplot") {
     Chart lines = one_series(ChartKind::lines, {{.x = 1, .y = 1}, {.x = 2, .y = 2}});
     lines.legend_title = "ttl";
     const auto svg = svg_elements(drawn(lines));
@@ -117,7 +118,7 @@ TEST_CASE("chart: the legend has the key as its title, in every kind of file") {
     CHECK(has(chart_gnuplot(lines), "title 'ttl'"));
 }
 
-TEST_CASE("chart: axes in gnuplot end at the limits") {
+TEST_CASE("chart: axes in gnuplot end at the limits of the quantity") {
     Chart lines = one_series(ChartKind::lines, {{.x = 1, .y = 0.1, .low = -0.3, .high = 0.5},
                                                 {.x = 2, .y = 0.9, .low = 0.6, .high = 1.3}});
     lines.y_limits = {.low = 0, .high = 1};
@@ -190,7 +191,8 @@ TEST_CASE("chart: panels are in rows, with their axes at one height") {
     CHECK((one[0].x == one[4].x && one[4].y > one[1].y));
 }
 
-TEST_CASE("chart: a row has room for the longest title and the most notes") {
+TEST_CASE(
+    "chart: every chart of a row leaves room for the longest title and the most notes of the row") {
     std::vector<Chart> charts{one_series(ChartKind::lines, {{.x = 1, .y = 1}}), Chart{}, Chart{}};
     const auto plain = panels(chart_svg(charts));
     charts[0].title = "two lines " + std::string(40, 'w') + " " + std::string(40, 'w');

@@ -37,7 +37,7 @@ TEST_CASE("chart view: a line goes through its points in the order of x, broken 
     CHECK(points[2].joined);
 }
 
-TEST_CASE("chart view: omitted points are counted, and ends of intervals like values") {
+TEST_CASE("chart view: values and ends of intervals that are not finite are left out and counted") {
     const Chart lines = chart(ChartKind::lines, {{.x = no_number, .y = 1},
                                                  {.x = 1, .y = infinity},
                                                  {.x = 2, .y = 2e100},
@@ -51,7 +51,9 @@ TEST_CASE("chart view: omitted points are counted, and ends of intervals like va
     CHECK(view.notes == Texts{"4 values left out: not finite"});
 }
 
-TEST_CASE("chart view: a logarithmic axis omits values that are not above 0, but no whisker ends") {
+TEST_CASE(
+    "chart view: a logarithmic axis omits values that are not above 0, but keeps such ends of "
+    "whiskers") {
     Chart scatter =
         chart(ChartKind::scatter,
               {{.x = 0, .y = 1}, {.x = 1, .y = -1}, {.x = 2, .y = 2, .low = -1, .high = 3}});
@@ -65,7 +67,9 @@ TEST_CASE("chart view: a logarithmic axis omits values that are not above 0, but
     CHECK(view.notes == Texts{"2 values left out: not finite, or not above 0"});
 }
 
-TEST_CASE("chart view: words keep their order, after numbers in ascending order") {
+TEST_CASE(
+    "chart view: on an axis of words, numbers come first in ascending order, then the words in "
+    "their order") {
     const Chart bars = chart(ChartKind::bars, {{.category = "b", .y = 1},
                                                {.x = 20, .y = 2},
                                                {.category = "a", .y = 3},
@@ -79,7 +83,7 @@ TEST_CASE("chart view: words keep their order, after numbers in ascending order"
     CHECK(view.series[0][2].y == 1);
 }
 
-TEST_CASE("chart view: x is a word if a point has a word") {
+TEST_CASE("chart view: if one point has a word as x, the axis is one of words") {
     CHECK_FALSE(view_of(chart(ChartKind::lines, {{.x = 1, .y = 1}})).has_words);
     CHECK(view_of(chart(ChartKind::lines, {{.category = "w", .y = 1}})).has_words);
     CHECK(view_of(chart(ChartKind::heat_map, {{.x = 1, .y = 1}})).has_words);
@@ -117,7 +121,7 @@ TEST_CASE("chart view: bars begin at 0, and become dots if all would look equal"
     CHECK(view_of(log).dots);
 }
 
-TEST_CASE("chart view: series with few points, or with words on x, have no band") {
+TEST_CASE("chart view: series with few points, or with words as x, have no band") {
     Chart lines = chart(ChartKind::lines, {});
     for (int i = 0; i < 6; ++i) {
         CHECK_FALSE(has_band(view_of(lines), 0));
@@ -128,7 +132,7 @@ TEST_CASE("chart view: series with few points, or with words on x, have no band"
     CHECK_FALSE(has_band(view_of(lines), 0));
 }
 
-TEST_CASE("chart view: bars at a word are side by side around it") {
+TEST_CASE("chart view: bars of one word are side by side, centred at the word") {
     CHECK(std::abs(bar_offset(0, 1)) < rounding);
     CHECK(std::abs(bar_offset(0, 2) + 0.2) < rounding);
     CHECK(std::abs(bar_offset(1, 2) - 0.2) < rounding);

@@ -38,7 +38,7 @@ std::string drawn(const DotPlot& plot) { return dot_plot_svg({&plot, 1}, "", 640
 
 }  // namespace
 
-TEST_CASE("dot plot: every name is complete, however close the dots are") {
+TEST_CASE("dot plot: every name is printed completely, even if dots are close together") {
     const std::string svg = drawn(crowded(20));
     for (int i = 0; i < 20; ++i) CHECK(count(svg, ">model " + std::to_string(i) + "</text>") == 1);
     CHECK(count(svg, "class=\"whisker\"") == 20);

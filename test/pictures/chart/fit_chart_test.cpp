@@ -44,7 +44,9 @@ std::vector<double> places(const std::string& svg, const std::string& kind) {
 
 }  // namespace
 
-TEST_CASE("fit chart: costs have one digit, as fractions of the reference or multiples of it") {
+TEST_CASE(
+    "fit chart: costs are printed with one digit, as fractions or multiples of the reference's "
+    "cost") {
     CHECK(cost_text(2.4e-4) == "1/4,000");
     CHECK(cost_text(3e-5) == "1/30,000");
     CHECK(cost_text(1.0 / 1'600'000) == "1/2,000,000");
@@ -55,14 +57,16 @@ TEST_CASE("fit chart: costs have one digit, as fractions of the reference or mul
     CHECK(cost_text(10) == "10 times");
 }
 
-TEST_CASE("fit chart: the least error of a row is the smaller one, or the only one") {
+TEST_CASE("fit chart: the least error of a row is the smaller of its two errors, or its only one") {
     CHECK(FitRow{"a", 0.4, {}}.least_error() == 0.4);
     CHECK(FitRow{"a", {}, 0.3}.least_error() == 0.3);
     CHECK(FitRow{"a", 0.1, 0.3}.least_error() == 0.1);
     CHECK(std::isinf(FitRow{"a"}.least_error()));
 }
 
-TEST_CASE("fit chart: a hollow dot for what is given, a filled one for what is fitted, one scale") {
+TEST_CASE(
+    "fit chart: a hollow dot is the error as given, a filled dot the error after the fit, on one "
+    "scale") {
     const std::string svg = fit_chart_svg(two_scenes());
     const auto given = places(svg, "as-given"), fitted = places(svg, "fitted");
     REQUIRE(given.size() == 3);
@@ -73,7 +77,7 @@ TEST_CASE("fit chart: a hollow dot for what is given, a filled one for what is f
     CHECK(count(svg, "class=\"guide\"") == 1);
 }
 
-TEST_CASE("fit chart: the best row has its error as a number, and no other row has") {
+TEST_CASE("fit chart: only the best row has its error printed as a number") {
     const std::string svg = fit_chart_svg(two_scenes());
     CHECK(count(svg, ">0.04</text>") == 1);
     CHECK(count(svg, ">0.24</text>") == 0);

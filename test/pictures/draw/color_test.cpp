@@ -65,7 +65,7 @@ TEST_CASE("color: the scale for differences goes from blue over white to orange"
     }
 }
 
-TEST_CASE("color: grey steps between the grades of a scale can be distinguished") {
+TEST_CASE("color: neighbouring grades of a colour scale can be distinguished in grey") {
     constexpr double least = 0.01;  // of luminance, at the dark end
     for (int i = 0; i < 8; ++i) {
         CHECK(luminance(lagoon.at((i + 1) / 8.0)) - luminance(lagoon.at(i / 8.0)) > least);
@@ -75,7 +75,8 @@ TEST_CASE("color: grey steps between the grades of a scale can be distinguished"
     }
 }
 
-TEST_CASE("color: a scale is clamped at its ends, and for NaN") {
+TEST_CASE(
+    "color: a value beyond a scale has the colour of the nearer end, and NaN that of the low end") {
     CHECK(lagoon.at(-1) == lagoon.at(0));
     CHECK(lagoon.at(2) == lagoon.at(1));
     CHECK(lagoon.at(std::numeric_limits<double>::quiet_NaN()) == lagoon.at(0));

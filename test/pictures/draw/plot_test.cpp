@@ -28,7 +28,7 @@ Extent extent(Vec3 low, Vec3 high) {
 
 }  // namespace
 
-TEST_CASE("plot: an extent grows around discs and points") {
+TEST_CASE("plot: an extent includes given discs and points, and can be enlarged") {
     Extent e;
     CHECK(e.empty());
     e.include({1, 2}, 0.5);
@@ -41,7 +41,8 @@ TEST_CASE("plot: an extent grows around discs and points") {
     CHECK(e.height() == 7.5);
 }
 
-TEST_CASE("plot: fills its width or height, y points up, and both axes have one scale") {
+TEST_CASE(
+    "plot: a plot fills its width or height, y points up, and both axes have the same scale") {
     const Plot wide(extent({0, 0}, {20, 10}), {16, 50}, {.width = 1000, .height = 900});
     CHECK(near(wide.scale, 50));
     CHECK((near(wide.width, 1000) && near(wide.height, 500)));
@@ -93,7 +94,7 @@ TEST_CASE("plot: ticks are multiples of a round step inside the range, and not t
     }
 }
 
-TEST_CASE("plot: lengths have a suitable unit") {
+TEST_CASE("plot: lengths are printed in a suitable unit") {
     CHECK(length_text(2000) == "2 km");
     CHECK(length_text(5) == "5 m");
     CHECK(length_text(0.2) == "20 cm");
@@ -107,7 +108,7 @@ TEST_CASE("legend: the scale bar has the length that it states") {
     CHECK(near(bar.width, 20 * 1000 / 130.0));
 }
 
-TEST_CASE("legend: has the height of its rows, and one row if there is room") {
+TEST_CASE("legend: its height is that of its rows, and there is a single row if it fits") {
     Legend legend;
     CHECK(legend.height(500) == 0);
     for (int i = 0; i < 6; ++i) legend.add({.text = "about 60 px", .draw = {}});
@@ -124,7 +125,7 @@ TEST_CASE("legend: captions are broken between parts, and a long part between wo
     CHECK(wrapped({"indivisible"}, 30, 12) == std::vector<std::string>{"indivisible"});
 }
 
-TEST_CASE("label: positions are tried right, left, above, below; each is used once") {
+TEST_CASE("label: positions are tried right, left, above, below, and labels never overlap") {
     LabelPlaces places({0, 0, 200, 200});
     std::vector<Box> taken;
     for (int i = 0; i < 20; ++i) {

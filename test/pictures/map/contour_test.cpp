@@ -66,7 +66,7 @@ double length(const std::vector<ContourLine>& lines) {
 
 }  // namespace
 
-TEST_CASE("contour: in free space it is a circle at the model's reach, counter-clockwise") {
+TEST_CASE("contour: in free space the line is a circle with the model's reach, counter-clockwise") {
     const Scene scene;
     const Radio weak{.power = {-30}};
     const Transmitter t{.model = Friis{}, .radio = weak, .antenna = {1, -2, 1}, .scene = &scene};
@@ -85,7 +85,7 @@ TEST_CASE("contour: in free space it is a circle at the model's reach, counter-c
     CHECK(std::abs(area(lines[0]) / (std::numbers::pi * reach * reach) - 1) < of_smoothing);
 }
 
-TEST_CASE("contour: around a hole it is clockwise") {
+TEST_CASE("contour: the line around a hole is clockwise") {
     const auto lines = contours(mask([](Vec3 p) { return radius_of(p) < 8 && radius_of(p) > 4; }),
                                 sensitivity, {0.15});
     REQUIRE(lines.size() == 2);
@@ -93,7 +93,7 @@ TEST_CASE("contour: around a hole it is clockwise") {
     CHECK(area(lines[0]) + area(lines[1]) > 0);
 }
 
-TEST_CASE("contour: a comb finer than the smoothing leaves no teeth") {
+TEST_CASE("contour: teeth of a comb that are finer than the smoothing are removed") {
     const auto comb = [](double tooth) {
         return mask([=](Vec3 p) {
             const bool in_tooth = std::fmod(p.y + 20, 3 * tooth) < tooth;
@@ -126,7 +126,7 @@ TEST_CASE("contour: an island too small to be seen is omitted") {
     CHECK(island(1).size() == 1);
 }
 
-TEST_CASE("contour: continues to the edge of the map") {
+TEST_CASE("contour: the line continues to the edge of the map") {
     const auto lines = contours(mask([](Vec3 p) { return p.y < 0; }), sensitivity, {0.3});
     REQUIRE(lines.size() == 1);
     const auto [first, last] = std::minmax({lines[0].points.front().x, lines[0].points.back().x});
@@ -136,7 +136,7 @@ TEST_CASE("contour: continues to the edge of the map") {
     CHECK(lines[0].points.front().x > lines[0].points.back().x);
 }
 
-TEST_CASE("contour: a map that is above or below everywhere has no contour") {
+TEST_CASE("contour: a map that is above or below the level everywhere has no line") {
     CHECK(contours(map_of([](Vec3) { return -10.0; }), sensitivity, {0.3}).empty());
     CHECK(contours(map_of([](Vec3) { return -90.0; }), sensitivity, {0.3}).empty());
 }

@@ -50,7 +50,8 @@ constexpr NodeId first{0};
 
 }  // namespace
 
-TEST_CASE("coverage: a cell has the medium's level for a robot there, including walls") {
+TEST_CASE(
+    "coverage: the level of a cell equals the level at a robot placed there, including walls") {
     const Scenario alone = office("");
     Built built(alone);
     const Transmitter a = transmitter(built.network, first, start_of_run);
@@ -77,7 +78,8 @@ TEST_CASE("coverage: a cell has the medium's level for a robot there, including 
     CHECK(walled > 10);
 }
 
-TEST_CASE("coverage: the cells are nearly square, about as many as requested, over the rectangle") {
+TEST_CASE(
+    "coverage: cells are nearly square, about as many as requested, and cover the rectangle") {
     const Scene scene;
     const Transmitter t{.model = Friis{}, .scene = &scene};
     for (const int cells : {1, 2, 100, 4999}) {
@@ -107,7 +109,7 @@ TEST_CASE(
     CHECK(map.at(0, 0) > map.at(9, 0));
 }
 
-TEST_CASE("coverage: is computed without shadowing, for any sigma") {
+TEST_CASE("coverage: shadowing is left out, whatever its sigma is") {
     const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0 m\", \"0 m\"]\n";
     const Scenario shadowed =
         field("[propagation]\nmodel = \"log_distance\"\nsigma = \"8 dB\"\n" + robot);
@@ -134,7 +136,7 @@ TEST_CASE("coverage: sigma of a model that is not chosen has no effect") {
     CHECK_FALSE(built.network.medium().stations().model(first).is_random());
 }
 
-TEST_CASE("coverage: uses the robot's own model and radio") {
+TEST_CASE("coverage: the model and the radio are those of the robot itself") {
     const Scenario s = field(
         "[[robot]]\nname = \"a\"\ncount = 3\nplace = { area = [[\"0 m\", \"0 m\"], [\"9 m\", \"9 "
         "m\"]] }\n[[robot]]\nname = \"d\"\ncount = 2\nradio = { power = \"1 mW\" }\n"
@@ -157,7 +159,7 @@ TEST_CASE("coverage: an empty rectangle, or an absurd number of cells, is refuse
     CHECK_THROWS_AS(coverage(t, {0, 0}, {1, 1}, most_coverage_cells + 1), std::invalid_argument);
 }
 
-TEST_CASE("coverage: of two robots the stronger one counts at each place") {
+TEST_CASE("coverage: with two robots, each cell has the level of the stronger one") {
     const Scene scene;
     const Transmitter west{.model = Friis{}, .antenna = {0, 0, 1}, .scene = &scene};
     Transmitter east = west;

@@ -64,7 +64,9 @@ TEST_CASE("picture: a closed door is drawn as a wall, an open door as a dashed o
     }
 }
 
-TEST_CASE("picture, scene: stairs are drawn on both of their storeys, upwards from the foot") {
+TEST_CASE(
+    "picture, scene: stairs are drawn on both of their storeys, and listed once, from foot to "
+    "head") {
     const Scenario scenario = load_scenario(ROVERNET_EXAMPLES "/storeys/storeys.toml", {});
     for (const int storey : {1, 2}) {
         PictureOptions options;

@@ -63,7 +63,9 @@ bool has(std::string_view text, std::string_view word) { return text.find(word) 
 
 }  // namespace
 
-TEST_CASE("margins: on a straight road the colour changes at the distances of free space") {
+TEST_CASE(
+    "margins: on a straight road the colour of a trail changes at the distances given by "
+    "free-space loss") {
     const auto pieces = pieces_of(road, false);
     constexpr double sampling = 100.0 / 4000 + 1e-9;  // [s], or 1 m/s times that [m]
     constexpr double sensitivity_digit = 0.006;       // [m] by 0.0005 dB of the road's sensitivity
@@ -78,7 +80,7 @@ TEST_CASE("margins: on a straight road the colour changes at the distances of fr
     CHECK(seconds(pieces.back().end) == 100);
 }
 
-TEST_CASE("margins: a relay's link has the margin of its weakest hop") {
+TEST_CASE("margins: a link over a relay has the margin of its weakest hop") {
     const auto pieces = pieces_of(road + relay, true);
     // From 50 m on, the hop from the relay to "west" is the weakest: 20 log10(100 / 50) = 6.02 dB.
     for (const MarginPiece& piece : pieces) {
@@ -89,7 +91,8 @@ TEST_CASE("margins: a relay's link has the margin of its weakest hop") {
 }
 
 TEST_CASE(
-    "margins: the picture has a line for each grade, a hollow one for the gap, and their legend") {
+    "margins: a trail has a line for each grade of margin and a hollow line for a gap, with a "
+    "legend") {
     PictureOptions options{.at = start_of_run + 100s, .trails = true, .margin_to = {"west"}};
     const std::string svg = draw_svg(read(road), options);
     for (const LinkGrade& grade : link_grades) {
@@ -111,7 +114,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "margins: the model disc shows a link or none, and the legend does not list many robots") {
+    "margins: with the model disc a trail shows only link or gap, and a long list of robots is "
+    "shortened") {
     std::string text = road + "[propagation]\nmodel = \"disc\"\nrange = \"60 m\"\n";
     for (int i = 0; i < 4; ++i) {
         text +=
@@ -134,7 +138,9 @@ TEST_CASE("margins: partners and relays that are unknown or named twice are erro
                          InputError);
 }
 
-TEST_CASE("margins: the part of a trail between two times begins and ends between corners") {
+TEST_CASE(
+    "margins: the part of a trail between two times may begin and end between corners of the "
+    "path") {
     const Scenario s = read(road);
     Network network(network_settings(s));
     const auto trails = std::make_shared<Trails>();

@@ -91,7 +91,7 @@ TEST_CASE("picture: robots of a movement file are drawn, with and without [[robo
     }
 }
 
-TEST_CASE("picture: the coverage of a movement file's robot is that of its radio at this time") {
+TEST_CASE("picture: the coverage of a robot of a movement file is drawn for a radio like its own") {
     Files files;
     const std::string svg = draw_svg(files.beside(1), {.coverage = {"n1"}, .cells = 400});
     CHECK(has(svg, "coverage of n1: level for a radio like its own"));
@@ -113,7 +113,7 @@ TEST_CASE("picture: vehicles that are not present are counted and not drawn") {
     CHECK_FALSE(has(after, ">early</text>"));
 }
 
-TEST_CASE("picture: the coverage of an absent robot is marked as hypothetical") {
+TEST_CASE("picture: the coverage of a robot that is absent or off is labelled with this state") {
     Files files;
     const Scenario vehicles = load_scenario(files.vehicles, {});
     const PictureOptions late{.at = start_of_run + 1s, .coverage = {"late"}, .cells = 400};

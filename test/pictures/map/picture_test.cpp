@@ -127,7 +127,9 @@ struct EmptyPath {
 
 }  // namespace
 
-TEST_CASE("picture: the picture of the rescue is well-formed, with equal bytes twice") {
+TEST_CASE(
+    "picture: the picture of the example rescue is well-formed, and has equal bytes when drawn "
+    "twice") {
     const std::string svg = draw_svg(rescue(), everything);
     CHECK(test::xml_fault(svg) == "");
     CHECK(svg == draw_svg(rescue(), everything));
@@ -140,7 +142,7 @@ TEST_CASE("picture: the caption names the scenario, the time and the model with 
     CHECK(has(svg, "raytrace_2007: coefficient 20, wall_factor 0.3"));
 }
 
-TEST_CASE("picture: the caption names each robot's model once") {
+TEST_CASE("picture: the caption names each model that robots use, once") {
     const std::string disc = "propagation = { model = \"disc\", range = \"5 m\" }\n";
     const std::string all = draw_svg(scenario(robot("a", 0, 0, disc) + robot("b", 9, 0, disc)),
                                      {.coverage = {"a"}, .cells = 9});
@@ -160,7 +162,7 @@ TEST_CASE("picture: names are escaped, in labels and in the title") {
     CHECK(has(svg, ">&lt;&amp;&gt;</text>"));
 }
 
-TEST_CASE("picture: every robot has a circle inside the frame, also off the map") {
+TEST_CASE("picture: every robot has a circle inside the frame, even a robot off the map") {
     const std::string svg =
         draw_svg(scenario("[scene]\nmap = \"map.yaml\"\n" + robot("in", 24, 12) +
                               robot("west", -30, 5) + robot("north", 10, 60),
@@ -246,7 +248,9 @@ TEST_CASE("picture: coverage has a heat map, a colour bar, and a contour for eac
     CHECK_FALSE(has(other, "stroke-dasharray=\"7 4\""));
 }
 
-TEST_CASE("picture: the coverage of several robots is that of the best, for one kind of receiver") {
+TEST_CASE(
+    "picture: the coverage of several robots shows the strongest robot at each place, for one kind "
+    "of receiver") {
     const auto text = robot("A", 0, 0) + robot("B", 90, 9, "radio = { power = \"20 dBm\" }\n") +
                       robot("C", 45, 0, "radio = { sensitivity = \"-90 dBm\" }\n");
     PictureOptions options{.coverage = {"A", "B"}, .cells = 500};
@@ -263,7 +267,8 @@ TEST_CASE("picture: the coverage of several robots is that of the best, for one 
                          InputError);
 }
 
-TEST_CASE("picture: ranges of the model disc are drawn together, but not with levels") {
+TEST_CASE(
+    "picture: the coverage of several robots may show ranges of disc or levels, but not both") {
     const auto disc = [](int range) {
         return fmt::format("propagation = {{ model = \"disc\", range = \"{} m\" }}\n", range);
     };
@@ -274,7 +279,7 @@ TEST_CASE("picture: ranges of the model disc are drawn together, but not with le
                          doctest::Contains("the model disc has no levels"), std::invalid_argument);
 }
 
-TEST_CASE("picture: the heat map is lightest at the robot, and not upside down") {
+TEST_CASE("picture: the heat map is lightest at the position of the robot, and not upside down") {
     // Heard a few metres away only, so that B is in the upper right corner.
     const std::string svg =
         draw_svg(scenario("[radio]\npower = \"-30 dBm\"\n" + robot("A", 0, 0) + robot("B", 40, 30)),
@@ -389,7 +394,7 @@ TEST_CASE("picture: walls are one path, and unknown cells are light grey") {
     CHECK(has(svg, "fill=\"#e2e2e2\""));
 }
 
-TEST_CASE("picture: tiny rectangles are merged, and none is lost") {
+TEST_CASE("picture: wall rectangles smaller than half a pixel are merged") {
     test::Draw draw(3);
     OccupancyGrid grid = test::random_map(draw, 1500, 1500, 30);
     grid.cell_width = grid.cell_height = 0.01;
@@ -405,7 +410,8 @@ TEST_CASE("picture: tiny rectangles are merged, and none is lost") {
     CHECK(count(text, "Z") <= 120'000);  // 300 x 300 tiles of half a pixel, and the long walls
 }
 
-TEST_CASE("picture: has the requested width, or less for a tall world, and a limited height") {
+TEST_CASE(
+    "picture: a picture has the requested width, or less for a tall world, and a limited height") {
     const auto size = [](double dx, double dy) {
         const std::string svg = draw_svg(scenario(robot("a", 0, 0) + robot("b", dx, dy)), {});
         return std::pair(number(svg, "width"), number(svg, "height"));
@@ -490,7 +496,9 @@ TEST_CASE("picture: the coverage on another storey includes the ceiling") {
     CHECK(below - expected == doctest::Approx(12 + spread));
 }
 
-TEST_CASE("picture: the coverage for another robot's radio uses its antenna's height and gain") {
+TEST_CASE(
+    "picture: the coverage for the radio of another robot uses the height and gain of that robot's "
+    "antenna") {
     const std::string access_point =
         "[propagation]\nmodel = \"friis\"\n[[robot]]\nname = \"AP\"\nat = [\"0 m\", \"0 m\"]\n"
         "radio = { antenna_height = \"5 m\" }\n";
@@ -519,7 +527,7 @@ TEST_CASE("picture: the coverage for another robot's radio uses its antenna's he
     CHECK_THROWS_WITH_AS(drawn(low, "rovr"), doctest::Contains("\"rover\""), std::invalid_argument);
 }
 
-TEST_CASE("picture: an unknown robot and options out of range are errors of the caller") {
+TEST_CASE("picture: an unknown robot, or an option out of range, is refused") {
     const Scenario s = scenario(robot("alpha", 0, 0) + robot("beta", 5, 0));
     CHECK_THROWS_WITH_AS(draw_svg(s, {.coverage = {"alpa"}}), doctest::Contains("\"alpha\""),
                          std::invalid_argument);
@@ -582,7 +590,7 @@ TEST_CASE("picture: names without room are counted in the legend") {
     CHECK_FALSE(has(draw_svg(rescue(), {}), "no room for"));
 }
 
-TEST_CASE("picture: a PDF has equal bytes each time, and a pixel is a point") {
+TEST_CASE("picture: a PDF has the same bytes each time, and a pixel becomes a point") {
     const std::string svg = draw_svg(rescue(), {.width = 600});
     std::string pdf;
     try {

@@ -51,7 +51,8 @@ TEST_CASE("view of a comparison: messages are matched by origin and number in bo
     CHECK(view.numbers("compare.second") == std::vector<double>{nobody, 0, 2});
 }
 
-TEST_CASE("view of a comparison: has a row for each change, and the total counts") {
+TEST_CASE(
+    "view of a comparison: the file has a row for each gained or lost delivery, and the totals") {
     const test::ViewReader view = written(comparison());
     CHECK(view.numbers("compare.time") == std::vector<double>{2e9, 3e9, 4e9});
     CHECK(view.numbers("compare.robot") == std::vector<double>{1, 2, 1});
@@ -65,7 +66,9 @@ TEST_CASE("view of a comparison: has a row for each change, and the total counts
     CHECK(test::ViewReader::integer(told, "same") == 4);
 }
 
-TEST_CASE("view of a comparison: has the first difference, with null for the end of a trace") {
+TEST_CASE(
+    "view of a comparison: the file has the first difference of the traces, null where a trace has "
+    "ended") {
     const test::ViewReader view = written(comparison());
     const Table& first = *view.head().find("compare")->table()->find("first")->table();
     CHECK(*first.find("field")->string() == "time");

@@ -177,7 +177,8 @@ TEST_CASE("view of a run: positions of robots follow from their legs at any time
     }
 }
 
-TEST_CASE("view of a run: sums of the density equal the receptions, by outcome") {
+TEST_CASE(
+    "view of a run: the counts of each density level add up to the receptions, for each outcome") {
     const Recorded run("detour/detour.toml");
     const test::ViewReader view(view_of_trace(run.trace(), {}).bytes);
     std::map<double, double> expected;
@@ -231,7 +232,7 @@ std::map<std::string, std::vector<Series>> series_of(const test::ViewReader& vie
 }  // namespace
 
 TEST_CASE(
-    "view of a run: series of charts end at the metrics, or add up to the counts of the run") {
+    "view of a run: the series of a chart end at the run's metrics, or add up to its counts") {
     for (const char* example : {"rescue/rescue.toml", "detour/detour.toml", "patrol/patrol.toml"}) {
         CAPTURE(example);
         const Recorded run(example, {"trace.links=true"});
@@ -260,7 +261,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("view of a run: series of channel and topology equal the records") {
+TEST_CASE(
+    "view of a run: the series of channel and topology equal values computed from the records") {
     const Recorded run("patrol/patrol.toml", {"trace.links=true"});
     const test::ViewReader view(view_of_trace(run.trace(), {}).bytes);
     auto series = series_of(view);
@@ -322,7 +324,7 @@ TEST_CASE("view of a run: options leave out frames, payloads and the map") {
           test::ViewReader(view_of_trace(run.trace(), {}).bytes).numbers("legs.x"));
 }
 
-TEST_CASE("view of a run: has a map with storeys, doors and stairs") {
+TEST_CASE("view of a run: the file has a map with storeys, doors and stairs") {
     const Recorded run("storeys/storeys.toml");
     const test::ViewReader view(view_of_trace(run.trace(), {}).bytes);
     const Table& map = *view.head().find("map")->table();

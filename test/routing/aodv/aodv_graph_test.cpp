@@ -82,7 +82,8 @@ struct Run {
 }  // namespace
 
 // A RERR with flag N (6.12) tells that a repaired route is longer; the model leaves it out.
-TEST_CASE("aodv on graphs: packet counts equal the model of the rules, also after a break") {
+TEST_CASE(
+    "aodv on graphs: packet counts equal those of the model of the rules, also after a break") {
     const Aodv rings{}, repair{.local_repair = true}, flat{.rings = false};
     struct Case {
         const char* name;
@@ -114,7 +115,7 @@ TEST_CASE("aodv on graphs: packet counts equal the model of the rules, also afte
     }
 }
 
-TEST_CASE("aodv on graphs: profile ns2 sends the packets that ns-2.35 sends") {
+TEST_CASE("aodv on graphs: with profile ns2, as many packets are sent as in ns-2.35") {
     const Aodv ns2{.profile = AodvProfile::ns2};
     const Run line(5, line5, 4, 3, ns2), cross(4, diamond, 3, 1, ns2), ring(6, ring6, 3, 2, ns2),
         nine(9, grid, 8, 5, ns2);

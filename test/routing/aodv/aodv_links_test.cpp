@@ -62,7 +62,7 @@ void learn_for_long(AodvNode& n, std::uint32_t to, std::uint32_t over, std::uint
 }  // namespace
 
 TEST_CASE(
-    "aodv 6.2: a message uses its route also if the entry for the next hop itself has expired") {
+    "aodv 6.2: a route is used also if the route table's entry for its next hop has expired") {
     AodvNode n;
     learn_for_long(n, 5, 1);
     learn_for_long(n, 6, 2);
@@ -87,7 +87,8 @@ TEST_CASE("aodv 6.2: with profile ns2, a message extends only the route to its d
     CHECK_FALSE(n.route(2));
 }
 
-TEST_CASE("aodv 6.2: a message for the node itself extends the route back to its source") {
+TEST_CASE(
+    "aodv 6.2: a message that has arrived extends the lifetime of the route back to its source") {
     AodvNode n;
     n.hear(2, request(7, 9), 3);
     n.link.time += 2500ms;
@@ -105,7 +106,7 @@ TEST_CASE("aodv 6.2: a message does not shorten the lifetime of its route") {
     CHECK(n.route(5)->until == start + 60s);
 }
 
-TEST_CASE("aodv 6.2: messages that waited also extend the lifetime of their route") {
+TEST_CASE("aodv 6.2: messages that waited for a route also extend its lifetime") {
     AodvNode n;
     n.send(5);
     n.hear(1, aodv::Reply{.hops = 1,
@@ -177,7 +178,8 @@ TEST_CASE("aodv 6.9: no HELLO is sent if a request was broadcast within the inte
     CHECK(hellos(n).size() == 1);
 }
 
-TEST_CASE("aodv 6.9: forwarding a request replaces a HELLO; forwarding a reply starts HELLOs") {
+TEST_CASE(
+    "aodv 6.9: a forwarded request replaces a HELLO; a node that forwarded a reply sends HELLOs") {
     Hellos n;
     n.run(start + 400ms);
     n.pass_reply(7, 2, 5, 1);
@@ -187,7 +189,7 @@ TEST_CASE("aodv 6.9: forwarding a request replaces a HELLO; forwarding a reply s
     CHECK(hellos(n).size() == 1);
 }
 
-TEST_CASE("aodv 6.9: a HELLO gives a route with its number, for at least two intervals") {
+TEST_CASE("aodv 6.9: a HELLO makes a route to its sender, for at least two intervals") {
     Hellos n({.active_route_timeout = 1s});
     hear_hello(n, 4, 77);
     REQUIRE(n.route(4));
@@ -200,7 +202,7 @@ TEST_CASE("aodv 6.9: a HELLO gives a route with its number, for at least two int
     CHECK(n.sent<aodv::Reply>().empty());  // it goes no further
 }
 
-TEST_CASE("aodv 6.9: a neighbour silent for two intervals after a HELLO is lost") {
+TEST_CASE("aodv 6.9: a neighbour that sent a HELLO and then nothing for two intervals is lost") {
     Hellos n;
     learn_for_long(n, 5, 1);
     n.run(start + 8s);
@@ -249,7 +251,8 @@ TEST_CASE("aodv 6.9, 6.13: a node that is off, or silent after a restart, sends 
     CHECK_FALSE(hellos(n).empty());  // the timer goes on
 }
 
-TEST_CASE("aodv 6.11: the number of a route requested in vain is kept") {
+TEST_CASE(
+    "aodv 6.11: a message without a route prolongs the time for which the route's number is kept") {
     AodvNode n;
     n.learn(5, 1, 20);
     n.link.time = start + 17s;  // broken at 3 s with number 21, to be deleted at 18 s
@@ -262,7 +265,7 @@ TEST_CASE("aodv 6.11: the number of a route requested in vain is kept") {
     CHECK_FALSE(n.route(5));
 }
 
-TEST_CASE("aodv 6.11: several users of lost routes get one RERR by broadcast") {
+TEST_CASE("aodv 6.11: if lost routes have several users, one RERR is broadcast to all of them") {
     AodvNode n;
     n.pass_reply(7, 2, 5, 1);
     n.pass_reply(8, 3, 6, 1, 30);
@@ -309,7 +312,7 @@ TEST_CASE("aodv 6.11, ns2: RERRs are broadcast, and forwarded after the jitter")
     CHECK(n.sent<aodv::Error>()[1].first.next_hop == everyone);
 }
 
-TEST_CASE("aodv 6.11: only valid routes over the broken link end, each once") {
+TEST_CASE("aodv 6.11: a broken link ends each valid route over it once, and no other routes") {
     AodvNode n;
     n.learn(5, 1, 10);
     n.learn(6, 1, 20);
@@ -339,7 +342,7 @@ TEST_CASE("aodv A14: a RERR with the known number ends the route and increments 
     CHECK(n.route(5)->number == std::optional<std::uint32_t>(21));
 }
 
-TEST_CASE("aodv 6.11: users of a route stay known until a RERR is sent") {
+TEST_CASE("aodv 6.11: the users of a broken route are remembered until a RERR can be sent") {
     AodvNode n;
     n.pass_reply(7, 2, 5, 1);
     for (int i = 0; i < 10; ++i) n.forward(8, 3, 9);  // ten reports in this second
@@ -368,7 +371,7 @@ TEST_CASE("aodv 6.11: a RERR lists at most 255 destinations, in the order of the
 }
 
 TEST_CASE(
-    "aodv 6.12: a second packet waits for the repair, and own packets for a separate search") {
+    "aodv 6.12: a second message waits for the repair, own messages for a search of their own") {
     AodvNode n({.local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     n.forward(7, 2, 5);
@@ -386,7 +389,8 @@ TEST_CASE(
     CHECK(n.data().back().next_hop == NodeId{3});
 }
 
-TEST_CASE("aodv 6.12: repairs begin in the order of packets, and other routes are not reported") {
+TEST_CASE(
+    "aodv 6.12: repairs begin in the order of messages; unused lost routes are not reported") {
     AodvNode n({.local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     n.pass_reply(7, 2, 6, 1);
@@ -407,7 +411,8 @@ TEST_CASE("aodv 6.12: repairs begin in the order of packets, and other routes ar
     CHECK(n.sent<aodv::Error>()[0].second.lost[0].destination == NodeId{8});
 }
 
-TEST_CASE("aodv 6.12: the TTL of a repair is at least half the hops to the source + 2") {
+TEST_CASE(
+    "aodv 6.12: the TTL of a repair is at least half the number of hops to the source, plus 2") {
     AodvNode n({.local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     const MessageId id = n.link.message_from(NodeId{7}, NodeId{5});
@@ -418,7 +423,7 @@ TEST_CASE("aodv 6.12: the TTL of a repair is at least half the hops to the sourc
     CHECK(n.sent<aodv::Request>().back().first.ttl == 12 / 2 + 2);
 }
 
-TEST_CASE("aodv 6.12: a repair waits only for its TTL, also if that is the network's diameter") {
+TEST_CASE("aodv 6.12: the wait for a repair follows from its TTL, also at the network's diameter") {
     AodvNode n({.net_diameter = 3, .local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     n.forward(7, 2, 5);
@@ -430,7 +435,7 @@ TEST_CASE("aodv 6.12: a repair waits only for its TTL, also if that is the netwo
     CHECK(n.link.drops.size() == 1);
 }
 
-TEST_CASE("aodv 6.12: a repaired route of equal length is not reported") {
+TEST_CASE("aodv 6.12: if the repaired route has the same length, no RERR is sent") {
     AodvNode n({.local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     n.forward(7, 2, 5);
@@ -440,7 +445,7 @@ TEST_CASE("aodv 6.12: a repaired route of equal length is not reported") {
     CHECK(n.sent<aodv::Error>().empty());
 }
 
-TEST_CASE("aodv 6.12: a route that has a new next hop meanwhile is not repaired") {
+TEST_CASE("aodv 6.12: if the route has got another next hop in the meantime, no repair is made") {
     AodvNode n({.local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     n.forward(7, 2, 5);
@@ -453,8 +458,7 @@ TEST_CASE("aodv 6.12: a route that has a new next hop meanwhile is not repaired"
     CHECK(n.link.drops.size() == 1);
 }
 
-TEST_CASE(
-    "aodv 6.12: a node does not repair routes far from the destination or for its own messages") {
+TEST_CASE("aodv 6.12: no repair is made far from the destination, or for a node's own messages") {
     AodvNode n({.local_repair = true});
     n.hear(2, request(7, 5), 3);
     n.hear(1, aodv::Reply{.hops = 10,
@@ -483,7 +487,8 @@ TEST_CASE("aodv 6.12: a RERR of a repaired route is forwarded, and changes no ro
     CHECK(n.sent<aodv::Error>().size() == 2);
 }
 
-TEST_CASE("aodv 6.8: the blacklist lasts for the searches of the whole network; ns2 has none") {
+TEST_CASE(
+    "aodv 6.8: a blacklisted neighbour stays so for all network-wide searches; ns2 has no list") {
     const auto answers = [](Aodv aodv, Duration later) {
         AodvNode n(aodv);
         n.hear(2, request(7, 0), 3);
@@ -519,7 +524,8 @@ TEST_CASE("aodv 6.13: a node switched on for the first time is not silent") {
     CHECK(n.sent<aodv::Request>().size() == 1);
 }
 
-TEST_CASE("aodv 6.13: a packet for another node extends the silence, and is reported") {
+TEST_CASE(
+    "aodv 6.13: a message that a silent node should forward is reported, and extends the silence") {
     AodvNode n;
     n.router.on_switched(n.link, NodeId{0}, false);
     n.router.on_switched(n.link, NodeId{0}, true);
@@ -548,7 +554,7 @@ TEST_CASE("aodv 6.13: switching a node off drops its waiting packets and cancels
     CHECK(n.link.messages.size() == 1);  // the request, in the queue
 }
 
-TEST_CASE("aodv: a broadcast goes one hop, and is dropped with a reason if it is not sent") {
+TEST_CASE("aodv: a broadcast goes one hop; if it cannot be sent, it is dropped with a reason") {
     AodvNode n;
     const MessageId id = n.link.message_from(NodeId{0});
     CHECK(n.router.initial_ttl(n.link.message(id)) == 1);
@@ -565,7 +571,8 @@ TEST_CASE("aodv: a broadcast goes one hop, and is dropped with a reason if it is
     CHECK(got[0].fate == Fate::arrived);
 }
 
-TEST_CASE("aodv: a message that is not sent is dropped with a reason; control packets just end") {
+TEST_CASE(
+    "aodv: a message that cannot be sent is dropped with a reason, a control packet without one") {
     for (const SendResult result : {SendResult::queue_full, SendResult::off}) {
         AodvNode n;
         n.learn(5, 1, 4);

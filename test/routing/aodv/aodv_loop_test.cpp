@@ -194,7 +194,7 @@ void check(const Findings& found, bool ways = true) {
 
 }  // namespace
 
-TEST_CASE("aodv: 2,000 random graphs have no loop after any event") {
+TEST_CASE("aodv: in 2,000 random graphs, routes have no loop after any event") {
     const Findings found = findings(2000, {.rules = short_lived()});
     check(found);
     CHECK(found.valid > 500'000);
@@ -205,7 +205,7 @@ TEST_CASE("aodv: 2,000 random graphs have no loop after any event") {
 
 // A frame that arrived without its sender's notice is repaired though it travels on, so that its
 // two copies have two ways: here there are none.
-TEST_CASE("aodv: local repair and profile ns2 are also free of loops") {
+TEST_CASE("aodv: with local repair, and with profile ns2, routes have no loops either") {
     const std::vector<Aodv> variants{{.local_repair = true},
                                      {.profile = AodvProfile::ns2},
                                      {.gratuitous = true},
@@ -219,7 +219,7 @@ TEST_CASE("aodv: local repair and profile ns2 are also free of loops") {
     check(findings(100, {.rules = short_lived({.local_repair = true})}, 1 << 30), false);
 }
 
-TEST_CASE("aodv: long-lived routes are free of loops, because numbers are kept as long") {
+TEST_CASE("aodv: long-lived routes have no loops, but only if numbers are kept as long as routes") {
     Aodv aodv{.active_route_timeout = 500ms, .my_route_timeout = 20s, .node_traversal_time = 20ms};
     AodvRules rules = AodvRules::of(aodv);
     check(findings(250, {.rules = rules}));
@@ -235,7 +235,7 @@ TEST_CASE("aodv: sequence numbers wrap around") {
     CHECK(found.delivered > found.sent / 3);
 }
 
-TEST_CASE("aodv: without the rules against loops, loops are found") {
+TEST_CASE("aodv: if a rule against loops is left out, loops are found") {
     AodvRules falling = short_lived(), forgetful = short_lived(), loud = short_lived();
     falling.numbers_may_fall = true;
     forgetful.delete_period = {};

@@ -102,7 +102,7 @@ const std::vector<Aodv> variants{
 
 }  // namespace
 
-TEST_CASE("aodv: ids of nodes have no effect, only their keys") {
+TEST_CASE("aodv: runs depend on the keys of nodes, and not on their ids") {
     for (const Aodv& aodv : variants) {
         for (std::uint32_t seed = 1; seed <= 40; ++seed) {
             CAPTURE(seed);
@@ -115,13 +115,13 @@ TEST_CASE("aodv: ids of nodes have no effect, only their keys") {
     }
 }
 
-TEST_CASE("aodv: a node that takes no part has no effect") {
+TEST_CASE("aodv: adding a node without links changes nothing") {
     for (std::uint32_t seed = 1; seed <= 20; ++seed) {
         CHECK(run(seed, {}).sent == run(seed, {.one_more = true}).sent);
     }
 }
 
-TEST_CASE("aodv: every message is delivered or dropped with a reason once, and all are released") {
+TEST_CASE("aodv: every message is delivered or dropped with a reason, once, and then released") {
     for (Aodv aodv : variants) {
         for (const bool hellos : {false, true}) {
             if (hellos) aodv.hello = 500ms;

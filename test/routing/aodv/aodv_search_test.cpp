@@ -62,7 +62,7 @@ TEST_CASE("aodv 6.4: no request goes beyond the network's diameter") {
     CHECK(ttls({.rings = false}) == Ttls{35, 35, 35});
 }
 
-TEST_CASE("aodv 6.4: a lost distant destination is searched in the whole network") {
+TEST_CASE("aodv 6.4: if the lost destination was many hops away, the whole network is searched") {
     AodvNode n;
     n.learn(5, 1, 10, 4);
     n.learn(6, 1, 10, 5);
@@ -73,7 +73,7 @@ TEST_CASE("aodv 6.4: a lost distant destination is searched in the whole network
     CHECK(n.sent<aodv::Request>().back().first.ttl == 35);  // 8 is above the threshold
 }
 
-TEST_CASE("aodv 6.3: doubling waits are limited, for any keys") {
+TEST_CASE("aodv 6.3: with extreme parameters, searches still end") {
     AodvNode n({.node_traversal_time = 10000s, .net_diameter = 255, .rreq_retries = 100});
     n.send(5);
     n.run(start + 30s);
@@ -100,7 +100,7 @@ TEST_CASE("aodv 6.3: a search ends if no message waits for it") {
     CHECK(n.link.timers.empty());
 }
 
-TEST_CASE("aodv 6.3: requests above ten a second are sent later, and their messages continue") {
+TEST_CASE("aodv 6.3: requests above ten a second are sent later, and their messages wait on") {
     AodvNode n({.rings = false}, 40);
     for (std::uint32_t to = 10; to < 35; ++to) n.send(to);
     n.run(start + 999ms);
@@ -116,7 +116,8 @@ TEST_CASE("aodv 6.3: requests above ten a second are sent later, and their messa
     for (std::size_t i = 10; i < times.size(); ++i) CHECK(times[i] - times[i - 10] >= 1s);
 }
 
-TEST_CASE("aodv 6.3, ns2: a reply before the search's first request is not measured") {
+TEST_CASE(
+    "aodv 6.3, ns2: a reply that arrives before the first request of its search is not measured") {
     AodvNode n({.profile = AodvProfile::ns2}, 40);
     n.link.time += 100s;
     for (std::uint32_t to = 10; to < 21; ++to) n.send(to);
@@ -130,7 +131,7 @@ TEST_CASE("aodv 6.3, ns2: a reply before the search's first request is not measu
     CHECK(asked_for(n, 20) == 2);
 }
 
-TEST_CASE("aodv 6.3, ns2: a search of duration 0 is not measured") {
+TEST_CASE("aodv 6.3, ns2: a search that took no time is not measured") {
     AodvNode n({.profile = AodvProfile::ns2});
     n.send(5);
     n.hear(1, reply(5, 4, 0));
@@ -140,7 +141,7 @@ TEST_CASE("aodv 6.3, ns2: a search of duration 0 is not measured") {
     CHECK(asked_for(n, 5) == 3);
 }
 
-TEST_CASE("aodv 6.3, ns2: waits follow the measured time per hop of earlier searches") {
+TEST_CASE("aodv 6.3, ns2: the wait for a reply follows from the time per hop of earlier searches") {
     AodvNode n({.profile = AodvProfile::ns2});
     n.send(5);
     n.link.time += 800ms;
@@ -154,7 +155,7 @@ TEST_CASE("aodv 6.3, ns2: waits follow the measured time per hop of earlier sear
 }
 
 TEST_CASE(
-    "aodv 6.3, ns2: after a failed search none is made for 10 s, then a waiting packet gets one") {
+    "aodv 6.3, ns2: after a failed search, the next one for a destination begins 10 s later") {
     AodvNode n({.profile = AodvProfile::ns2});
     n.send(5);
     while (n.link.drops.empty()) n.wait();
@@ -169,7 +170,7 @@ TEST_CASE(
     CHECK(asked_for(n, 5) == before + 1);
 }
 
-TEST_CASE("aodv 6.1: own numbers and numbers of destinations wrap around") {
+TEST_CASE("aodv 6.1: a node's own number and the numbers of destinations wrap around") {
     AodvRules rules = AodvRules::of({});
     rules.first_number = 0xffffffff;
     AodvNode n;
@@ -188,7 +189,7 @@ TEST_CASE("aodv 6.1: own numbers and numbers of destinations wrap around") {
     CHECK(n.route(7)->number == std::optional<std::uint32_t>(0));
 }
 
-TEST_CASE("aodv 6.2: a route from a reply has the reply's lifetime, and is not shortened") {
+TEST_CASE("aodv 6.2: a route has the lifetime of its reply, and a later reply never shortens it") {
     AodvNode n;
     n.learn(5, 1, 10);
     CHECK(n.route(5)->until == start + 3s);
@@ -211,7 +212,8 @@ TEST_CASE("aodv 6.2: a route from a reply has the reply's lifetime, and is not s
     CHECK(n.route(5)->until == start + 15s);
 }
 
-TEST_CASE("aodv 6.5: a neighbour that is heard has a route for 3 s, which is not shortened") {
+TEST_CASE(
+    "aodv 6.5: a heard neighbour has a route for 3 s, and a longer lifetime is not shortened") {
     AodvNode n;
     n.hear(2, request(2, 9, 1), 1);  // a route of 5.52 s
     n.hear(2, request(7, 9, 1), 3);
@@ -223,7 +225,7 @@ TEST_CASE("aodv 6.5: a neighbour that is heard has a route for 3 s, which is not
     CHECK(n.route(2)->since == start + 10s);
 }
 
-TEST_CASE("aodv 6.2: a neighbour with an unknown number accepts any number") {
+TEST_CASE("aodv 6.2: the route of a neighbour whose number is unknown accepts any number") {
     AodvNode n;
     n.forward(7, 2, 9);
     n.hear(2, request(7, 9), 3);
@@ -237,7 +239,8 @@ TEST_CASE("aodv 6.2: a neighbour with an unknown number accepts any number") {
     CHECK(n.route(2)->number == std::optional<std::uint32_t>(0x80000000));
 }
 
-TEST_CASE("aodv 6.5: the reverse route lasts for 2 NET_TRAVERSAL_TIME minus its hops") {
+TEST_CASE(
+    "aodv 6.5: the reverse route lasts 2 NET_TRAVERSAL_TIME, minus 2 NODE_TRAVERSAL_TIME per hop") {
     AodvNode n;
     n.hear(2, request(7, 9), 3);
     CHECK(n.route(7)->until == start + 5600ms - 6 * 40ms);
@@ -247,7 +250,8 @@ TEST_CASE("aodv 6.5: the reverse route lasts for 2 NET_TRAVERSAL_TIME minus its 
     CHECK(n.route(8)->until == start + 40ms);  // not in the past
 }
 
-TEST_CASE("aodv 6.5: a request is forwarded with the number that it came with, if that is newer") {
+TEST_CASE(
+    "aodv 6.5: a forwarded request keeps its number if it is newer than the node's own knowledge") {
     AodvNode n;
     n.learn(5, 1, 20);
     aodv::Request asked = request(7, 5);
@@ -257,7 +261,7 @@ TEST_CASE("aodv 6.5: a request is forwarded with the number that it came with, i
     CHECK(n.route(5)->number == std::optional<std::uint32_t>(20));  // and not adopted
 }
 
-TEST_CASE("aodv 6.5: ids of requests count for each originator, for 5.6 s") {
+TEST_CASE("aodv 6.5: the ids of requests are remembered for each originator, for 5.6 s") {
     AodvNode n;
     CHECK(n.hear(2, request(7, 5, 1)) == Fate::waiting);
     CHECK(n.hear(2, request(8, 5, 1)) == Fate::waiting);
@@ -283,7 +287,7 @@ TEST_CASE("aodv 6.6.2: a node that answered for the destination reports breaks t
     }
 }
 
-TEST_CASE("aodv 6.6.2: a node does not answer with an unknown number") {
+TEST_CASE("aodv 6.6.2: a node that does not know the destination's number does not reply for it") {
     AodvNode n;
     n.hear(5, request(8, 9));  // 5 is a neighbour of unknown number
     CHECK(n.route(5)->is_valid);
@@ -291,7 +295,7 @@ TEST_CASE("aodv 6.6.2: a node does not answer with an unknown number") {
     CHECK(n.sent<aodv::Reply>().empty());
 }
 
-TEST_CASE("aodv 6.6.2: an answer has the remaining lifetime") {
+TEST_CASE("aodv 6.6.2: a reply of an intermediate node has the remaining lifetime of its route") {
     AodvNode n;
     n.learn(5, 1, 20);
     n.link.time += 1s;
@@ -300,7 +304,7 @@ TEST_CASE("aodv 6.6.2: an answer has the remaining lifetime") {
     CHECK(n.link.message(n.sent<aodv::Reply>().back().first.message).size == 48);
 }
 
-TEST_CASE("aodv 6.6.2: the lifetime in an answer is rounded down to whole ms") {
+TEST_CASE("aodv 6.6.2: the lifetime in a reply is rounded down to whole ms") {
     AodvNode n;
     n.learn(5, 1, 20);
     n.link.time += 1500us;
@@ -315,7 +319,7 @@ TEST_CASE("aodv 6.7: a reply does not travel beyond its TTL") {
     CHECK(n.sent<aodv::Reply>().empty());
 }
 
-TEST_CASE("aodv 6.3: a search that is due before the others is served in time") {
+TEST_CASE("aodv 6.3: a search that is due earlier than those begun before is continued in time") {
     AodvNode n;
     n.send(5);
     n.run(start + 2s);  // waits until 4.72 s
@@ -324,7 +328,7 @@ TEST_CASE("aodv 6.3: a search that is due before the others is served in time") 
     CHECK(asked_for(n, 6) == 2);
 }
 
-TEST_CASE("aodv 6.6.3: flag G tells the destination the route back; flag D asks the destination") {
+TEST_CASE("aodv 6.6.3: with flag G, the answering node sends the destination the route back") {
     AodvNode n;
     n.learn(5, 1, 20, 3);
     aodv::Request asked = request(7, 5);
@@ -348,7 +352,8 @@ TEST_CASE("aodv 6.6.3: flag G tells the destination the route back; flag D asks 
     CHECK(bytes[1] == 0x38);  // G, D, U
 }
 
-TEST_CASE("aodv 6.7: a forwarded reply adds users to four routes, and extends one") {
+TEST_CASE(
+    "aodv 6.7: a forwarded reply extends the reverse route, and both ends learn of later breaks") {
     AodvNode n;
     n.hear(2, request(7, 5), 3);
     n.link.time += 4s;
@@ -392,7 +397,7 @@ TEST_CASE("aodv A16: a request forwarded by a neighbour ends the search for this
     CHECK(n.data().size() == 1);
 }
 
-TEST_CASE("aodv A16: a search that waits for its turn also ends with a route") {
+TEST_CASE("aodv A16: a route also ends a search that has not yet sent its first request") {
     AodvNode n({}, 40);
     for (std::uint32_t to = 10; to < 21; ++to) n.send(to);
     n.learn(20, 1, 4);
@@ -401,7 +406,7 @@ TEST_CASE("aodv A16: a search that waits for its turn also ends with a route") {
     CHECK(asked_for(n, 20) == 0);
 }
 
-TEST_CASE("aodv, ns2: messages that waited are sent 10 ms apart; with the RFC together") {
+TEST_CASE("aodv: with profile ns2, messages that waited are sent 10 ms apart, with rfc at once") {
     for (const Duration apart : {0ms, 10ms}) {
         AodvNode n({.profile = apart > 0ms ? AodvProfile::ns2 : AodvProfile::rfc});
         for (int i = 0; i < 3; ++i) n.send(5);
@@ -416,7 +421,7 @@ TEST_CASE("aodv, ns2: messages that waited are sent 10 ms apart; with the RFC to
     }
 }
 
-TEST_CASE("aodv: with all lifetimes 0 nothing works, and every run ends") {
+TEST_CASE("aodv: with all route lifetimes 0, the run still ends") {
     AodvNode n({.active_route_timeout = Duration{0}, .my_route_timeout = Duration{0}});
     n.send(5);
     n.learn(5, 1, 10);

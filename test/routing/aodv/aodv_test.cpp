@@ -42,8 +42,7 @@ TEST_CASE("aodv 5: packets have the bytes of the RFC, and are read back") {
 }
 
 TEST_CASE(
-    "aodv 6.1: the own number is incremented for a request, and at least the asked one in a "
-    "reply") {
+    "aodv 6.1: a node's number grows for a request; in a reply it is at least the requested one") {
     AodvNode n;
     n.send(5);
     CHECK(n.sent<aodv::Request>().back().second.originator_number == 1);
@@ -57,7 +56,8 @@ TEST_CASE(
     CHECK(n.sent<aodv::Reply>().back().second.number == 40);
 }
 
-TEST_CASE("aodv 6.2: a route is accepted if newer, equally new and shorter, or if none is valid") {
+TEST_CASE(
+    "aodv 6.2: a route is accepted if it is newer, or as new and shorter, or if none is valid") {
     AodvNode n;
     n.learn(5, 1, 10, 3);
     CHECK(n.route(5)->hops == 4);
@@ -92,7 +92,7 @@ TEST_CASE("aodv 6.2: a message extends the lifetimes of four routes") {
 }
 
 TEST_CASE(
-    "aodv 6.3, 6.4: rings have 1, 3, 5, 7 hops, then three times the network, then no route") {
+    "aodv 6.3, 6.4: a search covers 1, 3, 5, 7 hops, three times the whole network, then fails") {
     AodvNode n;
     n.send(5);
     std::vector<int> ttls{n.sent<aodv::Request>().back().first.ttl};
@@ -110,7 +110,8 @@ TEST_CASE(
     CHECK(n.sent<aodv::Request>().back().second.originator_number == 7);
 }
 
-TEST_CASE("aodv 6.4: a lost destination is searched at its last hops + 2") {
+TEST_CASE(
+    "aodv 6.4: the search for a lost destination begins with the TTL of the last route, plus 2") {
     AodvNode n;
     n.learn(5, 1, 10, 2);
     n.link.time += 4s;
@@ -132,7 +133,7 @@ TEST_CASE("aodv 6.3: a node sends at most ten requests a second") {
     CHECK(n.sent<aodv::Request>().size() > 10);
 }
 
-TEST_CASE("aodv 6.5: a request is forwarded once, with the larger number, and not beyond its TTL") {
+TEST_CASE("aodv 6.5: a request is forwarded once, within its TTL, with the larger of two numbers") {
     AodvNode n;
     n.learn(5, 1, 20, 3);
     n.link.time += 4s;  // broken: number 21
@@ -150,7 +151,8 @@ TEST_CASE("aodv 6.5: a request is forwarded once, with the larger number, and no
     CHECK(n.link.sent.back().at == n.link.time + 1us + 5ms);  // delayed at random
 }
 
-TEST_CASE("aodv 6.1: a request older than the known number of its originator is discarded") {
+TEST_CASE(
+    "aodv 6.1: a request is discarded if its originator's number is older than the known one") {
     AodvNode n;
     n.learn(7, 1, 20, 3);
     n.link.time += 4s;
@@ -159,7 +161,7 @@ TEST_CASE("aodv 6.1: a request older than the known number of its originator is 
     CHECK(n.sent<aodv::Request>().empty());
 }
 
-TEST_CASE("aodv 6.6.2: a node answers with a valid route that is new enough, unless D is set") {
+TEST_CASE("aodv 6.6.2: a node with a valid and new enough route replies, unless flag D is set") {
     AodvNode n;
     n.learn(5, 1, 20, 3);
     aodv::Request asked = request(7, 5);
@@ -176,7 +178,8 @@ TEST_CASE("aodv 6.6.2: a node answers with a valid route that is new enough, unl
     CHECK(reply.lifetime == 3s);
 }
 
-TEST_CASE("aodv 6.7: a reply is forwarded along the reverse route, only if it was accepted") {
+TEST_CASE(
+    "aodv 6.7: a reply is forwarded along the reverse route if the route in it was accepted") {
     AodvNode n;
     n.hear(2, request(7, 5), 3);
     const aodv::Reply reply{
@@ -191,7 +194,7 @@ TEST_CASE("aodv 6.7: a reply is forwarded along the reverse route, only if it wa
     CHECK(n.sent<aodv::Reply>().size() == 1);
 }
 
-TEST_CASE("aodv 6.8: requests of a neighbour that a reply did not reach are ignored for 5.6 s") {
+TEST_CASE("aodv 6.8: if a neighbour did not get a reply, its requests are ignored for 5.6 s") {
     AodvNode n;
     n.hear(2, request(7, 0), 3);
     n.link.go();
@@ -242,7 +245,8 @@ TEST_CASE("aodv 6.11: a message without a route is reported to the neighbour tha
     CHECK(n.sent<aodv::Error>().size() == 10);  // at most ten a second
 }
 
-TEST_CASE("aodv A14: a RERR never decreases a number, and counts only from the next hop") {
+TEST_CASE(
+    "aodv A14: a RERR never decreases a number, and is ignored unless it comes from the next hop") {
     AodvNode n;
     n.learn(5, 1, 20, 3);
     const auto report = [&](std::uint32_t from, std::uint32_t number) {
@@ -273,7 +277,7 @@ TEST_CASE("aodv A15: no node has a route to itself") {
     CHECK_FALSE(n.route(0));
 }
 
-TEST_CASE("aodv A16: a route ends the search for it, however it was learnt") {
+TEST_CASE("aodv A16: a route that is learnt in any way ends the search for its destination") {
     AodvNode n;
     n.send(7);
     CHECK(n.data().empty());
@@ -285,7 +289,8 @@ TEST_CASE("aodv A16: a route ends the search for it, however it was learnt") {
     CHECK(n.sent<aodv::Request>().size() == asked);
 }
 
-TEST_CASE("aodv 6.12: a node near the destination searches a new route, and reports a failure") {
+TEST_CASE(
+    "aodv 6.12: a node near the destination repairs a broken route, and reports a failed repair") {
     AodvNode n({.local_repair = true});
     n.hear(2, request(7, 5), 3);
     n.hear(1,

@@ -31,7 +31,7 @@ void make_valid(Route& route, Time until, std::uint32_t number = 7) {
 
 }  // namespace
 
-TEST_CASE("route table: a route expires with the next number, and is deleted later") {
+TEST_CASE("route table: an expired route gets the next number, and is deleted some time later") {
     RouteTable table;
     make_valid(table.add(a, start, 10s), start + 5s);
     CHECK(table.find(a, start + 4999ms, 10s)->is_valid);
@@ -45,7 +45,7 @@ TEST_CASE("route table: a route expires with the next number, and is deleted lat
     CHECK(table.stored().empty());
 }
 
-TEST_CASE("route table: users belong to an entry, and are removed with it") {
+TEST_CASE("route table: the users of a route are removed together with the route") {
     RouteTable table;
     table.add_precursor(a, b);  // no entry
     make_valid(table.add(a, start, 10s), start + 5s);
@@ -60,7 +60,7 @@ TEST_CASE("route table: users belong to an entry, and are removed with it") {
     CHECK(table.precursors(a).empty());
 }
 
-TEST_CASE("route table: expired entries do not let it grow") {
+TEST_CASE("route table: expired routes are removed, so the table does not grow") {
     RouteTable table;
     for (std::uint32_t i = 0; i < 10'000; ++i) {
         const Time now = start + i * 1s;
@@ -72,7 +72,7 @@ TEST_CASE("route table: expired entries do not let it grow") {
     CHECK(table.precursors(NodeId{0}).empty());
 }
 
-TEST_CASE("seen ids: each number is new once, in any order within 64, also around 2^32") {
+TEST_CASE("seen ids: each number is new once, in any order within 64 numbers, also around 2^32") {
     for (const std::uint32_t first : {0U, 0xffffffe0U, 0x7fffffe0U}) {
         SeenIds seen;
         std::set<std::uint32_t> noted;
@@ -86,7 +86,7 @@ TEST_CASE("seen ids: each number is new once, in any order within 64, also aroun
     }
 }
 
-TEST_CASE("seen ids: steps of 63, 64 and 65 keep the numbers inside the window") {
+TEST_CASE("seen ids: after a step of up to 64, the numbers still in the window are remembered") {
     for (const std::uint32_t step : {1U, 63U, 64U, 65U, 1000U}) {
         SeenIds seen;
         CHECK(seen.note(a, 100, start, 5s));
@@ -98,7 +98,7 @@ TEST_CASE("seen ids: steps of 63, 64 and 65 keep the numbers inside the window")
     }
 }
 
-TEST_CASE("seen ids: originators are separate, each forgotten after its silence") {
+TEST_CASE("seen ids: ids are stored for each originator, and forgotten after a silence") {
     SeenIds seen;
     CHECK(seen.note(a, 9, start, 5s));
     CHECK(seen.note(b, 9, start, 5s));
@@ -110,7 +110,8 @@ TEST_CASE("seen ids: originators are separate, each forgotten after its silence"
     CHECK(seen.note(a, 10, start + 16s, 5s));
 }
 
-TEST_CASE("send buffer: the oldest packet is dropped; packets are taken by destination and time") {
+TEST_CASE(
+    "send buffer: if it is full, the oldest packet is dropped; others go by destination or time") {
     SendBuffer buffer;
     const auto packet = [](NodeId to, std::uint32_t id, Duration until) {
         return SendBuffer::Packet{
@@ -132,7 +133,7 @@ TEST_CASE("send buffer: the oldest packet is dropped; packets are taken by desti
     CHECK(buffer.packets().empty());
 }
 
-TEST_CASE("sequence numbers: newer means less than half the circle ahead") {
+TEST_CASE("sequence numbers: a number is newer if it is less than half the circle ahead") {
     CHECK(is_newer(1, 0));
     CHECK_FALSE(is_newer(0, 0));
     CHECK_FALSE(is_newer(0, 1));

@@ -206,7 +206,8 @@ void run_graph(std::uint32_t seed, const Dsr& dsr, double unnoticed, Findings& f
 
 }  // namespace
 
-TEST_CASE("dsr on random graphs: routes visit no node twice, and every message ends once") {
+TEST_CASE(
+    "dsr on random graphs: routes visit no node twice, and every message has exactly one end") {
     for (const DsrProfile profile : {DsrProfile::rfc, DsrProfile::ns2}) {
         CAPTURE(static_cast<int>(profile));
         Findings exact, found;

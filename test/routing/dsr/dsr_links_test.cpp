@@ -54,7 +54,7 @@ TEST_CASE(
         CHECK(n.sent(dsr::error_kind).back().second.error.value().to == NodeId{0});
         CHECK(n.sent(dsr::error_kind).back().second.error.value().salvage == 1);
     }
-    SUBCASE("no other way") {
+    SUBCASE("no other route") {
         forward();
         n.fail();
         REQUIRE(n.link.drops.size() == 1);
@@ -64,7 +64,7 @@ TEST_CASE(
         CHECK(n.route(4).empty());
         CHECK(n.sent(dsr::request_kind).empty());
     }
-    SUBCASE("those in the queue share its fate") {
+    SUBCASE("queued messages are dropped, too") {
         forward();
         const std::size_t first = n.link.sent.size() - 1;
         n.link.go();
@@ -81,7 +81,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("dsr 8.3.6: a message is salvaged at most 15 times, and never with salvage = 0") {
+TEST_CASE("dsr 8.3.6: a message is salvaged at most as often as the parameter salvage allows") {
     for (const int most : {15, 2, 0}) {
         DsrNode n({.salvage = most});
         n.learn(path({7, 0, 4, 5}));
@@ -108,7 +108,7 @@ TEST_CASE("dsr 8.3.6: a message is salvaged at most 15 times, and never with sal
     }
 }
 
-TEST_CASE("dsr: a source whose first link breaks uses another route, or searches one") {
+TEST_CASE("dsr: a source whose first link breaks uses another route, or searches for one") {
     DsrNode n;
     n.learn(path({0, 4, 5}));
     n.learn(path({0, 1, 2, 5}));
@@ -137,7 +137,7 @@ TEST_CASE("dsr 8.3.5: a node that receives an error forgets the link, and forwar
     }
 }
 
-TEST_CASE("dsr 3.4.4: the last error is in the next request beyond the neighbours, for 1 s") {
+TEST_CASE("dsr 3.4.4: for 1 s, the last error is repeated in the next network-wide request") {
     for (const Duration age : {0ms, 1500ms}) {
         DsrNode n;
         n.learn(path({0, 4, 5}));
@@ -161,8 +161,7 @@ TEST_CASE("dsr 3.4.4: the last error is in the next request beyond the neighbour
     CHECK(n.sent(dsr::request_kind).back().second.error.value().unreachable == NodeId{5});
 }
 
-TEST_CASE(
-    "dsr 3.4.3: a node that overhears a message that will pass it later sends a shorter route") {
+TEST_CASE("dsr 3.4.3: a node that overhears a message on a detour to it sends a shorter route") {
     DsrNode n;
     n.learn(path({7, 3, 2, 0, 5}));
     for (int i = 0; i < 2; ++i) {
@@ -186,8 +185,7 @@ TEST_CASE(
     CHECK(n.sent(dsr::reply_kind).size() == 2);
 }
 
-TEST_CASE(
-    "dsr 3.3.1: routes are learnt from overheard packets, over the neighbour that sent them") {
+TEST_CASE("dsr 3.3.1: overheard packets give routes over the neighbour that sent them") {
     DsrNode n;
     n.learn(path({7, 3, 2, 5}));
     n.send(5, 7);
@@ -232,7 +230,7 @@ TEST_CASE(
     CHECK(n.router.header(n.data().back()).salvage == 0);
 }
 
-TEST_CASE("dsr, profile ns2: the first three messages along a route can be read, for shortening") {
+TEST_CASE("dsr, profile ns2: only the first three messages along a route can shorten it") {
     DsrNode n({.profile = DsrProfile::ns2});
     n.learn(path({7, 3, 2, 0, 5}));
     for (int i = 0; i < 5; ++i) {

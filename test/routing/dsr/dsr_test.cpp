@@ -59,7 +59,8 @@ TEST_CASE("dsr 6: packets have the bytes of the RFC, and are read back") {
     CHECK(air.substr(4, 7) == std::string("\2\x0d\0\x0a\0\0\5", 7));
 }
 
-TEST_CASE("dsr 6.7, 8.3.6: the header of a message has route, salvage count and segments left") {
+TEST_CASE(
+    "dsr 6.7, 8.3.6: a message's header has its route, the salvage count and the segments left") {
     const dsr::Path way = path({4, 5, 6, 9});
     CHECK(dsr::message_header(way, 0, 0) ==
           std::string("\x11\0\0\x0c\x60\x0a\0\2\0\0\0\5\0\0\0\6", 16));
@@ -95,7 +96,8 @@ TEST_CASE("dsr: packets in traces have the format of ns-2") {
                2, 0) == "3 [0 0] [0 0 0 0->0] [1 1 0 2->3]");
 }
 
-TEST_CASE("dsr 4.1: the cache keeps 30 own and 64 other routes; the shortest is used") {
+TEST_CASE(
+    "dsr 4.1: the cache has room for 30 own and 64 other routes, and returns the shortest route") {
     dsr::Cache cache;
     using enum dsr::Cache::Origin;
     for (std::uint32_t i = 100; i < 140; ++i) cache.add(path({0, i, i + 100}), own, {});
@@ -117,7 +119,8 @@ TEST_CASE("dsr 4.1: the cache keeps 30 own and 64 other routes; the shortest is 
     CHECK(values(cache.find(NodeId{139}).value()) == Nodes{0, 139});
 }
 
-TEST_CASE("dsr 8.1.3, 8.1.5: a message carries its whole route, and the same bytes on each hop") {
+TEST_CASE(
+    "dsr 8.1.3, 8.1.5: a message carries its whole route, and has the same size on each hop") {
     DsrNode n;
     n.learn(path({0, 1, 2, 3}));
     n.send(3);
@@ -146,7 +149,7 @@ TEST_CASE("dsr 8.1.3, 8.1.5: a message carries its whole route, and the same byt
 }
 
 TEST_CASE(
-    "dsr 8.2.1: the first request goes to the neighbours, then 16 follow at growing intervals") {
+    "dsr 8.2.1: the first request reaches only neighbours; 16 more follow at growing intervals") {
     DsrNode n;
     n.send(5);
     std::vector<int> ttls{n.sent(dsr::request_kind).back().first.ttl};
@@ -177,7 +180,8 @@ TEST_CASE(
     CHECK(n.sent(dsr::request_kind).back().first.ttl == 1);
 }
 
-TEST_CASE("dsr 8.2.2: the target answers each copy along its path, and stores that path") {
+TEST_CASE(
+    "dsr 8.2.2: the target answers each copy of a request along its path, and stores the path") {
     DsrNode n;
     CHECK(n.request(path({7, 3}), 0) == Fate::arrived);
     CHECK(n.request(path({7, 4, 2}), 0) == Fate::arrived);
@@ -194,7 +198,8 @@ TEST_CASE("dsr 8.2.2: the target answers each copy along its path, and stores th
     CHECK(n.route(7) == Nodes{3, 7});
 }
 
-TEST_CASE("dsr 8.2.2: a request is forwarded once, with the own address, within its hop limit") {
+TEST_CASE(
+    "dsr 8.2.2: a request is forwarded once, within its hop limit, with the node's address added") {
     DsrNode n;
     CHECK(n.request(path({7, 3}), 5) == Fate::waiting);
     const auto [frame, packet] = n.sent(dsr::request_kind).back();
@@ -215,7 +220,7 @@ TEST_CASE("dsr 8.2.2: a request is forwarded once, with the own address, within 
     CHECK(n.sent(dsr::request_kind).size() == 4);
 }
 
-TEST_CASE("dsr 8.2.3: a node answers with a known route, unless a node would occur twice") {
+TEST_CASE("dsr 8.2.3: a node replies with a known route, unless a node would occur in it twice") {
     DsrNode n;
     n.learn(path({0, 1, 2, 5}));
     CHECK(n.request(path({7, 2}), 5) == Fate::waiting);  // 2 would come twice
@@ -228,7 +233,8 @@ TEST_CASE("dsr 8.2.3: a node answers with a known route, unless a node would occ
     CHECK(n.request(path({7, 4}), 5, 2) == Fate::duplicate);  // one answer to each request
 }
 
-TEST_CASE("dsr 8.2.6: a reply ends the search and its waits; nodes on the path learn both ends") {
+TEST_CASE(
+    "dsr 8.2.6: a reply ends the search, and the nodes that forward it learn routes to both ends") {
     DsrNode n;
     n.send(5);
     n.send(5);
@@ -248,7 +254,8 @@ TEST_CASE("dsr 8.2.6: a reply ends the search and its waits; nodes on the path l
     CHECK(n.route(7) == Nodes{2, 7});
 }
 
-TEST_CASE("dsr: a route has at most sixteen nodes; messages beyond end without a route") {
+TEST_CASE(
+    "dsr: a route has at most sixteen nodes, and messages to nodes further away are dropped") {
     DsrNode n;
     const Path fourteen = path({20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33});
     Path fifteen = fourteen;
@@ -279,7 +286,7 @@ TEST_CASE("dsr 4.2: at most 64 messages wait, for 30 s each, and the oldest is d
     CHECK(n.link.drops.back().reason == DropReason::timeout);
 }
 
-TEST_CASE("dsr: a node that was off starts without routes, but continues its numbers") {
+TEST_CASE("dsr: a node that was off starts without routes, but continues its request ids") {
     DsrNode n;
     n.learn(path({0, 4, 5}));
     n.send(6);

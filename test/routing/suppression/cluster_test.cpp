@@ -84,7 +84,7 @@ constexpr Time settled = start_of_run + 60s;
 
 }  // namespace
 
-TEST_CASE("cluster: a lone node is a head, and joins a head with a lower key") {
+TEST_CASE("cluster: a node without neighbours is a head, and later joins a head with a lower key") {
     Member node;
     CHECK(node.relays());  // no cluster yet
     CHECK(node.tells() == NodeId{5});
@@ -149,7 +149,7 @@ TEST_CASE("cluster: HELLOs are 0.75 to 1.25 periods apart, and a node that is of
     CHECK(node.tells() == NodeId{5});
 }
 
-TEST_CASE("cluster: a forwarded copy waits for the delay, any other copy is only delivered") {
+TEST_CASE("cluster: a copy to be forwarded waits for the delay, any other copy is only delivered") {
     for (const bool is_gateway : {true, false}) {
         Member node;
         node.hear(1, 1);
@@ -206,7 +206,7 @@ TEST_CASE("cluster on graphs: heads follow the definition, and all connected nod
     }
 }
 
-TEST_CASE("cluster on graphs: in a clique only the head forwards") {
+TEST_CASE("cluster on graphs: if all nodes are neighbours, only the head forwards") {
     std::vector<Graph::Edge> edges;
     for (std::uint32_t i = 0; i < 8; ++i) {
         for (std::uint32_t j = 0; j < i; ++j) edges.emplace_back(i, j);

@@ -54,13 +54,13 @@ double counted(const std::vector<Vec3>& centres) {
 }  // namespace
 
 TEST_CASE(
-    "disc cover: without neighbours all is uncovered, with a disc at the same place nothing") {
+    "disc cover: no neighbours leave the disc uncovered, a disc at the same position covers it") {
     CHECK(uncovered({}) == 1);
     CHECK(uncovered({{2, 0, 0}, {0, -3, 0}}) == 1);
     CHECK(uncovered({{0.5, 0, 0}, {0, 0, 0}}) == 0);
 }
 
-TEST_CASE("disc cover: a disc at distance r leaves .609 of the other disc uncovered") {
+TEST_CASE("disc cover: a disc at any distance covers the area of the common lens") {
     for (const double d : {0.001, 0.1, 0.5, 1.0, 1.5, 1.999}) {
         for (const double angle : {0.0, 1.0, 2.5, pi, -2.0, -pi / 2}) {
             CAPTURE(d);
@@ -72,11 +72,11 @@ TEST_CASE("disc cover: a disc at distance r leaves .609 of the other disc uncove
     CHECK(std::abs(uncovered({{1, 0, 0}}) - (1.0 / 3 + std::sqrt(3) / (2 * pi))) < rounding);
 }
 
-TEST_CASE("disc cover: two discs on opposite sides cover two separate lenses") {
+TEST_CASE("disc cover: two discs on opposite sides cover two lenses that do not overlap") {
     CHECK(std::abs(uncovered({{1, 0, 0}, {-1, 0, 0}}) - (2 * outside_lens(1) - 1)) < rounding);
 }
 
-TEST_CASE("disc cover: three discs at distance r, a third of a turn apart, leave nothing") {
+TEST_CASE("disc cover: three discs at distance r, a third of a turn apart, cover all") {
     const Vec3 a{1, 0, 0}, b{-0.5, std::sqrt(0.75), 0}, c{-0.5, -std::sqrt(0.75), 0};
     CHECK(uncovered({a, b, c}) < rounding);
     // Two of them share a lens of centres sqrt(3) apart, which lies in the disc.
@@ -90,7 +90,7 @@ TEST_CASE("disc cover: equal discs count once, and unit and heights have no effe
     CHECK(std::abs(uncovered({{300, 100, 7}, {-150, 450, -9}}, 500) - uncovered(two)) < rounding);
 }
 
-TEST_CASE("disc cover: random discs leave the share that counting points gives") {
+TEST_CASE("disc cover: for random discs, the uncovered share agrees with counted points") {
     // A border of length up to 2 pi (k + 1) crosses cells of 1/400: their half area, spread evenly.
     constexpr double grain = 2e-3;
     std::uint64_t index = 0;
@@ -105,7 +105,7 @@ TEST_CASE("disc cover: random discs leave the share that counting points gives")
     }
 }
 
-TEST_CASE("disc cover: k random neighbours leave .41, .19, .095, .048 of the disc on average") {
+TEST_CASE("disc cover: k random neighbours leave .41, .19, .095 and .048 uncovered on average") {
     // Ni et al., section 2.2 (EAC); 3 sqrt(3) / (4 pi) for one. Four sigma of 4,000 draws.
     constexpr double four_sigma = 0.011;
     const std::vector<double> expected{3 * std::sqrt(3) / (4 * pi), 0.189, 0.095, 0.048};

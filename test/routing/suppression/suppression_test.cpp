@@ -90,7 +90,7 @@ TEST_CASE("suppression: copies after the send time have no effect, and are not d
     }
 }
 
-TEST_CASE("suppression: a reused handle of the link layer is not confused with the own copy") {
+TEST_CASE("suppression: if the copy's handle has passed to another frame, that frame stays") {
     Hearer node({.threshold = 2});
     node.hear();
     node.link.sent[0].queued.frame.sender = NodeId{7};  // sent, and the slot is another frame's
@@ -98,7 +98,7 @@ TEST_CASE("suppression: a reused handle of the link layer is not confused with t
     CHECK(node.link.sent[0].stage == test::FakeLinkLayer::Stage::waiting);
 }
 
-TEST_CASE("suppression: a copy waits for 1 us + U(0, delay)") {
+TEST_CASE("suppression: a copy waits for 1 us plus a uniform time from 0 to the delay") {
     for (const auto scheme : {Scheme::counter, Scheme::probability}) {
         Hearer node({.scheme = scheme, .delay = 80ms});
         node.link.drawn = 0.25;
@@ -108,9 +108,7 @@ TEST_CASE("suppression: a copy waits for 1 us + U(0, delay)") {
     }
 }
 
-TEST_CASE(
-    "suppression, probability: a message with a draw below P is forwarded, whatever is heard "
-    "later") {
+TEST_CASE("suppression, probability: only the draw against P decides, whatever is heard later") {
     for (const double drawn : {0.1, 0.299, 0.301, 0.9}) {
         Hearer node({.scheme = Scheme::probability, .threshold = 0.3});
         node.link.drawn = drawn;
@@ -143,8 +141,7 @@ TEST_CASE("suppression, distance: a robot that hears any sender nearer than D do
     CHECK(later.link.sent.size() == 1);
 }
 
-TEST_CASE(
-    "suppression, location: a robot does not forward if less than the share A of its disc is new") {
+TEST_CASE("suppression, location: a robot forwards only if the share A of its disc is uncovered") {
     const auto run = [](double a) {
         Hearer node({.scheme = Scheme::location, .threshold = a, .range = Meters{100}});
         std::string sends;
@@ -161,7 +158,8 @@ TEST_CASE(
     CHECK(run(0.610) == "nn");
 }
 
-TEST_CASE("suppression: a copy with no TTL left is delivered only, also if a later copy has more") {
+TEST_CASE(
+    "suppression: if the first copy has no TTL left, nothing is forwarded, also not a later copy") {
     Hearer node({});
     const Reception first = node.hear({}, 1);
     CHECK(first.fate == Fate::ttl);
@@ -170,7 +168,7 @@ TEST_CASE("suppression: a copy with no TTL left is delivered only, also if a lat
     CHECK(node.link.sent.empty());
 }
 
-TEST_CASE("suppression: the source does not forward or deliver its own message") {
+TEST_CASE("suppression: the source neither forwards nor delivers its own message") {
     test::FakeLinkLayer link(2);
     SuppressionRouter router(Suppression{.ttl = 7});
     const MessageId message = link.message_from({0});
@@ -185,7 +183,7 @@ TEST_CASE("suppression: the source does not forward or deliver its own message")
     CHECK(link.sent.size() == 1);
 }
 
-TEST_CASE("suppression: thresholds out of the scheme's range are refused, with the range") {
+TEST_CASE("suppression: a threshold out of its scheme's range is refused, and the range is named") {
     struct Case {
         Suppression settings;
         std::string error;
@@ -268,7 +266,7 @@ struct Expected {
 
 }  // namespace
 
-TEST_CASE("suppression on graphs: P = 1, C above all degrees + 1, D = 0 and A = 0 equal flooding") {
+TEST_CASE("suppression on graphs: P = 1, D = 0, A = 0 or a C above all degrees + 1 is flooding") {
     for (const int k : {3, 5, 8}) {
         const UnitDisc net = map_of(k, 5);
         REQUIRE(net.reachable() > 5);
@@ -284,7 +282,8 @@ TEST_CASE("suppression on graphs: P = 1, C above all degrees + 1, D = 0 and A = 
     }
 }
 
-TEST_CASE("suppression on graphs: P = 0, C = 1 and A = 1 reach only the source's neighbours") {
+TEST_CASE(
+    "suppression on graphs: with P = 0, C = 1 or A = 1 only the source's neighbours are reached") {
     const UnitDisc net = map_of(5, 5);
     const double reachable = static_cast<double>(net.reachable());
     const Outcome once{static_cast<double>(net.neighbours()[net.source].size()) / reachable, 1};
@@ -306,7 +305,8 @@ TEST_CASE("suppression on graphs: the probability P saves 1 - P of the rebroadca
     }
 }
 
-TEST_CASE("suppression on graphs: reach and savings equal Ni et al. on maps of 1 to 11") {
+TEST_CASE(
+    "suppression on graphs: reach and savings equal those of Ni et al. on maps of 1 to 11 units") {
     struct Row {
         Suppression settings;
         std::vector<Expected> on;  ///< maps of 1, 3, 5, 7, 9, 11 units

@@ -35,7 +35,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("quantity: every unit has its factor of the base unit") {
+TEST_CASE("quantity: every unit has the right factor to its base unit") {
     struct Case {
         const char* text;
         Dimension dimension;
@@ -86,7 +86,9 @@ TEST_CASE("quantity: blanks around number and unit, a plus sign and exponents ar
     CHECK(read("-80dBm", Dimension::power) == -80);
 }
 
-TEST_CASE("quantity: a unit of a power of ten moves the decimal point, to the last bit") {
+TEST_CASE(
+    "quantity: conversion of a unit that is a power of ten, such as cm to m, is exact to the last "
+    "bit") {
     struct Case {
         const char* unit;
         int exponent;
@@ -122,7 +124,7 @@ TEST_CASE("quantity: a unit of a power of ten moves the decimal point, to the la
     CHECK(read("5 uW", Dimension::power) == read("0.005 mW", Dimension::power));
 }
 
-TEST_CASE("quantity: kilometres an hour are rounded once") {
+TEST_CASE("quantity: a speed in km/h is converted to m/s with a single rounding") {
     int wrong = 0;
     for (int tenths = 1; tenths < 40'000; ++tenths) {
         const std::string text =
@@ -132,11 +134,12 @@ TEST_CASE("quantity: kilometres an hour are rounded once") {
     CHECK(wrong == 0);
 }
 
-TEST_CASE("quantity: a power too small for a double has no level and is refused") {
+TEST_CASE("quantity: a power that is too small to have a level in dBm is refused") {
     CHECK(contains(error_of("1e-322 uW", Dimension::power), "which has no level"));
 }
 
-TEST_CASE("quantity: a bare number is an error in a file, and the suggestion carries the unit") {
+TEST_CASE(
+    "quantity: a number without a unit is an error in a file, and the error suggests a unit") {
     const Value bare_numbers[] = {Value(5), Value(5.0), Value("5")};
     for (const auto& value : bare_numbers) {
         const std::string error = error_of(value, Dimension::length);
@@ -145,7 +148,7 @@ TEST_CASE("quantity: a bare number is an error in a file, and the suggestion car
     }
 }
 
-TEST_CASE("quantity: a bare number of an option is in SI units, a power in watts") {
+TEST_CASE("quantity: in an option a number without a unit is in SI units, a power in watts") {
     CHECK(read_quantity(from_option(5), "key", Dimension::length) == 5);
     CHECK(read_quantity(from_option("2.45e9"), "key", Dimension::frequency) == 2.45e9);
     CHECK(std::abs(read_quantity(from_option(0.1), "key", Dimension::power) - 20) < 1e-12);

@@ -43,7 +43,7 @@ std::string error_of(const std::string& keys) {
 
 }  // namespace
 
-TEST_CASE("names of ns-2 lead to the models of scenario files") {
+TEST_CASE("a model name of ns-2 gets a hint with the name that scenario files use") {
     CHECK(hint("propagation", "FreeSpace") == meant("friis"));
     CHECK(hint("propagation", "Propagation/FreeSpace") == meant("friis"));
     CHECK(hint("propagation", "TwoRayGround") == meant("two_ray"));
@@ -55,7 +55,8 @@ TEST_CASE("names of ns-2 lead to the models of scenario files") {
     CHECK(hint("routing", "DSR") == meant("dsr"));
 }
 
-TEST_CASE("classes of ns-3 and OMNeT++ lead to the models of scenario files") {
+TEST_CASE(
+    "a class name of ns-3 or OMNeT++ gets a hint with the model name that scenario files use") {
     CHECK(hint("propagation", "FriisPropagationLossModel") == meant("friis"));
     CHECK(hint("propagation", "ns3::LogDistancePropagationLossModel") == meant("log_distance"));
     CHECK(hint("propagation", "RangePropagationLossModel") == meant("disc"));
@@ -72,7 +73,9 @@ TEST_CASE("classes of ns-3 and OMNeT++ lead to the models of scenario files") {
     CHECK(hint("move", "ConstantPositionMobilityModel") == meant("fixed"));
 }
 
-TEST_CASE("a known model that rovernet does not have is named, with the page of the replacements") {
+TEST_CASE(
+    "for a known model that rovernet lacks, the hint names it and the page that lists "
+    "replacements") {
     const std::string there =
         " is not there: \"rovernet help not-there\" lists what to use instead";
     for (const char* protocol : {"OLSR", "DSDV", "Olsr", "TORA"})
@@ -82,7 +85,7 @@ TEST_CASE("a known model that rovernet does not have is named, with the page of 
         CHECK(hint("access", access) == access + there);
 }
 
-TEST_CASE("a name of another table, an unknown name and odd texts get no hint") {
+TEST_CASE("a name that is unknown, malformed, or known but for a different table gets no hint") {
     CHECK(hint("routing", "TwoRayGround").empty());
     CHECK(hint("propagation", "OLSR").empty());
     CHECK(hint("fading", "Shadowing").empty());
@@ -92,7 +95,7 @@ TEST_CASE("a name of another table, an unknown name and odd texts get no hint") 
         CHECK(hint("propagation", word).empty());
 }
 
-TEST_CASE("the error of a scenario file has the hint") {
+TEST_CASE("the error for a name of another simulator in a scenario file ends with the hint") {
     CHECK(error_of("[propagation]\nmodel = \"TwoRayGround\"\n")
               .ends_with("\"rays\"; " + meant("two_ray")));
     CHECK(error_of("[routing]\nprotocol = \"OLSR\"\n") ==

@@ -54,7 +54,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("toml: a document prints and reads back as itself") {
+TEST_CASE("toml: a printed document is read back unchanged") {
     const std::string text =
         "whole = -5\nreal = 0.1\nlarge = 1e+300\ntruth = true\n"
         "text = \"quote \\\" slash \\\\ tab \\u0009 é\"\n\n[table]\nlist = [1, 2.0, [\"a\"]]\n"
@@ -69,7 +69,7 @@ TEST_CASE("toml: keys keep the order of the file") {
     CHECK(to_toml(*parse_toml("z = 1\na = 2\nm = 3", "").table()) == "z = 1\na = 2\nm = 3\n");
 }
 
-TEST_CASE("toml: a whole real number stays a real number") {
+TEST_CASE("toml: a real number without a fraction is printed as a real number, such as 30.0") {
     CHECK(to_toml(*parse_toml("a = 30.0", "").table()) == "a = 30.0\n");
 }
 
@@ -92,7 +92,8 @@ TEST_CASE("toml: an empty file is an empty document") {
     CHECK(read_toml(folder.write("empty.toml", "")).table()->entries.empty());
 }
 
-TEST_CASE("set_option: a path leads through tables, names and numbers") {
+TEST_CASE(
+    "set_option: the path of a key may contain tables, names of robots and numbers of robots") {
     const std::string text = "[[robot]]\nname = \"A\"\n\n[[robot]]\nname = \"B\"\n";
     CHECK(after_option(text, "robot.1.radius=2") == text + "radius = 2\n");
     CHECK(after_option(text, "robot.B.radius=2") == text + "radius = 2\n");
@@ -101,7 +102,7 @@ TEST_CASE("set_option: a path leads through tables, names and numbers") {
     CHECK(after_option("[a]\nb = 1\n", "a.b=2") == "[a]\nb = 2\n");
 }
 
-TEST_CASE("set_option: the value is TOML, or else the text itself") {
+TEST_CASE("set_option: a value is read as TOML if possible, and as text otherwise") {
     CHECK(after_option("", "a=friis") == "a = \"friis\"\n");
     CHECK(after_option("", "a=\"friis\"") == "a = \"friis\"\n");
     CHECK(after_option("", "a=15 dBm") == "a = \"15 dBm\"\n");

@@ -102,14 +102,16 @@ TEST_CASE("stage scanner: keys of a laser are read in the units of the world") {
     CHECK(one.finder.to.value == 0);
 }
 
-TEST_CASE("stage scanner: models between a laser and its robot move the laser") {
+TEST_CASE(
+    "stage scanner: the poses of models between a laser and its robot add to the pose of the "
+    "laser") {
     const Read world = carrying("model ( pose [0.2 0 0 90] laser ( pose [0.1 0 0 45] ) )");
     CHECK(near(world.only().at.x, 0.2));
     CHECK(near(world.only().at.y, 0.1));
     CHECK(near(world.only().heading, 135 * degrees));
 }
 
-TEST_CASE("stage scanner: a ranger of Stage 4 with one sensor is a fan") {
+TEST_CASE("stage scanner: a ranger of Stage 4 with one sensor becomes a fan of beams") {
     const Read world = carrying(
         "ranger ( pose [0.1 0 0.2 90] sensor ( pose [0.05 0 0 10] size [0.1 0.1 0.1]\n"
         " range [0.5 4.5] fov 270 samples 271 ) )");
@@ -131,7 +133,9 @@ TEST_CASE("stage scanner: a ranger of Stage 4 with one sensor is a fan") {
     CHECK(near(two.finder.to, 0.05));
 }
 
-TEST_CASE("stage scanner: a ranger of several sensors is a ring with one beam each") {
+TEST_CASE(
+    "stage scanner: a ranger of Stage 4 with several sensors becomes a ring with one beam per "
+    "sensor") {
     const Read world = read(
         "define eye sensor ( range [0 2] )\n"
         "position ( name \"a\" wifi ( model \"friis\" ) ranger ( pose [-0.1 0 0 180]\n"
@@ -155,7 +159,7 @@ TEST_CASE("stage scanner: a ranger of several sensors is a ring with one beam ea
     CHECK(mixed.notices[1].ends_with("one beam for each sensor, the middle one of its samples"));
 }
 
-TEST_CASE("stage scanner: a ranger of Stage 2 is a ring of sonars") {
+TEST_CASE("stage scanner: a ranger of Stage 2 becomes a ring of sonars") {
     const Read world = carrying(
         "ranger ( scount 3 spose[0] [0.1 0.2 90] spose[2] [0 -0.2 -90] spose[1] [0.15 0 10]\n"
         " sview [0.1 4 15] ssize [0.01 0.05] spose[1] [0.15 0 0] )");
@@ -228,7 +232,8 @@ TEST_CASE("stage scanner: invalid values are errors with a position") {
     CHECK(mistake("ranger ( scount 1 spose[0] 3 )").starts_with("2: spose[0]: found a single"));
 }
 
-TEST_CASE("stage scanner: the scan of a scenario replaces the world's") {
+TEST_CASE(
+    "stage scanner: range finders that a scenario gives to a robot replace those of the world") {
     const TemporaryFolder folder;
     folder.write("a.world",
                  "position ( name \"a\" pose [1 1 0] wifi ( model \"friis\" ) ranger ( scount 1 "

@@ -143,7 +143,8 @@ constexpr double level_tolerance = 1e-3;  // [dB]
 
 }  // namespace
 
-TEST_CASE("stage world: a position with a wifi is a robot with its pose, size and radio") {
+TEST_CASE(
+    "stage world: a position with a wifi becomes a robot with the same pose, size and radio") {
     const Read world = read(robot_with +
                             "ip \"192.168.0.2\" netmask \"255.255.0.0\" mac \"08-00-20-ae-fd-7e\" "
                             "essid \"net\" model \"friis\" power 30 freq 2412.5 sensitivity -80 "
@@ -169,13 +170,15 @@ TEST_CASE("stage world: a position with a wifi is a robot with its pose, size an
     CHECK(world.document.find("scenario") == nullptr);
 }
 
-TEST_CASE("stage world: the document contains only values that the world gives") {
+TEST_CASE("stage world: the scenario made from a world contains only values that the world sets") {
     const Read world = read(robot_with + "model \"friis\" ) )\n");
     CHECK(world.radio(0).entries.empty());
     CHECK(world.propagation(0).entries.size() == 1);
 }
 
-TEST_CASE("stage world: each of the five models has its name and parameters") {
+TEST_CASE(
+    "stage world: the five propagation models of Stage become models of rovernet, with their "
+    "parameters") {
     struct Row {
         std::string stage, model, key, expected;
     };
@@ -199,7 +202,9 @@ TEST_CASE("stage world: each of the five models has its name and parameters") {
     }
 }
 
-TEST_CASE("stage world: a wifi without a model follows [propagation], an unknown one is an error") {
+TEST_CASE(
+    "stage world: a wifi without a model uses the model of [propagation]; an unknown model is an "
+    "error") {
     const Read none =
         read("position ( name \"a\" wifi ( ) )\nposition ( name \"b\"\nwifi ( plc 22 ) )\n");
     CHECK(none.robot(0).find("propagation") == nullptr);
@@ -220,14 +225,17 @@ TEST_CASE("stage world: a wifi without a model follows [propagation], an unknown
           "a.world:1: model \"simple\" without a range has range 0, as in Stage");
 }
 
-TEST_CASE("stage world: freq is the frequency; without freq the key frequency is") {
+TEST_CASE(
+    "stage world: the key freq sets the frequency, or the key frequency if there is no freq") {
     const std::string friis = "model \"friis\" ";
     CHECK(value(read(robot_with + friis + "frequency 900 ) )").radio(0), "frequency") == "900 MHz");
     CHECK(value(read(robot_with + friis + "freq 5200 frequency 900 ) )").radio(0), "frequency") ==
           "5200 MHz");
 }
 
-TEST_CASE("stage world: a success rate of r % accepts the draws 0 to r of 0 to 100") {
+TEST_CASE(
+    "stage world: link_success_rate r becomes the success rate (r + 1) / 101, because Stage draws "
+    "from 0 to 100") {
     const auto rate = [](const std::string& given) {
         const Read world = read(robot_with + "model \"friis\" link_success_rate " + given + " ) )");
         return std::get<double>(world.radio(0).find("success_rate")->data);
@@ -239,7 +247,8 @@ TEST_CASE("stage world: a success rate of r % accepts the draws 0 to r of 0 to 1
     CHECK(rate("500") == 1);
 }
 
-TEST_CASE("stage world: the last random_seed is the scenario's, quit_time its duration") {
+TEST_CASE(
+    "stage world: the last random_seed becomes the scenario's seed, and quit_time its duration") {
     const Read world = read(
         "quit_time 90.5\n"
         "position ( name \"a\" wifi ( model \"friis\" random_seed 7 ) )\n"
@@ -255,7 +264,7 @@ TEST_CASE("stage world: the last random_seed is the scenario's, quit_time its du
     CHECK(mistake(robot_with + "random_seed -1 ) )").starts_with("1:58: random_seed: found -1;"));
 }
 
-TEST_CASE("stage world: Stage 4's tuples, units and radians are read") {
+TEST_CASE("stage world: poses of four numbers, unit_length and unit_angle of Stage 4 are read") {
     const Read world = read(
         "unit_length \"cm\" unit_angle \"radians\"\n"
         "position ( name \"a\" pose [100 200 30 3.141592653589793] size [30 20 50]\n"
@@ -268,7 +277,7 @@ TEST_CASE("stage world: Stage 4's tuples, units and radians are read") {
     CHECK(world.notices[0] == "a.world:2: z is left out, as in the 2007 radio, for: a");
 }
 
-TEST_CASE("stage world: a robot carried by another model has the combined position") {
+TEST_CASE("stage world: a robot that is part of another model has the combined pose of both") {
     const Read world = read(
         "model ( pose [10 0 90] position ( name \"a\" pose [2 0 0]\n"
         "  wifi ( model \"friis\" )\n"
@@ -286,7 +295,9 @@ TEST_CASE("stage world: a robot carried by another model has the combined positi
     CHECK(world.notices[0] == "a.world:1: only the first wifi counts of: a");
 }
 
-TEST_CASE("stage world: the wifi of a carried robot does not belong to its carrier") {
+TEST_CASE(
+    "stage world: the wifi of a robot that another robot carries belongs only to the carried "
+    "robot") {
     const Read world = read(
         "position ( name \"truck\" pose [5 0 180]\n"
         "  position ( name \"a\" pose [1 0 0] wifi ( model \"friis\" ) ) )\n");
@@ -358,7 +369,7 @@ TEST_CASE("stage world: a wifi at any depth below a position belongs to it") {
     CHECK(value(world.radio(0), "power") == "3 mW");
 }
 
-TEST_CASE("stage world: the document is read as a scenario") {
+TEST_CASE("stage world: the scenario made from a world is read with all values of the world") {
     const Read world = read(
         "quit_time 20\n" + robot_with +
         "ip \"1.2\" netmask \"255.0.0.0\" mac \"m\" essid \"net\" model \"raytrace\" plc 28\n"
@@ -456,7 +467,9 @@ TEST_CASE("stage world: models that are neither robots nor walls are listed in o
     CHECK(world.notices[3] == "a.world: ignored: laser (1), window (1)");
 }
 
-TEST_CASE("stage world: each unknown key of a wifi gives a notice; a model's keys give none") {
+TEST_CASE(
+    "stage world: each unknown key of a wifi gives a notice; unknown keys of other models give "
+    "none") {
     const Read world =
         read(robot_with + "model \"friis\" size [0 0]\nrange3 -35\nsensitivty -80\nwatts 2 ) )\n");
     REQUIRE(world.notices.size() == 2);
@@ -478,7 +491,7 @@ TEST_CASE("stage world: values of a wrong type are errors with a position") {
     CHECK(mistake("quit_time \"1\"\n").starts_with("1:1: quit_time: found a text"));
 }
 
-TEST_CASE("stage world: a world in the style of the thesis is read unchanged") {
+TEST_CASE("stage world: a world file in the style of the 2007 thesis is read without changes") {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder.path("lib"));
     folder.write("lib/robots.inc",
@@ -569,7 +582,8 @@ TEST_CASE("stage world: a world with a missing bitmap is refused, and loads with
     CHECK(read.notices[0].find("a wifi has no key \"range3\"") != std::string::npos);
 }
 
-TEST_CASE("stage world: levels of the worlds that came with Stage equal the published ones") {
+TEST_CASE(
+    "stage world: signal levels in the worlds that came with Stage equal the published levels") {
     const auto folder = stage_worlds();
     if (!folder) return;
     struct Row {

@@ -60,7 +60,7 @@ Scenario scenario_of(const std::string& keys) {
 
 }  // namespace
 
-TEST_CASE("models: a shared key is checked by the range of the chosen model") {
+TEST_CASE("models: a key that several models share must be in the range of the selected model") {
     const Choice far = read("model = \"far\"\nhops = 30");
     CHECK(std::get<Far>(far.make()).hops == 30);
     CHECK(std::get<Near>(far.parameters).hops == 2);  // 30 is out of its range
@@ -78,7 +78,7 @@ TEST_CASE("models: a key of a model that is not chosen is checked and kept") {
     CHECK(error_of("shar = 0.2").find("did you mean \"share\"?") != std::string::npos);
 }
 
-TEST_CASE("models: a printed table is read back as the same choice") {
+TEST_CASE("models: a printed table is read back with the same model and parameters") {
     const Choice far = read("model = \"far\"\nhops = 30\nshare = 0.25");
     for (const Table& printed : {chosen_document(far), whole_document(far)}) {
         Choice again;

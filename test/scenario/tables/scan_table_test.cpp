@@ -34,7 +34,8 @@ constexpr double degrees = std::numbers::pi / 180;
 
 }  // namespace
 
-TEST_CASE("scan: a table is one range finder, a list several; each has its position") {
+TEST_CASE(
+    "scan: a table gives one range finder, a list gives several, each with its own position") {
     const auto one = read("{ beams = 5 }");
     REQUIRE(one.size() == 1);
     CHECK(one[0].finder.beams == 5);
@@ -53,7 +54,7 @@ TEST_CASE("scan: a table is one range finder, a list several; each has its posit
     CHECK(read("[]").empty());
 }
 
-TEST_CASE("scan: a ring has an angle for each beam, and a position if given") {
+TEST_CASE("scan: a ring has an angle for each beam, and optionally a position for each beam") {
     const auto ring = read(
         "{ kind = \"sonar\", angles = [\"90 deg\", \"-10 deg\"], places = [[\"0.1 m\", \"0.2 m\"], "
         "[\"0 m\", \"-0.2 m\"]] }");
@@ -64,7 +65,8 @@ TEST_CASE("scan: a ring has an angle for each beam, and a position if given") {
     CHECK(read("{ kind = \"ranger\", angles = [\"0 deg\"] }")[0].places.empty());
 }
 
-TEST_CASE("scan: several of a kind are distinguished by name") {
+TEST_CASE(
+    "scan: several range finders of one kind get different names; equal given names are an error") {
     const auto scanners = read("[{}, {}, { kind = \"sonar\" }, {}]");
     REQUIRE(scanners.size() == 4);
     CHECK(scanners[0].label() == "laser");
@@ -77,7 +79,7 @@ TEST_CASE("scan: several of a kind are distinguished by name") {
     CHECK(mistake("[{ name = \"laser1\" }, {}]").starts_with("30: scan: two range finders"));
 }
 
-TEST_CASE("scan: errors have a position") {
+TEST_CASE("scan: an error in a range finder has its position in the file") {
     CHECK(mistake("{ name = \"\" }").starts_with("17: name: found "));
     CHECK(mistake("{ name = \"a/b\" }").find("without dots, slashes") != std::string::npos);
     CHECK(mistake("{ at = \"1 m\" }").starts_with("15: at: found"));
@@ -99,7 +101,7 @@ TEST_CASE("scan: errors have a position") {
     CHECK(mistake("[3]").find("a table") != std::string::npos);
 }
 
-TEST_CASE("scan: is printed and read back unchanged") {
+TEST_CASE("scan: a printed range finder is read back unchanged") {
     const auto printed = [](const std::string& scan) {
         const std::string text =
             "[[robot]]\nname = \"A\"\nat = [\"0 m\", \"0 m\"]\nscan = " + scan + "\n";

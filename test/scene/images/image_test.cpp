@@ -48,14 +48,14 @@ TEST_CASE("PNG: gray of every depth is stretched to 0..255") {
     CHECK(read_bytes(png_bytes({.width = 2, .rows = {{7, 205}}})).samples == Samples{7, 205});
 }
 
-TEST_CASE("PNG: 16-bit samples are rounded to the nearest of 8 bits") {
+TEST_CASE("PNG: 16-bit samples are rounded to the nearest 8-bit value") {
     // 0x0080 = 128 of 65535 is 0.498 of 255: 0; 0x0081 is 0.502: 1; 0xff7f: 254.50: 255.
     const Image image = read_bytes(png_bytes(
         {.width = 4, .depth = 16, .rows = {{0x00, 0x80, 0x00, 0x81, 0xff, 0x7f, 0x80, 0x80}}}));
     CHECK(image.samples == Samples{0, 1, 255, 128});
 }
 
-TEST_CASE("PNG: gray with alpha, colour, and colour with alpha keep their channels") {
+TEST_CASE("PNG: gray with alpha, colour, and colour with alpha are read with all their channels") {
     const Image gray = read_bytes(png_bytes(
         {.width = 2, .color_type = PNG_COLOR_TYPE_GRAY_ALPHA, .rows = {{10, 0, 20, 255}}}));
     CHECK(gray.channels == 2);
@@ -111,7 +111,7 @@ TEST_CASE("PNG: an interlaced image gives the same pixels") {
     CHECK(plain.samples[98] == 98);
 }
 
-TEST_CASE("PNG: a file cut anywhere is an error, without a crash") {
+TEST_CASE("PNG: a file cut off anywhere is refused, without a crash") {
     PngPicture picture{.width = 40, .height = 40, .rows = {}};
     for (int row = 0; row < 40; ++row) {
         picture.rows.emplace_back();
@@ -124,7 +124,7 @@ TEST_CASE("PNG: a file cut anywhere is an error, without a crash") {
     CHECK(contains(picture_error(bytes.substr(0, 200)), "truncated PNG"));
 }
 
-TEST_CASE("PNG: a changed byte is an error or gives another image, without a crash") {
+TEST_CASE("PNG: a file with a changed byte is refused or read, without a crash") {
     const std::string bytes = png_bytes(
         {.width = 8, .height = 2, .rows = {{1, 2, 3, 4, 5, 6, 7, 8}, {8, 7, 6, 5, 4, 3, 2, 1}}});
     for (std::size_t i = 0; i < bytes.size(); ++i) {
@@ -169,7 +169,7 @@ TEST_CASE("PGM: comments are accepted between any two numbers of the header") {
     CHECK(read_bytes("P2 2 1 # sizes\n255 5 # five\n6").samples == Samples{5, 6});
 }
 
-TEST_CASE("PGM: any maxval is stretched to 255 and rounded to nearest") {
+TEST_CASE("PGM: samples are stretched from any maxval to 255 and rounded to the nearest number") {
     CHECK(read_bytes("P2 4 1 100 0 50 99 100").samples == Samples{0, 128, 252, 255});
     CHECK(read_bytes("P5 2 1 1\n" + bytes_of({0, 1})).samples == Samples{0, 255});
     CHECK(read_bytes("P5 4 1 65535\n" + bytes_of({0x00, 0x80, 0x00, 0x81, 0xff, 0x7f, 0xff, 0xff}))
@@ -177,7 +177,7 @@ TEST_CASE("PGM: any maxval is stretched to 255 and rounded to nearest") {
     CHECK(read_bytes("P5 1 1 256\n" + bytes_of({0x01, 0x00})).samples == Samples{255});
 }
 
-TEST_CASE("PGM: errors say what is wrong") {
+TEST_CASE("PGM: errors name what is wrong in the file") {
     CHECK(contains(picture_error("P5 2 2 255\nabc"), "truncated PGM"));
     CHECK(contains(picture_error("P2 2 2 255\n1 2 3"), "truncated PGM"));
     CHECK(contains(picture_error("P5 2"), "truncated PGM"));
@@ -195,7 +195,7 @@ TEST_CASE("PGM: errors say what is wrong") {
     CHECK(contains(picture_error("P5 99999999999999999999 1 255\n"), "number above"));
 }
 
-TEST_CASE("images: a missing file, a folder and other kinds of file have different errors") {
+TEST_CASE("images: a missing file, a folder and files of other kinds cause different errors") {
     const TemporaryFolder folder;
     const auto fails = [](const std::string& path, const std::string& part) {
         try {
@@ -214,7 +214,7 @@ TEST_CASE("images: a missing file, a folder and other kinds of file have differe
     CHECK(fails(folder.write("page.png", "<html></html>"), "expected a PNG, JPEG, BMP, GIF or"));
 }
 
-TEST_CASE("images: file names are recognised in upper and lower case") {
+TEST_CASE("images: extensions of image files are recognised in upper and lower case") {
     for (const char* name : {"a.png", "maps/b.JPG", "c.jpeg", "d.bmp", "e.Gif", "f.ppm", "g.pbm"})
         CHECK_MESSAGE(is_image_name(name), name);
     for (const char* name : {"a.yaml", "png", "b.png.toml", ""}) CHECK_FALSE(is_image_name(name));

@@ -36,7 +36,7 @@ TEST_CASE("PPM: plain and raw colours of any maxval are read") {
     CHECK(read_bytes("P6 1 1 65535\n\0\200\0\201\377\377"s).samples == Samples{0, 1, 255});
 }
 
-TEST_CASE("PBM: 1 is black, plain with or without spaces, raw with rows of whole bytes") {
+TEST_CASE("PBM: 1 is black; plain digits need no spaces, and raw rows are padded to whole bytes") {
     const Samples expected{0, 255, 0, 255, 255, 0};
     CHECK(read_bytes("P1\n3 2\n1 0 1\n0 0 1\n").samples == expected);
     CHECK(read_bytes("P1 3 2 101001").samples == expected);

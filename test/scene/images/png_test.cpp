@@ -32,7 +32,7 @@ TEST_CASE("png: equal images give equal bytes") {
     CHECK(to_png(image) == to_png(image));
 }
 
-TEST_CASE("png: a wrong number of samples is an error of the caller") {
+TEST_CASE("png: writing a wrong number of samples throws std::invalid_argument") {
     CHECK_THROWS_AS(to_png({2, 2, 1, {0, 0, 0}}), std::invalid_argument);
     CHECK_THROWS_AS(to_png({0, 0, 1, {}}), std::invalid_argument);
     CHECK_THROWS_AS(to_png({1, 1, 5, {0, 0, 0, 0, 0}}), std::invalid_argument);

@@ -94,7 +94,7 @@ TEST_CASE("GIF: the first frame is read; alpha is a channel only if a pixel is t
     CHECK(clear.rgb_sum(2, 0) == 270);
 }
 
-TEST_CASE("JPEG, BMP, GIF: a file cut anywhere is an error, never an image with walls") {
+TEST_CASE("JPEG, BMP, GIF: a file whose pixels are cut off is refused, wherever it is cut") {
     for (const std::string& bytes : all_kinds()) {
         CHECK(error_of(bytes) == "");
         for (std::size_t size = 6; size < bytes.size(); ++size) {
@@ -107,7 +107,7 @@ TEST_CASE("JPEG, BMP, GIF: a file cut anywhere is an error, never an image with 
     }
 }
 
-TEST_CASE("JPEG, BMP, GIF: a changed byte is an error or gives another image, without a crash") {
+TEST_CASE("JPEG, BMP, GIF: a file with a changed byte is refused or read, without a crash") {
     for (const std::string& bytes : all_kinds()) {
         for (std::size_t i = 3; i < bytes.size(); ++i) {
             for (const int flip : {0x01, 0x41, 0x80}) {
@@ -119,7 +119,7 @@ TEST_CASE("JPEG, BMP, GIF: a changed byte is an error or gives another image, wi
     }
 }
 
-TEST_CASE("JPEG, BMP, GIF: a thousand million pixels are refused from the header alone") {
+TEST_CASE("JPEG, BMP, GIF: an image of 1e9 pixels is refused from its header alone") {
     const std::string jpeg = test::from_hex("ffd8ffc0000b08") + "\234\100\234\100"s +
                              test::from_hex("01011100");  // 40,000 x 40,000
     const std::string gif = "GIF89a" + "\100\234\100\234\0\0\0\54"s;
@@ -132,13 +132,13 @@ TEST_CASE("JPEG, BMP, GIF: a thousand million pixels are refused from the header
     CHECK(contains(error_of(bmp_header(0, 0, 24)), "at least one pixel"));
 }
 
-TEST_CASE("BMP: an unsupported kind is an error that says so") {
+TEST_CASE("BMP: a BMP of an unsupported kind is refused, and the error names the kind") {
     const std::string packed = bmp_header(4, 1, 8, std::string(8, '\0'), 1) + "\4\1\0\1"s;
     CHECK(contains(error_of(packed), "a kind of BMP that is not read (BMP RLE)"));
     CHECK(contains(error_of(packed), "save it as PNG"));
 }
 
-TEST_CASE("maps: an image is the same map in each file format") {
+TEST_CASE("maps: the same image gives the same map as JPEG and as PGM") {
     const TemporaryFolder folder;
     folder.write("room.jpg", test::gray_jpeg());
     std::string row = "P2 16 8 255 ";

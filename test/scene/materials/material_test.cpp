@@ -12,7 +12,7 @@ constexpr double usual = 100;  // [dB/m] of the propagation model
 
 }  // namespace
 
-TEST_CASE("material: a material without a loss follows the model") {
+TEST_CASE("material: a material without a loss of its own gets the loss of the propagation model") {
     const Material plain;
     CHECK(plain.follows_model());
     const WallRate rate = wall_rate(plain, 2450_MHz, usual);
@@ -20,7 +20,8 @@ TEST_CASE("material: a material without a loss follows the model") {
     CHECK(rate.per_metre == usual);
 }
 
-TEST_CASE("material: its own loss replaces the model's, even if it is 0") {
+TEST_CASE(
+    "material: a material's own loss replaces that of the propagation model, even if it is 0") {
     const WallRate crossing = wall_rate({.per_crossing = 3_dB}, 2450_MHz, usual);
     CHECK(crossing.per_crossing == 3);
     CHECK(crossing.per_metre == 0);
@@ -36,7 +37,7 @@ TEST_CASE("material: its own loss replaces the model's, even if it is 0") {
     CHECK(glassless.per_metre == 0);
 }
 
-TEST_CASE("material: a slab has its loss at the signal's frequency for each crossing") {
+TEST_CASE("material: per crossing, a slab costs its loss at the signal's frequency") {
     const Material glass{.slab = ItuMaterial::glass, .thickness = 0.006_m};
     for (const Hertz f : {2450_MHz, 5200_MHz}) {
         const WallRate rate = wall_rate(glass, f, usual);

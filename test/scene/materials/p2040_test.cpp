@@ -71,7 +71,7 @@ TEST_CASE("p2040: the loss per metre deep inside a material equals the vectors")
     }
 }
 
-TEST_CASE("p2040: losses of slabs equal the vectors at every angle (slab_transmission)") {
+TEST_CASE("p2040: losses of slabs equal the vectors at every angle (table slab_transmission)") {
     constexpr double tolerance = 1e-8;  // [dB], see the vectors' description
     const Vectors vectors("slab_transmission.csv");
     std::size_t rows = 0;
@@ -99,7 +99,7 @@ TEST_CASE("p2040: losses of slabs equal the vectors at every angle (slab_transmi
     CHECK(rows == 203);
 }
 
-TEST_CASE("p2040: a slab never gives more power than it gets, and loses only what it absorbs") {
+TEST_CASE("p2040: a slab never transmits and reflects more power than it receives") {
     for (std::size_t i = 0; i < EnumNames<ItuMaterial>::values.size(); ++i) {
         for (const double degrees : {0.0, 20.0, 63.4, 80.0, 89.9}) {
             for (const double thickness : {1e-6, 0.001, 0.013, 0.2, 3.0}) {
@@ -122,7 +122,7 @@ TEST_CASE("p2040: a slab never gives more power than it gets, and loses only wha
     }
 }
 
-TEST_CASE("p2040: wall factors of real walls equal the vectors (wallfactor_equivalent)") {
+TEST_CASE("p2040: wall factors of real walls equal the vectors (table wallfactor_equivalent)") {
     constexpr double relative = 1e-9;  // the vectors' last digits
     const Vectors vectors("wallfactor_equivalent.csv");
     REQUIRE(vectors.size() == 7);
@@ -139,7 +139,7 @@ TEST_CASE("p2040: wall factors of real walls equal the vectors (wallfactor_equiv
     }
 }
 
-TEST_CASE("p2040: a slab of thickness 0 has no loss, and the thickest loss is finite") {
+TEST_CASE("p2040: a slab of thickness 0 has no loss, and a slab of 1000 m has a finite loss") {
     constexpr double rounding = 1e-13;  // [dB]
     for (std::size_t i = 0; i < EnumNames<ItuMaterial>::values.size(); ++i) {
         const auto material = static_cast<ItuMaterial>(i);
@@ -162,7 +162,8 @@ TEST_CASE("p2040: along the face of a slab, at 90 degrees, losses are finite and
     }
 }
 
-TEST_CASE("p2040: the ends of a formula's range are included, and it is extrapolated (S44)") {
+TEST_CASE(
+    "p2040: a formula applies at the ends of its frequency range and continues beyond them (S44)") {
     const auto eps = [](double ghz) {
         return permittivity(ItuMaterial::concrete, Hertz{ghz * 1e9}).imaginary;
     };

@@ -29,7 +29,7 @@ double loss_db(math::Complex field, double decay = 0) {
 
 }  // namespace
 
-TEST_CASE("slab: losses and phase of the transmitted field equal the table") {
+TEST_CASE("slab: losses and transmitted field, with its phase, equal the table") {
     const test::Vectors vectors("slab_transmission.csv");
     int compared = 0;
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -57,7 +57,7 @@ TEST_CASE("slab: losses and phase of the transmitted field equal the table") {
     CHECK(compared > 150);
 }
 
-TEST_CASE("slab: thickness 0 has no effect; the power never increases") {
+TEST_CASE("slab: a slab of thickness 0 has no effect, and no slab increases the power") {
     for (const auto material : {ItuMaterial::concrete, ItuMaterial::glass, ItuMaterial::metal}) {
         const Slab slab(material, 2450_MHz);
         for (double cosine = 0.01; cosine <= 1; cosine += 0.01) {

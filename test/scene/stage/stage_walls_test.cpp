@@ -106,7 +106,7 @@ std::optional<std::string> stage_worlds() {
 
 }  // namespace
 
-TEST_CASE("stage walls: the box around the dark pixels fills the model's size") {
+TEST_CASE("stage walls: the rectangle around the dark pixels is scaled to the model's size") {
     World world;
     world.draw("m.pgm", {"........",  //
                          "..#.+...",  //
@@ -121,7 +121,8 @@ TEST_CASE("stage walls: the box around the dark pixels fills the model's size") 
     CHECK(corners(grid).opposite == Vec3{13, 22, 0});
 }
 
-TEST_CASE("stage walls: only the first channel of a pixel decides, alpha does not") {
+TEST_CASE(
+    "stage walls: only the first channel of a pixel decides if it is a wall, alpha does not") {
     World world;
     test::PngPicture picture{.width = 4, .rows = {}};
     picture.color_type = PNG_COLOR_TYPE_RGB_ALPHA;
@@ -154,7 +155,7 @@ TEST_CASE("stage walls: pose and origin move and rotate the walls") {
     CHECK(near(corners(shifted).opposite, {8, 20, 0}));
 }
 
-TEST_CASE("stage walls: unit_length and unit_angle are used") {
+TEST_CASE("stage walls: lengths are read in unit_length and angles in unit_angle") {
     World world;
     const OccupancyGrid box = world.grid(
         "unit_length \"mm\" unit_angle \"radians\"\nmodel ( size [4000 2000] pose [10000 0 "
@@ -163,7 +164,7 @@ TEST_CASE("stage walls: unit_length and unit_angle are used") {
     CHECK(near(corners(box).opposite, {9, 2, 0}));
 }
 
-TEST_CASE("stage walls: a model without bitmap and outline is a box, solid from edge to edge") {
+TEST_CASE("stage walls: a model without bitmap and outline is a solid box") {
     World world;
     const StageWalls walls = world.walls(
         "model ( size [2 1] pose [5 5 0] )\nmodel ( size [1 1 3] noblocks 1 )\nmodel ( )\n");
@@ -175,7 +176,8 @@ TEST_CASE("stage walls: a model without bitmap and outline is a box, solid from 
     CHECK(std::abs(Scene(walls.grids[0]).wall_length({0, 5, 0}, {10, 5, 0}) - 2) < rounding);
 }
 
-TEST_CASE("stage walls: parts of a wall are walls in its frame; robots and sensors are not walls") {
+TEST_CASE(
+    "stage walls: submodels of a wall are walls placed relative to it; robots are not walls") {
     World world;
     const StageWalls walls = world.walls(
         "define room model ( size [2 2] )\n"
@@ -193,7 +195,7 @@ TEST_CASE("stage walls: parts of a wall are walls in its frame; robots and senso
     CHECK(std::abs(walls.grids[2].yaw - 135 * pi_ / 180) < rounding);
 }
 
-TEST_CASE("stage walls: a model that a laser passes is not a wall, but its parts may be") {
+TEST_CASE("stage walls: a model that laser beams pass is not a wall, but its submodels may be") {
     World world;
     CHECK(world.walls("model ( laser_return 0 )\nmodel ( ranger_return -1 )\n").grids.empty());
     CHECK(world.walls("model ( ranger_return -0.5 )\nmodel ( laser_return -1 )\n").grids.empty());
@@ -228,7 +230,7 @@ TEST_CASE("stage walls: a boundary is four walls of 1 cm just inside the model's
     CHECK(alone.notices.empty());
 }
 
-TEST_CASE("stage walls: a box with a boundary stays solid, with a notice") {
+TEST_CASE("stage walls: a model with a boundary but no bitmap stays a solid box, with a notice") {
     World world;
     const StageWalls walls = world.walls("\nmodel ( size [4 2] boundary 1 )\n");
     CHECK(walls.grids.size() == 1);
@@ -237,7 +239,7 @@ TEST_CASE("stage walls: a box with a boundary stays solid, with a notice") {
         contains(walls.notices[0], "a.world:2: a model with a boundary and no bitmap is a solid"));
 }
 
-TEST_CASE("stage walls: rectangles of Stage 2 and blocks of Stage 4 are exact boxes") {
+TEST_CASE("stage walls: rectangular polygons of Stage 2 and blocks of Stage 4 become exact boxes") {
     World world;
     const StageWalls old_style = world.walls(
         "model ( size [4 4] pose [1 1 0] polygons 2\n"
@@ -259,7 +261,8 @@ TEST_CASE("stage walls: rectangles of Stage 2 and blocks of Stage 4 are exact bo
     }
 }
 
-TEST_CASE("stage walls: other outlines become cells of at most 2 cm, with one notice") {
+TEST_CASE(
+    "stage walls: outlines that are no rectangles become cells of at most 2 cm, with one notice") {
     World world;
     const StageWalls walls = world.walls(
         "model ( size [2 1.01] pose [3 0 0]\n"
@@ -283,7 +286,8 @@ TEST_CASE("stage walls: other outlines become cells of at most 2 cm, with one no
     CHECK(triangle.at(99, 50) == Cell::free);
 }
 
-TEST_CASE("stage walls: an outline that crosses itself has the inside of the even-odd rule") {
+TEST_CASE(
+    "stage walls: the inside of an outline that crosses itself is found by the even-odd rule") {
     World world;
     const OccupancyGrid bow = world.grid(
         "model ( size [1 1] block ( points 4 point[0] [0 0] point[1] [1 1] point[2] [1 0] "
@@ -295,7 +299,7 @@ TEST_CASE("stage walls: an outline that crosses itself has the inside of the eve
     CHECK(bow.at(49, 25) == Cell::occupied);
 }
 
-TEST_CASE("stage walls: one material for each colour of the walls") {
+TEST_CASE("stage walls: each colour of the walls becomes one material") {
     World world;
     const StageWalls walls = world.walls(
         "define brick model ( color \"brown\" )\n"
@@ -318,7 +322,8 @@ TEST_CASE("stage walls: one material for each colour of the walls") {
         "256"));
 }
 
-TEST_CASE("stage walls: a missing bitmap lists the paths tried; with --lenient it is a notice") {
+TEST_CASE(
+    "stage walls: the error for a missing bitmap lists paths tried; --lenient makes it a notice") {
     World world;
     const std::string text = "model (\n bitmap \"bits/m.pgm\" size [1 1] )\n";
     const std::string places =
@@ -335,7 +340,8 @@ TEST_CASE("stage walls: a missing bitmap lists the paths tried; with --lenient i
                                   places);
 }
 
-TEST_CASE("stage walls: a bitmap may be replaced, by its whole name or its last part") {
+TEST_CASE(
+    "stage walls: a bitmap may be replaced, chosen by its whole name or the name's last part") {
     World world;
     world.draw("new.pgm", {"#.#"});
     for (const std::string old : {"bits/old.pgm", "old.pgm"}) {
@@ -346,7 +352,7 @@ TEST_CASE("stage walls: a bitmap may be replaced, by its whole name or its last 
     CHECK(world.mistake("model ( bitmap \"old.pgm\" )\n") != "");
 }
 
-TEST_CASE("stage walls: many models may use one bitmap, each in its own size") {
+TEST_CASE("stage walls: several models may use one bitmap, each scaled to its own size") {
     World world;
     world.draw("m.pgm", {".#.#", "...."});
     const StageWalls walls = world.walls(
@@ -360,7 +366,7 @@ TEST_CASE("stage walls: many models may use one bitmap, each in its own size") {
     CHECK(walls.grids[1].origin == Vec3{7, -1, 0});
 }
 
-TEST_CASE("stage walls: a bitmap without walls gives a notice; a damaged one is an error") {
+TEST_CASE("stage walls: a bitmap without walls causes a notice, a damaged one an error") {
     World world;
     world.draw("white.pgm", {".-"});
     const StageWalls walls = world.walls("model ( bitmap \"white.pgm\" )\n");
@@ -372,7 +378,7 @@ TEST_CASE("stage walls: a bitmap without walls gives a notice; a damaged one is 
     CHECK_THROWS_AS(world.walls("model ( bitmap \"bad.pgm\" )\n"), InputError);
 }
 
-TEST_CASE("stage walls: values of a wrong type are errors with a position") {
+TEST_CASE("stage walls: a value of a wrong type is refused with its position") {
     const World world;
     CHECK(world.mistake("model ( laser_return \"yes\" )\n") ==
           "1:9: laser_return: found a text; expected one number; write laser_return 1");
@@ -394,14 +400,15 @@ TEST_CASE("stage walls: values of a wrong type are errors with a position") {
     CHECK(world.walls("model ( size [0 5] )\n").grids.empty());
 }
 
-TEST_CASE("stage walls: unlimited work is an error") {
+TEST_CASE("stage walls: walls of more than 256 million cells are refused") {
     const World world;
     CHECK(contains(world.mistake("model ( size [5000 5000] block ( points 3 point[0] [0 0] "
                                  "point[1] [1 0] point[2] [0 1] ) )\n"),
                    "the walls have more than 256 million pixels and cells"));
 }
 
-TEST_CASE("stage walls: images that came with Stage have the published occupied pixels") {
+TEST_CASE(
+    "stage walls: the images that came with Stage have the published number of occupied pixels") {
     const auto folder = stage_worlds();
     if (!folder) return;
     struct Row {

@@ -65,7 +65,8 @@ bool contains(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("worldfile: keys, texts, tuples and nested models keep their order and position") {
+TEST_CASE(
+    "worldfile: keys, texts, tuples and nested models are read in order, with their positions") {
     const WorldFile world = read(
         "# a comment\n"
         "size [16 -.5 +3.]\tname \"a b\" # two on a line\r\n"
@@ -94,7 +95,7 @@ TEST_CASE("worldfile: keys, texts, tuples and nested models keep their order and
     CHECK(world.notices.empty());
 }
 
-TEST_CASE("worldfile: every kind of line end counts as one line") {
+TEST_CASE("worldfile: a line end of any kind counts as one line end") {
     for (const std::string end : {"\n", "\r", "\r\n", "\n\r"}) {
         CAPTURE(end.size());
         CHECK(mistake("a 1" + end + "b 2" + end + ",").starts_with("3:1: "));
@@ -109,11 +110,11 @@ TEST_CASE("worldfile: words with brackets and dots are keys") {
     CHECK(value(world.root, "scount-a_b") == "4000");
 }
 
-TEST_CASE("worldfile: the last of several values counts") {
+TEST_CASE("worldfile: if a key is given several times, its last value counts") {
     CHECK(value(read("a 1\na 2\na 3\n").root, "a") == "3000");
 }
 
-TEST_CASE("worldfile: a use of a macro adds its own keys and children to those of the macro") {
+TEST_CASE("worldfile: a model made from a macro has the macro's keys and children, and its own") {
     const WorldFile world = read(
         "define base position ( size [1 1] color \"red\" laser() )\n"
         "define robot base\n( color \"blue\" mass 3 sonar() )\n"
@@ -137,7 +138,7 @@ TEST_CASE("worldfile: a use of a macro adds its own keys and children to those o
     CHECK(world.notices.empty());
 }
 
-TEST_CASE("worldfile: of two macros with one name the first counts, with a notice") {
+TEST_CASE("worldfile: if a macro is defined twice, the first definition counts, with a notice") {
     const WorldFile world = read(
         "define m model ( a 1 )\n"
         "define m position ( a 2 )\n"
@@ -148,7 +149,8 @@ TEST_CASE("worldfile: of two macros with one name the first counts, with a notic
     CHECK(contains(world.notices[0], "a.world:2: macro \"m\" is defined a second time; the first"));
 }
 
-TEST_CASE("worldfile: a type unknown to Stage gives one notice, with the nearest type") {
+TEST_CASE(
+    "worldfile: a type that Stage does not know causes one notice, with the nearest known type") {
     const WorldFile world = read(
         "define commbot position ( size [1 1] )\n"
         "commbott ( )\ncommbott ( )\nrover ( wifi() )\nplan ( bitmap \"a.png\" )\n");
@@ -164,7 +166,7 @@ TEST_CASE("worldfile: a type unknown to Stage gives one notice, with the nearest
     CHECK(world_role(world.root.children[3]) == WorldRole::wall);
 }
 
-TEST_CASE("worldfile: of a sequence of digits, signs and points the number at the front counts") {
+TEST_CASE("worldfile: of a malformed number such as 3.75.2, the number at its beginning is read") {
     const WorldFile world = read("position ( pose [3.75.2 -1-2 +.5. 0] size [4 5.-] a 6.0.0.1 )\n");
     const WorldPose pose = world_pose(world.root.children[0], "pose", {});
     CHECK(pose.at.x == 3.75);
@@ -243,7 +245,7 @@ TEST_CASE("worldfile: a syntax error has line, column, what was found and what t
     CHECK(mistake("# caf\xE9, ; ' 1e5\n") == "");
 }
 
-TEST_CASE("worldfile: a define without its parts is an error") {
+TEST_CASE("worldfile: an incomplete define is refused") {
     CHECK(mistake("define robot ( )\n") ==
           "1:14: found \"(\"; expected the macro's name and its type; write define robot position "
           "( ... )");
@@ -256,7 +258,8 @@ TEST_CASE("worldfile: a define without its parts is an error") {
     CHECK(mistake("define a model ( define b model ( ) )\n").starts_with("1:"));
 }
 
-TEST_CASE("worldfile: includes are searched beside the world, on the path, then in STAGEPATH") {
+TEST_CASE(
+    "worldfile: includes are searched beside the world, in the search path, then in STAGEPATH") {
     const TemporaryFolder folder;
     for (const std::string sub : {"world", "first", "second"}) {
         std::filesystem::create_directory(folder.path(sub));
@@ -275,7 +278,8 @@ TEST_CASE("worldfile: includes are searched beside the world, on the path, then 
     CHECK(value(read_worldfile(path, options).root, "where") == "beside");
 }
 
-TEST_CASE("worldfile: a missing include lists all paths tried; with --lenient it is a notice") {
+TEST_CASE(
+    "worldfile: the error for a missing include lists paths tried; --lenient makes it a notice") {
     const TemporaryFolder folder;
     const std::string path = folder.write("a.world", "a 1\ninclude \"inc/m.inc\"\nb 2\n");
     WorldOptions options{.search_path = {folder.path("lib")}};
@@ -299,7 +303,8 @@ TEST_CASE("worldfile: a missing include lists all paths tried; with --lenient it
           path + ":2: include \"inc/m.inc\" is missing and left out; tried " + places);
 }
 
-TEST_CASE("worldfile: macros and defines of an include apply from there on, and errors name it") {
+TEST_CASE(
+    "worldfile: macros of an included file apply after the include, and errors name the file") {
     const TemporaryFolder folder;
     folder.write("m.inc", "define m model ( a 1 )\n");
     const std::string path =
@@ -363,7 +368,7 @@ TEST_CASE("worldfile: includes nest at most 16 deep") {
     CHECK_THROWS_AS(read_worldfile(folder.path("0"), {}), InputError);
 }
 
-TEST_CASE("worldfile: a path that is not a file is an error") {
+TEST_CASE("worldfile: a file that is missing, too large or not a world file is refused") {
     const TemporaryFolder folder;
     const auto message = [](const std::string& path) -> std::string {
         try {
@@ -384,7 +389,7 @@ TEST_CASE("worldfile: a path that is not a file is an error") {
     CHECK(read_worldfile(folder.write("empty.world", ""), {}).root.children.empty());
 }
 
-TEST_CASE("worldfile: poses of Stage 2 and Stage 4 are distinguished by their length") {
+TEST_CASE("worldfile: poses of Stage 2 and Stage 4 are distinguished by their number of values") {
     const WorldFile world = read(
         "model ( pose [1 2 90] size [3 4] )\n"
         "model ( pose [1 2 5 90] size [3 4 6] )\n"

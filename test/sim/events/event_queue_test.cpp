@@ -193,7 +193,7 @@ bool serves(EventQueue& queue, std::vector<EventKey> keys) {
 
 }  // namespace
 
-TEST_CASE("event queue: agrees with the heap and with a sorted set, for any times") {
+TEST_CASE("event queue: the order equals that of a heap and of a sorted set, for any times") {
     for (const Named& distribution : distributions()) {
         CAPTURE(distribution.name);
         Trio(distribution, 1).drive(30, 20);
@@ -202,7 +202,8 @@ TEST_CASE("event queue: agrees with the heap and with a sorted set, for any time
     }
 }
 
-TEST_CASE("event queue: 200 000 keys at one time are served by priority, then in order") {
+TEST_CASE(
+    "event queue: 200 000 keys at one time are served by priority, then by order of insertion") {
     EventQueue queue;
     std::vector<EventKey> keys;
     for (std::uint64_t i = 0; i < 200'000; ++i) {
@@ -212,7 +213,7 @@ TEST_CASE("event queue: 200 000 keys at one time are served by priority, then in
     CHECK(serves(queue, keys));
 }
 
-TEST_CASE("event queue: endless keys at the current time keep the order") {
+TEST_CASE("event queue: keys that are added without end at the current time are served in order") {
     EventQueue queue;
     std::uint64_t pushed = 0;
     for (; pushed < 5000; ++pushed) queue.push(key_at(5, pushed));
@@ -224,7 +225,7 @@ TEST_CASE("event queue: endless keys at the current time keep the order") {
     CHECK(queue.size() == 5000);
 }
 
-TEST_CASE("event queue: many keys may be added before the key that was peeked") {
+TEST_CASE("event queue: after a look at the next key, many keys before it may be added") {
     constexpr std::int64_t far = 1'000'000'000'000;
     Dice dice(1);
     EventQueue queue;
@@ -261,7 +262,8 @@ TEST_CASE("event queue: keys added around a single early key stay in order") {
     CHECK(serves(queue, keys));
 }
 
-TEST_CASE("event queue: a filter may refuse all keys, the nearest, or the farthest") {
+TEST_CASE(
+    "event queue: a filter may remove all keys, all but the farthest, or all but the nearest") {
     const auto filled = [] {
         EventQueue queue;
         for (std::uint64_t i = 0; i < 10'000; ++i) queue.push(key_at(std::int64_t(i) * 1000, i));
@@ -298,7 +300,7 @@ TEST_CASE("event queue: a copy is independent") {
     CHECK(serves(copy, keys));
 }
 
-TEST_CASE("event line: keys in nearly ascending order are served in order") {
+TEST_CASE("event line: keys in nearly ascending order are served in order; others are refused") {
     Dice dice(9);
     EventLine line;
     std::set<EventKey> taken;
@@ -332,7 +334,7 @@ TEST_CASE("event line: keys in nearly ascending order are served in order") {
     CHECK(before_the_last > 100);
 }
 
-TEST_CASE("event line: groups of keys in any order are served in order") {
+TEST_CASE("event line: keys that are appended in unsorted groups are served in order") {
     Dice dice(10);
     EventLine line;
     std::uint64_t sequence = 0;

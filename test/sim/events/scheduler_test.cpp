@@ -128,7 +128,8 @@ std::vector<int> served(Scheduler<int>& queue) {
 
 }  // namespace
 
-TEST_CASE("event key: the largest sequence and slot fit in; at() changes only the time") {
+TEST_CASE(
+    "event key: the largest sequence number and slot fit in, and at() changes only the time") {
     static_assert(sizeof(EventKey) == 16);
     constexpr std::uint64_t last_sequence = (std::uint64_t{1} << 36) - 1;
     constexpr std::uint32_t last_slot = (1U << 24) - 1;
@@ -142,7 +143,7 @@ TEST_CASE("event key: the largest sequence and slot fit in; at() changes only th
     CHECK(EventKey(at(-1), Priority::user, 9, 9) < EventKey(at(0), Priority::frame_end, 0, 0));
 }
 
-TEST_CASE("scheduler: agrees with a sorted map for any mix, with and without ties") {
+TEST_CASE("scheduler: for any calls, the order equals that of a sorted map, also at equal times") {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         drive(seed, 3, 10);
         drive(seed, 5, 300);
@@ -160,7 +161,8 @@ TEST_CASE("scheduler: serves equal keys in the order of scheduling") {
     CHECK(served(queue) == expected);
 }
 
-TEST_CASE("scheduler: at one time frame ends, then timers, then frame starts, then the user") {
+TEST_CASE(
+    "scheduler: at one time, frame ends go first, then timers, frame starts and user events") {
     Scheduler<int> queue;
     queue.schedule(at(10), Priority::user, 4);
     queue.schedule(at(10), Priority::frame_start, 3);
@@ -179,7 +181,7 @@ TEST_CASE("scheduler: an event may be scheduled at the current time") {
     CHECK(served(queue) == std::vector{2, 3});
 }
 
-TEST_CASE("scheduler: only a pending event can be cancelled, and once") {
+TEST_CASE("scheduler: an event can be cancelled only once, and only while it is pending") {
     Scheduler<int> queue;
     CHECK_FALSE(queue.cancel({}));
     const auto popped = queue.schedule(at(1), Priority::timer, 1);
@@ -196,7 +198,8 @@ TEST_CASE("scheduler: only a pending event can be cancelled, and once") {
     CHECK(served(queue) == std::vector{3});
 }
 
-TEST_CASE("scheduler: a requeued event is not cancelled by its old handle") {
+TEST_CASE(
+    "scheduler: the old handle of an event cannot cancel the event after it was queued again") {
     Scheduler<int> queue;
     const auto handle = queue.schedule(at(1), Priority::timer, 1);
     const auto event = queue.pop();
@@ -207,7 +210,8 @@ TEST_CASE("scheduler: a requeued event is not cancelled by its old handle") {
     CHECK(queue.pop().payload == 1);
 }
 
-TEST_CASE("scheduler: a requeued event keeps its place among equals") {
+TEST_CASE(
+    "scheduler: an event that is queued again keeps its position among events of equal time") {
     Scheduler<int> queue;
     queue.schedule(at(1), Priority::timer, 1);
     queue.schedule(at(5), Priority::timer, 2);

@@ -59,7 +59,7 @@ constexpr int distributions = 6;
 
 }  // namespace
 
-TEST_CASE("decision: verdicts by Student's t equal the vectors decide_looks") {
+TEST_CASE("decision: verdicts by Student's t equal those of the test vectors decide_looks") {
     const test::Vectors values("decide_looks_series.csv"), expected("decide_looks.csv");
     for (std::size_t row = 0; row < expected.size(); ++row) {
         const std::string name = expected.text(row, "series");
@@ -74,7 +74,7 @@ TEST_CASE("decision: verdicts by Student's t equal the vectors decide_looks") {
     }
 }
 
-TEST_CASE("decision: Student's interval is tested only after 10, 20, 40 pairs") {
+TEST_CASE("decision: by Student's t a verdict is possible only after 10, 20, 40, ... pairs") {
     CandidateDecision decision({.tolerance = 1, .bounds = delay, .family = 1, .most = 100});
     for (int i = 0; i < 15; ++i) {
         decision.add(i % 2 == 0 ? 0.01 : -0.01, 0);
@@ -83,7 +83,7 @@ TEST_CASE("decision: Student's interval is tested only after 10, 20, 40 pairs") 
     CHECK(decision.decided_at() == 10U);
 }
 
-TEST_CASE("decision: for the mean it equals the test of the vectors decide_betting") {
+TEST_CASE("decision: verdicts about the mean equal those of the test vectors decide_betting") {
     const test::Vectors all("decide_series.csv"), expected("decide_betting.csv");
     for (std::size_t row = 0; row < expected.size(); ++row) {
         const std::string name = expected.text(row, "series");
@@ -98,7 +98,9 @@ TEST_CASE("decision: for the mean it equals the test of the vectors decide_betti
     }
 }
 
-TEST_CASE("decision: differences of both signs that cancel are equal only in the mean") {
+TEST_CASE(
+    "decision: differences that cancel out are within the tolerance for the mean, but not for "
+    "single runs") {
     const DecisionRule rule{.tolerance = 0.1, .bounds = share};
     DecisionRule of_runs = rule;
     of_runs.criterion = ErrorCriterion::run;
@@ -112,7 +114,8 @@ TEST_CASE("decision: differences of both signs that cancel are equal only in the
     CHECK(*run.decided_at() < *mean.decided_at());
 }
 
-TEST_CASE("decision: the verdict `outside` for a run is tested on one side, at the level alpha") {
+TEST_CASE(
+    "decision: for single runs the verdict `outside` is a one-sided test at the level alpha") {
     // |D| = 1/2 against a tolerance of 1/4: the wealth "above" grows by the stakes of the formula.
     const DecisionRule rule{
         .criterion = ErrorCriterion::run, .tolerance = 0.25, .bounds = share, .family = 3};
@@ -147,13 +150,13 @@ TEST_CASE("decision: the first verdict is final") {
     CHECK(test::is_close(decision.differences().back(), 1, 1e-15));
 }
 
-TEST_CASE("decision: values beyond the metric's bounds count as the bound") {
+TEST_CASE("decision: a value beyond the metric's bounds is replaced by the nearest bound") {
     CandidateDecision decision({.tolerance = 0.1, .bounds = share});
     for (int i = 0; i < 200; ++i) decision.add(1.6, 1.2);
     CHECK(decision.verdict() == Equivalence::within);
 }
 
-TEST_CASE("decision: an undecided comparison predicts the number of replications") {
+TEST_CASE("decision: an undecided comparison predicts the number of replications that it needs") {
     CandidateDecision decision({.tolerance = 0.02, .bounds = share, .family = 7});
     CHECK_FALSE(decision.needed());
     for (int i = 0; i < 100; ++i) add(decision, 0);
@@ -163,7 +166,9 @@ TEST_CASE("decision: an undecided comparison predicts the number of replications
     CHECK_FALSE(decision.needed());
 }
 
-TEST_CASE("decision: a larger tolerance that decides is printed, and decides; otherwise none") {
+TEST_CASE(
+    "decision: for an undecided candidate, a larger tolerance that would decide is found, if there "
+    "is one") {
     const DecisionRule rule{.tolerance = 0.05, .bounds = share, .family = 3};
     CandidateDecision near(rule), few(rule), student({.tolerance = 1, .bounds = delay, .most = 40});
     for (int i = 0; i < 200; ++i) add(near, i % 2 == 0 ? 0.15 : -0.05);
@@ -183,7 +188,9 @@ TEST_CASE("decision: a larger tolerance that decides is printed, and decides; ot
     CHECK(*student.deciding_tolerance() == doctest::Approx(1.7).epsilon(0.1));
 }
 
-TEST_CASE("decision: of 1000 studies with candidates at the tolerance at most 5 % decide falsely") {
+TEST_CASE(
+    "decision: if all candidates differ by just the tolerance, at most 5 % of 1000 studies have a "
+    "false verdict") {
     // Six candidates each, one for each distribution, with E D = 0.05, the tolerance: neither
     // within nor outside. Half of the studies judge the mean, half the single run, where E|D| =
     // 0.05: those distributions that are negative at times are left as they are only for the mean.
@@ -217,7 +224,9 @@ TEST_CASE("decision: of 1000 studies with candidates at the tolerance at most 5 
     CHECK(false_studies <= studies * 0.05 + 3 * std::sqrt(studies * 0.05 * 0.95));
 }
 
-TEST_CASE("decision: clear cases of all six distributions get their verdicts") {
+TEST_CASE(
+    "decision: clearly small and clearly large differences get the right verdict, for all six "
+    "distributions") {
     for (int distribution = 0; distribution < distributions; ++distribution) {
         CAPTURE(distribution);
         const DecisionRule rule{.tolerance = 0.05, .bounds = share, .family = distributions};

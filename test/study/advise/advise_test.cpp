@@ -137,7 +137,8 @@ TEST_CASE("advise: on an open field the reference is the exact two_ray with sinr
     CHECK(c.family() == 4 * 3 - 1);
 }
 
-TEST_CASE("advise: a disc is judged with the most detailed compatible reception") {
+TEST_CASE(
+    "advise: the model disc is judged with the most detailed reception model that works with it") {
     const AdviceCandidates c =
         candidates_of(talkers + "[propagation]\nrange = \"20 m\"\n", as_given);
     REQUIRE(c.path_losses.front().name == "disc");
@@ -165,7 +166,8 @@ TEST_CASE("advise: on a map the reference is the most detailed model, the others
     CHECK(c.path_losses.size() > 5);
 }
 
-TEST_CASE("advise: simpler forms of rays are cheaper candidates") {
+TEST_CASE(
+    "advise: with the model rays as the reference, its simpler forms are cheaper candidates") {
     const auto forms_below = [](const std::string& order, const std::string& diffraction) {
         const AdviceCandidates c =
             candidates_for(std::string(ROVERNET_EXAMPLES) + "/rescue/rescue.toml", {},
@@ -234,7 +236,8 @@ TEST_CASE("advise: errors about reference and candidates are reported at their o
               .starts_with("--models fris: unknown propagation model \"fris\""));
 }
 
-TEST_CASE("advise: a candidate uses the scenario's shadowing") {
+TEST_CASE(
+    "advise: if the scenario has a shadowing model, candidates have no shadowing of their own") {
     const AdviceCandidates c =
         candidates_of(talkers + "[shadowing]\nmodel = \"link\"\nsigma = \"6 dB\"\n",
                       {.models = {"log_distance"}, .reference = {}, .as_given = false});
@@ -242,7 +245,9 @@ TEST_CASE("advise: a candidate uses the scenario's shadowing") {
     CHECK(plain_text(*c.path_losses.front().table.find("sigma")) == "0 dB");
 }
 
-TEST_CASE("advise: a candidate fitted to a model of its own form equals that model") {
+TEST_CASE(
+    "advise: a candidate that is fitted to a reference of its own form gets the reference's "
+    "parameters") {
     CandidateQuestion question{
         .models = {"friis", "multi_wall"},
         .reference = {"propagation.model=log_distance", "propagation.exponent=3",
@@ -298,7 +303,9 @@ TEST_CASE("advise: a simulated study selects the model that equals the reference
     CHECK(advice_charts(advice).size() == 2);
 }
 
-TEST_CASE("advise: the choice is the cheapest of both kinds, judged together") {
+TEST_CASE(
+    "advise: the choice combines the cheapest sufficient models of both kinds, and is judged as a "
+    "combination") {
     // `a` is wrong by 0.5, `b` by 0.01, and the reception `some` by 0.01: together by 0.02.
     MadeUp study([](std::size_t p, std::size_t r, std::uint32_t) {
         return 0.9 - (p == 0 ? 0.5 : p == 1 ? 0.01 : 0) - (r == 0 ? 0.01 : 0);
@@ -314,7 +321,7 @@ TEST_CASE("advise: the choice is the cheapest of both kinds, judged together") {
     CHECK(study.made[0] == 0);  // a + some: nobody asked
 }
 
-TEST_CASE("advise: two small errors may together be too large") {
+TEST_CASE("advise: two models with small errors can together exceed the tolerance") {
     MadeUp study([](std::size_t p, std::size_t r, std::uint32_t) {
         return 0.9 - (p == 0 ? 0.6 : p == 1 ? 0.15 : 0) - (r == 0 ? 0.15 : 0);
     });
@@ -349,7 +356,9 @@ TEST_CASE("advise: an undecided candidate counts as insufficient, and is named")
                                  "+ all") != std::string::npos);
 }
 
-TEST_CASE("advise: a candidate stops at its verdict, and candidates beyond the choice stop") {
+TEST_CASE(
+    "advise: a candidate gets no more runs after its verdict, nor after the choice of a cheaper "
+    "one") {
     // `a` is the reference at once; `b` is noisy, and never decided.
     MadeUp study([](std::size_t p, std::size_t, std::uint32_t r) {
         return p == 1 ? (r % 2 == 0 ? 1.0 : 0.0) : 0.5;
@@ -412,7 +421,7 @@ TEST_CASE("advise: after a stop the verdict is preliminary, and names undecided 
     CHECK(advice_text(advice).find("would decide") != std::string::npos);
 }
 
-TEST_CASE("advise: stopped before any run, it says that nothing is known") {
+TEST_CASE("advise: if it is stopped before any run, the advice states that nothing is known") {
     MadeUp study([](std::size_t, std::size_t, std::uint32_t) { return 0.5; });
     study.most_blocks = 0;
     const Advice advice = study.advice(rule_of(0.2));
@@ -422,7 +431,7 @@ TEST_CASE("advise: stopped before any run, it says that nothing is known") {
     CHECK(advice_text(advice).find("tolerance") == std::string::npos);
 }
 
-TEST_CASE("advise: blocks grow by a quarter, from 10 to the limit") {
+TEST_CASE("advise: replications are added in blocks of at least 10 or a quarter, up to the limit") {
     CHECK(next_block(0, 4000) == 10);
     CHECK(next_block(10, 4000) == 20);
     CHECK(next_block(80, 4000) == 100);

@@ -73,7 +73,9 @@ TEST_CASE("costs of models: each model has a cost and its share of the run's CPU
     CHECK(chart.series[0].points[0].x == 1e6 * c.comparison.models[0].cost->median_s);
 }
 
-TEST_CASE("costs of models: without frames there are none, and CPU time of runs is shown") {
+TEST_CASE(
+    "costs of models: without frames no model has a cost, and the chart shows the CPU time of "
+    "runs") {
     const Compared c("off = [\"0 s\"]");
     for (const ComparedModel& model : c.comparison.models) CHECK_FALSE(model.cost);
     CHECK(c.comparison.cost_text.empty());

@@ -70,7 +70,9 @@ constexpr double rounding = 1e-12;  // of means of a few numbers below 10
 
 }  // namespace
 
-TEST_CASE("compare: differences are paired, errors are distances to the most detailed model") {
+TEST_CASE(
+    "compare: differences are paired, and an error is the mean distance to the most detailed "
+    "model") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), {"raytrace_2007", "disc", "friis"},
                              {{0.2, 0.4, 0.6}, {0.3, 0.3, 0.9}, {1.0, 1.0, 1.0}});
@@ -94,7 +96,9 @@ TEST_CASE("compare: differences are paired, errors are distances to the most det
     CHECK(std::abs(*c.pairs[0].ratio - (0.04 + 0.12) / 0.04) < 1e-9);
 }
 
-TEST_CASE("compare: a mean is over all replications, a difference over common ones") {
+TEST_CASE(
+    "compare: a mean uses all replications of a model, a difference only those that both models "
+    "have") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), {"disc", "friis", "itu_indoor"},
                              {{0.2, {}, 0.6, 0.9}, {1.0, 1.0, 0.8}, {0.1, 0.2, 0.3, 0.5}});
@@ -152,7 +156,8 @@ TEST_CASE("compare: charts show each model's value, and its error against its co
     CHECK(charts[1].series[0].points[1].y == 0);
 }
 
-TEST_CASE("compare: in the rescue, common random numbers halve the variance of differences") {
+TEST_CASE(
+    "compare: in the example rescue, common random numbers halve the variance of differences") {
     const TemporaryFolder folder;
     const Array models = {"disc", "friis", "itu_indoor", "log_distance", "raytrace_2007"};
     Study study(ROVERNET_EXAMPLES "/rescue/study.toml", {.set = {"study.replications=100"}},
@@ -221,7 +226,9 @@ TEST_CASE("compare: intervals of several metrics are simultaneously valid") {
     CHECK(alone.models[1].sentence.find("for all 2:") != std::string::npos);
 }
 
-TEST_CASE("chart: each protocol has a mark with both intervals, but not without deliveries") {
+TEST_CASE(
+    "chart: each protocol has a mark with an interval in x and in y; one without deliveries has no "
+    "mark") {
     const TemporaryFolder folder;
     const Store store = made_of_protocols(folder.path("s.db"), {"flood", "aodv", "mute"},
                                           {{0.2, 0.4, 0.3}, {0.9, 0.8, 0.7}, {0, 0, 0}},

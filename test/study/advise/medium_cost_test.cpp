@@ -50,7 +50,8 @@ every = "100 ms"
 
 }  // namespace
 
-TEST_CASE("medium cost: a replayed record gives the results of the run") {
+TEST_CASE(
+    "medium cost: recorded frames that are replayed reach about as many receivers as in the run") {
     for (const char* more : {"[propagation]\nmodel = \"disc\"\nrange = \"90 m\"\n",
                              "[propagation]\nmodel = \"log_distance\"\nsigma = \"4 dB\"\n",
                              "[propagation]\nmodel = \"friis\"\n[access]\nmodel = \"csma\"\n",
@@ -75,7 +76,8 @@ TEST_CASE("medium cost: a replayed record gives the results of the run") {
     }
 }
 
-TEST_CASE("medium cost: a model that finds more receivers gets the same record") {
+TEST_CASE(
+    "medium cost: a model that finds more receivers is measured with the same recorded frames") {
     const Scenario near = walkers("[propagation]\nmodel = \"disc\"\nrange = \"50 m\"\n");
     const Scenario far = walkers("[propagation]\nmodel = \"disc\"\nrange = \"1 km\"\n");
     const MediumRecord record = record_medium(near, go_on);
@@ -86,7 +88,8 @@ TEST_CASE("medium cost: a model that finds more receivers gets the same record")
     CHECK(few.receivers > 0);
 }
 
-TEST_CASE("medium cost: every model has a median between its extremes") {
+TEST_CASE(
+    "medium cost: the median cost of each model lies between its lowest and its highest cost") {
     const std::vector<Scenario> scenarios = {
         walkers("[propagation]\nmodel = \"disc\"\nrange = \"90 m\"\n"),
         walkers("[propagation]\nmodel = \"friis\"\n")};

@@ -52,7 +52,8 @@ constexpr double rounding = 1e-12;  // of a mean of three numbers below 100
 
 }  // namespace
 
-TEST_CASE("study chart: numeric x values give lines, and other keys are averaged") {
+TEST_CASE(
+    "study chart: numeric x values give lines, and keys that are not drawn are averaged over") {
     const TemporaryFolder folder;
     const Store store =
         made(folder.path("s.db"), "robot.r.count", {10, 20}, "routing.ttl", {1, 2, 3});
@@ -100,7 +101,7 @@ TEST_CASE("study chart: quantities in several units are drawn in their base unit
     CHECK(study_chart(mixed, {.x = "b", .y = "latency_mean_s"}).kind == ChartKind::bars);
 }
 
-TEST_CASE("study chart: a cdf has a point per replication, a heat map a row per value") {
+TEST_CASE("study chart: a cdf has a point per replication; a heat map has a row per value") {
     const TemporaryFolder folder;
     const Store store =
         made(folder.path("s.db"), "robot.r.count", {10, 20}, "routing.ttl", {1, 2, 3});
@@ -121,7 +122,7 @@ TEST_CASE("study chart: a cdf has a point per replication, a heat map a row per 
     CHECK(std::abs(map.series[1].points[2].y - 12.1) < rounding);
 }
 
-TEST_CASE("study chart: a condition selects points, and is in the note") {
+TEST_CASE("study chart: a condition selects points, and is stated in the note") {
     const TemporaryFolder folder;
     const Store store =
         made(folder.path("s.db"), "robot.r.count", {10, 20}, "routing.ttl", {1, 2, 3});

@@ -31,7 +31,8 @@ Chart draw(const std::string& text, const ChartQuestion& question) {
 }  // namespace
 
 TEST_CASE(
-    "table chart: a series for each name, intervals from their columns, rows without y left out") {
+    "table chart: each name gives a series, columns give its intervals, and rows without y are "
+    "left out") {
     const Chart chart = draw(table, {.x = "robots", .y = "cost", .by = "program", .log_x = true});
     CHECK(chart.kind == ChartKind::lines);
     CHECK(chart.x_label == "robots");
@@ -47,7 +48,7 @@ TEST_CASE(
     CHECK(chart.series[1].points.size() == 1);
 }
 
-TEST_CASE("table chart: x with units, words on x, and conditions") {
+TEST_CASE("table chart: x values may have units or be words, and conditions select rows") {
     const Chart lines = draw("d,y\n1 m,1\n200 cm,2\n", {.x = "d", .y = "y"});
     CHECK(lines.x_label == "d [m]");
     CHECK(lines.series[0].points[1].x == 2);
@@ -58,7 +59,7 @@ TEST_CASE("table chart: x with units, words on x, and conditions") {
     CHECK(bars.series[0].points[1].category == "theirs");
 }
 
-TEST_CASE("table chart: what cannot be drawn is refused") {
+TEST_CASE("table chart: a table or a request that cannot be drawn is refused") {
     CHECK_THROWS_WITH_AS(draw(table, {.x = "robots", .y = "price"}),
                          doctest::Contains("costs.csv:2:1: no column \"price\""), InputError);
     CHECK_THROWS_WITH_AS(draw("a,b\n1,x\n", {.x = "a", .y = "b"}),

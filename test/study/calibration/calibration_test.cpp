@@ -102,7 +102,8 @@ std::string levels_of_a_law(double floor) {
 
 }  // namespace
 
-TEST_CASE("calibration: a model recovers the parameters of its own kind") {
+TEST_CASE(
+    "calibration: a model fitted to losses of a model of the same kind recovers its parameters") {
     const Scenario scenario = scenario_from(
         wanderers + "[propagation]\nmodel = \"log_distance\"\nexponent = 3.2\nexcess = \"4 dB\"\n");
     const KnownLinks known =
@@ -161,7 +162,9 @@ at = ["0 m", "90 m"]
     CHECK(std::string(known.group_name) == "sender");
 }
 
-TEST_CASE("calibration: a sample that is enlarged equals a new one, and computes no link twice") {
+TEST_CASE(
+    "calibration: a sample enlarged in steps equals one drawn at once, and computes no link "
+    "twice") {
     const Scenario scenario = scenario_from(wanderers + "[[robot]]\nname = \"still\"\ncount = 2\n" +
                                             "at = [\"9 m\", \"9 m\"]\n");
     int asked = 0;
@@ -184,7 +187,9 @@ TEST_CASE("calibration: a sample that is enlarged equals a new one, and computes
     CHECK(asked_growing <= 2 * asked);
 }
 
-TEST_CASE("calibration: with rays, sampled robots react to what they hear by multi_wall") {
+TEST_CASE(
+    "calibration: while links are sampled for the model rays, robots hear each other by "
+    "multi_wall") {
     // B drives off when it hears A, through a wall that takes so much by multi_wall.
     const auto links_with = [](const std::string& heavy_wall) {
         Scenario scenario = scenario_from(R"([scenario]
@@ -218,7 +223,7 @@ every = "1 s"
     CHECK(links_with("1 dB") > 10);
 }
 
-TEST_CASE("calibration: of a loss far beyond the budget only a lower bound is used") {
+TEST_CASE("calibration: a loss far beyond the budget is used only as a lower bound") {
     KnownLinks known;
     for (const double loss : {99.0, 120.0, 120.5}) {
         KnownLink& link = known.links.emplace_back();
@@ -233,7 +238,7 @@ TEST_CASE("calibration: of a loss far beyond the budget only a lower bound is us
     CHECK(kept.links[2].unseen);
 }
 
-TEST_CASE("calibration: losses that no radio overcomes do not distort a fit") {
+TEST_CASE("calibration: losses far beyond the budget of any radio do not distort a fit") {
     // A law of exponent 3, and behind a rock, of far links, hundreds of decibels more.
     KnownLinks known;
     known.scene = std::make_shared<const Scene>();
@@ -261,7 +266,7 @@ TEST_CASE("calibration: losses that no radio overcomes do not distort a fit") {
     CHECK(kept.se_by_group > 0);
 }
 
-TEST_CASE("calibration: standard errors of the jackknife are near those by groups") {
+TEST_CASE("calibration: standard errors of the jackknife are near those computed by groups") {
     KnownLinks known;
     known.scene = std::make_shared<const Scene>();
     known.groups = 40;
@@ -286,7 +291,7 @@ TEST_CASE("calibration: standard errors of the jackknife are near those by group
     CHECK(std::abs(by_jackknife / by_group - 1) < 0.15);
 }
 
-TEST_CASE("calibration: with unseen links, wall losses are not negative") {
+TEST_CASE("calibration: if some links are unseen, fitted losses of walls are still not negative") {
     // Links through a light wall lose less than others of their length.
     KnownLinks known;
     OccupancyGrid map = test::drawn_map(std::vector<std::string>(10, "#........."), 0.05);
@@ -308,7 +313,9 @@ TEST_CASE("calibration: with unseen links, wall losses are not negative") {
     CHECK(value(model(models, "multi_wall"), "light_wall") == 0);
 }
 
-TEST_CASE("calibration: a model with random draws gets the links of each replication") {
+TEST_CASE(
+    "calibration: robots at rest are sampled in each replication only for a model with random "
+    "draws") {
     const Scenario scenario = scenario_from(
         "[[robot]]\nname = \"a\"\nat = [\"0 m\", \"0 m\"]\n"
         "[[robot]]\nname = \"b\"\nat = [\"9 m\", \"0 m\"]\n");
@@ -317,7 +324,7 @@ TEST_CASE("calibration: a model with random draws gets the links of each replica
     CHECK(sample_links(scenario, LogDistance{.sigma = Db{0}}, size).links.size() == 1);
 }
 
-TEST_CASE("calibration: unseen levels count by the Tobit model") {
+TEST_CASE("calibration: levels too weak to be seen are taken into account by the Tobit model") {
     const test::TemporaryFolder folder;
     const Scenario scenario = scenario_from(wanderers);
     const auto fitted = [&](double floor) {
@@ -437,7 +444,7 @@ TEST_CASE("calibration: a useless fit is refused with the reason") {
         CHECK((each.failure.empty() || !each.is_fitted()));
 }
 
-TEST_CASE("levels: the error of one level is the repeatability over the square root of two") {
+TEST_CASE("levels: the error of one level is the repeatability divided by the square root of two") {
     KnownLinks first, second;
     constexpr int places = 4000;
     for (int i = 0; i < places; ++i) {
@@ -456,7 +463,9 @@ TEST_CASE("levels: the error of one level is the repeatability over the square r
     CHECK(std::abs(repeatability(first, second).one_level() - 3) < 0.1);
 }
 
-TEST_CASE("calibration: losses of walls in rays are found, and unchanged without walls") {
+TEST_CASE(
+    "calibration: wall losses of the model rays are found by the fit; without walls they are not "
+    "determined") {
     const std::string among_walls = R"([scenario]
 duration = "100 s"
 [[robot]]

@@ -23,7 +23,9 @@ Scenario open_field(const std::string& keys = "") {
 
 }  // namespace
 
-TEST_CASE("free parameters: fields state which a fit may change, from which base, and the sign") {
+TEST_CASE(
+    "free parameters: each model declares which keys a fit may change, their bases, and which are "
+    "never negative") {
     std::string all;
     for_each_model([&]<class Model>() {
         for (const FreeParameter& p : free_parameters(Model::name)) {

@@ -57,7 +57,7 @@ TEST_CASE("locate: without shadowing positions are exact, also with walls") {
     }
 }
 
-TEST_CASE("locate: each time uses the doors of that time") {
+TEST_CASE("locate: positions at a time are located with the doors that are closed at this time") {
     const TemporaryFolder folder;
     const Scenario scenario = load_scenario(folder.write("door.toml", R"([scenario]
 name = "door"
@@ -99,7 +99,7 @@ at = ["21 m", "15 m"]
     for (const Fix& fix : all.fixes) CHECK(*fix.error() <= 2e-3);
 }
 
-TEST_CASE("locate, fit, probe: disc has no levels and is refused") {
+TEST_CASE("locate, fit, probe: the model disc is refused, because it has no levels") {
     const Propagation model = Disc{.range = 20_m};
     const auto fault = [](const auto& call) {
         try {
@@ -127,7 +127,7 @@ TEST_CASE("locate, fit, probe: disc has no levels and is refused") {
           }).find("\"disc\" has no levels") == 0);
 }
 
-TEST_CASE("locate: with shadowing the error is about as large as the bound") {
+TEST_CASE("locate: with shadowing the error is within 10 % of its theoretical bound") {
     const Scenario shadowed = hall("shadowing = { model = \"link\", sigma = \"2 dB\" }");
     const Located located = locate_robots(shadowed, corners, {start_of_run}, {});
     CHECK(located.sigma == Db{2});

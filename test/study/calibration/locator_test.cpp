@@ -49,7 +49,7 @@ std::vector<AnchorLoss> measured(const LocatorSettings& s, const std::vector<Vec
 
 }  // namespace
 
-TEST_CASE("locator: the bound equals its closed form, with known and unknown power") {
+TEST_CASE("locator: the bound of the error equals its closed form, with known and unknown power") {
     const Vectors vectors("rssi_crlb.csv");
     std::size_t checked = 0;
     for (std::size_t row = 0; row < vectors.size(); ++row) {
@@ -71,7 +71,8 @@ TEST_CASE("locator: the bound equals its closed form, with known and unknown pow
     CHECK(checked == 128);
 }
 
-TEST_CASE("locator: on top of an anchor, the other anchors bound the position") {
+TEST_CASE(
+    "locator: at the position of an anchor, the bound is finite, because of the other anchors") {
     const LocatorSettings settings = in_square(2);
     const auto anchors = anchors_of("square10");
     for (const double off : {0.0, 1e-9, 1e-3}) {
@@ -87,7 +88,8 @@ TEST_CASE("locator: on top of an anchor, the other anchors bound the position") 
     CHECK_FALSE(Locator(settings).bound({anchors.data(), 1}, anchors[0], Db{4}));
 }
 
-TEST_CASE("locator: anchors on one line give no bound; two anchors none with unknown power") {
+TEST_CASE(
+    "locator: there is no bound for anchors on one line, nor for two anchors with unknown power") {
     CHECK_FALSE(Locator(in_square(2)).bound(anchors_of("collinear10"), {7, 0}, Db{4}));
     LocatorSettings unknown = in_square(2);
     unknown.knows_power = false;
@@ -113,7 +115,7 @@ TEST_CASE("locator: exact levels give the position to a millimetre") {
     }
 }
 
-TEST_CASE("locator: the error is within 10 % of the bound at the centre, over 10,000 draws") {
+TEST_CASE("locator: over 10,000 draws the error at the centre is within 10 % of the bound") {
     const LocatorSettings settings = in_square(2);
     Locator locator(settings);
     const auto anchors = anchors_of("square10");

@@ -98,7 +98,9 @@ TEST_CASE("perturbations: walls are varied also if only one robot's own model us
     CHECK(perturbations(scenario).size() > 2);
 }
 
-TEST_CASE("perturbations: split cells change no loss, joined cells thicken walls") {
+TEST_CASE(
+    "perturbations: dividing the cells of a map changes no loss, joining them makes walls "
+    "thicker") {
     const Scenario scenario = in_hall({Material{}}, 0, table_of(Raytrace2007{.wall_factor = 0.1}));
     const auto all = perturbations(scenario);
     const double given =
@@ -107,7 +109,7 @@ TEST_CASE("perturbations: split cells change no loss, joined cells thicken walls
     CHECK(near(loss(named(all, "resolution x0.5"), left, right), given + 2.5, rounding));
 }
 
-TEST_CASE("perturbations: an outlined wall keeps its outer cells") {
+TEST_CASE("perturbations: outlining a wall keeps only its outer cells") {
     const Scenario scenario = in_hall({Material{}}, 0, table_of(Raytrace2007{.wall_factor = 0.1}));
     const auto all = perturbations(scenario);
     const double given = loss(scenario.propagation.make(), *scenario.walls, left, far_right);
@@ -115,7 +117,7 @@ TEST_CASE("perturbations: an outlined wall keeps its outer cells") {
     CHECK(named(all, "walls filled").nothing == "no wall is hollow");
 }
 
-TEST_CASE("perturbations: robots keep to the original walls") {
+TEST_CASE("perturbations: walls that are changed for radio do not change where robots can move") {
     const Scenario scenario = in_hall({Material{}}, 0, table_of(Raytrace2007{}));
     const auto all = perturbations(scenario);
     const auto scene = named(all, "resolution x0.5").settings().scene;
@@ -123,7 +125,7 @@ TEST_CASE("perturbations: robots keep to the original walls") {
     CHECK(scene->occupied({1.75, 1.75}));
 }
 
-TEST_CASE("perturbations: a crossing has 3 dB more or less, whatever gives its loss") {
+TEST_CASE("perturbations: crossing a wall costs 3 dB more or less, for every kind of material") {
     struct Kind {
         const char* what;
         Material material;
@@ -147,14 +149,15 @@ TEST_CASE("perturbations: a crossing has 3 dB more or less, whatever gives its l
     }
 }
 
-TEST_CASE("perturbations: no wall has a negative loss") {
+TEST_CASE("perturbations: 3 dB less for a wall of 1 dB gives no loss, not a negative one") {
     const Material paper{.name = "paper", .per_crossing = Db{1}};
     const Scenario scenario = in_hall({Material{}, paper}, 1, table_of(MultiWall{}));
     const double free = loss(MultiWall{}, Scene{}, left, right);
     CHECK(near(loss(named(perturbations(scenario), "paper -3 dB"), left, right), free, rounding));
 }
 
-TEST_CASE("perturbations: walls without a material change by the model's parameters") {
+TEST_CASE(
+    "perturbations: for walls without a material, the model's parameter for walls is changed") {
     for (const PropagationTable& model :
          {table_of(MultiWall{}), table_of(Raytrace2007{.wall_factor = 0.1})}) {
         CAPTURE(model.make().name());
@@ -172,7 +175,7 @@ TEST_CASE("perturbations: a model without a parameter for walls is reported") {
     CHECK_FALSE(named(perturbations(scenario), "walls +3 dB").nothing.empty());
 }
 
-TEST_CASE("perturbations: more than eight materials change together") {
+TEST_CASE("perturbations: if there are more than eight materials, all are changed together") {
     std::vector<Material> materials{Material{}};
     OccupancyGrid map = drawn_map({"#.#.#.#.#.#.#.#.#."});
     for (int i = 0; i < map.columns; ++i) {
@@ -188,7 +191,8 @@ TEST_CASE("perturbations: more than eight materials change together") {
     CHECK(near(loss(named(all, "all materials +3 dB"), a, b), given + 27, rounding));
 }
 
-TEST_CASE("displaced: each antenna is displaced by the distance, equally in every batch") {
+TEST_CASE(
+    "displaced: each antenna is moved by the given distance, in a direction fixed by its key") {
     const Displaced model{Friis{}, Meters{0.01}};
     const Vec3 at{3, 4};
     for (std::uint64_t key = 0; key < 100; ++key) {
@@ -202,7 +206,7 @@ TEST_CASE("displaced: each antenna is displaced by the distance, equally in ever
     }
 }
 
-TEST_CASE("displaced: keys use all four directions about equally") {
+TEST_CASE("displaced: different keys give all four directions about equally often") {
     const Displaced model{Friis{}, Meters{1}};
     int east = 0, north = 0;
     constexpr int n = 4000;
@@ -214,7 +218,8 @@ TEST_CASE("displaced: keys use all four directions about equally") {
     CHECK(std::abs(north - n / 4) < 150);
 }
 
-TEST_CASE("displaced: beyond the reach of the displaced model the loss is above the budget") {
+TEST_CASE(
+    "displaced: a link longer than the reach of the displaced model has a loss above the budget") {
     const Displaced model{Friis{}, Meters{0.5}};
     const Hertz frequency = Radio{}.frequency;
     const double reach = model.reach(Db{70}, frequency, Propagation::anything).value;

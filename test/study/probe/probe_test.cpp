@@ -60,7 +60,7 @@ std::vector<std::string> rows_of(int rows, const std::string& row) {
 
 }  // namespace
 
-TEST_CASE("probe: in free space a centimetre changes the loss by its slope, and no link flips") {
+TEST_CASE("probe: in free space a shift of 1 cm changes the loss by its slope, and no link flips") {
     const Probe found = probe(scenario_from(two_robots(50, "")), {});
     CHECK(found.model == "friis");
     CHECK(found.links == 1);
@@ -74,7 +74,9 @@ TEST_CASE("probe: in free space a centimetre changes the loss by its slope, and 
     CHECK(found.whole_run);
 }
 
-TEST_CASE("probe: at the rim of a disc a micrometre decides, which is listed first as a cliff") {
+TEST_CASE(
+    "probe: at the edge of a disc a shift of 1 um flips the link, and is listed first, as a "
+    "cliff") {
     const Probe found = probe(scenario_from(two_robots(10, disc)), {});
     REQUIRE(found.effects.size() == 2);
     const LinkEffect& first = found.effects.front();
@@ -143,7 +145,7 @@ TEST_CASE("probe: effects are sorted by cliffs, then flips, then size") {
     CHECK(found.effects.size() >= 3);
 }
 
-TEST_CASE("probe: a thicker drawing loses the link and its messages") {
+TEST_CASE("probe: a wall that is drawn thicker breaks the link and loses its messages") {
     // As given 0.3 m of wall take 15 dB; joined cells make it 0.4 m, and 20 dB.
     Scenario scenario = with_walls(4, rows_of(20, ".###......"), walls);
     const double loss = 40.2 + 30 * std::log10(4.0) + 15;
@@ -160,7 +162,7 @@ TEST_CASE("probe: a thicker drawing loses the link and its messages") {
     CHECK(named(found, "walls -3 dB").gained == 0);
 }
 
-TEST_CASE("probe: a run with too many events is compared up to a stated time") {
+TEST_CASE("probe: a run with too many events is compared only up to a time that is reported") {
     Scenario scenario = scenario_from(two_robots(50, ""));
     scenario.traffic.front().every = std::chrono::milliseconds{1};
     const Probe found = probe(scenario, {.events = 1});
@@ -168,7 +170,7 @@ TEST_CASE("probe: a run with too many events is compared up to a stated time") {
     CHECK(found.until < start_of_run + std::chrono::seconds{5});
 }
 
-TEST_CASE("probe: samples the replication of the scenario") {
+TEST_CASE("probe: robots are placed as in the replication that the scenario selects") {
     const std::string area = R"([scenario]
 duration = "5 s"
 [[robot]]

@@ -54,7 +54,8 @@ TEST_CASE("bounded mean: the wealth after three values equals a manual computati
 }
 
 TEST_CASE(
-    "bounded mean: for n values of 1 it ends where Jeffreys' mixture of (1 - f + f / m)^n is 40") {
+    "bounded mean: for n values of 1 the interval ends where Jeffreys' mixture of (1 - f + f / "
+    "m)^n is 40") {
     for (const std::size_t n : {2U, 5U, 30U}) {
         const auto mean = bounded_mean(ones(n), share, 0.95);
         CHECK(mean.high == 1);
@@ -68,7 +69,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("bounded mean: the interval of equal values has a width, which falls with n") {
+TEST_CASE(
+    "bounded mean: the interval of equal values is wider than 0, and narrower for a larger n") {
     double width = 1;
     for (const std::size_t n : {1U, 2U, 5U, 30U, 1000U}) {
         for (const double x : {0.0, 0.3, 1.0}) {
@@ -126,7 +128,9 @@ TEST_CASE("bounded mean: values with a drift give an interval that contains thei
     CHECK(mean.low < mean.high);
 }
 
-TEST_CASE("bounded mean: the forecast is the sufficient number of such values") {
+TEST_CASE(
+    "bounded mean: the forecast is the smallest number of such values that gives the wanted "
+    "width") {
     for (const double wanted : {0.1, 0.05, 0.02}) {
         const auto needed = bounded_mean_replications(ones(5), share, wanted, 0.95);
         REQUIRE(needed);

@@ -62,7 +62,8 @@ PairedComparison comparison(double mean, double half_width, double p) {
 
 }  // namespace
 
-TEST_CASE("comparison: means, deviations, half-widths and p equal R (vectors paired_t)") {
+TEST_CASE(
+    "comparison: means, deviations, half-widths and p equal those of R (test vectors paired_t)") {
     const test::Vectors vectors("paired_t.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         CAPTURE(vectors.text(i, "case"));
@@ -126,7 +127,9 @@ TEST_CASE("comparison: p is at most the level exactly when the interval excludes
     CHECK(found < 1500);
 }
 
-TEST_CASE("comparison: an interval of a family is that of one comparison at a divided level") {
+TEST_CASE(
+    "comparison: in a family of 5 comparisons, each interval is that of a single one at a fifth of "
+    "the level") {
     const Pairs pairs(8, 1, 1);
     const auto together = compare_pairs(pairs.a, pairs.b, {}, 0.95, 5);
     const auto alone = compare_pairs(pairs.a, pairs.b, {}, 0.99);
@@ -161,7 +164,9 @@ TEST_CASE("comparison: the variance ratio is 1 / (1 - correlation) for equal var
     CHECK(is_close(*paired_variance_ratio(a, opposite), 0.5, rounding));
 }
 
-TEST_CASE("comparison: the detectable difference is the shift in standard errors") {
+TEST_CASE(
+    "comparison: the detectable difference equals the test vectors detectable_shift times the "
+    "standard error") {
     // The differences are -1, 0, 1: s = 1 (vectors detectable_shift, n = 3).
     const std::array a{1.0, 2.0, 3.0}, b{2.0, 2.0, 2.0};
     const test::Vectors vectors("detectable_shift.csv");
@@ -319,7 +324,9 @@ TEST_CASE(
     CHECK(sequence->high - sequence->low > 1.1 * (larger->high - larger->low));
 }
 
-TEST_CASE("comparison: the sign test is binomial, adjusted for the family, and not by betting") {
+TEST_CASE(
+    "comparison: the sign test is binomial and adjusted for the family; with betting there is "
+    "none") {
     const std::array a{1.0, 0.0, 1.0, 0.5, 1.0, 1.0, 0.7}, b{0.0, 1.0, 0.0, 0.5, 0.5, 0.5, 0.0};
     // 5 above, 1 below, 1 equal: 2 (1 + 6) / 64.
     CHECK(is_close(*compare_pairs(a, b, share)->sign_p, 14.0 / 64, rounding));
@@ -346,7 +353,8 @@ TEST_CASE("comparison: by STaR-Bets p is at most the level exactly when 0 is exc
     CHECK(found < studies - 20);
 }
 
-TEST_CASE("comparison: by STaR-Bets about 80 % of studies find the detectable difference") {
+TEST_CASE(
+    "comparison: by STaR-Bets about 80 % of studies find a difference of the detectable size") {
     constexpr int studies = 300;
     for (const double deviation : {0.05, 0.2, 0.4}) {
         const auto study = [&](std::uint32_t number, double mean) {

@@ -25,7 +25,9 @@ double level_of(const test::Vectors& vectors, std::size_t i) {
 
 }  // namespace
 
-TEST_CASE("distributions: critical values of t agree to 20 digits (vectors detectable_shift)") {
+TEST_CASE(
+    "distributions: critical values of t equal the test vectors detectable_shift to the stated "
+    "accuracy") {
     const test::Vectors vectors("detectable_shift.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         CAPTURE(i);
@@ -34,7 +36,9 @@ TEST_CASE("distributions: critical values of t agree to 20 digits (vectors detec
     }
 }
 
-TEST_CASE("distributions: shifts of power 0.8 agree to 20 digits (vectors detectable_shift)") {
+TEST_CASE(
+    "distributions: shifts of power 0.8 equal the test vectors detectable_shift to the stated "
+    "accuracy") {
     const test::Vectors vectors("detectable_shift.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         CAPTURE(i);
@@ -44,7 +48,9 @@ TEST_CASE("distributions: shifts of power 0.8 agree to 20 digits (vectors detect
     }
 }
 
-TEST_CASE("distributions: half a deviation is found with 80 % power by 34 pairs, not by 33") {
+TEST_CASE(
+    "distributions: a difference of half a standard deviation is found with 80 % power by 34 "
+    "pairs, not by 33") {
     // n = 33.367: S. Champely's R package pwr, pwr.t.test(d = 0.5, power = 0.8, type = "paired").
     CHECK(*t_shift(32, 0.05, 0.8) / std::sqrt(33) > 0.5);
     CHECK(*t_shift(33, 0.05, 0.8) / std::sqrt(34) < 0.5);
@@ -61,7 +67,9 @@ TEST_CASE(
     CHECK(!t_shift(1, 1e-300, 0.8));
 }
 
-TEST_CASE("distributions: tail probabilities of t equal the closed forms of 1 and 2 degrees") {
+TEST_CASE(
+    "distributions: tail probabilities of t equal the closed forms for 1 and 2 degrees of "
+    "freedom") {
     for (const double t : {0.0, 0.01, 1.0, 3.0, 250.0}) {
         // arctan of 1/t keeps the digits of a small tail
         const double one = t == 0 ? 1 : 2 / std::numbers::pi * std::atan(1 / t);

@@ -56,7 +56,8 @@ EquivalenceVerdict by_betting(std::span<const double> values, double tolerance,
 
 }  // namespace
 
-TEST_CASE("equivalence: the four wealths equal the vectors decide_betting") {
+TEST_CASE(
+    "equivalence: the four wealths of the betting test equal the test vectors decide_betting") {
     const test::Vectors all("decide_series.csv"), expected("decide_betting.csv");
     const char* const names[] = {"not_above", "not_below", "above", "below"};
     for (std::size_t row = 0; row < expected.size(); ++row) {
@@ -77,7 +78,9 @@ TEST_CASE("equivalence: the four wealths equal the vectors decide_betting") {
     }
 }
 
-TEST_CASE("equivalence: verdicts and their replications equal the vectors decide_betting") {
+TEST_CASE(
+    "equivalence: verdicts, and the replications at which they are given, equal the test vectors "
+    "decide_betting") {
     const test::Vectors all("decide_series.csv"), expected("decide_betting.csv");
     for (std::size_t row = 0; row < expected.size(); ++row) {
         const std::string name = expected.text(row, "series");
@@ -107,7 +110,9 @@ TEST_CASE("equivalence: the wealth after three differences equals a manual compu
     CHECK(test.log_wealth(EquivalenceTest::above) == 0);
 }
 
-TEST_CASE("equivalence: a verdict is given when it is due, whatever follows") {
+TEST_CASE(
+    "equivalence: later differences change neither a verdict nor the replication at which it is "
+    "given") {
     const std::vector<double> none(600, 0.0);
     auto then_far = none;
     for (std::size_t i = 300; i < 600; ++i) then_far[i] = 1;
@@ -128,7 +133,7 @@ TEST_CASE("equivalence: a first verdict is final") {
     CHECK(test.verdict() == Equivalence::outside);
 }
 
-TEST_CASE("equivalence: an undecided test predicts the number of replications") {
+TEST_CASE("equivalence: an undecided test predicts the number of replications that it needs") {
     const std::vector<double> few(100, 0.0);
     const auto result = by_betting(few, margin);
     CHECK(result.verdict == Equivalence::undecided);
@@ -167,7 +172,7 @@ TEST_CASE("equivalence: at the margin itself at most 5 % of studies have a false
     }
 }
 
-TEST_CASE("equivalence: at a fixed n STaR-Bets are used, unless t is requested") {
+TEST_CASE("equivalence: at a fixed n STaR-Bets are used, unless Student's t is requested") {
     const auto values = normals(150, 0, 0.02, 5);
     const auto fixed = equivalence_of(values, 0.05, share);
     CHECK(fixed.verdict == Equivalence::within);
@@ -185,7 +190,9 @@ TEST_CASE("equivalence: at a fixed n STaR-Bets are used, unless t is requested")
     CHECK(equivalence_of(normals(200, -0.3, 0.1, 6), 0.05, share).verdict == Equivalence::outside);
 }
 
-TEST_CASE("equivalence: by STaR-Bets an undecided test predicts the number of replications") {
+TEST_CASE(
+    "equivalence: by STaR-Bets an undecided test predicts the number of replications that it "
+    "needs") {
     const std::vector<double> none(60, 0.0);
     const auto open = equivalence_of(none, 0.05, share);
     CHECK(open.verdict == Equivalence::undecided);
@@ -208,7 +215,7 @@ TEST_CASE("equivalence: a metric without bounds is tested once, by Student's t")
     CHECK(open.needed.value_or(11) > 10);
 }
 
-TEST_CASE("equivalence: by t, the level is divided among the judged models") {
+TEST_CASE("equivalence: by Student's t, the level is divided among the judged models") {
     // Mean 0, s = 1, n = 4: one-sided t of 3 degrees at 5 % is 2.3534, at 2.5 % 3.1824.
     const std::vector<double> values = {-1, 1, -0.7071067811865476, 0.7071067811865476};
     CHECK(equivalence_of(values, 1.19, delay, 0.05, 1).verdict == Equivalence::within);
@@ -217,7 +224,7 @@ TEST_CASE("equivalence: by t, the level is divided among the judged models") {
     CHECK(equivalence_of(values, 1.58, delay, 0.05, 2).verdict == Equivalence::undecided);
 }
 
-TEST_CASE("equivalence: by t, equal differences give no verdict") {
+TEST_CASE("equivalence: by Student's t, equal differences give no verdict") {
     const auto result = equivalence_of(std::vector<double>(10, 0.0), 0.25, delay);
     CHECK(result.verdict == Equivalence::undecided);
     CHECK(!result.needed);

@@ -20,7 +20,8 @@ constexpr Bounds delay{0.0, std::nullopt};
 }  // namespace
 
 TEST_CASE(
-    "metric bounds: shares have the bounds 0 and 1, also for one flow, and times the bound 0") {
+    "metric bounds: shares, also those of one flow, have the bounds 0 and 1; times have the lower "
+    "bound 0") {
     CHECK(bounds_of("delivery_ratio") == share);
     CHECK(bounds_of("delivery_ratio.a") == share);
     CHECK(bounds_of("reach") == share);
@@ -31,7 +32,8 @@ TEST_CASE(
     CHECK(difference_bounds(delay) == Bounds{});
 }
 
-TEST_CASE("interval: values with two bounds use STaR-Bets, others Student's t") {
+TEST_CASE(
+    "interval: values with two bounds get an interval by STaR-Bets, other values by Student's t") {
     const std::vector<double> values = {0.2, 0.4, 0.5};
     CHECK(interval_of(values, share)->method == IntervalMethod::star);
     CHECK(interval_of(values, share, 0.95, IntervalMethod::betting)->method ==
@@ -59,12 +61,12 @@ TEST_CASE("interval: one value of a ratio has a wide interval, one value of a ti
     CHECK(!interval_of({}, share));
 }
 
-TEST_CASE("interval: by t, equal values have none") {
+TEST_CASE("interval: by Student's t, equal values have no interval") {
     CHECK(!interval_of(std::vector<double>(30, 0.25), delay));
     CHECK(!interval_of(std::vector<double>(30, 1.0), share, 0.95, IntervalMethod::t));
 }
 
-TEST_CASE("interval: by t it is clipped at the metric's bounds") {
+TEST_CASE("interval: by Student's t, an interval is clipped at the metric's bounds") {
     const std::vector<double> values = {0.0, 0.0, 0.0, 3.0};
     const auto summary = summary_of(values);
     const auto interval = interval_of(values, delay);
@@ -91,7 +93,8 @@ TEST_CASE("interval: values too skewed for t are marked, normal values are not")
     CHECK(!too_skewed_for_t(one_in_five));
 }
 
-TEST_CASE("interval: the needed replications are estimated by its own method") {
+TEST_CASE(
+    "interval: the number of replications needed is estimated by the method of the interval") {
     const std::vector<double> values = {0.5, 0.6, 0.7, 0.6};
     CHECK(replications_for_width(values, delay, 0.05) ==
           replications_needed(*summary_of(values), 0.05));

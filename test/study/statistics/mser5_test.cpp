@@ -66,7 +66,8 @@ std::vector<double> step(std::size_t n, std::size_t transient, double high) {
 
 }  // namespace
 
-TEST_CASE("MSER-5: a step is deleted to the last observation") {
+TEST_CASE(
+    "MSER-5: an initial transient of constant height is cut off exactly, to its last observation") {
     for (const std::size_t transient : {0U, 5U, 40U, 95U}) {
         CHECK(mser5(step(200, transient, 3)) ==
               Truncation{.observations = transient, .conclusive = true});
@@ -106,14 +107,14 @@ TEST_CASE("MSER-5: up to four observations at the end have no effect") {
     }
 }
 
-TEST_CASE("MSER-5: a steady series of any level loses nothing") {
+TEST_CASE("MSER-5: nothing is cut off from a constant series, whatever its level") {
     for (const double level : {0.0, 0.1, 1e9 / 3}) {
         CHECK(mser5(std::vector<double>(1000, level)) ==
               Truncation{.observations = 0, .conclusive = true});
     }
 }
 
-TEST_CASE("MSER-5: equals an evaluation by brute force on 300 noisy series") {
+TEST_CASE("MSER-5: the result equals an evaluation by brute force on 300 noisy series") {
     int conclusive = 0, deleting = 0;
     for (std::uint32_t series = 0; series < 300; ++series) {
         CAPTURE(series);
@@ -141,7 +142,9 @@ TEST_CASE("MSER-5: an offset of 1e9 changes nothing") {
     }
 }
 
-TEST_CASE("MSER-5: the rest of 200 biased series is nearer to the truth than the whole") {
+TEST_CASE(
+    "MSER-5: over 200 series with a transient, means after the cut are nearer to the truth than "
+    "means of all") {
     const auto mean_from = [](const std::vector<double>& values, std::size_t first) {
         double sum = 0;
         for (std::size_t i = first; i < values.size(); ++i) sum += values[i];

@@ -77,9 +77,10 @@ double covered(std::size_t n, double p, double confidence) {
 
 }  // namespace
 
-TEST_CASE("quantile: without values there is none") { CHECK(!quantile_of({}, 0.5)); }
+TEST_CASE("quantile: without values there is no quantile") { CHECK(!quantile_of({}, 0.5)); }
 
-TEST_CASE("quantile: the value is the ceil(p n)-th smallest, in any order") {
+TEST_CASE(
+    "quantile: the p-quantile of n values is the ceil(p n)-th smallest, whatever their order") {
     CHECK(quantile_of(std::array{7.0}, 0.01)->value == 7);
     CHECK(quantile_of(std::array{7.0}, 0.99)->value == 7);
     CHECK(quantile_of(std::array{3.0, 1.0, 2.0}, 0.5)->value == 2);
@@ -91,7 +92,8 @@ TEST_CASE("quantile: the value is the ceil(p n)-th smallest, in any order") {
     }
 }
 
-TEST_CASE("quantile: the median of 10 lies between the 2nd and the 9th, with 97.85 %") {
+TEST_CASE(
+    "quantile: the median of 10 values lies between the 2nd and the 9th with 97.85 % confidence") {
     // Binomial tables: P(B <= 1) = 11 / 1024, P(B <= 2) = 56 / 1024 is more than 2.5 %.
     const auto interval = quantile_of(ranks(10), 0.5)->interval;
     REQUIRE(interval);
@@ -100,7 +102,9 @@ TEST_CASE("quantile: the median of 10 lies between the 2nd and the 9th, with 97.
     CHECK(std::abs(interval->coverage - (1 - 22.0 / 1024)) < rounding);
 }
 
-TEST_CASE("quantile: an interval for the median needs 6 values at 95 %, for the 0.95-quantile 72") {
+TEST_CASE(
+    "quantile: at 95 % an interval for the median needs 6 values, one for the 0.95-quantile needs "
+    "72") {
     CHECK(!quantile_of(ranks(5), 0.5)->interval);
     CHECK(quantile_of(ranks(6), 0.5)->interval ==
           QuantileInterval{.low = 1, .high = 6, .coverage = 1 - 2.0 / 64});

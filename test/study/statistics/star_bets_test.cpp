@@ -71,7 +71,9 @@ double best_wealth(const std::vector<double>& values, double m, double level) {
 
 }  // namespace
 
-TEST_CASE("STaR-Bets: for one value they equal Markov's inequality, within a cell") {
+TEST_CASE(
+    "STaR-Bets: for one value the interval equals Markov's inequality, to within one cell of the "
+    "grid") {
     // 1 refutes m if 1 / m reaches 40, so up to m = 1/40; cells of 1/128 begin at 0.0234.
     CHECK(star_refutes(std::vector{1.0}, 0.0249, 0.025));
     CHECK(!star_refutes(std::vector{1.0}, 0.0251, 0.025));

@@ -58,9 +58,9 @@ Summary ten(double mean, double variance) {
 
 }  // namespace
 
-TEST_CASE("summary: without values there is none") { CHECK(!summary_of({})); }
+TEST_CASE("summary: without values there is no summary") { CHECK(!summary_of({})); }
 
-TEST_CASE("summary: one value is its mean, without deviation, interval or forecast") {
+TEST_CASE("summary: of a single value there is a mean, but no deviation, interval or forecast") {
     const auto summary = summary_of(std::array{-2.5});
     REQUIRE(summary);
     CHECK(*summary ==
@@ -84,7 +84,7 @@ TEST_CASE("summary: for equal values deviation and half-width are exactly 0") {
     }
 }
 
-TEST_CASE("summary: means, deviations and half-widths equal R (vectors paired_t)") {
+TEST_CASE("summary: means, deviations and half-widths equal those of R (test vectors paired_t)") {
     const test::Vectors vectors("paired_t.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         CAPTURE(vectors.text(i, "case"));
@@ -152,7 +152,8 @@ TEST_CASE("summary: a value that is not finite is refused") {
     CHECK_THROWS_WITH(summary_of(std::array{infinity}), "summary: values must be finite, got inf");
 }
 
-TEST_CASE("half-width: equals the bank example in Law's book, 2.03 +- 0.32 min at 90 %") {
+TEST_CASE(
+    "half-width: the result equals the bank example in Law's book, 2.03 +- 0.32 min at 90 %") {
     CHECK(is_close(*half_width(ten(2.03, 0.31), 0.90), 0.32, hundredth / 0.32));
 }
 
@@ -174,11 +175,13 @@ TEST_CASE("half-width: the 95 % interval covers the truth in 94 to 96 % of 10,00
     CHECK(std::abs(covered(5, 0.5) - 5000) < 250);  // 5 standard deviations
 }
 
-TEST_CASE("replications needed: equals the bank example in Law's book, 16 for 0.25 min at 90 %") {
+TEST_CASE(
+    "replications needed: the result equals the bank example in Law's book, 16 for 0.25 min at 90 "
+    "%") {
     CHECK(replications_needed(ten(2.03, 0.31), 0.25, 0.90) == 16);
 }
 
-TEST_CASE("replications needed: is the smallest sufficient number") {
+TEST_CASE("replications needed: the result is the smallest sufficient number") {
     for (const double wanted : {3.0, 0.7, 0.5, 0.2, 0.1, 0.07}) {
         const auto enough = [&](std::size_t n) {
             Summary more = ten(0, 1);
@@ -191,7 +194,7 @@ TEST_CASE("replications needed: is the smallest sufficient number") {
     }
 }
 
-TEST_CASE("replications needed: is at least the existing number, and at most 10^9") {
+TEST_CASE("replications needed: the result is at least the existing number, and at most 10^9") {
     const double reached = *half_width(ten(0, 1));
     CHECK(replications_needed(ten(0, 1), reached) == 10);
     CHECK(replications_needed(ten(0, 1), std::nextafter(reached, 0)) == 11);

@@ -60,11 +60,13 @@ std::size_t count(const std::string& text, const std::string& word) {
 
 }  // namespace
 
-TEST_CASE("validation: the Pareto front goes from the cheapest to the most exact method") {
+TEST_CASE("validation: the Pareto front leads from the cheapest to the most exact method") {
     CHECK(pareto_front(small_panel().points) == std::vector<std::size_t>{1, 3});
 }
 
-TEST_CASE("validation: the front contains only methods significantly better than cheaper ones") {
+TEST_CASE(
+    "validation: the Pareto front contains only methods that are significantly better than cheaper "
+    "ones") {
     const auto front_of = [](double spread, std::size_t parts) {
         ValidationPanel panel{.error_label = "error [dB]"};
         for (int i = 0; i < 3; ++i) {
@@ -91,7 +93,9 @@ TEST_CASE("validation: the front contains only methods significantly better than
                 "surely nearer the truth") == 1);
 }
 
-TEST_CASE("validation: a limit includes its value, and one exceeded limit fails the whole") {
+TEST_CASE(
+    "validation: a value equal to its limit passes, and a single exceeded limit fails the "
+    "validation") {
     Validation validation = small_validation();
     CHECK(validation.kept());
     validation.promises.push_back({"on the limit", "", 0, 0, 1});
@@ -113,7 +117,7 @@ TEST_CASE(
     CHECK(svg.find(">slow &amp; poor</text>") < svg.find(">exact</text>"));
 }
 
-TEST_CASE("validation: a panel without errors is a sentence, not an empty picture") {
+TEST_CASE("validation: a panel in which every error is 0 is replaced by a sentence") {
     Validation validation = small_validation();
     ValidationPanel right = small_panel();
     right.title = "hall";
@@ -159,7 +163,7 @@ TEST_CASE("validation: a best method is named only if it is significantly better
     CHECK(!nearest_to_truth(many, [](const ValidationPoint&) { return false; }).point);
 }
 
-TEST_CASE("validation: charts for contributors are on the page of the promises, and only there") {
+TEST_CASE("validation: charts for contributors are only on the page of the promises") {
     Validation validation = small_validation();
     validation.charts.push_back(validation.charts[0]);
     validation.charts[1].name = "code";
@@ -234,7 +238,9 @@ TEST_CASE("validation: numbers of a chart are a table with one line per point") 
     CHECK(count(csv, "office,cheap,fitted,10,9,12,2,1.5,2.5,0\n") == 1);
 }
 
-TEST_CASE("validation: the median cost of a method lies between its lowest and highest turn") {
+TEST_CASE(
+    "validation: the median cost of a method lies between the costs of its cheapest and dearest "
+    "turn") {
     double calls = 0;
     const std::vector<TimedMethod> methods{{[&] { return ++calls; }, 1}, {[] { return 1.0; }, 10}};
     const auto costs = costs_in_turns(methods, {.turns = 3, .least_s = 1e-5});

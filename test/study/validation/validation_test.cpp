@@ -61,7 +61,7 @@ std::size_t joined_cells(const OccupancyGrid& map) {
 
 }  // namespace
 
-TEST_CASE("validation: closed forms are met to the claimed digits") {
+TEST_CASE("validation: results equal closed forms to the claimed digits") {
     Promises promises;
     check_closed_forms(promises);
     check_kept(promises);
@@ -80,7 +80,9 @@ TEST_CASE("validation: results equal brute force within the claimed limits") {
     check_kept(promises);
 }
 
-TEST_CASE("validation: saturated cells and access times agree with theory") {
+TEST_CASE(
+    "validation: throughput and collisions of saturated stations, and times of access, agree with "
+    "theory") {
     Promises promises;
     check_access(promises);
     CHECK(promises.size() == 3);
@@ -128,7 +130,9 @@ TEST_CASE("validation: predicted link changes are within the limits, and fixed s
     }
 }
 
-TEST_CASE("validation: decisions without logarithms equal exact ones, except those by a table") {
+TEST_CASE(
+    "validation: link decisions without logarithms equal exact ones; those by a table have "
+    "errors") {
     Promises promises;
     const ValidationChart chart = decisions_chart(few, promises);
     check_kept(promises);

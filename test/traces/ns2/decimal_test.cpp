@@ -48,7 +48,7 @@ TEST_CASE("two decimals: exact ties are rounded to the even digit, as by printf"
     CHECK(fixed2(-0.625) == "-0.62");
 }
 
-TEST_CASE("two decimals: apparent ties are rounded by their binary value") {
+TEST_CASE("two decimals: a decimal that only looks like a tie is rounded by its binary value") {
     CHECK(fixed2(1.005) == "1.00");  // 1.00499999999999989...
     CHECK(fixed2(0.145) == "0.14");  // 0.14499999999999999...
     CHECK(fixed2(0.285) == "0.28");  // 0.284999999999999976; times 100 it rounds to the tie 28.5

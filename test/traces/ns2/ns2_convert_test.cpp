@@ -80,7 +80,7 @@ const std::string on_to_2 =
 
 }  // namespace
 
-TEST_CASE("trace convert: old to new and back gives the same bytes, for all our traces") {
+TEST_CASE("trace convert: a trace of ours converted from old to new and back has the same bytes") {
     for (unsigned seed = 0; seed < 5; ++seed) {
         const std::string text = written(Ns2Format::old_format, MacTrace::off, seed);
         const Made in_new = converted(text, TraceForm::ns2_new);
@@ -90,12 +90,13 @@ TEST_CASE("trace convert: old to new and back gives the same bytes, for all our 
     }
 }
 
-TEST_CASE("trace convert: new to old gives what the run writes in the old format") {
+TEST_CASE(
+    "trace convert: converting new to old gives the trace that the run writes in the old format") {
     const Made made = converted(written(Ns2Format::new_format), TraceForm::ns2_old);
     CHECK(made.text == written(Ns2Format::old_format));
 }
 
-TEST_CASE("trace convert: old to new gives what the run writes, with positions to 1 cm") {
+TEST_CASE("trace convert: converting old to new gives the run's new trace, except for positions") {
     const std::string expected = written(Ns2Format::new_format);
     const std::string made = converted(written(Ns2Format::old_format), TraceForm::ns2_new).text;
     std::istringstream a(expected), b(made);
@@ -132,7 +133,8 @@ TEST_CASE("trace convert: control frames of the MAC are omitted with a notice") 
     CHECK(converted(made.text, TraceForm::ns2_old).text == expected);
 }
 
-TEST_CASE("trace convert: payloads of constant bit rate and TCP have a form in each format") {
+TEST_CASE(
+    "trace convert: payloads of constant bit rate and of TCP are converted between both formats") {
     const std::string place = "M 0.00000 5 (1.00, 2.00, 0.00), (1.00, 2.00), 0.00\n";
     const std::string cbr =
         "r 1.000000000 _5_ RTR  --- 3 cbr 532 [13a a 5 800] ------- [5:0 3:1 30 6] [3] 1 0\n";
@@ -184,7 +186,7 @@ TEST_CASE("trace convert: a CSV has a row for each event, with as many cells as 
     CHECK(rows[11].find("\"a,\"\"b\"") != std::string::npos);
 }
 
-TEST_CASE("trace cut: selects by time, robot and message, line by line") {
+TEST_CASE("trace cut: lines are selected by time, robot and message") {
     const std::string other =
         "s 2.000000000 _1_ AGT  --- 1 message 64 [0 0 0 0] ------- [1:0 -1:0 3 0] \n";
     const std::string all = moves + sent_0 + got_1 + other;
@@ -199,7 +201,7 @@ TEST_CASE("trace cut: selects by time, robot and message, line by line") {
     CHECK(cut("# by hand\n" + dos, {}).text == all);
 }
 
-TEST_CASE("trace cut: a selected message keeps its deliveries") {
+TEST_CASE("trace cut: a trace cut to one message has all deliveries of the message") {
     const TempFolder folder;
     write_file(folder / "in.tr", written(Ns2Format::old_format));
     const auto whole = ns2_stats(folder / "in.tr");
@@ -213,7 +215,7 @@ TEST_CASE("trace cut: a selected message keeps its deliveries") {
     CHECK(deliveries == whole.metrics.deliveries);
 }
 
-TEST_CASE("trace diff: a run in both formats is equal, whatever else the files contain") {
+TEST_CASE("trace diff: traces of a run in both formats are equal, also with added comments") {
     const std::string old_text = written(Ns2Format::old_format, MacTrace::on);
     const std::string new_text = written(Ns2Format::new_format, MacTrace::on);
     CHECK(difference(old_text, new_text).is_equal);
@@ -222,7 +224,7 @@ TEST_CASE("trace diff: a run in both formats is equal, whatever else the files c
     CHECK_FALSE(other.is_equal);
 }
 
-TEST_CASE("trace diff: shows the first different field, the lines around it and all counts") {
+TEST_CASE("trace diff: the first different field, the lines around it and all counts are shown") {
     const std::string a = moves + sent_0 + got_1 + on_to_2;
     std::string b = a;
     b.replace(b.find("r 1.500000000"), 13, "r 1.500000001");
@@ -255,7 +257,7 @@ TEST_CASE("trace diff: shows the first different field, the lines around it and 
     CHECK(changed("M 0.00000 1", "M 0.00000 2") == "robot");
 }
 
-TEST_CASE("trace diff: reading only up to the first difference gives the same one") {
+TEST_CASE("trace diff: reading only up to the first difference finds the same difference") {
     const std::string a = moves + sent_0 + got_1 + on_to_2;
     std::string b = a;
     b.replace(b.find("r 1.500000000"), 13, "r 1.500000001");
@@ -272,7 +274,7 @@ TEST_CASE("trace diff: reading only up to the first difference gives the same on
     }
 }
 
-TEST_CASE("trace diff: the files of one run of ns-2 are equal in each format") {
+TEST_CASE("trace diff: traces of one run of ns-2 in both formats are equal") {
     const char* folder = std::getenv("ROVERNET_TRACES");
     if (!folder) {
         MESSAGE("skipped: ROVERNET_TRACES is not set");
@@ -284,7 +286,8 @@ TEST_CASE("trace diff: the files of one run of ns-2 are equal in each format") {
     CHECK_FALSE(diff_ns2(in + "old_aodv_mac.tr", in + "old_dsr.tr", Duration{0}).is_equal);
 }
 
-TEST_CASE("trace follow: shows the tree of a message, its losses and robots without a copy") {
+TEST_CASE(
+    "trace follow: the tree of a message, its losses and the robots without a copy are found") {
     const TempFolder folder;
     write_file(folder / "run.tr", moves + "M 0.0 4 (0.00, 0.00, 0.00), (0.00, 0.00), 0.00\n" +
                                       sent_0 + got_1 + on_to_2);
@@ -317,7 +320,8 @@ TEST_CASE("trace follow: shows the tree of a message, its losses and robots with
     }
 }
 
-TEST_CASE("trace follow: deliveries and drops of all messages add up to those of the trace") {
+TEST_CASE(
+    "trace follow: deliveries and drops, added up over all messages, are those of the trace") {
     const TempFolder folder;
     write_file(folder / "run.tr", written(Ns2Format::new_format, MacTrace::on));
     const auto stats = ns2_stats(folder / "run.tr");

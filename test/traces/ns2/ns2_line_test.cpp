@@ -56,7 +56,7 @@ TEST_CASE("ns-2 line: all fields of the old format are read") {
     CHECK_FALSE(p.energy);
 }
 
-TEST_CASE("ns-2 line: all fields of the new format are read, in which a drop is d") {
+TEST_CASE("ns-2 line: all fields of a line in the new format are read; a drop is written d there") {
     const auto p = packet_of(
         "d -t 1.500000000 -Hs 2 -Hd -2 -Ni 2 -Nx 10.25 -Ny 20.50 -Nz 0.00 -Ne 99.500000 -Nl IFQ "
         "-Nw ARP -Ma 13a -Md a -Ms b -Mt 800 -Is 5.0 -Id 3.1 -It tcp -Il 1040 -If 2 -Ii 7 -Iv 29 "
@@ -78,7 +78,8 @@ TEST_CASE("ns-2 line: all fields of the new format are read, in which a drop is 
     CHECK(p.payload == "-Pn tcp -Ps 4 -Pa 0 -Pf 1 -Po 0");
 }
 
-TEST_CASE("ns-2 line: in the tagged format + is a send, h a forward, and addresses are swapped") {
+TEST_CASE(
+    "ns-2 line: in the tagged format, + is a send, h is a forward, and MAC addresses are swapped") {
     const std::string rest =
         " 1.0012345678 -s 2 -d 3 -p AODV -k MAC -i 9 -N:loc {500.00 400.00 1.00} -N:en -1.000000 "
         "-M:dur 13a -M:s ffffffff -M:d 2 -M:t 800 -IP:s 0 -IP:sp 255 -IP:d -1 -IP:dp 255 -p AODV "
@@ -145,21 +146,21 @@ TEST_CASE("ns-2 line: ARP has no IP header in any format") {
     CHECK_FALSE(new_arp.ip);
 }
 
-TEST_CASE("ns-2 line: a line of the physical layer has no bracket, SMAC's has decimals") {
+TEST_CASE("ns-2 line: a line of the physical layer has no MAC part; that of SMAC has decimals") {
     CHECK_FALSE(packet_of("D 1.0 _2_ PHY  --- 4 cbr 512 ").mac);
     const auto smac = packet_of("s 1.0 _2_ MAC  --- 4 cbr 512 [0.25 3 2] ------- [2:0 3:0 32 3] ");
     CHECK(smac.mac == Ns2Mac{0, 3, 2, 0});
     CHECK(smac.ip->ttl == 32);
 }
 
-TEST_CASE("ns-2 line: addresses invented by Mac/Simple are read unchanged") {
+TEST_CASE("ns-2 line: the unusual MAC addresses of Mac/Simple are read unchanged") {
     const auto p = packet_of(
         "s -t 1.0 -Hs 0 -Hd 1 -Ni 0 -Nx 1.00 -Ny 1.00 -Nz 0.00 -Ne -1.000000 -Nl MAC -Nw --- -Ma "
         "0 -Md 1000000 -Ms ffff0008 -Mt 0 -Is 0.0 -Id 1.0 -It cbr -Il 512 -If 0 -Ii 0 -Iv 32 ");
     CHECK(p.mac == Ns2Mac{0, 0x1000000, 0xffff0008, 0});
 }
 
-TEST_CASE("ns-2 line: M, N and v lines, and our annotation, are read") {
+TEST_CASE("ns-2 line: M, N and v lines are read, with the annotation that this program writes") {
     const Ns2Line m = parse_ns2_line("M 2.00000 3 (6.59, 418.73, 1.00), (67.99, 108.50), 14.52");
     REQUIRE(std::holds_alternative<Ns2Move>(m));
     CHECK(std::get<Ns2Move>(m).from == Vec3{6.59, 418.73, 1});
@@ -213,7 +214,7 @@ TEST_CASE("ns-2 line: wired lines, nam lines and output of ns are recognised by 
     CHECK(is_skipped("# nodes: 3", Ns2Other::comment));
 }
 
-TEST_CASE("ns-2 line: times have the number of digits of each program") {
+TEST_CASE("ns-2 line: times may have any number of digits, and invalid times are refused") {
     const auto time_of = [](const std::string& time) {
         const Ns2Line line = parse_ns2_line("N -t " + time + " -n 6 -e 1");
         REQUIRE(std::holds_alternative<Ns2Energy>(line));

@@ -41,7 +41,8 @@ void check_place(const Ns2Motion& motion, Duration t, Vec3 expected, double tole
 
 }  // namespace
 
-TEST_CASE("ns-2 motion: a robot rests before its first leg, goes to its goal, and rests there") {
+TEST_CASE(
+    "ns-2 motion: a robot rests before its first leg, goes to the leg's goal, and rests there") {
     Ns2Motion motion;
     go(motion, 2s, {1, 2}, {9, 2}, 4);
     CHECK(motion.knows(robot));
@@ -55,7 +56,7 @@ TEST_CASE("ns-2 motion: a robot rests before its first leg, goes to its goal, an
     CHECK(motion.legs(robot).back().heading == 0);
 }
 
-TEST_CASE("ns-2 motion: the position in the next line corrects a leg that it ends") {
+TEST_CASE("ns-2 motion: a leg that ends early is corrected by the start position of the next one") {
     Ns2Motion motion;
     go(motion, 0s, {}, {100, 0}, 2.5);           // in truth at 2.503 m/s
     go(motion, 20s, {50.06, 0}, {50.06, 9}, 1);  // and turned here
@@ -64,7 +65,8 @@ TEST_CASE("ns-2 motion: the position in the next line corrects a leg that it end
     check_place(motion, 21s, {50.06, 1});
 }
 
-TEST_CASE("ns-2 motion: a completed leg ends at its goal, whatever position follows") {
+TEST_CASE(
+    "ns-2 motion: a leg that had time to finish ends at its goal, wherever the next one begins") {
     Ns2Motion motion;
     go(motion, 0s, {}, {10, 0}, 1);
     go(motion, 15s, {10, 0}, {10, 5}, 1);

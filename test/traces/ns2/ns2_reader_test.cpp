@@ -112,7 +112,8 @@ struct Recorded {
 
 }  // namespace
 
-TEST_CASE("reader: metrics of a trace with MAC lines equal those of its run, to the last digit") {
+TEST_CASE(
+    "reader: from a trace with MAC lines, the metrics equal those of the run, to the last digit") {
     for (const auto format : {Ns2Format::old_format, Ns2Format::new_format}) {
         for (unsigned seed = 0; seed < 20; ++seed) {
             const Recorded run(format, seed, 2 + static_cast<int>(seed) * 7, 2'000, MacTrace::on);
@@ -224,7 +225,7 @@ TEST_CASE("reader: robots move as in their M lines") {
     CHECK(r.legs.position(NodeId{1}, at(9'000'000'000)) == Vec3{3, 4, 1});
 }
 
-TEST_CASE("reader: both formats may occur in one file, with any line ends") {
+TEST_CASE("reader: one file may contain both formats, and any kind of line ends") {
     CHECK(metrics_of(old_lines).deliveries == 1);
     CHECK(metrics_of(new_line).messages == 1);
     const std::string second = "s 2.0 _1_ AGT  --- 1 message 9 [0 0 0 0] ------- [1:0 -1:0 3 0]";
@@ -266,7 +267,7 @@ TEST_CASE("reader: lines of ns-2 that we do not write are skipped") {
     CHECK(with.drops == without.drops);
 }
 
-TEST_CASE("reader: an energy model only shifts the columns") {
+TEST_CASE("reader: the additional columns of an energy model do not change what is read") {
     std::string text = old_lines;
     const std::string energy = "[energy 98.312702 ei 1.328 es 0.000 et 0.116 er 0.243] ";
     for (std::size_t i = 0; (i = text.find("-------", i)) != text.npos; i += energy.size() + 7) {
@@ -275,7 +276,8 @@ TEST_CASE("reader: an energy model only shifts the columns") {
     CHECK(metrics_of(text) == metrics_of(old_lines));
 }
 
-TEST_CASE("reader: a broken line has its position, what was found and what was expected") {
+TEST_CASE(
+    "reader: the error for a broken line names position, what was found and what was expected") {
     const auto number_of_lines = "run.tr:8:";  // after the seven good ones
     const auto broken = [&](const std::string& line) { return error_of(old_lines + line + "\n"); };
     const std::string rest = " RTR  --- 0 message 64 [0 ffffffff 0 800] ------- [0:0 -1:0 3 0] ";
@@ -313,7 +315,7 @@ TEST_CASE("reader: a broken line has its position, what was found and what was e
           "run.tr:8:1: found \"??\", expected a line of an ns-2 trace (s, r, f, D, d, M, ...)");
 }
 
-TEST_CASE("reader: a missing file, or one that is not text, is an input error") {
+TEST_CASE("reader: a file that is missing, or not text, is refused") {
     const TempFolder folder;
     CHECK_THROWS_AS(trace_metrics(folder / "missing.tr"), InputError);
     CHECK_THROWS_AS(trace_metrics(folder / "."), InputError);
@@ -324,7 +326,7 @@ TEST_CASE("reader: a missing file, or one that is not text, is an input error") 
     CHECK(error_of("# " + std::string(65'000, 'x') + "\n") == "");
 }
 
-TEST_CASE("reader: lines across block borders of the file are read correctly") {
+TEST_CASE("reader: lines that cross the blocks in which the file is read are read correctly") {
     std::string text = old_lines;
     std::uint64_t messages = 1;
     for (; text.size() < 2'000'000; ++messages) {
@@ -358,7 +360,7 @@ TEST_CASE("reader: a damaged trace is read or refused, without a crash") {
     CHECK(refused < 400);
 }
 
-TEST_CASE("reader: a file without an ns-2 line is not a trace") {
+TEST_CASE("reader: a file in which no line is one of ns-2 is refused as a trace") {
     const TempFolder folder;
     write_file(folder / "run.tr", "# by hand\n[scenario]\nname = \"A\"\n");
     try {

@@ -95,7 +95,7 @@ TEST_CASE(
     CHECK(s.counts.refused == 0);
 }
 
-TEST_CASE("trace stats: jitter of a flow at a receiver, and throughput, equal manual values") {
+TEST_CASE("trace stats: the jitter and throughput of a flow equal values computed by hand") {
     // Latencies 0.5, 0.6, 0.4 s: differences 0.1 and 0.2 s. One of 2 s is of another flow.
     const auto s =
         stats_of(sent("1", 0) + got("1.5", 0) + sent("2", 1) + got("2.6", 1) +
@@ -113,7 +113,7 @@ TEST_CASE("trace stats: jitter of a flow at a receiver, and throughput, equal ma
     CHECK_FALSE(stats_of(sent("1", 0)).throughput);
 }
 
-TEST_CASE("trace stats: packets of routing agents count as load, also forwarded ones") {
+TEST_CASE("trace stats: packets of routing protocols count as load, also when they are forwarded") {
     const std::string request = " --- 0 AODV 48 [0 0 0 0] ------- [0:255 -1:255 30 0] [0x2] \n";
     const auto s = stats_of(sent("1", 0) + "s 1.0 _0_ RTR " + request + "f 1.1 _1_ RTR " + request +
                             "r 1.1 _1_ RTR " + request + "s 1.1 _1_ MAC " + request +
@@ -124,7 +124,8 @@ TEST_CASE("trace stats: packets of routing agents count as load, also forwarded 
     CHECK(s.metrics.transmissions == 0);
 }
 
-TEST_CASE("trace stats: drops of messages are by reason, and of all packets by layer") {
+TEST_CASE(
+    "trace stats: drops of messages are counted by reason, those of all packets by layer, too") {
     const auto s =
         stats_of(sent("1", 0) + "D 1.1 _0_ IFQ  ARP 0 cbr 120 [0 0 0 0] ------- [0:0 1:0 32 1] \n" +
                  "D 1.1 _0_ MAC  COL 0 RTS 44 [0 0 0 0] \n" +
@@ -171,7 +172,7 @@ TEST_CASE("trace stats: rows by robot, flow and second add up to the totals") {
     CHECK(stats_of(sent("7.5", 0), TraceRows::flow).rows[0].name == "cbr 0:0 -> 1:0");
 }
 
-TEST_CASE("trace stats: each line is an event, skipped or refused") {
+TEST_CASE("trace stats: each line is counted as an event, as skipped or as refused") {
     const auto s =
         stats_of("# by hand\n\n" + sent("1", 0) + "what is this\n" +
                  "+ 0.1 1 2 cbr 1000 ------- 2 1.0 3.1 0 0\nSFf 1.0 _1_ 3\n" + sent("2", 0));
@@ -203,7 +204,8 @@ TEST_CASE("trace stats: hops are counted from the routing agent's first transmis
     CHECK(s.metrics.transmissions == 2);
 }
 
-TEST_CASE("trace stats: files of ns-2 have the counts that awk finds in their columns") {
+TEST_CASE(
+    "trace stats: for traces written by ns-2, counts equal those that awk finds in the columns") {
     const char* folder = std::getenv("ROVERNET_TRACES");
     if (!folder) {
         MESSAGE("skipped: ROVERNET_TRACES is not set");
@@ -215,7 +217,7 @@ TEST_CASE("trace stats: files of ns-2 have the counts that awk finds in their co
     }
 }
 
-TEST_CASE("trace stats: the files of one run of ns-2 are equal in each format") {
+TEST_CASE("trace stats: traces of one run of ns-2 in both formats give equal statistics") {
     const char* folder = std::getenv("ROVERNET_TRACES");
     if (!folder) {
         MESSAGE("skipped: ROVERNET_TRACES is not set");
@@ -244,7 +246,7 @@ TEST_CASE("trace stats: the files of one run of ns-2 are equal in each format") 
     CHECK_THROWS_AS(ns2_stats(in + "ns3_aodv_wifi_ascii.tr"), InputError);
 }
 
-TEST_CASE("stats: frames of S-MAC, with signed addresses and no ethertype, count") {
+TEST_CASE("stats: frames of S-MAC, which have signed addresses and no ethertype, are counted") {
     const TempFolder folder;
     write_file(
         folder / "smac.tr",
@@ -268,7 +270,8 @@ TEST_CASE("stats: frames of S-MAC, with signed addresses and no ethertype, count
     CHECK(s.drops_by_layer.at({"MAC", "COL"}) == 1);
 }
 
-TEST_CASE("stats: M lines with the options of a script are a header, others are refused") {
+TEST_CASE(
+    "stats: M lines with a script's options are skipped as a header, invalid ones are refused") {
     const TempFolder folder;
     write_file(folder / "in.tr",
                "M 0.0 nn 3 x 600 y 300 rp AODV\n"

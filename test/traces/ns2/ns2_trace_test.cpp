@@ -68,7 +68,7 @@ TEST_CASE("ns-2 trace: movements are equal in both formats") {
     CHECK(without_first_lines(trace_of(Ns2Format::new_format, play), 11).starts_with(last));
 }
 
-TEST_CASE("ns-2 trace: a repeated unicast is dropped by the MAC") {
+TEST_CASE("ns-2 trace: the MAC drops a unicast that arrives a second time, with reason DUP") {
     const auto repeat = [](Stream& s) {
         s.place(Vec3{});
         s.place(Vec3{10, 0, 0});
@@ -85,7 +85,8 @@ TEST_CASE("ns-2 trace: a repeated unicast is dropped by the MAC") {
     CHECK(trace_of(Ns2Format::old_format, repeat).find(" 1.5") == std::string::npos);
 }
 
-TEST_CASE("ns-2 trace: a frame lost on air has its size there, and no line without MAC lines") {
+TEST_CASE(
+    "ns-2 trace: a frame lost on air has a line, with its size there, only if MAC lines are on") {
     const auto lose = [](Stream& s) {
         s.place(Vec3{});
         s.place(Vec3{10, 0, 0});
@@ -103,7 +104,7 @@ TEST_CASE("ns-2 trace: a frame lost on air has its size there, and no line witho
     CHECK(trace_of(Ns2Format::old_format, lose).find("MAC") == std::string::npos);
 }
 
-TEST_CASE("ns-2 trace: the old format equals ns-2, line by line") {
+TEST_CASE("ns-2 trace: lines in the old format are those of ns-2") {
     CHECK(without_first_lines(trace_of(Ns2Format::old_format, play), 12) ==
           "v 10 eval {set sim_annotation {reachable 0 2}}\n"
           "s 10.000000000 _0_ AGT  --- 0 message 64 [0 0 0 0] ------- [0:0 -1:0 3 0] \n"
@@ -122,7 +123,7 @@ TEST_CASE("ns-2 trace: the old format equals ns-2, line by line") {
           "D 10.004000000 _11_ RTR  SLP 0 message 64 [0 ffffffff 1 800] ------- [0:0 -1:0 2 0] \n");
 }
 
-TEST_CASE("ns-2 trace: the new format equals ns-2, line by line") {
+TEST_CASE("ns-2 trace: lines in the new format are those of ns-2") {
     const auto text = without_first_lines(trace_of(Ns2Format::new_format, play), 12);
     CHECK(text.starts_with(
         "v 10 eval {set sim_annotation {reachable 0 2}}\n"
@@ -150,7 +151,7 @@ TEST_CASE("ns-2 trace: the new format equals ns-2, line by line") {
         "-Iv 2 \n"));
 }
 
-TEST_CASE("ns-2 trace: the new format has the position of a moving robot at the line's time") {
+TEST_CASE("ns-2 trace: a line in the new format has the robot's position at the time of the line") {
     const auto text = trace_of(Ns2Format::new_format, [](Stream& s) {
         s.place({.start = at(0),
                  .end = at(10'000'000'000),
@@ -162,7 +163,7 @@ TEST_CASE("ns-2 trace: the new format has the position of a moving robot at the 
     CHECK(text.find("-Nx 2.50 -Ny 1.25 -Nz 0.62 ") != text.npos);
 }
 
-TEST_CASE("ns-2 trace: without the number of reachable robots there is no annotation") {
+TEST_CASE("ns-2 trace: if the number of reachable robots is unknown, no annotation is written") {
     const auto text = trace_of(Ns2Format::old_format, [](Stream& s) {
         s.place(Vec3{});
         s.send(at(0), a, 1);
@@ -220,7 +221,8 @@ TEST_CASE("ns-2 trace: MAC lines in the old format have durations to the nearest
           "r 0.000000006 _11_ AGT  --- 0 message 64 [13a b 0 800] ------- [0:0 -1:0 1 0] \n");
 }
 
-TEST_CASE("ns-2 trace: MAC lines in the new format do not name control frames") {
+TEST_CASE(
+    "ns-2 trace: in the new format, MAC lines of control frames do not have the frame's kind") {
     const auto text = trace_of(Ns2Format::new_format, play_exchange, MacTrace::on);
     const std::string place = " -Nx 0.00 -Ny 0.00 -Nz 0.00 -Ne -1.000000 -Nl MAC -Nw ";
     CHECK(without_first_lines(text, 14).starts_with(
@@ -233,7 +235,7 @@ TEST_CASE("ns-2 trace: MAC lines in the new format do not name control frames") 
         "\n"));
 }
 
-TEST_CASE("ns-2 trace: without MAC lines the sink does not request their records") {
+TEST_CASE("ns-2 trace: if MAC lines are off, the sink does not request the records for them") {
     const TempFolder folder;
     const KindMask of_mac = kind_of<AirSent>() | kind_of<ControlReceived>();
     CHECK((Ns2Trace(folder / "a.tr").kinds() & of_mac) == 0);
@@ -252,7 +254,7 @@ TEST_CASE("ns-2 trace: a trace longer than the buffer is complete") {
     CHECK(text.find("-Ii 999 -Iv 1 \n") != text.npos);
 }
 
-TEST_CASE("ns-2 trace: the file has its name only when complete") {
+TEST_CASE("ns-2 trace: the file gets its name only when it is complete") {
     const TempFolder folder;
     Ns2Trace trace(folder / "run.tr");
     CHECK_FALSE(folder.has("run.tr"));
@@ -287,7 +289,7 @@ TEST_CASE("ns-2 trace: a run that ends normally without close() leaves its trace
     CHECK(folder.names() == std::vector<std::string>{"run.tr"});
 }
 
-TEST_CASE("ns-2 trace: a full disk is reported, not swallowed") {
+TEST_CASE("ns-2 trace: a full disk is reported as an error") {
     const TempFolder folder;
     Ns2Trace trace(folder / "run.tr");
     Stream stream;

@@ -384,7 +384,8 @@ TEST_CASE("damaged recorded trace: each record is read, or lost with its chunk a
     }
 }
 
-TEST_CASE("recorded trace: after each chunk an index has the position of each message") {
+TEST_CASE(
+    "recorded trace: after each chunk, an index lists the position of each message in the chunk") {
     const Sample s;
     std::size_t chunk = 0, messages = 0;
     std::string plain;
@@ -423,7 +424,7 @@ TEST_CASE("recorded trace: after each chunk an index has the position of each me
     CHECK(messages == 0);
 }
 
-TEST_CASE("damaged recorded trace: wrong sizes never need more than 256 MB") {
+TEST_CASE("damaged recorded trace: wrong sizes never make the reader need more than 256 MB") {
     if (test::has_address_sanitizer) {
         MESSAGE("memory is not measured: what is freed stays for a while");
         return;

@@ -114,7 +114,8 @@ std::string said_of(std::size_t named, std::uint32_t last, const std::string& sc
     }
 }
 
-TEST_CASE("a recorded trace has the names of all robots, or the missing robot is named") {
+TEST_CASE(
+    "in a recorded trace of a scenario, a record of a robot whose name is missing is reported") {
     CHECK(said_of(3, 2, "[scenario]\n") == "nothing");
     CHECK(said_of(3, 3, "[scenario]\n") == "record 2 is of robot 3; the trace names 3");
     // Robots may have been added later to a network that was made in code.
@@ -183,7 +184,7 @@ TEST_CASE("a recorded trace keeps the header of a frame with its record") {
     CHECK(reader.damage().empty());
 }
 
-TEST_CASE("a recorded trace keeps scenario, seed and names of the run") {
+TEST_CASE("a recorded trace stores version, scenario, seed, robots and files of its run") {
     TempFolder folder;
     RecordedTrace trace(folder / "t.mcap",
                         {.version = "9.9 (abc)", .files = {{"map.yaml", "text/yaml", "image: x"}}});
@@ -210,7 +211,7 @@ TEST_CASE("the fingerprint of a recorded trace equals that of the run") {
     CHECK(again->text() == recorded.fingerprint->text());
 }
 
-TEST_CASE("ns-2 text from a recorded trace equals that of the run, byte by byte") {
+TEST_CASE("an ns-2 trace made from a recorded trace equals that of the run, byte by byte") {
     const Recorded recorded(3000);
     render(recorded.path, recorded.folder / "old2.tr", Ns2Format::old_format, MacTrace::on);
     render(recorded.path, recorded.folder / "new2.tr", Ns2Format::new_format, MacTrace::off);
@@ -218,7 +219,7 @@ TEST_CASE("ns-2 text from a recorded trace equals that of the run, byte by byte"
     CHECK(content(recorded.folder / "new2.tr") == content(recorded.folder / "new.tr"));
 }
 
-TEST_CASE("the bytes of a recorded trace are equal each time") {
+TEST_CASE("equal runs give recorded traces with equal bytes") {
     CHECK(content(Recorded(5000).path) == content(Recorded(5000).path));
 }
 
@@ -249,7 +250,7 @@ TEST_CASE("an incomplete recorded trace is read up to its last complete chunk") 
     CHECK(before < recorded.all->records.size());
 }
 
-TEST_CASE("a broken chunk affects only the records of that chunk") {
+TEST_CASE("in a damaged recorded trace, a broken chunk affects only the records of this chunk") {
     const Recorded recorded(8000);
     std::string bytes = content(recorded.path);
     std::vector<std::uint64_t> chunks;

@@ -76,7 +76,7 @@ std::size_t for_each_row(bool screen, Check check) {
 
 }  // namespace
 
-TEST_CASE("knife edge: the loss equals that of the Fresnel integrals (vectors knife_edge)") {
+TEST_CASE("knife edge: the loss equals that of the Fresnel integrals (table knife_edge)") {
     const Vectors vectors("knife_edge.csv");
     REQUIRE(vectors.size() == 28);
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -87,7 +87,8 @@ TEST_CASE("knife edge: the loss equals that of the Fresnel integrals (vectors kn
     }
 }
 
-TEST_CASE("knife edge: in deep shadow, at nu = 1e8, the loss keeps its digits (S18)") {
+TEST_CASE(
+    "knife edge: in deep shadow, at nu = 1e8 and beyond, the loss is right within 1e-9 dB (S18)") {
     for (const double nu : {1e4, 1e6, 1e8, 1e12, 1e100}) {
         CAPTURE(nu);
         CHECK(near(knife_edge_loss_db(nu), 20 * std::log10(pi * std::sqrt(2.0) * nu), 1e-9));
@@ -95,7 +96,8 @@ TEST_CASE("knife edge: in deep shadow, at nu = 1e8, the loss keeps its digits (S
     CHECK(std::isinf(knife_edge_loss_db(std::numeric_limits<double>::infinity())));
 }
 
-TEST_CASE("knife edge: both halves of the formula agree at the edge, at 6 dB") {
+TEST_CASE(
+    "knife edge: just at the edge, where the formula changes, the loss is 6 dB from both sides") {
     CHECK(near(knife_edge_loss_db(0), 20 * std::log10(2.0), 1e-12));
     CHECK(near(knife_edge_loss_db(-1e-9), knife_edge_loss_db(1e-9), 1e-7));
 }
@@ -133,7 +135,7 @@ TEST_CASE("wedge: the coefficient equals a published example (screen, k = 10, L 
     CHECK(std::abs(hard - Complex{-0.17545379565978494, 0.14123983292699275}) < 1e-14);
 }
 
-TEST_CASE("wedge: the field around a screen is Sommerfeld's exact one (utd_vs_exact)") {
+TEST_CASE("wedge: the field around a screen equals Sommerfeld's exact field (utd_vs_exact)") {
     const auto rows = for_each_row(true, [](const Row& row) {
         for (const bool soft : {true, false}) {
             const Complex exact = soft ? row.soft : row.hard;
@@ -145,7 +147,8 @@ TEST_CASE("wedge: the field around a screen is Sommerfeld's exact one (utd_vs_ex
     CHECK(rows == 80);
 }
 
-TEST_CASE("wedge: around a right angle the field is within 0.05 dB of the series (utd_vs_exact)") {
+TEST_CASE(
+    "wedge: around a right angle the field is within 0.05 dB of the exact one (utd_vs_exact)") {
     const auto rows = for_each_row(false, [](const Row& row) {
         for (const bool soft : {true, false}) {
             const double exact = decibels(soft ? row.soft : row.hard);
@@ -181,7 +184,8 @@ TEST_CASE("wedge: at shadow and reflection boundaries the field is finite and co
     }
 }
 
-TEST_CASE("wedge: rays given by the caller at a boundary give the same field, lit or not (S19)") {
+TEST_CASE(
+    "wedge: at a boundary the field is the same, whether the direct ray counts as lit (S19)") {
     const WedgePath path{1.5, {0.3 + pi}, {0.3}};
     LitBy lit = lit_by(path);
     for (const WedgeFaces& faces : {soft_faces, hard_faces}) {
@@ -192,7 +196,7 @@ TEST_CASE("wedge: rays given by the caller at a boundary give the same field, li
     }
 }
 
-TEST_CASE("wedge: a tenth of a degree from a boundary there is no peak of 36 dB (S20)") {
+TEST_CASE("wedge: a tenth of a degree from a boundary the field has no false peak of 36 dB (S20)") {
     // A theory that is not uniform (Keller's) has 36 dB there, see the vectors.
     for (const double phi_deg : {224.9, 225.1, 134.9, 135.1}) {
         const WedgePath path{1.5, {phi_deg * degree}, {45 * degree}};
@@ -202,7 +206,7 @@ TEST_CASE("wedge: a tenth of a degree from a boundary there is no peak of 36 dB 
     }
 }
 
-TEST_CASE("wedge: a flat edge, or one that transmits everything, diffracts nothing") {
+TEST_CASE("wedge: an edge that is flat or lets everything through diffracts nothing") {
     for (const double phi : {0.2, 1.5, 3.0}) {
         const WedgePath flat{1, {phi}, {1.1}};
         CHECK(std::abs(wedge_coefficient(flat, 50, 3_m, soft_faces)) < 1e-15);
@@ -212,7 +216,7 @@ TEST_CASE("wedge: a flat edge, or one that transmits everything, diffracts nothi
     CHECK(wedge_coefficient({1.5, {3}, {1}}, 50, 0_m, hard_faces) == Complex{0});
 }
 
-TEST_CASE("wedge: source and receiver can be exchanged, to the last bit, also with lossy faces") {
+TEST_CASE("wedge: exchanging source and receiver gives the same bits, also with lossy faces") {
     const auto reflection = [](Radians incidence) {  // of a dielectric half space, TE
         const double cosine = std::cos(incidence.value);
         const double root = std::sqrt(4 + cosine * cosine);
@@ -235,7 +239,8 @@ TEST_CASE("wedge: source and receiver can be exchanged, to the last bit, also wi
     }
 }
 
-TEST_CASE("wedge: where a face's reflection appears, its coefficient equals that of the ray") {
+TEST_CASE(
+    "wedge: where a reflection begins, the angle of incidence equals that of the reflected ray") {
     const WedgePath face_0{1.5, {140 * degree}, {40 * degree}};
     CHECK(near(face_incidence(face_0).face_0.value, 50 * degree, 1e-14));
     const WedgePath face_n{1.5, {230 * degree}, {130 * degree}};
@@ -245,7 +250,7 @@ TEST_CASE("wedge: where a face's reflection appears, its coefficient equals that
     CHECK(near(face_incidence(behind).face_0.value, 70 * degree, 1e-14));
 }
 
-TEST_CASE("wedge: rays end at the given angles, boundaries included") {
+TEST_CASE("wedge: direct and reflected rays exist up to the right angles, boundaries included") {
     const LitBy low = lit_by({1.5, {100 * degree}, {45 * degree}});
     CHECK((low.direct && low.face_0 && !low.face_n));
     const LitBy between = lit_by({1.5, {150 * degree}, {45 * degree}});
