@@ -121,16 +121,22 @@ Duration next_access(const Missed& c) {
 }  // namespace
 
 void check_access(Promises& promises) {
-    Promise throughput{"throughput of 1 to 20 saturated stations, against Bianchi, relative error",
-                       "", 0.012, 0, 0};
-    Promise collisions{"share of their frames that collide, against Bianchi", "", 0.012, 0, 0};
+    Promise throughput{
+        "throughput of 1 to 20 saturated stations, against Bianchi's model, relative error", "",
+        0.012, 0, 0};
+    Promise collisions{
+        "share of the frames of these stations that collide, against Bianchi's model", "", 0.012, 0,
+        0};
     for (const int n : {1, 5, 20}) {
         const CellErrors errors = cell_errors(n);
         throughput.add(errors.throughput);
         collisions.add(errors.collisions);
     }
     constexpr Duration difs = 50us, eifs = 10us + 304us + difs;
-    Promise access{"time of the next access after a frame that was not decoded", "ns", 0, 0, 0};
+    Promise access{
+        "time of a station's next frame after a frame that it did not decode, against the rules of "
+        "EIFS",
+        "ns", 0, 0, 0};
     for (const Missed& c : {
              Missed{EifsRule::standard, 250, -200, 100, 200, 990us + eifs},
              Missed{EifsRule::standard, 250, -200, 100, 2000, 1917us + difs},

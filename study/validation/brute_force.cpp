@@ -79,7 +79,8 @@ double power_by_tracer(const Room& room, int order) {
 
 Promise rooms() {
     constexpr double limit = 1e-9;  // [dB]
-    Promise out{"paths in rooms, against all their images", "dB", limit, 0, 0};
+    Promise out{"power over all paths in a room, against a sum over image sources", "dB", limit, 0,
+                0};
     for (const Room& room :
          {Room{6, 4, {1, 1, 1}, {4.5, 3, 1.5}}, Room{10, 7.5, {0.3, 7, 1}, {9.1, 0.4, 1}},
           Room{30, 2.5, {1.2, 1.1, 2}, {28, 1.9, 1}}}) {
@@ -110,7 +111,8 @@ double field_correlation(double moved, std::uint32_t seeds) {
 Promise shadowing_field() {
     constexpr double limit = 0.03;
     constexpr std::uint32_t seeds = 20'000;
-    Promise out{"correlation of the field of shadowing, against exp(-D / d_cor)", "", limit, 0, 0};
+    Promise out{"correlation of the shadowing field over a distance D, against exp(-D / d_cor)", "",
+                limit, 0, 0};
     for (const double moved : {1.0, 5.0, 10.0, 20.0, 40.0}) {
         out.add(field_correlation(moved, seeds) - math::exp(-moved / 10));
     }
@@ -131,7 +133,7 @@ Promise fitted_lines() {
             found ? std::abs(found->value - truth) : std::numeric_limits<double>::infinity();
         worst = std::max(worst, error);
     }
-    return {"least squares, against a line by hand", "", limit, worst, 3};
+    return {"line by least squares, against one computed by hand", "", limit, worst, 3};
 }
 
 /// With nothing unseen the most likely line is that of least squares.
@@ -144,12 +146,13 @@ Promise seen_levels() {
     const double worst =
         std::max({std::abs(line.coefficients[0] - 0.5), std::abs(line.coefficients[1] - 0.6),
                   std::abs(line.sigma - std::sqrt(0.05))});
-    return {"Tobit with all levels seen, against least squares by hand", "", limit, worst, 3};
+    return {"line by Tobit if no level is missing, against least squares by hand", "", limit, worst,
+            3};
 }
 
 /// Wrong decisions of the disc that was found, beyond those of the best of all.
 Promise discs() {
-    Promise out{"decisions of the fitted disc, against every disc", "", 0, 0, 0};
+    Promise out{"wrong decisions of the fitted disc, beyond those of the best disc", "", 0, 0, 0};
     for (std::uint64_t set = 0; set < 20; ++set) {
         std::vector<DiscLink> links;
         for (std::uint64_t i = 0; i < 40; ++i) {
@@ -178,8 +181,8 @@ Promise level_crossings() {
     constexpr double step = 0.015;  // wavelengths
     constexpr Hertz frequency{2450e6};
     constexpr double limit = 0.2;  // of 60 fields of 32 waves; 270 crossings of -15 dB by m = 2
-    Promise out{"level crossings of nakagami by place, m = 1 and 2, relative error", "", limit, 0,
-                0};
+    Promise out{"rate of level crossings of nakagami by position, m = 1 and 2, relative error", "",
+                limit, 0, 0};
     for (const double m : {1.0, 2.0}) {                     // Gamma(m) = 1
         const std::vector<double> levels{-15, -10, -5, 0};  // [dB]
         std::vector<double> crossings(levels.size());
@@ -221,8 +224,8 @@ Promise false_advice() {
     const auto one_in_two = [](std::uint64_t study, std::uint64_t r) {
         return validation_draw("advice", study, r) < 0.5 ? 2 * tolerance : 0;
     };
-    Promise out{"share of false verdicts of advise, of models whose error is just the tolerance",
-                "", limit, 0, 0};
+    Promise out{"share of false verdicts of advise on models whose error equals the tolerance", "",
+                limit, 0, 0};
     const auto share_of = [&](const auto& difference) {
         double wrong = 0;
         for (std::uint64_t study = 0; study < studies; ++study) {

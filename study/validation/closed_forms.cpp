@@ -212,20 +212,22 @@ Pairs antennas() {
 }  // namespace
 
 void check_closed_forms(Promises& promises) {
-    promises.push_back(promise_of("models by distance, against their closed forms", closed_form,
-                                  models_by_distance()));
+    promises.push_back(promise_of("losses of models without walls, against closed forms",
+                                  closed_form, models_by_distance()));
+    promises.push_back(promise_of("losses of models with walls, against closed forms", closed_form,
+                                  walled_models()));
     promises.push_back(
-        promise_of("models with walls, against their closed forms", closed_form, walled_models()));
-    promises.push_back(promise_of("two_ray, against its closed forms", closed_form, two_rays()));
-    promises.push_back(promise_of("slabs of building materials, at angles", 1e-8, slabs()));
+        promise_of("losses of two_ray, against closed forms", closed_form, two_rays()));
     promises.push_back(
-        promise_of("quantiles of fading, relative error", 1e-9, fading_quantiles(), ""));
+        promise_of("losses of slabs of building materials at several angles", 1e-8, slabs()));
+    promises.push_back(promise_of("quantiles of the power under fading, relative error", 1e-9,
+                                  fading_quantiles(), ""));
     promises.push_back(promise_of("bit error rates of 1 Mb/s, relative error", 1e-10,
                                   error_rates_of_1_mbps(), ""));
     promises.push_back(
         promise_of("bit error rates of 2 to 12 Mb/s, relative error", 1e-9, error_rates(), ""));
     promises.push_back(
-        promise_of("gains of antennas, against their closed forms", closed_form, antennas()));
+        promise_of("gains of antennas, against closed forms", closed_form, antennas()));
 }
 
 }  // namespace rovernet

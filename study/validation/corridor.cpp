@@ -123,8 +123,9 @@ ValidationChart corridor_chart(const ValidationSize& size) {
         .title = "How many reflections, and added how?",
         .truth = fmt::format(
             "{} links along corridors of 2 m and 2.5 m between walls of metal, at 914 and 2450 "
-            "MHz, 3 to 40 m long. The reference is, for the coherent sum, the exact field (modal "
-            "series); for the sum of powers, that of all images without end, in closed form.",
+            "MHz, 3 to 40 m long. For the coherent sum, the reference is the exact field (modal "
+            "series). For the sum of powers, it is the sum over all infinitely many image sources, "
+            "in closed form.",
             std::size(corridor_links)),
         .panels = {corridor_panel("sum of powers", RaySum::power, power_of_images_db, size),
                    corridor_panel(
@@ -135,8 +136,8 @@ ValidationChart corridor_chart(const ValidationSize& size) {
                               &one = point_of(panel, "rays, order 1"),
                               &three = point_of(panel, "rays, order 3");
         chart.sentences.push_back(fmt::format(
-            "{}: order 0 is {:.2g} dB off, order 1 {:.2g} dB and order 3 {:.2g} dB, at {} "
-            "times the cost of order 1.",
+            "{}: order 0 is {:.2g} dB off, order 1 is {:.2g} dB off and order 3 is {:.2g} dB off. "
+            "Order 3 costs {} times as much as order 1.",
             panel.title, none.error, one.error, three.error,
             two_digits(three.cost.median / one.cost.median)));
     }

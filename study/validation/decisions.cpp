@@ -203,7 +203,7 @@ std::string decision_sentence(const ValidationPanel& panel) {
     const ValidationPoint &truth = panel.points[0], &ours = panel.points[1];
     const double flipped = detail_of(ours, "flipped");
     std::string out = fmt::format(
-        "{} {} makes the same decisions as the exact method in {}, at {:.2g} of its cost.",
+        "\"{}\": {} makes the same decisions as the exact method in {}, at {:.2g} of its cost.",
         panel.title, ours.label,
         flipped == 0 ? "every case" : fmt::format("all but {:g} cases", flipped),
         ours.cost.median / truth.cost.median);
@@ -225,9 +225,10 @@ ValidationChart decisions_chart(const ValidationSize& size, Promises& promises) 
         .name = "decisions",
         .title = "Is the link up? Decided without the loss",
         .truth =
-            "The reference is the loss itself, by logarithms, against a budget of 90 dB at 2450 "
-            "MHz: distances within 1 % of the range of friis; log_distance with 6 dB of shadowing, "
-            "0.1 to 1.9 times its median range; two frames from anywhere within 300 m.",
+            "The reference computes the loss (with logarithms) and compares it with a budget of 90 "
+            "dB, at 2450 MHz. The cases: for friis, distances within 1 % of its range; for "
+            "log_distance with 6 dB of shadowing, 0.1 to 1.9 times its median range; for two "
+            "frames, senders anywhere within 300 m.",
         .panels = {by_distance(size), by_pair(size), by_level(size)},
         .for_contributors = true};
     for (const ValidationPanel& panel : chart.panels) {

@@ -130,22 +130,24 @@ ValidationChart diffraction_chart(const ValidationSize& size, Promises& promises
     ValidationChart chart{
         .name = "diffraction",
         .title = "How deep is the shadow of an edge?",
-        .truth = fmt::format("{} places behind a screen and {} behind a right-angled corner of "
-                             "metal, 1.6 and 8 wavelengths from the edge, both polarisations. The "
-                             "true fields are Sommerfeld's exact solutions.",
-                             std::size(behind_screen), std::size(behind_corner)),
+        .truth =
+            fmt::format("The field at {} positions behind a screen and {} behind a right-angled "
+                        "corner of metal, 1.6 and 8 wavelengths from the edge, with both "
+                        "polarisations. The true fields are Sommerfeld's exact solutions.",
+                        std::size(behind_screen), std::size(behind_corner)),
         .panels = {shadow_panel("screen", behind_screen, 2, size, screen),
                    shadow_panel("right-angled corner", behind_corner, 1.5, size, corner)}};
-    promises.push_back({"field behind a screen by UTD, against Sommerfeld", "dB", 1e-6, screen,
-                        std::size(behind_screen)});
-    promises.push_back({"field behind a right-angled corner by UTD, against Sommerfeld", "dB", 0.05,
-                        corner, std::size(behind_corner)});
+    promises.push_back({"field behind a screen by UTD, against Sommerfeld's exact solution", "dB",
+                        1e-6, screen, std::size(behind_screen)});
+    promises.push_back(
+        {"field behind a right-angled corner by UTD, against Sommerfeld's exact solution", "dB",
+         0.05, corner, std::size(behind_corner)});
     for (const ValidationPanel& panel : chart.panels) {
         const ValidationPoint &edge = point_of(panel, "knife edge, P.526"),
                               &utd = point_of(panel, "UTD");
         chart.sentences.push_back(fmt::format(
-            "Behind a {} UTD is {:.2g} dB off, at {} times the cost of the knife edge of "
-            "P.526, which is {:.2g} dB off; without any shadow the error is {:.2g} dB.",
+            "Behind a {} UTD is {:.2g} dB off and costs {} times as much as the knife edge of "
+            "P.526. The knife edge is {:.2g} dB off. A model without any shadow is {:.2g} dB off.",
             panel.title, utd.error, two_digits(utd.cost.median / edge.cost.median), edge.error,
             panel.points.front().error));
     }

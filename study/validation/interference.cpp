@@ -101,14 +101,16 @@ ValidationChart interference_cut_chart(const ValidationSize& size) {
     return {
         .name = "interference_cut",
         .title = "How weak may a frame be and still interfere?",
-        .truth = fmt::format("60 robots send at random, a message each 10 ms, {} replications "
-                             "under `sinr`. The reference is a cut of {:g} dB, which leaves out "
-                             "only frames that are 10 dB below the noise. CPU of the whole run.",
+        .truth = fmt::format("60 robots send at random, together a message each 10 ms, in {} "
+                             "replications with `sinr`. The reference is a cut of {:g} dB, which "
+                             "ignores only frames that are more than 10 dB below the noise. The "
+                             "cost is the CPU time of the whole run.",
                              replications, complete_cut),
         .panels = {panel},
         .sentences = {fmt::format("The usual cut of 20 dB changes the delivery ratio of a run by "
-                                  "{:.2g} on average; counting only frames that can be decoded (0 "
-                                  "dB) changes it by {:.2g}, at {:.2g} of the CPU time.",
+                                  "{:.2g} on average. If only frames that can be decoded interfere "
+                                  "(a cut of 0 dB), it changes by {:.2g}, at {:.2g} of the CPU "
+                                  "time.",
                                   usual.error, none.error,
                                   none.cost.median / panel.points.back().cost.median)}};
 }
@@ -122,17 +124,18 @@ ValidationChart reception_chart(const ValidationSize& size) {
     ValidationChart chart{
         .name = "reception",
         .title = "Which model of reception?",
-        .truth = fmt::format("60 robots send at random, {} replications. The reference is `sinr` "
-                             "with all interference. CPU of the whole run.",
-                             replications),
+        .truth =
+            fmt::format("60 robots send at random, in {} replications. The reference is `sinr` "
+                        "with all interference. The cost is the CPU time of the whole run.",
+                        replications),
         .panels = {delivery_panel("a message each 100 ms", storm("100 ms"), variants, replications),
                    delivery_panel("a message each 10 ms", storm("10 ms"), variants, replications)}};
     chart.sentences = {"`sinr` is taken as true; its own error is not measured here."};
     for (const ValidationPanel& panel : chart.panels) {
         const ValidationPoint &threshold = panel.points[0], &collision = panel.points[1];
         chart.sentences.push_back(fmt::format(
-            "With {} `threshold` is off by {:.2g} in a run's delivery ratio and `collision` by "
-            "{:.2g}; they cost {:.2g} and {:.2g} of `sinr`.",
+            "With {} the delivery ratio of a run is off by {:.2g} under `threshold` and by {:.2g} "
+            "under `collision`. They cost {:.2g} and {:.2g} times as much as `sinr`.",
             panel.title, threshold.error, collision.error,
             threshold.cost.median / panel.points[2].cost.median,
             collision.cost.median / panel.points[2].cost.median));

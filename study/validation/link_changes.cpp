@@ -217,9 +217,9 @@ std::string step_sentence(const ValidationPanel& panel) {
     const ValidationPoint& exact = point_of(panel, "rovernet");
     const ValidationPoint& slow = point_of(panel, "check every 100 ms");
     return fmt::format(
-        "{}: checking each link every 100 ms costs {:.2g} times as much as finding changes ahead, "
-        "misses {:.2g} % of the changes, and has a wrong state for {:.2g} ms per change; changes "
-        "found ahead: {:.2g} ms.",
+        "{}: checking each link every 100 ms costs {:.2g} times as much as computing the changes "
+        "in advance, and misses {:.2g} % of the changes. With checks, the state of a link is wrong "
+        "for {:.2g} ms per change. With changes computed in advance, it is wrong for {:.2g} ms.",
         panel.title, slow.cost.median / exact.cost.median, detail_of(slow, "changes missed [%]"),
         slow.error, exact.error);
 }
@@ -246,15 +246,17 @@ ValidationChart link_changes_chart(const ValidationSize& size, Promises& promise
     const ValidationPanel by_walls = changes_panel(walled, walled_truth, size, walled_latest);
     promises.push_back({"time of a link change by distance, against the closed form", "ns", 2,
                         1e9 * open_latest, open.all.size()});
-    promises.push_back({"time of a link change behind walls, against a search of its own", "ms",
+    promises.push_back({"time of a link change behind walls, against a finer search", "ms",
                         1e3 * seconds(LinkSearch{}.tolerance), 1e3 * walled_latest,
                         walled.all.size()});
     return {.name = "link_changes",
             .title = "When does a link come up or go down?",
             .truth = fmt::format(
-                "Two robots cross straight in {:g} s: {} times on an open field, {} times in an "
-                "office. The reference is where two straight lines come within range of one "
-                "another; in the office, a sample every {:g} ms, then halved down to a nanosecond.",
+                "Two robots drive along straight lines for {:g} s: {} times on an open field, {} "
+                "times in an office. On the open field, the reference is the exact time at which "
+                "they come within range of one another, or leave it. In the office, the link is "
+                "sampled every {:g} ms, and each change is then located by bisection, down to a "
+                "nanosecond.",
                 seconds(passing), open.all.size(), walled.all.size(), 1e3 * seconds(fine)),
             .panels = {by_distance, by_walls},
             .sentences = {step_sentence(by_distance), step_sentence(by_walls)}};

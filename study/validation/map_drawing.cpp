@@ -126,9 +126,9 @@ std::string cell_sentence(const ValidationPanel& panel) {
                           &coarse = point_of(panel, "20 cm", "filled"),
                           &outline = point_of(panel, "5 cm", "outline");
     return fmt::format(
-        "{}: with cells of 5 cm the error is {:.2g} dB ({:+.2g} dB on average), with cells of 20 "
-        "cm, which are wider than a wall, {:.2g} dB; with the 5 cm map drawn as outlines {:.2g} "
-        "dB.",
+        "{}: with cells of 5 cm the rms error is {:.2g} dB (mean error {:+.2g} dB). With cells of "
+        "20 cm, which are wider than a wall, the rms error is {:.2g} dB. With the 5 cm map drawn "
+        "as outlines it is {:.2g} dB.",
         panel.title, fine.error, detail_of(fine, "bias [dB]"), coarse.error, outline.error);
 }
 
@@ -155,9 +155,9 @@ ValidationChart map_drawing_chart(const ValidationSize& size) {
         .name = "map_drawing",
         .title = "How fine must a map be, and drawn how?",
         .truth = fmt::format(
-            "{} links in an office at 20 degrees to the cells of its maps; each model with its "
-            "defaults. The reference is the same model on the walls as they stand; outline: only "
-            "those cells of a wall are drawn that touch a free one.",
+            "{} links in an office whose walls stand at 20 degrees to the cells of its maps. Each "
+            "model has its defaults. The reference is the same model with the exact walls. "
+            "Outline: only those cells of a wall are drawn that touch a free cell.",
             links.size())};
     for (const Propagation& model : models_that_see(exact, links)) {
         chart.panels.push_back(drawing_panel(model, drawings, exact, links, size));

@@ -166,13 +166,12 @@ ValidationPanel building_panel(const MeasuredBuilding& building, const Validatio
 std::string best_sentence(const ValidationPanel& panel, const Repeatability& repeated) {
     const Nearest nearest = nearest_to_truth(panel, [](const ValidationPoint&) { return true; });
     return fmt::format(
-        "{}: {}, with the levels of {} receivers. Free space (friis) is {:.2f} dB off. Repeated "
-        "measurements of the same places differ by {:.2f} dB, so even the right model would be "
+        "{} (levels of {} receivers): {}. Free space (friis) is {:.2f} dB off. Repeated "
+        "measurements at the same positions differ by {:.2f} dB, so even a perfect model would be "
         "{:.2f} dB off.",
-        panel.title,
+        panel.title, nearest.point->parts.size(),
         nearest_text(nearest, [](double error) { return fmt::format("{:.2f} dB off", error); }),
-        nearest.point->parts.size(), point_of(panel, "friis", with_defaults).error, repeated.rms,
-        repeated.one_level());
+        point_of(panel, "friis", with_defaults).error, repeated.rms, repeated.one_level());
 }
 
 /// Whether rays are worth their cost, and what of it is due to a fit.
@@ -181,14 +180,14 @@ std::string rays_sentence(const ValidationPanel& panel) {
     const Nearest rays = nearest_to_truth(panel, is_rays);
     const ValidationPoint &walls = point_of(panel, "multi_wall", with_fit), &best = *rays.point;
     const double excess = best.error - walls.error;
-    std::string out =
-        fmt::format("{}: rays are {:.2f} dB {} than the fitted multi_wall, at {} times its cost.",
-                    panel.title, std::abs(excess), excess <= 0 ? "better" : "worse",
-                    two_digits(best.cost.median / walls.cost.median));
+    std::string out = fmt::format(
+        "{}: rays are {:.2f} dB {} than the fitted multi_wall, and cost {} times as much.",
+        panel.title, std::abs(excess), excess <= 0 ? "better" : "worse",
+        two_digits(best.cost.median / walls.cost.median));
     if (best.series == with_defaults) return out + " Only one constant of the rays was fitted.";
     return out + fmt::format(
-                     " With walls of concrete the rays are {:.2f} dB off; with the wall loss "
-                     "that the fit estimates they are {:.2f} dB off.",
+                     " With walls of concrete (the default) the rays are {:.2f} dB off. With the "
+                     "wall loss that the fit estimates, they are {:.2f} dB off.",
                      point_of(panel, "rays", with_defaults).error, best.error);
 }
 
@@ -197,7 +196,7 @@ void check_anchors(const ValidationPanel& panel, Promises& promises) {
     constexpr double allowed = 0.2;  // [dB] for walls as the map draws them
     const auto add = [&](const char* model, const char* series, double published) {
         const double excess = point_of(panel, model, series).error - published;
-        promises.push_back({fmt::format("rms error of {} ({}) in the {}, beyond the {} dB of an "
+        promises.push_back({fmt::format("rms error of {} ({}) in the {}, above the {} dB of an "
                                         "independent analysis",
                                         model, series, panel.title, published),
                             "dB", allowed, std::max(0.0, excess), 1});
@@ -222,11 +221,12 @@ ValidationChart measured_chart(const std::string& folder, const ValidationSize& 
         .name = "measured",
         .title = "How wrong are models of measured buildings?",
         .truth =
-            "Local means of levels in a furnished flat (a robot's drive; Kolakowski, Sensors "
-            "21, 2021, CC BY 4.0) and medians in an open laboratory (Danis et al., Pervasive "
-            "and Mobile Computing 81, 2022, CC0), fitted on one drive or day and judged on "
-            "another. As given: the defaults; only the one unknown constant (power and gains) "
-            "is fitted. Bars: the error if each receiver is predicted without its own levels."};
+            "The levels are local means in a furnished flat, from drives of a robot (Kolakowski, "
+            "Sensors 21, 2021, CC BY 4.0), and medians in an open laboratory (Danis et al., "
+            "Pervasive and Mobile Computing 81, 2022, CC0). The models are fitted to the levels of "
+            "one drive or day, and judged by those of another one. As given: the model has its "
+            "defaults, and only the one unknown constant (power and gains) is fitted. A bar ends "
+            "at the error of a fit that predicts each receiver without its own levels."};
     for (const auto& building : {measured_flat(folder), measured_lab(folder)}) {
         const ValidationPanel panel = building_panel(building, size);
         check_anchors(panel, promises);

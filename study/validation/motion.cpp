@@ -55,8 +55,9 @@ void check_random_waypoint(Promises& promises) {
     promises.push_back({"mean speed under random waypoint, against (max - min) / ln(max / min)", "",
                         0.035, worst_speed, 3});
     promises.push_back(
-        {"share of robots at rest under random waypoint, against E[P] / (E[P] + E[T])", "", 0.032,
-         worst_rest, 3});
+        {"share of robots at rest under random waypoint, against E[P] / (E[P] + E[T]) of pause P "
+         "and trip T",
+         "", 0.032, worst_rest, 3});
 }
 
 /// Command of a robot on an arc: turning left, from heading 0.
@@ -115,9 +116,10 @@ void check_arcs(Promises& promises) {
         }
     }
     promises.push_back(
-        {"place of a driven robot, against the exact circle", "m", 0.00101, free, cases});
-    promises.push_back({"place of a driven robot that turns at a wall, against the exact circles",
-                        "m", 0.0011, at_wall, cases});
+        {"position of a driven robot, against the exact circle", "m", 0.00101, free, cases});
+    promises.push_back(
+        {"position of a driven robot that turns at a wall, against the exact circles", "m", 0.0011,
+         at_wall, cases});
 }
 
 }  // namespace

@@ -202,9 +202,10 @@ std::string truth_sentence(const ValidationPanel& panel, const Truth& truth,
                            truth.model.label);
     }
     return fmt::format(
-        "{}: {} is taken as true. In a measured {} its own error is {:.1f} dB, beyond the errors "
-        "of the measurement. With such an error the result is {}: a model that is nearer agrees "
-        "with the reference, not with a building.",
+        "{0}: {1} is taken as true. In a measured {2} its own error is {3:.1f} dB, after the "
+        "errors of the measurement are subtracted. An error of this size alone puts the delivery "
+        "ratio of a run {4}. So a model that is closer than that to {1} is known to agree with "
+        "{1}, but not with a real building.",
         panel.title, truth.model.label, truth.building, truth.own_error->value,
         off(*panel.unknowable));
 }
@@ -214,10 +215,10 @@ std::string convergence_sentence(const ValidationPanel& panel,
                                  const std::function<std::string(double)>& off) {
     std::vector<std::string> forms;
     for (const ValidationPoint& p : panel.points) {
-        if (p.series == fewer_paths) forms.push_back(fmt::format("{} {}", p.label, off(p.error)));
+        if (p.series == fewer_paths) forms.push_back(fmt::format("{} ({})", p.label, off(p.error)));
     }
     if (forms.empty()) return "";
-    return fmt::format("{}: the reference with fewer paths: {}.", panel.title,
+    return fmt::format("{}: forms of the reference with fewer paths: {}.", panel.title,
                        fmt::join(forms, "; "));
 }
 
@@ -234,13 +235,14 @@ std::string reach_sentence(const ValidationPanel& panel) {
             const bool more = after > much * before && fitted.cost.median > given.cost.median;
             const bool less = before > much * after && fitted.cost.median < given.cost.median;
             if (more || less)
-                models.push_back(fmt::format("{} ({:.1f} receivers a frame instead of {:.1f})",
-                                             given.label, after, before));
+                models.push_back(
+                    fmt::format("{} {:.1f} instead of {:.1f}", given.label, after, before));
         }
     }
     if (models.empty()) return "";
-    return fmt::format("{}: the fit changes the number of receivers, and so the cost, of {}.",
-                       panel.title, fmt::join(models, ", "));
+    return fmt::format(
+        "{}: the fit changes the number of receivers of a frame, and therefore the cost: {}.",
+        panel.title, fmt::join(models, ", "));
 }
 
 /// Point of a model in the panel of delivery ratios, made of its point in the panel of links.
@@ -335,12 +337,12 @@ std::vector<ValidationChart> path_loss_charts(const ValidationSize& size,
     scenes.push_back(panels_of(office_scene(), truths.among_walls, replications, size));
     scenes.push_back(panels_of(cave_scene(), truths.among_walls, replications, size));
     const std::string truth = fmt::format(
-        "Robots on the move flood a message every two seconds, {} replications of each scene. The "
-        "true loss is the exact sum of two rays on the open field; in the office and in the cave "
-        "it is that of rays with three reflections and diffraction by UTD. Fitted: to losses of "
-        "the true model on other replications, as `rovernet advise` does. Grey: the error of the "
-        "reference if its losses had the error that it has against measured levels. CPU of the "
-        "medium alone.",
+        "In {} replications of each scene, robots that move flood a message every two seconds. On "
+        "the open field the true loss is the exact sum of two rays. In the office and in the cave "
+        "it is the loss of rays with three reflections and diffraction by UTD. Fitted: the model "
+        "is fitted to losses of the true model in other replications, as `rovernet advise` does. "
+        "Grey: the error of the reference if its losses were as wrong as they are against measured "
+        "levels. The cost is the CPU time of the medium alone.",
         replications);
     ValidationChart delivery{.name = "path_loss",
                              .title = "How near do cheap models come to a detailed one?",

@@ -120,25 +120,26 @@ ValidationChart shadowing_chart(const ValidationSize& size) {
     ValidationChart chart{
         .name = "shadowing",
         .title = "How often does shadowing flip a link?",
-        .truth = fmt::format("{} walks of {:g} m at 1 m/s, the peer at rest, at a margin of 0 dB. "
-                             "The reference is the rate of a normal process whose correlation is "
-                             "exp(-D / {:g} m).",
+        .truth = fmt::format("In {} cases, a robot walks {:g} m at 1 m/s while its peer rests; the "
+                             "margin without shadowing is 0 dB. The reference is the flip rate of "
+                             "a normal process with the correlation exp(-D / {:g} m) over a "
+                             "distance D.",
                              seeds, walk, decorrelation)};
     for (const double step : {1.0, 0.1}) {  // [s]
         const ValidationPanel& panel = chart.panels.emplace_back(flips_panel(step, seeds, size));
         const ValidationPoint &redrawn = panel.points.front(), &field = panel.points.back();
         chart.sentences.push_back(fmt::format(
             "Sampled every {:g} s, shadowing that is redrawn for each sample flips a link {:.2g} "
-            "times a second instead of {:.2g}. As a field of both places it flips a link {:.2g} "
-            "times, at {:.3g} ns a sample and without any state.",
+            "times a second instead of {:.2g}. Shadowing that is a field of both positions flips a "
+            "link {:.2g} times a second, costs {:.3g} ns per sample and stores no state.",
             step, detail_of(redrawn, "flips per second"), detail_of(redrawn, "exact"),
             detail_of(field, "flips per second"), field.cost.median));
     }
     chart.sentences.push_back(
-        "The true process has no rate of its own: the finer it is sampled, the more often it "
-        "flips, without a limit. So report the sampling interval with every number of flips. "
-        "Choose `field`, whose flips hardly grow from 1 s to 0.1 s, and fit its decorrelation "
-        "distance to levels, not to flips.");
+        "The true process has no rate of its own: the finer the sampling, the more flips, without "
+        "a limit. So report the sampling interval with every number of flips. Choose `field`, "
+        "because its flips hardly increase if the interval is 0.1 s instead of 1 s. Fit its "
+        "decorrelation distance to levels, not to flips.");
     return chart;
 }
 

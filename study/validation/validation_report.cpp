@@ -175,8 +175,9 @@ svg { max-width: 100%; height: auto } .truth { color: #555 }
 )";
 
 constexpr const char* introduction =
-    "Errors are those of this build, the same on every machine. Costs are CPU times of one "
-    "machine, all methods measured in turns: trust their order and their ratios.";
+    "The errors are those of this build; they are the same on every machine. The costs are CPU "
+    "times of one machine, on which all methods were measured in turns. Other machines have other "
+    "times, but about the same order and ratios of costs.";
 
 /// Section of a page: sentences, picture, and links to the numbers.
 /// @param numbers  folder of the numbers, as seen from the page
@@ -261,8 +262,8 @@ std::string accuracy_page(const Validation& validation) {
 
 std::string promises_page(const Validation& validation) {
     std::string out =
-        "# What the code promises\n\nLimits of errors, checked by `rovernet validate`. A limit "
-        "that is exceeded fails the command.\n\n";
+        "# What the code promises\n\n`rovernet validate` checks these limits of errors. If an "
+        "error exceeds its limit, the command fails.\n\n";
     out += markdown_table(rows_of(validation.promises)) + "\n";
     for (const ValidationChart& chart : validation.charts)
         if (chart.for_contributors) out += chart_section(chart, "../methods/accuracy/");

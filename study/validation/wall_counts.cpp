@@ -81,8 +81,10 @@ double worst_count(const SlantingWalls& walls, double cell, std::size_t& n) {
 }
 
 Promise wall_counts() {
-    Promise out{"walls on a link, at 15 angles and grazed to 2 degrees, against the drawn", "", 0,
-                0, 0};
+    Promise out{
+        "number of walls on a link, at 2 to 90 degrees to walls drawn at 15 angles, against the "
+        "drawn ones",
+        "", 0, 0, 0};
     for (const double angle :
          {0.0, 1.0, 3.0, 7.0, 12.0, 20.0, 26.565, 33.0, 40.0, 45.0, 52.0, 61.0, 70.0, 83.0, 89.5}) {
         const auto look = [&](const SlantingWalls& walls, double cell) {
@@ -111,7 +113,8 @@ Scene storeys(std::size_t number, const std::vector<Material>& ceilings) {
 
 Promise doors_and_storeys() {
     constexpr double limit = 1e-9;  // [dB]
-    Promise out{"doors and storeys on a link, against their losses by hand", "dB", limit, 0, 0};
+    Promise out{"loss of doors and storeys on a link, against their losses added up by hand", "dB",
+                limit, 0, 0};
     const auto check = [&](const Scene& scene, Vec3 a, Vec3 b, double truth) {
         out.add(loss_on({}, scene, a, b) - loss_on({}, Scene(), a, b) - truth);
     };

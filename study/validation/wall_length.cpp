@@ -185,8 +185,8 @@ ValidationChart wall_length_chart(const ValidationSize& size, Promises& promises
         double worst = 0;
         panel.points.push_back(judged_lengths(method, links, truth, worst));
         if (method.label == "rovernet") {
-            promises.push_back({"length of wall on a link, against clipping every wall", "m", 1e-8,
-                                worst, links.size()});
+            promises.push_back({"length of wall on a link, against clipping the link at every wall",
+                                "m", 1e-8, worst, links.size()});
         }
         timed.push_back(timed_sum(links, method.length));
     }
@@ -195,8 +195,9 @@ ValidationChart wall_length_chart(const ValidationSize& size, Promises& promises
             .title = "How long is the wall on a link?",
             .truth = fmt::format(
                 "{} links in an office of 32 rooms that stands at 20 degrees to the axes. The "
-                "reference is the sum over all its walls, each clipped by itself; brick takes {:g} "
-                "dB per metre; a decision is whether {:g} dB bear the loss at 2450 MHz.",
+                "reference is the sum over all its walls, each clipped by itself. Brick costs {:g} "
+                "dB per metre. A decision is whether the loss at 2450 MHz is within a budget of "
+                "{:g} dB.",
                 links.size(), rate, budget),
             .panels = {panel},
             .sentences = {naive_sentence(panel)},
