@@ -423,7 +423,9 @@ TEST_CASE("version lists the models of each table of a scenario, and a scenario 
                                                    : table + ".model";
         return command(folder, {"run", file, "--print-scenario", "--set", key + "=" + name}).err;
     };
-    for (const auto& [table, names] : models.items()) {
+    for (const auto& model : models.items()) {
+        const std::string& table = model.key();
+        const auto& names = model.value();
         CAPTURE(table);
         CHECK(names.size() > 1);
         CHECK(complaint(table, "nonesuch").find("nonesuch") != std::string::npos);
