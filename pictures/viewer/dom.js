@@ -56,7 +56,7 @@ const dom = (() => {
 
     /** Context of a canvas of that size in CSS pixels, cleared. @param {HTMLCanvasElement} of @param {number} width @param {number} height */
     function sized(of, width, height) {
-        const ratio = window.devicePixelRatio || 1;
+        const ratio = devicePixelRatio;
         const w = Math.max(1, Math.round(width * ratio)), h = Math.max(1, Math.round(height * ratio));
         if (of.width !== w || of.height !== h) {
             of.width = w;

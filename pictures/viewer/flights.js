@@ -2,7 +2,7 @@
 // Frames on air: a ring that grows from the sender, lines to the receivers, signs where they end.
 const flights = (() => {
     "use strict";
-    const most_lines = 4000;
+    const most_lines = 2500;
     /** Wall time that a frame stays after its end, and that its ring takes at least [s]. */
     const kept_s = 0.35, least_ring_s = 0.15;
     const shades = 3, crowd = 600;
@@ -99,7 +99,7 @@ const flights = (() => {
         c.globalAlpha = strength * (crowded ? 0.5 : 0.85);
         pen.take(c, color, crowded ? 1 : 1.6, under_way ? [4, 3] : []);
         c.stroke(lines);
-        if (!under_way && crowded && sign > signs.received) pixels.marks(ends, sign, 3, strength, pixels.word(color));
+        if (!under_way && crowded && sign > signs.duplicate) pixels.marks(ends, sign, 3, strength, pixels.word(color));
         if (!under_way && !crowded) {
             const marks = new Path2D();
             for (let i = 0; i < ends.length; i += 2) signs.outline(marks, sign, ends[i] + 9, ends[i + 1] - 9, 4);

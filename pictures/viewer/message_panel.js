@@ -132,7 +132,7 @@ const message_panel = (() => {
         if (some.length === 0) return [dom.make("p", "", "No message was sent in this run.")];
         const rows = some.map(message => dom.make("li", "", dom.button(`${r.message_text(message)} of ${r.label(r.col("messages.origin")[message])}`, "link",
             () => selection.set({ message, t: r.col("messages.created")[message] })), dom.make("span", "muted", ` at ${words.seconds(r.col("messages.created")[message], 3)} s`)));
-        return [dom.make("p", "", "Choose a message: here, by a double click in the list of events, or by its number in the search."),
+        return [dom.make("p", "", "Choose a message: by a double click in the list of events, or by its number in the search."),
             dom.make("h3", "", missed.length ? "Messages that somebody missed" : "The first messages"), dom.make("ul", "plain", ...rows)];
     }
 

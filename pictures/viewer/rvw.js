@@ -134,5 +134,5 @@ const rvw = (() => {
         return i => decoder.decode(bytes.subarray(start + offsets[i], start + offsets[i + 1]));
     }
 
-    return { ViewError, refuse, damaged, broken, open, column, texts };
+    return { ViewError, refuse, broken, open, column, texts };
 })();

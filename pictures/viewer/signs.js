@@ -51,5 +51,5 @@ const signs = (() => {
         return out;
     }
 
-    return { counts, received, count, kinds, of, color, look, outline, draw };
+    return { counts, received, duplicate, count, kinds, of, color, look, outline, draw };
 })();
