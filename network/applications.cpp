@@ -146,15 +146,15 @@ void Applications::react(NodeId id, std::size_t slot) {
     reactions_[id.index()].erase_if([](const Reaction& each) { return each.call.has_ended(); });
 }
 
-/// Drops the messages of which no frame has ended, at the end of the run. The routing protocol may
-/// still hold those to one robot.
+/// Drops the messages that are on their way at the end of the run. The routing protocol may still
+/// hold those to one robot.
 void Applications::cut_off() {
-    world_.messages.for_each_at_its_origin([this](MessageId id) {
+    world_.messages.for_each_on_its_way([this](MessageId id, NodeId at) {
         const Message& m = world_.messages[id];
-        const Frame frame{.message = id, .sender = m.origin, .ttl = 1, .hops = 1, .next_hop = m.to};
+        const Frame frame{.message = id, .sender = at, .ttl = 1, .hops = 1, .next_hop = m.to};
         const bool is_held = m.is_routed && m.to != everyone;
         world_.emit(
-            Dropped{world_.now, m.origin, frame, is_held ? DropReason::held : DropReason::cut_off});
+            Dropped{world_.now, at, frame, is_held ? DropReason::held : DropReason::cut_off});
     });
 }
 

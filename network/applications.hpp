@@ -48,8 +48,8 @@ class Applications final : public RoutingUser {
     /// is still on. Nodes that receive messages at the same time react in the order of their keys.
     /// @param slot  slot of the delivery in deliveries_
     void react(NodeId node, std::size_t slot);
-    /// Emits Dropped, at the end of the run, for each message of which no frame has ended at a
-    /// receiver; implements Network::finish.
+    /// Emits Dropped, at the end of the run, for each message that is on its way; implements
+    /// Network::finish.
     void cut_off();
 
     /// Implements RoutingUser: queues the callbacks of nodes to which the message of a frame is

@@ -181,6 +181,10 @@ std::optional<SendHandle> Routing::send(const Frame& frame, std::optional<NodeId
     return static_cast<SendHandle>(slot);
 }
 
+Duration Routing::spacing(const Frame& frame) const {
+    return mac_.queues() ? Duration{0} : 4 * mac_.airtime({.frame = frame});
+}
+
 QueuedFrame* Routing::waiting(SendHandle handle) {
     QueuedFrame& frame = waiting_[handle];
     return frame.frame.sender == everyone ? nullptr : &frame;

@@ -89,6 +89,7 @@ class Routing final : public LinkLayer, public MacUser, public ArpUser {
                         std::string content) override;
     std::optional<SendHandle> send(const Frame& frame, std::optional<NodeId> heard_from,
                                    Time at) override;
+    Duration spacing(const Frame& frame) const override;
     QueuedFrame* waiting(SendHandle handle) override;
     void cancel(SendHandle handle) override;
     std::vector<QueuedFrame> take_queued(NodeId node, NodeId next_hop) override;

@@ -99,6 +99,7 @@ void Routing::receive_unicast(const AirFrame& air, Reception& r, std::span<const
             r.delivered = false;
         } else if (const Message& m = world_.messages[air.frame.message];
                    m.is_routed || m.is_link_packet()) {
+            world_.messages.pass_to(air.frame.message, r.node);
             hand_up(air.frame, {&r, 1}, level);
         } else {
             r.fate = Fate::arrived;

@@ -86,7 +86,8 @@ enum class DropReason : std::uint8_t {
     unheard,
     /// The run ended before the first frame of the message ended.
     cut_off,
-    /// The run ended while the routing protocol still held the message at its origin.
+    /// The run ended while the message, which a routing protocol brings to one robot, was on its
+    /// way: held by the protocol, queued or on air.
     held,
     /// The routing protocol knows no route to the destination.
     no_route,

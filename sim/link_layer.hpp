@@ -101,6 +101,11 @@ class LinkLayer {
     /// @throws std::invalid_argument if `at` is too early
     virtual std::optional<SendHandle> send(const Frame& frame, std::optional<NodeId> heard_from,
                                            Time at) = 0;
+    /// Time [ns] from the start of a frame to that of the sender's next one, if both are sent at
+    /// once, so that they do not collide with each other on their way: 0 if the access model queues
+    /// frames; without an access model four airtimes, as the next hops forward the first frame
+    /// meanwhile.
+    virtual Duration spacing(const Frame&) const { return Duration{0}; }
     /// Frame that waits for its send time. The protocol may change the frame, except for its
     /// message and its sender. Null once the send time has come. A handle may be reused for a later
     /// frame: compare message and sender.

@@ -13,7 +13,8 @@ MessageId MessageTable::add(Message message) {
         id = free_.back();
         free_.pop_back();
     }
-    slots_[id.index()] = {std::move(message), 1, false};
+    const NodeId origin = message.origin;
+    slots_[id.index()] = {std::move(message), 1, false, origin};
     return id;
 }
 

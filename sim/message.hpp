@@ -170,13 +170,23 @@ class MessageTable {
     const Message& operator[](MessageId id) const { return slots_[id.index()].message; }
     /// Marks the message as having had a frame that ended at a receiver.
     void mark_ended(MessageId id) { slots_[id.index()].has_ended = true; }
-    /// Calls visit(id) for every message in use of which no frame has ended at any receiver, in
-    /// order of id. At the end of a run these messages are reported as cut off.
+    /// Notes that a node has received the message as its next hop. A message stays at its
+    /// destination, whatever becomes of further copies.
+    void pass_to(MessageId id, NodeId node) {
+        Slot& slot = slots_[id.index()];
+        if (slot.at != slot.message.to) slot.at = node;
+    }
+    /// Calls visit(id, node) for every message in use that is on its way, in order of id; `node`
+    /// has the message. On its way is a message of which no frame has ended at any receiver, and a
+    /// message that a protocol brings to one robot, until it is there. At the end of a run these
+    /// messages are reported as cut off or held.
     template <class Visit>
-    void for_each_at_its_origin(Visit visit) const {
+    void for_each_on_its_way(Visit visit) const {
         for (MessageId id{0}; id.index() < slots_.size(); ++id.value) {
-            const Slot& slot = slots_[id.index()];
-            if (slot.holders > 0 && !slot.has_ended) visit(id);
+            const auto& [message, holders, has_ended, at] = slots_[id.index()];
+            const bool is_brought =
+                message.is_routed && message.to != everyone && !message.is_routing_packet();
+            if (holders > 0 && (is_brought ? at != message.to : !has_ended)) visit(id, at);
         }
     }
     /// Number of messages in use.
@@ -185,11 +195,13 @@ class MessageTable {
     std::size_t capacity() const { return slots_.size(); }
 
   private:
-    // Slot: message, number of its references, and whether a frame of the message has ended.
+    // Slot: message, number of its references, whether a frame of the message has ended, and the
+    // last node that received it as its next hop (at first its origin).
     struct Slot {
         Message message;
         std::uint32_t holders = 0;
         bool has_ended = false;
+        NodeId at{};
     };
     // Slots of the table, by MessageId.
     std::vector<Slot> slots_;

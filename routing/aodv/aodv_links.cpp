@@ -11,7 +11,7 @@ namespace rovernet {
 
 /// Whether a node repairs the route of a packet that it could not forward (6.12).
 bool AodvRouter::repairs(const Route& route, const QueuedFrame& queued) const {
-    constexpr Hops farthest = 10;  // MAX_REPAIR_TTL is 0.3 of the net diameter
+    const int farthest = 3 * rules_.net_diameter / 10;  // MAX_REPAIR_TTL
     if (!rules_.local_repair || !queued.heard_from) return false;
     const int hops_so_far = queued.frame.hops - 1;
     return rules_.repairs_near_destination ? hops_so_far > route.hops : route.hops <= farthest;
@@ -120,7 +120,7 @@ void AodvRouter::send_errors(LinkLayer& link, NodeId at, std::span<const aodv::E
 void AodvRouter::send_error(LinkLayer& link, NodeId at, const aodv::Error& error, NodeId to,
                             Time when) {
     const auto bytes = static_cast<std::uint32_t>(rules_.error_bytes + 8 * error.lost.size());
-    const MessageId id = link.originate(at, everyone, aodv::error_kind, bytes, to_bytes(error));
+    const MessageId id = link.originate(at, to, aodv::error_kind, bytes, to_bytes(error));
     link.send(
         {.message = id, .sender = at, .path = link.key(at), .ttl = 1, .hops = 1, .next_hop = to},
         {}, when);

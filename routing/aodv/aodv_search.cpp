@@ -159,8 +159,8 @@ void AodvRouter::end_search(LinkLayer& link, NodeId at, NodeId destination, Time
     Time then = when;
     for (const auto& packet : here.buffer.take(destination)) {
         send_on(link, packet.queued, known.next_hop, then);
+        then += std::max(rules_.spacing, link.spacing(packet.queued.frame));
         link.release(packet.queued.frame);
-        then += rules_.spacing;
     }
     use(at, destination, known.next_hop, when);
     if (before > 0 && known.hops > before) {  // 6.12: the repaired route is longer

@@ -242,8 +242,10 @@ void DsrRouter::end_searches(LinkLayer& link, NodeId at, Time when) {
             continue;
         }
         here.searches.erase(here.searches.begin() + static_cast<std::ptrdiff_t>(i));
+        Time then = when;
         for (const auto& packet : here.buffer.take(target)) {
-            send_along(link, packet.queued, *path, salvage_of(packet.queued), when);
+            send_along(link, packet.queued, *path, salvage_of(packet.queued), then);
+            then += link.spacing(packet.queued.frame);
             link.release(packet.queued.frame);
         }
     }

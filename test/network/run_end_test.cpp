@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "models/access/list.hpp"
 #include "models/propagation/disc.hpp"
+#include "models/reception/list.hpp"
 #include "network/network.hpp"
+#include "routing/aodv.hpp"
+#include "routing/dsr.hpp"
 #include "routing/flood.hpp"
 
 #include <doctest/doctest.h>
@@ -69,6 +73,25 @@ TEST_CASE("end of the run: a message that a robot has, or that none could hear, 
     alone.finish();
     CHECK(alone.metrics().cut_off == 0);
     CHECK(alone.metrics().delivery_ratio == 0.0);
+}
+
+TEST_CASE("end of the run: a message that a robot on the route still has is dropped there") {
+    for (const Router& protocol : {Router(Aodv{.local_repair = true}), Router(Dsr{})}) {
+        Line net(3, {.access = Csma{}});
+        net.route(protocol);
+        net.send(a, c, "arrives");
+        net.run_for(1s);
+        net.switch_off(c);
+        net.send(a, c, "waits at b");
+        net.run_for(100ms);
+        net.finish();
+        const MetricValues values = net.metrics();
+        CHECK(values.messages == 2);
+        CHECK(values.deliveries == 1);
+        CHECK(values.delivery_ratio == 0.5);
+        CHECK(dropped(values, "END") == 1);
+        CHECK(values.drops.size() == 1);
+    }
 }
 
 TEST_CASE("unicast: a unicast that its destination cannot hear is dropped with a reason") {

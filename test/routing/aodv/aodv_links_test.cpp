@@ -424,15 +424,36 @@ TEST_CASE(
 }
 
 TEST_CASE("aodv 6.12: the wait for a repair follows from its TTL, also at the network's diameter") {
-    AodvNode n({.net_diameter = 3, .local_repair = true});
+    AodvNode n({.net_diameter = 7, .local_repair = true});
     n.pass_reply(7, 2, 5, 1);
-    n.forward(7, 2, 5);
+    const MessageId id = n.link.message_from(NodeId{7}, NodeId{5});
+    const Frame frame{
+        .message = id, .sender = NodeId{2}, .ttl = 50, .hops = 12, .next_hop = NodeId{0}};
+    n.link.arrive(n.router, frame, {0});
     n.fail_last();
     const Time begun = n.link.time;
-    CHECK(n.sent<aodv::Request>().back().first.ttl == 3);
+    CHECK(n.sent<aodv::Request>().back().first.ttl == 7);
     n.wait();
-    CHECK(n.link.time == begun + 400ms);
+    CHECK(n.link.time == begun + 720ms);
     CHECK(n.link.drops.size() == 1);
+}
+
+TEST_CASE("aodv 6.12: a route is repaired up to 0.3 of the net diameter from its destination") {
+    const auto repairs = [](int net_diameter, int hops) {
+        AodvNode n({.net_diameter = net_diameter, .local_repair = true});
+        n.pass_reply(7, 2, 5, 1, 9, static_cast<std::uint8_t>(hops - 1));
+        REQUIRE(n.route(5)->hops == hops);
+        n.forward(7, 2, 5);
+        const std::size_t before = n.sent<aodv::Request>().size();
+        n.fail_last();
+        return n.sent<aodv::Request>().size() > before;
+    };
+    CHECK(repairs(35, 10));
+    CHECK_FALSE(repairs(35, 11));
+    CHECK(repairs(100, 30));
+    CHECK_FALSE(repairs(100, 31));
+    CHECK(repairs(10, 3));
+    CHECK_FALSE(repairs(10, 4));
 }
 
 TEST_CASE("aodv 6.12: if the repaired route has the same length, no RERR is sent") {
