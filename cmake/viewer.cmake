@@ -16,7 +16,7 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
     endif()
   endif()
   if(NOT minify)
-    message(STATUS "The viewer's page stays as large as its files: the package minify is not installed")
+    message(STATUS "The viewer's page is not minified: the package minify is not installed")
   endif()
   add_custom_command(
     OUTPUT ${out}

@@ -29,17 +29,17 @@ struct Mark {
 };
 // Sources: the formats' specifications; of bzip2, lzip and compress their manuals' magic numbers.
 constexpr Mark marks[] = {
-    {0, {"\xfd\x37zXZ\0", 6}, "the file is packed by xz"},
-    {0, {"]\0\0", 3}, "the file is packed by lzma"},
-    {0, "BZh", "the file is packed by bzip2"},
+    {0, {"\xfd\x37zXZ\0", 6}, "the file is compressed by xz"},
+    {0, {"]\0\0", 3}, "the file is compressed by lzma"},
+    {0, "BZh", "the file is compressed by bzip2"},
     {0, "7z\xbc\xaf\x27\x1c", "the file is an archive of 7-Zip"},
     {0, "PK\x03\x04", "the file is a ZIP archive"},
     {0, "Rar!\x1a\x07", "the file is a RAR archive"},
-    {0, "\x04\x22\x4d\x18", "the file is packed by lz4"},
-    {0, "LZIP", "the file is packed by lzip"},
-    {0, "\x1f\x9d", "the file is packed by compress"},
-    {0, "\x1f\x8b", "the file is packed by gzip"},
-    {0, "\x28\xb5\x2f\xfd", "the file is packed by zstd"},
+    {0, "\x04\x22\x4d\x18", "the file is compressed by lz4"},
+    {0, "LZIP", "the file is compressed by lzip"},
+    {0, "\x1f\x9d", "the file is compressed by compress"},
+    {0, "\x1f\x8b", "the file is compressed by gzip"},
+    {0, "\x28\xb5\x2f\xfd", "the file is compressed by zstd"},
     {257, "ustar", "the file is a tar archive"},
     {0, "\xff\xfe", "the file is in UTF-16"},
     {0, "\xfe\xff", "the file is in UTF-16"},
@@ -67,7 +67,8 @@ void TextSource::Close::operator()(ZSTD_DCtx_s* context) const { ZSTD_freeDCtx(c
 
 TextSource::TextSource(const std::string& path, Reads reads) : name_(path), buffer_(portion) {
     if (reads == Reads::twice && input_kind(path) == InputKind::stream) {
-        fail("is not a file; a movement file is read twice, so it has to be one");
+        fail(
+            "is not a regular file; a movement file is read twice, so it has to be a regular file");
     }
     InputFile input(path);
     const int descriptor = input.release();
@@ -88,9 +89,9 @@ void TextSource::refuse_foreign() const {
     const std::string_view text = window().substr(0, longest_mark);
     std::string_view kind = foreign_kind(text);
     // One layer of packing is already removed.
-    if (kind.ends_with("gzip") || kind.ends_with("zstd")) kind = "the file is packed twice";
+    if (kind.ends_with("gzip") || kind.ends_with("zstd")) kind = "the file is compressed twice";
     if (!kind.empty())
-        fail(fmt::format("{}; expected text in UTF-8, plain or packed by gzip or zstd", kind));
+        fail(fmt::format("{}; expected text in UTF-8, plain or compressed by gzip or zstd", kind));
     // A few such bytes may be damage, which the readers report with its place.
     constexpr std::ptrdiff_t part = 8, shortest = 16;
     if (std::ssize(text) < shortest ||

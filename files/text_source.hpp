@@ -18,8 +18,8 @@ struct ZSTD_DCtx_s;
 
 namespace rovernet {
 
-/// Kind of a file that is not UTF-8 text, for an error, such as "the file is packed by xz"; "" for
-/// UTF-8 text.
+/// Kind of a file that is not UTF-8 text, for an error, such as "the file is compressed by xz"; ""
+/// for UTF-8 text.
 /// @param begin  first 512 bytes of the file, or the whole file if shorter
 std::string_view foreign_kind(std::string_view begin);
 

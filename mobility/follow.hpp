@@ -26,10 +26,11 @@ struct Follow {
     Duration every = std::chrono::seconds{1};  ///< time between two path updates [ns], from 1 us
 
     static constexpr auto fields() {
-        return describe(
-            field("distance", &Follow::distance, non_negative, "kept to the leader, along the way"),
-            field("speed", &Follow::speed, positive, "at most"),
-            field("every", &Follow::every, step_length, "time from one look to the next"));
+        return describe(field("distance", &Follow::distance, non_negative,
+                              "distance that the robot keeps from the leader, along the path"),
+                        field("speed", &Follow::speed, positive, "largest speed"),
+                        field("every", &Follow::every, step_length,
+                              "time between two updates of the path to the leader"));
     }
 
     /// @throws std::invalid_argument for a parameter out of its range or an unknown leader

@@ -41,11 +41,12 @@ struct FollowWall {
     static constexpr auto fields() {
         return describe(
             field("side", &FollowWall::side, "side of the robot on which the wall is"),
-            field("speed", &FollowWall::speed, positive, "along the wall"),
-            field("keep", &FollowWall::keep, positive, "from its body to the wall"),
+            field("speed", &FollowWall::speed, positive, "speed along the wall"),
+            field("keep", &FollowWall::keep, positive,
+                  "distance from the robot's body to the wall"),
             field("stride", &FollowWall::stride, positive, "distance between two measurements"),
             field("range", &FollowWall::range, positive,
-                  "farthest that its range finder measures"));
+                  "longest distance that its range finder measures"));
     }
 
     /// @throws std::invalid_argument for a parameter out of its range, or without a map

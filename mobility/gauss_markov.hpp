@@ -44,17 +44,21 @@ struct GaussMarkov {
         return describe(
             field("area", &GaussMarkov::area,
                   "lower-left and upper-right corner; the whole map if not given"),
-            field("mean_speed", &GaussMarkov::mean_speed, non_negative, "of the speeds drawn"),
+            field("mean_speed", &GaussMarkov::mean_speed, non_negative, "mean of the drawn speeds"),
             field("speed_sigma", &GaussMarkov::speed_sigma, non_negative,
                   "standard deviation of the speed"),
             field("mean_direction", &GaussMarkov::mean_direction, angle,
-                  "at first, counter-clockwise from the x axis; drawn if not given"),
+                  "mean direction at the start, counter-clockwise from the x axis; drawn if not "
+                  "given"),
             field("direction_sigma", &GaussMarkov::direction_sigma, spread,
                   "standard deviation of the direction from its mean"),
-            field("memory", &GaussMarkov::memory, share,
-                  "a, correlation of one step with the next: 0 none, 1 never changes"),
+            field(
+                "memory", &GaussMarkov::memory, share,
+                "a, correlation of one step with the next: 0: none; 1: the velocity never changes"),
             field("step", &GaussMarkov::step, step_length, "time from one draw to the next"),
-            field("start", &GaussMarkov::start, "at a uniform place, or here"));
+            field("start", &GaussMarkov::start,
+                  "uniform: at a place drawn uniformly from the area; here: at the robot's own "
+                  "place"));
     }
 
     /// @throws std::invalid_argument for a parameter out of its range

@@ -28,9 +28,10 @@ struct Group {
 
     static constexpr auto fields() {
         return describe(
-            field("radius", &Group::radius, non_negative, "of the disc around the reference point"),
+            field("radius", &Group::radius, non_negative,
+                  "radius of the disc around the reference point, in which the robot stays"),
             field("every", &Group::every, step_length, "time from one draw to the next"),
-            field("offset", &Group::offset, "of the reference point from the leader"));
+            field("offset", &Group::offset, "offset of the reference point from the leader"));
     }
 
     /// @throws std::invalid_argument for a parameter out of its range or an unknown leader

@@ -23,8 +23,10 @@ struct Patrol {
 
     static constexpr auto fields() {
         return describe(
-            field("path", &Patrol::path, "places to go to, in turn; after the last the first"),
-            field("speed", &Patrol::speed, positive, "between the places"));
+            field(
+                "path", &Patrol::path,
+                "places to go to, one after the other; after the last place, the first one again"),
+            field("speed", &Patrol::speed, positive, "speed between the places"));
     }
 
     /// @throws std::invalid_argument for a parameter out of its range

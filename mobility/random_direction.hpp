@@ -47,14 +47,19 @@ struct RandomDirection {
     StartPlace start = StartPlace::uniform;
 
     static constexpr auto fields() {
-        return describe(field("area", &RandomDirection::area,
-                              "lower-left and upper-right corner; the whole map if not given"),
-                        field("min_speed", &RandomDirection::min_speed, non_negative, "of a leg"),
-                        field("max_speed", &RandomDirection::max_speed, positive, "of a leg"),
-                        field("pause", &RandomDirection::pause, rest_length, "after each leg"),
-                        field("border_turn", &RandomDirection::border_turn,
-                              "law of the angle to the border's normal"),
-                        field("start", &RandomDirection::start, "at a uniform place, or here"));
+        return describe(
+            field("area", &RandomDirection::area,
+                  "lower-left and upper-right corner; the whole map if not given"),
+            field("min_speed", &RandomDirection::min_speed, non_negative,
+                  "smallest speed of a leg"),
+            field("max_speed", &RandomDirection::max_speed, positive, "largest speed of a leg"),
+            field("pause", &RandomDirection::pause, rest_length, "rest after each leg"),
+            field("border_turn", &RandomDirection::border_turn,
+                  "distribution of the new direction at the border, by its angle to "
+                  "the border's normal"),
+            field("start", &RandomDirection::start,
+                  "uniform: at a place drawn uniformly from the area; here: at the "
+                  "robot's own place"));
     }
 
     /// @throws std::invalid_argument for a parameter out of its range

@@ -34,10 +34,12 @@ struct RandomWalk {
         return describe(
             field("area", &RandomWalk::area,
                   "lower-left and upper-right corner; the whole map if not given"),
-            field("min_speed", &RandomWalk::min_speed, non_negative, "of a step"),
-            field("max_speed", &RandomWalk::max_speed, positive, "of a step"),
+            field("min_speed", &RandomWalk::min_speed, non_negative, "smallest speed of a step"),
+            field("max_speed", &RandomWalk::max_speed, positive, "largest speed of a step"),
             field("step", &RandomWalk::step, step_length, "time from one direction to the next"),
-            field("start", &RandomWalk::start, "at a uniform place, or here"));
+            field("start", &RandomWalk::start,
+                  "uniform: at a place drawn uniformly from the area; here: at the robot's own "
+                  "place"));
     }
 
     /// @throws std::invalid_argument for a parameter out of its range

@@ -57,11 +57,12 @@ struct RandomWaypoint {
             field("area", &RandomWaypoint::area,
                   "lower-left and upper-right corner; the whole map if not given"),
             field("min_speed", &RandomWaypoint::min_speed, non_negative,
-                  "of a trip; > 0 for a stationary start"),
-            field("max_speed", &RandomWaypoint::max_speed, positive, "of a trip"),
-            field("pause", &RandomWaypoint::pause, rest_length, "after each trip"),
+                  "smallest speed of a trip; > 0 for a stationary start"),
+            field("max_speed", &RandomWaypoint::max_speed, positive, "largest speed of a trip"),
+            field("pause", &RandomWaypoint::pause, rest_length, "rest after each trip"),
             field("start", &RandomWaypoint::start,
-                  "stationary; or with a new trip: from a uniform place, or from here"));
+                  "stationary: in the state that is reached after a long time; uniform, here: with "
+                  "a new trip, from a uniformly drawn place or from the robot's own place"));
     }
 
     /// State of one robot in this movement, for the model only.

@@ -29,12 +29,13 @@ struct Wander {
     Meters run{10};   ///< longest straight path, > 0
 
     static constexpr auto fields() {
-        return describe(
-            field("speed", &Wander::speed, positive, "ahead"),
-            field("turn_rate", &Wander::turn_rate, turn_rates, "in place"),
-            field("keep", &Wander::keep, positive, "free distance that it keeps ahead of its body"),
-            field("range", &Wander::range, positive, "farthest that its range finder measures"),
-            field("run", &Wander::run, positive, "longest distance straight ahead"));
+        return describe(field("speed", &Wander::speed, positive, "speed straight ahead"),
+                        field("turn_rate", &Wander::turn_rate, turn_rates, "turn rate on the spot"),
+                        field("keep", &Wander::keep, positive,
+                              "free distance that the robot keeps ahead of its body"),
+                        field("range", &Wander::range, positive,
+                              "longest distance that its range finder measures"),
+                        field("run", &Wander::run, positive, "longest distance straight ahead"));
     }
 
     /// @throws std::invalid_argument for a parameter out of its range, or without a map

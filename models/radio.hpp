@@ -105,29 +105,36 @@ struct Radio {
                   "bit rate on air; if not given, that of [access] standard"),
             field("preamble", &Radio::preamble,
                   Range{.low = 0, .high = 1e9, .text = "from 0 to 1e9 s"},
-                  "sent before the first bit; if not given, that of [access] standard"),
-            field("antenna_gain", &Radio::antenna_gain, "antenna gain, both ways"),
+                  "duration of the preamble, which is sent before the first bit; if not given, "
+                  "that of [access] standard"),
+            field("antenna_gain", &Radio::antenna_gain,
+                  "antenna gain, for sending and for receiving"),
             field("antenna", &Radio::antenna,
                   "shape of the antenna's pattern: isotropic, cosine "
                   "or table"),
             field("antenna_direction", &Radio::antenna_direction,
-                  "of a directional antenna, from the robot's heading counter-clockwise"),
+                  "direction of a directional antenna, counter-clockwise from the robot's heading"),
             field("antenna_beamwidth", &Radio::antenna_beamwidth, beamwidths,
-                  "of cosine: between the directions of -3 dB"),
+                  "for cosine: angle between the directions of -3 dB"),
             field("front_to_back", &Radio::front_to_back, non_negative,
-                  "of cosine: the strongest direction over the weakest"),
-            field("antenna_pattern", &Radio::antenna_pattern,
-                  "of table: [degrees, dB] from the antenna's direction counter-clockwise"),
+                  "for cosine: gain of the strongest direction relative to the weakest one"),
+            field(
+                "antenna_pattern", &Radio::antenna_pattern,
+                "for table: points [degrees, dB], counter-clockwise from the antenna's direction"),
             field("cable_loss", &Radio::cable_loss, non_negative, "loss between radio and antenna"),
-            field("antenna_height", &Radio::antenna_height, "antenna above the robot's own z"),
-            field("bandwidth", &Radio::bandwidth, positive, "of the receiver's filter"),
-            field("noise_figure", &Radio::noise_figure, non_negative, "of the receiver"),
+            field("antenna_height", &Radio::antenna_height,
+                  "height of the antenna above the robot's own z"),
+            field("bandwidth", &Radio::bandwidth, positive, "bandwidth of the receiver's filter"),
+            field("noise_figure", &Radio::noise_figure, non_negative,
+                  "noise figure of the receiver"),
             field("success_rate", &Radio::success_rate,
                   Range{.low = 0, .high = 1, .text = "from 0 to 1"},
-                  "share of its frames that get through where they reach"),
-            field("essid", &Radio::essid, "name of its network; \"any\" joins all"),
+                  "share of the sender's frames that a receiver in range gets"),
+            field("essid", &Radio::essid, "name of its network; \"any\" joins all networks"),
             field("channel", &Radio::channel, non_negative, "number that both ends must share"),
-            field("gate", &Radio::gate, "network: same essid, channel and frequency; or none"));
+            field("gate", &Radio::gate,
+                  "network: only radios with the same essid, channel and frequency receive each "
+                  "other; none: all radios do"));
     }
 };
 

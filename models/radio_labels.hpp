@@ -42,11 +42,12 @@ struct RadioLabels {
     /// parameters of Radio.
     static constexpr auto fields() {
         return describe(
-            field("ip", &RadioLabels::ip, "address; unique, given if left out"),
-            field("netmask", &RadioLabels::netmask, "of its address; a label"),
-            field("mac", &RadioLabels::mac, "hardware address; unique, given if left out"),
-            field("mode", &RadioLabels::mode, "how it takes part in its network; a label"),
-            field("encryption", &RadioLabels::encryption, "a label"),
+            field("ip", &RadioLabels::ip, "IP address; unique; if left out, one is generated"),
+            field("netmask", &RadioLabels::netmask, "netmask of its IP address; a label"),
+            field("mac", &RadioLabels::mac,
+                  "hardware address; unique; if left out, one is generated"),
+            field("mode", &RadioLabels::mode, "role of the radio in its network; a label"),
+            field("encryption", &RadioLabels::encryption, "encryption of its network; a label"),
             field("range_db", &RadioLabels::range_db, "level that pictures draw as a contour"));
     }
 };

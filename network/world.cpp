@@ -35,7 +35,7 @@ World::World(NetworkSettings given)
         throw_out_of_range("network", "floor_height", positive.text, settings.floor_height.value);
     }
     if (&planners->scene() != scene) {
-        throw std::invalid_argument("network: planners must be those of its scene");
+        throw std::invalid_argument("network: the planners must belong to its scene");
     }
     for (const Duration d : {settings.links.tolerance, settings.links.min_dwell}) {
         if (d < Duration{1}) throw_out_of_range("network", "links", ">= 1 ns", seconds(d));
@@ -65,7 +65,8 @@ void World::change_scene() {
 void World::schedule(Time time, Callback<> call, Duration period) {
     if (time < now) {
         throw std::invalid_argument(
-            fmt::format("an action at {} s, but it is {} s already", seconds(time), seconds(now)));
+            fmt::format("an action was scheduled at {} s, but the time is already {} s",
+                        seconds(time), seconds(now)));
     }
     const std::size_t slot = actions_.take();
     actions_[slot] = {std::move(call), period};

@@ -31,8 +31,8 @@ void raise(const InputError& error) {
 void add_errors(py::module_& m) {
     input_error = PyErr_NewExceptionWithDoc(
         "rovernet.InputError",
-        "Mistake in a scenario or another input. str() is what the command prints.\n\n"
-        "file: file, or the place in a dict; line, column: from 1, None for all of it;\n"
+        "Mistake in a scenario or another input. str() is the message that the command prints.\n\n"
+        "file: file, or the place in a dict; line, column: from 1, None for the whole file;\n"
         "message: what was found and what was expected, with a suggestion.",
         PyExc_ValueError, nullptr);
     if (!input_error) throw py::error_already_set();
@@ -54,8 +54,9 @@ void add_run(py::module_& m) {
     py::class_<RunObject>(m, "Run", "Result of a run.")
         .def_property_readonly("metrics", &RunObject::metrics,
                                "dict of the metrics, as in summary.json; times in seconds.")
-        .def_property_readonly("timeline", &RunObject::timeline,
-                               "list of what happened: dicts of t_ns, robot and text.")
+        .def_property_readonly(
+            "timeline", &RunObject::timeline,
+            "list of the events of the timeline: dicts with t_ns, robot and text.")
         .def_property_readonly("names", &RunObject::names, "Names of all robots, by number.")
         .def_property_readonly(
             "fingerprint", [](const RunObject& run) { return run.result().fingerprint; },
@@ -75,9 +76,9 @@ void add_run(py::module_& m) {
             "Simulated time [s].")
         .def(
             "records", &RunObject::records, "kind"_a,
-            "Structured array of all records of a kind: \"received\", say. Times in ns, robots as\n"
-            "numbers, -1 for everyone or nobody. Kinds that records= did not keep are found by\n"
-            "running the scenario once more, which gives the same records.")
+            "Structured array of all records of a kind, such as \"received\". Times are in ns,\n"
+            "robots are numbers, -1 is everyone or nobody. If records= did not keep the kind, the\n"
+            "scenario is run once more, which gives the same records.")
         .def("__repr__", [](const RunObject& run) {
             return fmt::format("<rovernet.Run of {} s, fingerprint {}>",
                                seconds(run.result().simulated), run.result().fingerprint);
@@ -88,12 +89,12 @@ void add_run(py::module_& m) {
         "Runs a scenario to its end.\n\n"
         "scenario: path of a scenario, a Stage world or a movement file; or a dict with the same\n"
         "          tables, in which a number without a unit is in SI units\n"
-        "set:      dict of values over it, by path: {\"propagation.model\": \"friis\"}\n"
-        "seed:     of the random draws; None: the scenario's\n"
-        "out:      folder for the results, as `rovernet run` writes them; None: none\n"
+        "set:      dict of keys to change: {\"propagation.model\": \"friis\"}\n"
+        "seed:     seed of the random draws; None: the scenario's seed\n"
+        "out:      folder for the results, as `rovernet run` writes them; None: no files\n"
         "records:  kinds of records to keep for Run.records()\n"
-        "progress: called now and then with the share that is done, 0 ... 1\n\n"
-        "Raises InputError for a mistake in the scenario, RunError if it cannot be run.");
+        "progress: function that is called now and then with the finished share, 0 ... 1\n\n"
+        "Raises InputError for a mistake in the scenario, RunError if the scenario cannot be run.");
 }
 
 // Session.
@@ -113,16 +114,18 @@ void add_heard(py::module_& m) {
         .def_property_readonly("t_ns", t_ns, "Time [ns] since the start.")
         .def_property_readonly("origin", name(&HeardMessage::from), "Robot that sent it first.")
         .def_property_readonly("last_hop", name(&HeardMessage::last_hop),
-                               "Robot whose frame it was.")
+                               "Robot that sent the frame in which the message arrived.")
         .def_property_readonly(
             "hops", [](const HeardObject& heard) { return heard.message.hops; },
-            "Hops that it crossed.")
+            "Number of hops that it crossed.")
         .def_property_readonly(
             "port", [](const HeardObject& heard) { return heard.message.port; },
-            "Port it was sent to.")
-        .def_property_readonly("rssi", rssi, "Level of that frame here [dBm]; None: not known.")
+            "Port to which it was sent.")
+        .def_property_readonly("rssi", rssi,
+                               "Level of this frame at the robot [dBm]; None: not known.")
         .def_property_readonly(
-            "noise", [](const HeardObject& heard) { return heard.noise; }, "Noise here [dBm].")
+            "noise", [](const HeardObject& heard) { return heard.noise; },
+            "Noise at the robot [dBm].")
         .def_property_readonly(
             "data", [](const HeardObject& heard) { return py::bytes(heard.message.payload); },
             "Content.")
@@ -163,13 +166,13 @@ SessionClass session_class(py::module_& m) {
     return SessionClass(
         m, "Session",
         "Scenario whose robots a program drives, step by step.\n\n"
-        "scenario, set, seed: as those of run()\n"
+        "scenario, set, seed: see run()\n"
         "step:    simulated time of a step [s], 1 us or more\n"
-        "robots:  names of those that are driven, in the order of the rows of all arrays;\n"
-        "         None: all. Others do as the scenario says\n"
-        "out:     folder for results and inputs, which finish() writes; None: none\n"
+        "robots:  names of the robots that the program drives, in the order of the rows of all\n"
+        "         arrays; None: all. Other robots move as in the scenario\n"
+        "out:     folder for results and inputs, which finish() writes; None: nothing is written\n"
         "records: kinds of records to keep for records()\n\n"
-        "A with-statement finishes it.",
+        "At its end, a with-statement calls finish().",
         py::custom_type_setup([](PyHeapTypeObject* type) {
             type->ht_type.tp_flags |= Py_TPFLAGS_HAVE_GC;
             type->ht_type.tp_traverse = traverse;
@@ -188,15 +191,16 @@ void add_run(SessionClass& session) {
              "Runs for a step, or to the scenario's end. Returns the messages that the robots\n"
              "heard, in order of time. Raises RunError if the run is at its end.")
         .def("reset", &SessionObject::reset, "seed"_a = py::none(),
-             "Begins anew. seed: None: the same again.")
+             "Begins the run anew. seed: None: the same seed again.")
         .def("finish", &SessionObject::finish,
-             "Stops the robots, ends the run where it is, and writes what out= asks for. Returns\n"
-             "its Run.")
+             "Stops the robots, ends the run at the current time, and writes the results if out=\n"
+             "names a folder. Returns the Run.")
         .def("on_record", &SessionObject::on_record, "kind"_a, "function"_a,
-             "Calls function(dict) for each record of a kind, during steps; None: no more.\n"
-             "What it commands holds from the next step on. An error in it ends the step.")
+             "Calls function(dict) for each record of a kind, during steps; None: ends the calls.\n"
+             "Commands that the function gives take effect in the next step. An error in it\n"
+             "ends the step.")
         .def("records", &SessionObject::records, "kind"_a,
-             "Structured array of the records so far, of a kind that records= names.")
+             "Structured array of the records so far; the kind must be one of records=.")
         .def("__enter__", [](const py::object& self) { return self; })
         .def("__exit__", [](SessionObject& self, const py::object& error, const py::object&,
                             const py::object&) {
@@ -210,27 +214,27 @@ void add_commands(SessionClass& session) {
     };
     session
         .def("drive", &drive, "vw"_a, "timeout"_a = py::none(),
-             "Drives robots from the next step on, until they are told otherwise.\n\n"
+             "Drives robots from the next step on, until they get another command.\n\n"
              "vw: (n, 2), speed ahead [m/s] and turn rate [rad/s], counter-clockwise; a row of\n"
-             "    nan leaves its robot as it is\n"
-             "timeout: they stop after that time [s]; None: never")
+             "    nan does not change the command of its robot\n"
+             "timeout: the robots stop after this time [s]; None: never")
         .def("go_to", &go_to, "robot"_a, "to"_a, "speed"_a = 1.0,
              "Sends a robot to a place (x, y) or (x, y, z) [m], around the walls, at a speed "
              "[m/s].\n"
              "Without z it stays at its height.")
         .def("place", &place, "robot"_a, "x"_a, "y"_a, "heading"_a = py::none(), "z"_a = py::none(),
-             "Puts a robot elsewhere as the next step begins, at rest: at (x, y, z) [m] with a\n"
-             "heading [rad]. None: the height, and the heading, that it has now.")
+             "Moves a robot to (x, y, z) [m] with a heading [rad] when the next step begins;\n"
+             "there it is at rest. None: the current height or heading.")
         .def("stop", stop, "robot"_a, "Stops a robot.")
         .def("command", &command, "robot"_a,
-             "Gives a robot any command, by the keys of the lock-step protocol: v=0.5, w=0.1.\n"
-             "Times are in seconds, data are bytes.")
+             "Gives a robot any command, by the keys of the lock-step protocol, such as v=0.5,\n"
+             "w=0.1. Times are in seconds, data are bytes.")
         .def("send", &send, "robot"_a, "data"_a, "to"_a = py::none(), "port"_a = 0,
              "size"_a = py::none(),
-             "Lets a robot send bytes as the next step begins.\n\n"
+             "Lets a robot send bytes when the next step begins.\n\n"
              "to:   None: everyone, by the routing protocol; a robot: over one hop\n"
-             "port: tells programs of the receiver apart\n"
-             "size: on air [bytes]; None: that of the data");
+             "port: number that distinguishes the programs of the receiver\n"
+             "size: size on air [bytes]; None: the size of the data");
 }
 
 /// What a session knows of its robots.
@@ -250,31 +254,36 @@ void add_robots(SessionClass& session) {
     const auto no_way = [](SessionObject& self) {
         return by_robot<bool>(self, [](Session& s, NodeId robot) { return s.has_no_way(robot); });
     };
-    session.def_property_readonly("robots", &robots, "Names of those that are driven, by row.")
+    session
+        .def_property_readonly("robots", &robots,
+                               "Names of the robots that the program drives, by row.")
         .def_property_readonly(
             "names", [](SessionObject& self) { return self.names(); },
             "Names of all robots, by number.")
-        .def_property_readonly("pose", &pose,
-                               "(n, 3): x [m], y [m], heading [rad]. A view, which steps update.")
+        .def_property_readonly(
+            "pose", &pose,
+            "(n, 3): x [m], y [m], heading [rad]. A view of an array that each step updates.")
         .def_property_readonly("z", z, "(n,): height [m].")
         .def_property_readonly("twist", &twist, "(n, 2): speed [m/s], turn rate [rad/s].")
         .def_property_readonly("on", on, "(n,): the radio is on.")
-        .def_property_readonly("stalled", stalled, "(n,): the robot was told to drive and cannot.")
-        .def_property_readonly("no_way", no_way,
-                               "(n,): the robot was told to go to a place, and no way leads there.")
+        .def_property_readonly("stalled", stalled,
+                               "(n,): the robot has a command to drive, but cannot move.")
+        .def_property_readonly(
+            "no_way", no_way,
+            "(n,): the robot has a command to go to a place, but no path leads there.")
         .def("scan", &scan, "robot"_a = py::none(), "scanner"_a = 0,
              "Distances that a range finder measures now [m]: (beams,) of one robot; None:\n"
-             "(n, beams) of all that are driven, if they have as many beams.\n\n"
+             "(n, beams) of all driven robots, if all have the same number of beams.\n\n"
              "scanner: number or name of the range finder")
         .def("scanners", &scanners, "robot"_a,
-             "Range finders of a robot, as dicts: name, kind, range [m], and of each beam its\n"
+             "Range finders of a robot, as dicts: name, kind, range [m], and for each beam its\n"
              "angle from the robot's heading [rad] and its begin (x ahead, y to the left) [m].")
         .def("links", &links,
-             "(N, N): level [dBm] at which the robot of the row hears that of the column now, of\n"
-             "all robots by number; nan: it does not.")
+             "(N, N), all robots by number: level [dBm] at which the robot of the row now hears\n"
+             "the robot of the column; nan: it does not hear it.")
         .def("neighbors", &neighbors, "robot"_a,
-             "Structured array of whom a robot's radio hears now: name, rssi [dBm], noise [dBm],\n"
-             "quality from 0 to 100.");
+             "Structured array of the robots that a robot's radio hears now: name, rssi [dBm],\n"
+             "noise [dBm], quality from 0 to 100.");
 }
 
 /// What a session knows of its run.

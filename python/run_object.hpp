@@ -28,7 +28,8 @@ inline std::shared_ptr<RowSink> rows_of(const std::vector<std::string>& kinds) {
 
 inline py::value_error not_kept(const std::string& kind) {
     return py::value_error(fmt::format(
-        "records \"{}\" were not kept; expected records=[\"{}\"] as it begins", kind, kind));
+        "records \"{}\" were not kept; expected records=[\"{}\"] when the session begins", kind,
+        kind));
 }
 
 inline py::tuple names_of(const Network& network) {

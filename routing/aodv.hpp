@@ -74,9 +74,10 @@ struct Aodv {
         return describe(
             field("profile", &Aodv::profile, "RFC 3561, or as ns-2.35 does it"),
             field("active_route_timeout", &Aodv::active_route_timeout, seconds_range,
-                  "for which an unused route is kept; 3 s if not given"),
+                  "time for which an unused route is kept; 3 s if not given"),
             field("my_route_timeout", &Aodv::my_route_timeout, seconds_range,
-                  "lifetime of a route that its destination offers; 2 active_route_timeout"),
+                  "lifetime of a route that its destination offers; if not given, 2 * "
+                  "active_route_timeout"),
             field("node_traversal_time", &Aodv::node_traversal_time, seconds_range,
                   "longest time of a packet for a hop; 40 ms if not given"),
             field("net_diameter", &Aodv::net_diameter, hops_range,
@@ -88,11 +89,13 @@ struct Aodv {
             field("destination_only", &Aodv::destination_only,
                   "whether only the destination may answer a request"),
             field("gratuitous", &Aodv::gratuitous,
-                  "whether a node that answers tells the destination the way back"),
+                  "whether a node that answers a request also sends the destination a route back "
+                  "to the origin"),
             field("hello", &Aodv::hello, seconds_range,
                   "time between HELLO packets; 0: the link layer reports broken links"),
             field("local_repair", &Aodv::local_repair,
-                  "whether a node near the destination searches a new way"),
+                  "whether a node near the destination repairs a broken route by a search of its "
+                  "own"),
             field("buffer", &Aodv::buffer, Range{.low = 1, .high = 1e6, .text = "from 1 to 1e6"},
                   "packets that may wait at a node for routes"),
             field("ttl", &Aodv::ttl, Range{.low = 1, .high = 65535, .text = "from 1 to 65535"},

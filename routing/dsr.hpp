@@ -50,7 +50,8 @@ struct Dsr {
             field("promiscuous", &Dsr::promiscuous,
                   "whether nodes learn routes from packets for others"),
             field("salvage", &Dsr::salvage, Range{.low = 0, .high = 15, .text = "from 0 to 15"},
-                  "times that a message may change its route on its way"),
+                  "number of times that the route of a message may be replaced while the message "
+                  "is forwarded"),
             field("buffer", &Dsr::buffer, Range{.low = 1, .high = 1e6, .text = "from 1 to 1e6"},
                   "packets that may wait at a node for routes"),
             field("jitter", &Dsr::jitter, Range{.low = 0, .high = 1e9, .text = "from 0 to 1e9 s"},

@@ -41,7 +41,8 @@ struct Flood {
                   "hops that a message may cross"),
             field("duplicates", &Flood::duplicates, "what a node does with a second copy"),
             field("upgrade", &Flood::upgrade,
-                  "under \"suppress\": a copy of higher TTL lifts the one not yet sent"),
+                  "with \"suppress\": a copy with a higher TTL raises the TTL of the copy that is "
+                  "not yet sent"),
             field("jitter", &Flood::jitter, Range{.low = 0, .high = 1e9, .text = "from 0 to 1e9 s"},
                   "upper end of the uniform delay before forwarding"),
             field("ttl_in_payload", &Flood::ttl_in_payload,

@@ -56,18 +56,20 @@ struct Suppression {
 
     static constexpr auto fields() {
         return describe(
-            field("scheme", &Suppression::scheme, "what keeps a node from forwarding a message"),
+            field("scheme", &Suppression::scheme,
+                  "rule by which a node decides not to forward a message"),
             field("threshold", &Suppression::threshold, non_negative,
-                  "copies, probability, distance in metres, or share of the disc: by the scheme"),
+                  "threshold of the scheme: a number of copies, a probability, a distance in "
+                  "metres, or a share of the disc"),
             field("range", &Suppression::range, positive,
-                  "of the radios, for the scheme \"location\""),
+                  "range of the radios, for the scheme \"location\""),
             field(
                 "hello", &Suppression::hello,
                 Range{.low = 0, .high = 1e4, .low_included = false, .text = "> 0 s, up to 10000 s"},
                 "time between HELLO packets, for the scheme \"cluster\""),
             field("delay", &Suppression::delay,
                   Range{.low = 0, .high = 1e9, .text = "from 0 to 1e9 s"},
-                  "upper end of the uniform delay in which a node hears further copies"),
+                  "upper end of the uniform delay in which a node listens for further copies"),
             field("ttl", &Suppression::ttl,
                   Range{.low = 1, .high = 65535, .text = "from 1 to 65535"},
                   "hops that a message may cross"));

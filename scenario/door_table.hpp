@@ -41,12 +41,14 @@ struct DoorTable {
 
     static constexpr auto fields() {
         return describe(
-            field("name", &DoorTable::name, "as messages call it"),
-            field("from", &DoorTable::from, "one end"), field("to", &DoorTable::to, "other end"),
-            field("thickness", &DoorTable::thickness, positive, "half of it on each side"),
-            field("material", &DoorTable::material, "of [scene.materials]"),
-            field("closes", &DoorTable::closes, "times at which it closes"),
-            field("opens", &DoorTable::opens, "times at which it opens"));
+            field("name", &DoorTable::name, "name of the door in messages"),
+            field("from", &DoorTable::from, "one end of the door"),
+            field("to", &DoorTable::to, "other end of the door"),
+            field("thickness", &DoorTable::thickness, positive,
+                  "thickness, half of it on each side of the line from one end to the other"),
+            field("material", &DoorTable::material, "material, one of [scene.materials]"),
+            field("closes", &DoorTable::closes, "times at which the door closes"),
+            field("opens", &DoorTable::opens, "times at which the door opens"));
     }
 };
 

@@ -85,8 +85,8 @@ void note_equal_starts(Scenario& out) {
             together.add([&] {
                 return fmt::format(
                     "{}: \"{}\" and \"{}\" start messages at the same times, or within {:g} s; "
-                    "access.model = \"{}\" does not separate their frames, so that robots in range "
-                    "of both lose both; expected different starts{}",
+                    "access.model = \"{}\" does not separate their frames, so robots in range of "
+                    "both senders lose both frames; expected different starts{}",
                     b.from_where.text(), a.from, b.from, seconds(apart), out.access.name(),
                     repeats ? ", or access.immediate_access = false, which draws a backoff" : "");
             });

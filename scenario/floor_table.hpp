@@ -40,8 +40,8 @@ struct CeilingTable {
     static constexpr auto fields() {
         return describe(
             field("per_crossing", &CeilingTable::per_crossing, non_negative, "loss of the ceiling"),
-            field("itu", &CeilingTable::itu, "a slab of this material of ITU-R P.2040"),
-            field("thickness", &CeilingTable::thickness, positive, "of the slab"));
+            field("itu", &CeilingTable::itu, "loss of a slab of this material of ITU-R P.2040"),
+            field("thickness", &CeilingTable::thickness, positive, "thickness of the slab"));
     }
 };
 
@@ -59,7 +59,8 @@ struct FloorTable {
     Location map_where = {};
 
     static constexpr auto fields() {
-        return describe(field("height", &FloorTable::height, "of the floor: z of robots on it"),
+        return describe(field("height", &FloorTable::height,
+                              "height of the floor, which is the z of robots on it"),
                         field("map", &FloorTable::map,
                               "ROS map.yaml, or a picture with a size; relative to the file"),
                         field("size", &FloorTable::size, "width and height of a picture"));

@@ -11,7 +11,7 @@ namespace {
 /// Checks the destination of a message: `to` needs `send`, and "sender" needs on_receive.
 void check_receiver(const ReactionTable& reaction, TableReader& table) {
     if (!reaction.to) return;
-    if (!reaction.send) table.missing("send", "send = \"F\": to needs it");
+    if (!reaction.send) table.missing("send", "send = \"F\", which the key \"to\" needs");
     if (*reaction.to != ReactionTable::sender || reaction.trigger == Trigger::on_receive) return;
     throw InputError(reaction.to_where,
                      fmt::format("to: found \"sender\" in {}, which has no received message; "
@@ -57,7 +57,8 @@ ReactionTable read_reaction(const Value& value, Trigger trigger) {
     table.reject_unknown();
     check_receiver(reaction, table);
     if (reaction.stop && reaction.move) table.only_one_of("move", "stop");
-    if (reaction.size && !reaction.send) table.missing("send", "send = \"F\": size needs it");
+    if (reaction.size && !reaction.send)
+        table.missing("send", "send = \"F\", which the key \"size\" needs");
     if (!reaction.move && !reaction.send && !reaction.stop) {
         table.missing("move",
                       "move = { model = \"goal\", to = [...] }, send = \"F\" or stop = true");

@@ -81,15 +81,17 @@ struct ReactionTable {
         constexpr Range hop_counts{.low = 1, .high = 65535, .text = "from 1 to 65535"};
         using R = ReactionTable;
         return describe(
-            field("payload", &R::payload, "how the message begins; any if not given"),
-            field("hops", &R::hops, hop_counts, "at most so many of the message"),
+            field("payload", &R::payload,
+                  "beginning of the received message; if not given, every message counts"),
+            field("hops", &R::hops, hop_counts,
+                  "largest number of hops that the received message has crossed"),
             field("from", &R::from, "sender of the message, or robot whose link is lost"),
-            field("time", &R::time, non_negative, "of the reaction"),
-            field("once", &R::once, "only the first time"),
+            field("time", &R::time, non_negative, "time of the reaction"),
+            field("once", &R::once, "react only the first time"),
             field("send", &R::send, "text of a message to send"),
-            field("to", &R::to, "receiver of that message: a robot, or \"sender\""),
-            field("size", &R::size, sizes_of_messages, "of that message"),
-            field("stop", &R::stop, "stop where it is"));
+            field("to", &R::to, "receiver of the message to send: a robot, or \"sender\""),
+            field("size", &R::size, sizes_of_messages, "size of the message to send"),
+            field("stop", &R::stop, "stop the robot where it is"));
     }
     /// Whether the reaction to this trigger has a key.
     static constexpr bool has_key(Trigger trigger, std::string_view key) {

@@ -43,9 +43,10 @@ struct PlaceTable {
 
     static constexpr auto fields() {
         return describe(
-            field("model", &PlaceTable::model, "uniform in an area, or a choice of points"),
+            field("model", &PlaceTable::model,
+                  "uniform: drawn uniformly from an area; choice: drawn from a list of points"),
             field("area", &PlaceTable::area, "uniform: lower-left and upper-right corner"),
-            field("points", &PlaceTable::points, "choice: one of these places"));
+            field("points", &PlaceTable::points, "choice: the places to draw from"));
     }
 };
 /// Names of PlaceTable::Model in scenario files.
@@ -112,15 +113,16 @@ struct RobotTable {
     static constexpr auto fields() {
         constexpr Range counts{.low = 1, .high = 10e6, .text = "from 1 to 10,000,000"};
         using R = RobotTable;
-        return describe(field("name", &R::name, "of the robot"),
-                        field("count", &R::count, counts, "robots name0, name1, ..."),
-                        field("at", &R::at, "where it starts"),
-                        field("heading", &R::heading, "where it looks at the start"),
-                        field("radius", &R::radius, non_negative, "of its body"),
-                        field("top_speed", &R::top_speed, positive, "which no movement exceeds"),
-                        field("turn_rate", &R::turn_rate, turn_rates, "of turning on the spot"),
-                        field("off", &R::off, "times at which it is switched off"),
-                        field("on", &R::on, "times at which it is switched on"));
+        return describe(
+            field("name", &R::name, "name of the robot"),
+            field("count", &R::count, counts, "robots name0, name1, ..."),
+            field("at", &R::at, "place at which the robot starts"),
+            field("heading", &R::heading, "direction in which the robot looks at the start"),
+            field("radius", &R::radius, non_negative, "radius of the robot's body"),
+            field("top_speed", &R::top_speed, positive, "speed that the robot never exceeds"),
+            field("turn_rate", &R::turn_rate, turn_rates, "turn rate on the spot"),
+            field("off", &R::off, "times at which the robot is switched off"),
+            field("on", &R::on, "times at which the robot is switched on"));
     }
     /// Name of the i-th robot of this [[robot]] table, i from 0.
     std::string name_of(int i) const { return count ? name + std::to_string(i) : name; }

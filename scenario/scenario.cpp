@@ -125,10 +125,11 @@ void check_csma(const Csma& csma, const Table& table) {
     const double backoff = timing.cw_max * seconds(timing.slot);
     if (timing.slot == Duration{0} || backoff > longest) {
         const Value& slot = *table.find("slot");
-        throw InputError(slot.where, fmt::format("slot: found {}; [access] model = \"csma\" counts "
-                                                 "its backoff in up to {} slots: expected a value "
-                                                 "> 0, and at most 1e9 s in all",
-                                                 slot.description(), timing.cw_max));
+        throw InputError(
+            slot.where,
+            fmt::format("slot: found {}; [access] model = \"csma\" waits up to {} slots in a "
+                        "backoff; expected a slot > 0, and a longest backoff of at most 1e9 s",
+                        slot.description(), timing.cw_max));
     }
     const auto& given_rates = csma.basic_rates;
     const auto is_none = [](BitRate rate) { return !(rate > BitRate{0}); };

@@ -50,13 +50,14 @@ struct ScenarioTable {
     static constexpr auto fields() {
         constexpr Range thirty_two_bits{
             .low = 0, .high = 4294967295, .text = "from 0 to 4294967295"};
-        return describe(field("name", &ScenarioTable::name, "of the run and its output folder"),
-                        field("duration", &ScenarioTable::duration, positive, "simulated time"),
-                        field("seed", &ScenarioTable::seed, "of every random draw"),
-                        field("replication", &ScenarioTable::replication, thirty_two_bits,
-                              "which of the independent repetitions of the scenario"),
-                        field("event_limit", &ScenarioTable::event_limit, positive,
-                              "a run that needs more events fails"));
+        return describe(
+            field("name", &ScenarioTable::name, "name of the run and of its output folder"),
+            field("duration", &ScenarioTable::duration, positive, "simulated time"),
+            field("seed", &ScenarioTable::seed, "seed of all random draws"),
+            field("replication", &ScenarioTable::replication, thirty_two_bits,
+                  "number of the independent repetition, from 0"),
+            field("event_limit", &ScenarioTable::event_limit, positive,
+                  "a run that needs more events fails"));
     }
 };
 
@@ -66,8 +67,9 @@ struct MediumTable {
     bool propagation_delay = true;
 
     static constexpr auto fields() {
-        return describe(field("propagation_delay", &MediumTable::propagation_delay,
-                              "frames travel at the speed of light, not at once"));
+        return describe(
+            field("propagation_delay", &MediumTable::propagation_delay,
+                  "frames travel at the speed of light; false: they arrive without a delay"));
     }
 };
 
@@ -82,10 +84,12 @@ struct LinksTable {
     static constexpr auto fields() {
         constexpr Range step{.low = 1e-9, .high = 1e6, .text = "from 1 ns to 1e6 s"};
         constexpr Range dwell{.low = 1e-6, .high = 1e6, .text = "from 1 us to 1e6 s"};
-        return describe(field("tolerance", &LinksTable::tolerance, step,
-                              "a link change behind walls is known to this"),
-                        field("min_dwell", &LinksTable::min_dwell, dwell,
-                              "of models of unknown shape: shorter states of a link are missed"));
+        return describe(
+            field("tolerance", &LinksTable::tolerance, step,
+                  "largest error of the time of a link change where walls are involved"),
+            field("min_dwell", &LinksTable::min_dwell, dwell,
+                  "for models of unknown shape: states of a link that are shorter than this may be "
+                  "missed"));
     }
 };
 

@@ -89,7 +89,8 @@ void check_world(const SceneTable& scene, TableReader& table) {
     if (scene.map && scene.world) table.only_one_of("map", "world");
     for (const char* key : {"world_path", "bitmaps", "lenient"}) {
         if (table.table().find(key) && !scene.world) {
-            table.missing("world", fmt::format("world = \"robots.world\": {} needs it", key));
+            table.missing("world",
+                          fmt::format("world = \"robots.world\", which the key \"{}\" needs", key));
         }
     }
     for (const std::string& pair : scene.bitmaps.value_or(std::vector<std::string>{})) {

@@ -59,12 +59,14 @@ struct MaterialTable {
         return describe(
             field("grey", &MaterialTable::grey, level, "grey level of its walls in the map"),
             field("greys", &MaterialTable::greys, "first and last of several grey levels"),
-            field("color", &MaterialTable::color, "of its walls in a Stage world"),
-            field("per_crossing", &MaterialTable::per_crossing, non_negative, "loss of a wall"),
-            field("per_metre", &MaterialTable::per_metre, non_negative, "loss per length inside"),
-            field("itu", &MaterialTable::itu, "a slab of this material of ITU-R P.2040"),
-            field("thickness", &MaterialTable::thickness, positive, "of the slab"),
-            field("height", &MaterialTable::height, positive, "of its walls"));
+            field("color", &MaterialTable::color, "colour of its walls in a Stage world"),
+            field("per_crossing", &MaterialTable::per_crossing, non_negative,
+                  "loss of each crossing of a wall"),
+            field("per_metre", &MaterialTable::per_metre, non_negative,
+                  "loss per metre of the path inside the wall"),
+            field("itu", &MaterialTable::itu, "loss of a slab of this material of ITU-R P.2040"),
+            field("thickness", &MaterialTable::thickness, positive, "thickness of the slab"),
+            field("height", &MaterialTable::height, positive, "height of its walls"));
     }
     /// Whether walls of the map or of the Stage world can have this material. A material without
     /// grey level and colour is for doors only.
@@ -117,15 +119,16 @@ struct SceneTable {
             field("size", &SceneTable::size, "width and height of a picture used as a map"),
             field("world", &SceneTable::world, "Stage world file, instead of a map"),
             field("world_path", &SceneTable::world_path,
-                  "folders where includes and bitmaps of the world are looked for, too"),
+                  "further folders to search for includes and bitmaps of the world"),
             field("bitmaps", &SceneTable::bitmaps,
-                  "\"OLD=NEW\": bitmaps of the world by other names"),
+                  "\"OLD=NEW\": read bitmap NEW wherever the world names OLD"),
             field("lenient", &SceneTable::lenient,
                   "a missing include or bitmap of the world is a notice, not an error"),
             field("floor_height", &SceneTable::floor_height, positive,
-                  "of one storey; storeys are not counted if not given"),
-            field("wall_height", &SceneTable::wall_height, positive,
-                  "of walls whose material has none of its own; endless if not given"));
+                  "height of one storey; if not given, storeys are not counted"),
+            field(
+                "wall_height", &SceneTable::wall_height, positive,
+                "height of walls whose material has no height of its own; infinite if not given"));
     }
 };
 

@@ -15,7 +15,8 @@ namespace {
 template <class Choice, Described... Common>
 Table choice_schema(std::string_view key) {
     Table keys;
-    add_key(keys, key, schema_of_words(listed(Choice::names())), "the one that is used");
+    add_key(keys, key, schema_of_words(listed(Choice::names())),
+            "name of the model or protocol that is used");
     Choice::for_each_type([&]<class M>() { add_keys<M>(keys, M::name); });
     (add_keys<Common>(keys), ...);
     return schema_of_table(std::move(keys));
@@ -28,7 +29,7 @@ Table move_schema() {
         const auto add = [&]<class M>(std::type_identity<M>) {
             Table keys;
             Array required{"model"};
-            add_key(keys, "model", schema_of_words({M::name}), "of the movement");
+            add_key(keys, "model", schema_of_words({M::name}), "model of the movement");
             add_keys<M>(keys);
             if constexpr (LedModel<M>) {
                 add_key(keys, "leader", schema_of_type("string"), "robot to follow");
@@ -72,9 +73,9 @@ Table robot_schema() {
     add_keys<Scanner>(scanner);
     add_key(keys, "scan", one_or_more(schema_of_table(std::move(scanner))), "range finders");
     add_key(keys, "role", schema_of_words(listed(all_roles())), "role in the routing protocol");
-    add_key(keys, "radio", radio_schema(), "keys of [radio] of its own");
+    add_key(keys, "radio", radio_schema(), "keys of [radio] for this robot only");
     add_key(keys, "propagation", choice_schema<PropagationTable>("model"),
-            "propagation of the frames that it sends");
+            "propagation model of the frames that this robot sends");
     for (std::size_t i = 0; i < EnumNames<Trigger>::values.size(); ++i) {
         const auto trigger = static_cast<Trigger>(i);
         add_key(keys, name_of(trigger), one_or_more(reaction_schema(trigger)), "reaction");
@@ -87,24 +88,25 @@ Table scene_schema() {
     add_keys<SceneTable>(keys);
     Table floor;
     add_keys<FloorTable>(floor);
-    add_key(floor, "ceiling", table_schema<CeilingTable>(), "slab above");
+    add_key(floor, "ceiling", table_schema<CeilingTable>(), "slab above this storey");
     Table floors = schema_of_list(schema_of_table(std::move(floor), {"map", "height"}), 1);
     add_key(keys, "floor", std::move(floors), "storeys, from the lowest up");
     add_key(keys, "door", schema_of_list(table_schema<DoorTable>({"from", "to", "closes"})),
             "walls that close and open");
     Table materials = schema_of_type("object");
     materials.set("additionalProperties", table_schema<MaterialTable>());
-    add_key(keys, "materials", std::move(materials), "what walls are made of, by name");
+    add_key(keys, "materials", std::move(materials), "materials of walls, by name");
     return schema_of_table(std::move(keys));
 }
 
 Table traffic_schema() {
     Table keys;
     add_keys<TrafficTable>(keys);
-    add_key(keys, "start",
-            schema_of_either(schema_of_quantity(Dimension::time, false),
-                             schema_of_words({TrafficTable::at_arrival})),
-            "of the first message: a time, or when the robot arrives");
+    add_key(
+        keys, "start",
+        schema_of_either(schema_of_quantity(Dimension::time, false),
+                         schema_of_words({TrafficTable::at_arrival})),
+        "start of the flow: time of the first message, or \"arrival\" (when the robot arrives)");
     return schema_of_table(std::move(keys), {"from"});
 }
 

@@ -51,7 +51,7 @@ class TrafficReader {
         for (const std::string& name : order_) add_flow(apps_.find(name)->second, file);
         if (random_ > 0) {
             file.notices.push_back(
-                fmt::format("{}: random_ of {} flow{} is left out: ns-2 makes each interval up to "
+                fmt::format("{}: random_ of {} flow{} is ignored: ns-2 makes each interval up to "
                             "half longer or shorter, but here all intervals are equal",
                             lines_.where().source, random_, random_ == 1 ? "" : "s"));
         }

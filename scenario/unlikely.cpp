@@ -77,7 +77,7 @@ void note_switching(Scenario& out, const RobotTable& robot) {
     for (const auto& [t, on] : switches) {
         if (on == is_on) {
             add_notice(out.notices,
-                       fmt::format("{}: {}: robot \"{}\" is {} already at {} s",
+                       fmt::format("{}: {}: robot \"{}\" is already {} at {} s",
                                    (on ? robot.on_where : robot.off_where).text(),
                                    on ? "on" : "off", robot.name, on ? "on" : "off", seconds(t)));
         }
@@ -155,7 +155,7 @@ void note_broadcasts(Scenario& out) {
         broadcasts.add([&] {
             return fmt::format(
                 "{}: hops: with hops = 1 the routing protocol does not forward these broadcasts, "
-                "which only neighbours of \"{}\" hear; without the key it does",
+                "so only neighbours of \"{}\" hear them; without the key it forwards them",
                 traffic.hops_where.text(), traffic.from);
         });
     }
@@ -215,7 +215,7 @@ void note_own_models(Scenario& scenario) {
     names.resize(names.size() - others);
     add_notice(
         scenario.notices,
-        fmt::format("these robots have their own propagation model, so that [propagation] does not "
+        fmt::format("these robots have their own propagation model, so [propagation] does not "
                     "affect them: {}{}",
                     fmt::join(names, ", "), others > 0 ? fmt::format(" and {} more", others) : ""));
 }
@@ -265,9 +265,9 @@ void note_antennas(Scenario& scenario, const Scene* scene) {
         if (!(std::abs(storeys_up) >= 1)) continue;
         elsewhere.add([&] {
             return fmt::format(
-                "{}: the antenna of robot \"{}\" is {:.6g} m above it, and so {:.0f} storey{} {}: "
-                "floors lie between it and antennas near it; expected an antenna_height within the "
-                "storey",
+                "{}: the antenna of robot \"{}\" is {:.6g} m above the robot and therefore {:.0f} "
+                "storey{} {}: floors lie between this antenna and those of robots nearby; expected "
+                "an antenna_height within the storey",
                 robot.radio_where.text(), robot.name, above, std::abs(storeys_up),
                 std::abs(storeys_up) == 1 ? "" : "s", storeys_up > 0 ? "higher" : "lower");
         });

@@ -93,8 +93,7 @@ void note_walls_twice(Scenario& scenario, const Scene* scene) {
         twice.add([&] {
             return fmt::format(
                 "{}: coefficient: N = {} of raytrace_2007 already includes the walls of an average "
-                "building, so that the walls of the map count twice; did you mean coefficient = "
-                "20?",
+                "building, so the walls of the map count twice; did you mean coefficient = 20?",
                 where.text(), rays->coefficient);
         });
     });
@@ -140,9 +139,9 @@ void note_thick_walls(Scenario& scenario, const Scene* scene) {
         const Vec3 at = 0.5 * (thick.first->from + thick.first->to);
         doubtful.add([&] {
             return fmt::format(
-                "{}: the wall drawn behind x = {:.2f} m, y = {:.2f} m is thicker than {} m (walls "
-                "of this scene: up to {:.2g} m), but {}; give furniture, pillars and shafts a "
-                "colour and a material of their own in [scene.materials]",
+                "{}: the wall drawn at x = {:.2f} m, y = {:.2f} m is thicker than {} m (walls of "
+                "this scene: up to {:.2g} m), but {}; give furniture, pillars and shafts a colour "
+                "and a material of their own in [scene.materials]",
                 where.text(), at.x, at.y, limit->thickest, thick.thickest, limit->treatment);
         });
     });

@@ -127,7 +127,7 @@ class MapFile {
         for (const auto& [key, mark] : strangers_) {
             const std::string missing = meant(key);
             if (missing.empty())
-                note(mark, fmt::format("key \"{}\" is not one of a map, and left out", key));
+                note(mark, fmt::format("key \"{}\" is not a key of a map and is ignored", key));
             else
                 fail(mark, fmt::format("unknown key \"{}\"; expected a key of a map; did you mean "
                                        "\"{}\"?",
@@ -230,7 +230,7 @@ class MapFile {
     /// Adapts the default of a missing threshold to the one in the file.
     void give_way(const char* missing, double& usual, const char* key, double given) const {
         note(root_[key].Mark(),
-             fmt::format("no key {}, whose default {} does not go with {} {}: {} taken, too",
+             fmt::format("no key {}, whose default {} contradicts {} {}: {} is used for both",
                          missing, usual, key, given, given));
         usual = given;
     }

@@ -55,13 +55,14 @@ struct RangeFinder {
 
     static constexpr auto fields() {
         return describe(
-            field("kind", &RangeFinder::kind, "device that it is for programs outside"),
+            field("kind", &RangeFinder::kind, "kind of device that external programs see"),
             field("beams", &RangeFinder::beams,
-                  Range{.low = 1, .high = 10'000, .text = "from 1 to 10,000"}, "how many"),
-            field("from", &RangeFinder::from, whole_turn, "first beam, from the heading"),
+                  Range{.low = 1, .high = 10'000, .text = "from 1 to 10,000"}, "number of beams"),
+            field("from", &RangeFinder::from, whole_turn,
+                  "direction of the first beam, from the heading"),
             field("to", &RangeFinder::to, whole_turn,
-                  "last beam, counter-clockwise from the first"),
-            field("range", &RangeFinder::range, positive, "farthest that it measures"),
+                  "direction of the last beam, counter-clockwise from the first one"),
+            field("range", &RangeFinder::range, positive, "longest distance that it measures"),
             field("every", &RangeFinder::every, Range{.low = 1e-3, .text = ">= 1 ms"},
                   "time between two measurements"));
     }

@@ -55,11 +55,14 @@ struct Scanner {
 
     /// Parameters of a scanner, in addition to the parameters of `finder`.
     static constexpr auto fields() {
-        return describe(field("name", &Scanner::name, "name that programs find it by"),
-                        field("at", &Scanner::at, "place on the robot"),
-                        field("heading", &Scanner::heading, "direction on the robot"),
-                        field("angles", &Scanner::angles, "ring: directions of its beams"),
-                        field("places", &Scanner::places, "ring: begins of its beams"));
+        return describe(
+            field("name", &Scanner::name, "name by which programs find the range finder"),
+            field("at", &Scanner::at, "position of the range finder on the robot"),
+            field("heading", &Scanner::heading, "direction of the range finder on the robot"),
+            field("angles", &Scanner::angles,
+                  "direction of each beam, instead of `beams`, `from` and `to`"),
+            field("places", &Scanner::places,
+                  "with `angles`: position at which each beam begins, relative to `at`"));
     }
 };
 

@@ -21,10 +21,9 @@ std::vector<std::string> options_of(const Store& store) {
     const Value options = store.document("options");
     if (std::holds_alternative<std::monostate>(options.data)) return words;
     const auto refuse = [&](const Value& found, const char* expected) {
-        throw damaged_store(store.path(),
-                            fmt::format("table study at key options, column value: found {}, "
-                                        "expected {}",
-                                        found.description(), expected));
+        throw damaged_store(store.path(), fmt::format("table \"study\", row with key \"options\", "
+                                                      "column \"value\": found {}, expected {}",
+                                                      found.description(), expected));
     };
     if (!options.array()) refuse(options, "a list");
     for (const Value& word : *options.array()) {

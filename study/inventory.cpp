@@ -40,9 +40,11 @@ StudyTable study_of(const Store& store) {
     try {
         return read_study(study, Duration::max());
     } catch (const InputError& error) {
-        throw InputError({store.path()},
-                         fmt::format("a damaged store: table study at key study, column value: {}",
-                                     error.message()));
+        throw InputError(
+            {store.path()},
+            fmt::format(
+                "a damaged store: table \"study\", row with key \"study\", column \"value\": {}",
+                error.message()));
     }
 }
 

@@ -43,7 +43,7 @@ struct RunNumbers {
     double warmup_s = 0;
 
     static constexpr auto fields() {
-        return describe(field("events", &RunNumbers::events, "of the run"),
+        return describe(field("events", &RunNumbers::events, "events of the run"),
                         field("warmup_s", &RunNumbers::warmup_s, "end of the warm-up"));
     }
 };

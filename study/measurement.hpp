@@ -40,11 +40,12 @@ struct Measurement {
     /// Members except the metrics, in the order in which to_text() writes the members.
     static constexpr auto fields() {
         using M = Measurement;
-        return describe(field("fingerprint", &M::fingerprint, "of the run"),
-                        field("cpu_s", &M::cpu_s, "CPU time"), field("wall_s", &M::wall_s, "real"),
-                        field("started", &M::started, "start in real time, UTC"),
-                        field("host", &M::host, "machine"),
-                        field("searches", &M::searches, "of paths, not answered by the cache"));
+        return describe(
+            field("fingerprint", &M::fingerprint, "fingerprint of the run"),
+            field("cpu_s", &M::cpu_s, "CPU time"), field("wall_s", &M::wall_s, "real time"),
+            field("started", &M::started, "start in real time, UTC"),
+            field("host", &M::host, "machine"),
+            field("searches", &M::searches, "searches for paths that the cache did not answer"));
     }
     friend bool operator==(const Measurement&, const Measurement&) = default;
 };

@@ -184,8 +184,9 @@ std::string coverage_text(const Answers& answers) {
     for (const Answer& answer : answers.list) {
         if (&answer != &answers.list.front() && answer.metric == answers.list.front().metric) break;
         if (answer.left_out == 0) continue;
-        texts.push_back(fmt::format("{} without {} of {} cells, which not every row has",
-                                    answer.metric, answer.left_out, answer.cells));
+        texts.push_back(
+            fmt::format("{} is averaged without {} of {} cells, which are missing from some rows",
+                        answer.metric, answer.left_out, answer.cells));
     }
     for (const auto& [metric, count] : undefined) {
         if (count > 0) texts.push_back(fmt::format("{} runs have no {}", count, metric));

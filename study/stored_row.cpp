@@ -42,12 +42,13 @@ void StoredRow::refuse(int column, const std::string& found, const std::string& 
     const auto [table, name] = table_and_column(statement_.getColumnName(column));
     std::string row;
     for (int i = 0; i < keys_; ++i) {
-        row += fmt::format("{}{} {}", row.empty() ? "" : ", ",
+        row += fmt::format("{}{} \"{}\"", row.empty() ? "" : ", ",
                            table_and_column(statement_.getColumnName(i)).second,
                            statement_.getColumn(i).getString());
     }
-    throw damaged_store(path_, fmt::format("table {} at {}, column {}: found {}, expected {}",
-                                           table, row, name, found, expected));
+    throw damaged_store(
+        path_, fmt::format("table \"{}\", row with {}, column \"{}\": found {}, expected {}", table,
+                           row, name, found, expected));
 }
 
 std::string StoredRow::text(int column) const {

@@ -83,7 +83,7 @@ std::string why_gone(const StoredPoint& gone, const Study& study, const Value& t
     const bool listed = std::any_of(points.begin(), points.end(), [&](const StudyPoint& point) {
         return settings_text(point.settings) == settings;
     });
-    if (!listed) reasons.emplace_back("[study] no longer asks for it");
+    if (!listed) reasons.emplace_back("[study] no longer contains it");
     if (std::string changed = difference(then, now); !changed.empty()) reasons.push_back(changed);
     if (reasons.empty()) reasons.emplace_back("its map or its movement file has changed");
     return fmt::format("{}", fmt::join(reasons, ", and "));

@@ -31,10 +31,12 @@ struct RoutedMetrics {
 
     static constexpr auto fields() {
         using R = RoutedMetrics;
-        return describe(field("data_transmissions", &R::data, "messages to one robot, each hop"),
-                        field("path_stretch", &R::path_stretch, "hops over the shortest path"),
-                        field("delay_waiting", &R::waiting, "mean time in routers"),
-                        field("delay_travelling", &R::travelling, "mean time between routers"));
+        return describe(
+            field("data_transmissions", &R::data,
+                  "transmissions of messages to one robot; each hop counts"),
+            field("path_stretch", &R::path_stretch, "hops divided by those of the shortest path"),
+            field("delay_waiting", &R::waiting, "mean time in routers"),
+            field("delay_travelling", &R::travelling, "mean time between routers"));
     }
     friend bool operator==(const RoutedMetrics&, const RoutedMetrics&) = default;
 };
@@ -60,8 +62,9 @@ struct RoutingValues {
         using R = RoutingValues;
         return describe(field("routing_packets", &R::packets, "control packets, each hop counts"),
                         field("routing_bytes", &R::bytes, "size of the control packets"),
-                        field("routing_load", &R::load, "control packets for each delivery"),
-                        field("routing_load_bytes", &R::load_bytes, "the same in bytes"),
+                        field("routing_load", &R::load, "control packets divided by deliveries"),
+                        field("routing_load_bytes", &R::load_bytes,
+                              "bytes of control packets divided by delivered bytes"),
                         field("routing_requests", &R::requests, "control packets: requests"),
                         field("routing_replies", &R::replies, "control packets: replies"),
                         field("routing_errors", &R::errors, "control packets: errors"),
@@ -79,8 +82,9 @@ struct AirtimeValues {
 
     static constexpr auto fields() {
         using A = AirtimeValues;
-        return describe(field("airtime_s", &A::total, "sum over all frames on air"),
-                        field("airtime_per_byte_us", &A::per_byte, "for each byte delivered"));
+        return describe(
+            field("airtime_s", &A::total, "sum of the airtimes of all frames"),
+            field("airtime_per_byte_us", &A::per_byte, "airtime for each byte delivered"));
     }
     friend bool operator==(const AirtimeValues&, const AirtimeValues&) = default;
 };

@@ -72,11 +72,13 @@ struct PartMetrics {
 
     static constexpr auto fields() {
         using P = PartMetrics;
-        return describe(field("messages", &P::messages, "sent in the flow, or for the robot"),
-                        field("deliveries", &P::deliveries, "first copies at a robot"),
-                        field("delivery_ratio", &P::delivery_ratio, "deliveries over expected"),
-                        field("throughput_bps", &P::throughput_bps, "delivered bits a second"),
-                        field("latency_mean_s", &P::latency_mean_s, "mean latency"));
+        return describe(
+            field("messages", &P::messages, "messages sent in the flow, or to the robot"),
+            field("deliveries", &P::deliveries, "first copies of messages at robots"),
+            field("delivery_ratio", &P::delivery_ratio,
+                  "deliveries divided by expected deliveries"),
+            field("throughput_bps", &P::throughput_bps, "delivered bits a second"),
+            field("latency_mean_s", &P::latency_mean_s, "mean latency"));
     }
 };
 
@@ -168,20 +170,24 @@ struct MetricValues {
 
     static constexpr auto fields() {
         using M = MetricValues;
-        return describe(field("messages", &M::messages, "sent by applications"),
-                        field("cut_off", &M::cut_off, "messages cut off by the end of the run"),
-                        field("transmissions", &M::transmissions, "frames transmitted"),
-                        field("receptions", &M::receptions, "decoded copies"),
-                        field("deliveries", &M::deliveries, "first copies at a robot"),
-                        field("delivery_ratio", &M::delivery_ratio, "deliveries over expected"),
-                        field("reach", &M::reach, "deliveries over connected robots"),
-                        field("saved_rebroadcasts", &M::saved_rebroadcasts, "of a flood"),
-                        field("latency", &M::latency, "of the deliveries"),
-                        field("hops_mean", &M::mean_hops, "hops of a delivery"),
-                        field("hops_max", &M::max_hops, "most hops of a delivery"),
-                        field("routing", &M::routing, "cost of the routing protocol"),
-                        field("routed", &M::routed, "ways of routed unicasts"),
-                        field("drops", &M::drops, "copies lost, by reason"));
+        return describe(
+            field("messages", &M::messages, "messages sent by applications"),
+            field("cut_off", &M::cut_off, "messages cut off by the end of the run"),
+            field("transmissions", &M::transmissions, "frames transmitted"),
+            field("receptions", &M::receptions, "copies that robots decoded"),
+            field("deliveries", &M::deliveries, "first copies of messages at robots"),
+            field("delivery_ratio", &M::delivery_ratio,
+                  "deliveries divided by expected deliveries"),
+            field("reach", &M::reach,
+                  "deliveries divided by the robots that were connected with the sender"),
+            field("saved_rebroadcasts", &M::saved_rebroadcasts,
+                  "share of rebroadcasts that a flood saved"),
+            field("latency", &M::latency, "latency of the deliveries"),
+            field("hops_mean", &M::mean_hops, "mean number of hops of a delivery"),
+            field("hops_max", &M::max_hops, "most hops of a delivery"),
+            field("routing", &M::routing, "cost of the routing protocol"),
+            field("routed", &M::routed, "paths and delays of routed unicasts"),
+            field("drops", &M::drops, "copies lost, by reason"));
     }
 
     friend bool operator==(const MetricValues&, const MetricValues&) = default;

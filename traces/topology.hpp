@@ -31,11 +31,12 @@ struct TopologyValues {
 
     static constexpr auto fields() {
         using T = TopologyValues;
-        return describe(field("degree_mean", &T::degree_mean, "robots that a robot hears"),
-                        field("components_mean", &T::components_mean, "connected components"),
-                        field("speed_mean_m_s", &T::speed_mean, "mean speed of the robots"),
-                        field("link_lifetime_mean_s", &T::link_lifetime_mean, "of a link"),
-                        field("links_ended", &T::links_ended, "links in its mean"));
+        return describe(
+            field("degree_mean", &T::degree_mean, "mean number of robots that a robot hears"),
+            field("components_mean", &T::components_mean, "mean number of connected components"),
+            field("speed_mean_m_s", &T::speed_mean, "mean speed of the robots"),
+            field("link_lifetime_mean_s", &T::link_lifetime_mean, "mean lifetime of a link"),
+            field("links_ended", &T::links_ended, "number of links in the mean lifetime"));
     }
 };
 

@@ -42,7 +42,7 @@ void explain(const ExplainArguments& a) {
     }
     fmt::print(
         "run {}: point {} ({}), replication {}\nmade by version {}, {} on {}, {:.3g} s of "
-        "CPU\n{}\nagain: {}\n",
+        "CPU\n{}\nto repeat it: {}\n",
         run.id, run.point, settings_text(found.point.settings), run.replication,
         store.property("version"), m.started, m.host, m.cpu_s,
         run.error.empty() ? "fingerprint " + m.fingerprint : "failed: " + run.error, command);

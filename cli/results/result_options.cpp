@@ -7,8 +7,8 @@ namespace {
 
 constexpr const char* only_points = "use only points of the study with KEY=VALUE, such as ttl=6";
 constexpr const char* only_cells =
-    "if rows lack runs, average only over the combinations of values and replications that all "
-    "rows have";
+    "if runs are missing from some rows, average each row only over the combinations of values and "
+    "replications that no row lacks";
 
 void add_results(Command app) {
     const auto [results, a] =
@@ -116,10 +116,9 @@ void add_plot(Command app) {
         .one_word();
     plot.add_flag("--log-x", p.log_x, "give the x axis a logarithmic scale");
     plot.add_flag("--log-y", p.log_y, "give the y axis a logarithmic scale");
-    plot.add_option(
-            "--width", p.width,
-            "width of the picture in pixels, of a PDF in points; the text is scaled with it "
-            "(default: 672 for one chart, 352 for each of several charts)")
+    plot.add_option("--width", p.width,
+                    "width of the picture in pixels (for a PDF: in points); the text is scaled "
+                    "with the width (default: 672 for one chart, 352 for each of several charts)")
         .range(100, 10000);
     plot.add_option("--font-size", p.font_size,
                     "font size in points; a chart is 672 points wide, or 352 beside other charts")

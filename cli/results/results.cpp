@@ -126,9 +126,9 @@ void warn_of_skewness(const std::vector<Answer>& list) {
     const auto skewed = std::ranges::count_if(list, &Answer::skewed);
     if (skewed == 0) return;
     notice(
-        fmt::format("warning: {} of {} intervals by Student's t are of values that are too skewed "
-                    "for this method (n <= 25 times the squared skewness); they may cover the true "
-                    "mean less often than stated",
+        fmt::format("warning: {} of {} intervals were computed by Student's t from values that are "
+                    "too skewed for this method (n <= 25 times the squared skewness); these "
+                    "intervals may cover the true mean less often than stated",
                     skewed, list.size()));
 }
 
@@ -148,7 +148,8 @@ void tell_other_methods(const std::vector<Answer>& list, std::optional<IntervalM
 void warn_of_gaps(const RunCounts& runs, const std::string& store) {
     const std::string text = incompleteness(runs);
     if (!text.empty()) notice(fmt::format("{}: {}", store, text));
-    if (runs.failed > 0) notice(fmt::format("why: rovernet results {} --failures", store));
+    if (runs.failed > 0)
+        notice(fmt::format("reasons of the failures: rovernet results {} --failures", store));
 }
 
 std::optional<std::vector<std::string>> group_by_of(const ResultsArguments& a, const Store& store) {

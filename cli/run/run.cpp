@@ -51,16 +51,18 @@ void print_result(const Scenario& scenario, const RunResult& result) {
                m.receptions);
     fmt::print("delivery ratio     {}\n", percent(m.delivery_ratio));
     if (m.cut_off > 0) {
-        fmt::print("left out of it     {} that the end of the run cut off at their senders\n",
-                   m.cut_off);
+        fmt::print(
+            "left out of it     {} (messages still at their senders at the end of the run)\n",
+            m.cut_off);
     }
     if (m.reach_known) {
         fmt::print(
-            "reach              {} of the robots that a chain of links joined to the sender\n",
+            "reach              {} of the robots that were linked to the sender, directly or over "
+            "others\n",
             percent(m.reach));
     } else if (!scenario.metrics.reach) {
         fmt::print(
-            "reach              not measured, since that takes longer than the rest of the run; "
+            "reach              not measured, because this takes longer than the rest of the run; "
             "[metrics] reach = true measures it\n");
     }
     if (m.latency) {

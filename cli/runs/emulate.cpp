@@ -171,7 +171,7 @@ void add_in(Command app) {
         "--run", a.run,
         "process id or results folder of the run, if several runs have a robot of this name");
     command.add_option("--user", a.user,
-                       "for root: user who started the run, and who can read and change all "
+                       "only for root: user who started the run; this user can read and change all "
                        "packets of the program (default: yourself)");
 }
 

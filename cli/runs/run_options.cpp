@@ -76,7 +76,7 @@ void add_sweep(Command app, const std::string& typed) {
     sweep.add_option("--chunk", a.chunk, "number of runs in each chunk of --shard")
         .check(above_zero())
         .shows_default();
-    sweep.add_option("--except", a.except, "skip runs that are finished in this store");
+    sweep.add_option("--except", a.except, "skip the runs that are finished in this store");
     const Option merge =
         sweep.add_option("--merge", a.merge, "move the runs of these stores into the study's store")
             .excludes(shard);
@@ -180,8 +180,8 @@ void add_advise(Command app, const std::string& typed) {
                     "use the parameters in the file, without first fitting the models");
     advise
         .add_option("--max-replications", a.max_replications,
-                    "largest number of replications; a model still undecided then counts as "
-                    "insufficient (default: 4000)")
+                    "largest number of replications; a model that is then still undecided counts "
+                    "as insufficient (default: 4000)")
         .range(1, 1'000'000);
     advise
         .add_option(
@@ -220,8 +220,8 @@ void add_fit(Command app) {
            "CSV file of levels measured on a different day or drive, to check the fitted models")
         .needs(links);
     fit.add_option("--floor", a.floor,
-                   "level below which nothing was received (rows with an empty level_dbm), such as "
-                   "\"-94 dBm\"")
+                   "level below which nothing was received, for rows with an empty level_dbm, such "
+                   "as \"-94 dBm\"")
         .needs(links);
     fit.add_flag("--gains", a.gains,
                  "fit a separate gain for each transmitter position, relative to the mean gain")

@@ -64,21 +64,23 @@ void add_scene(Command app) {
 void add_where(Command app) {
     const auto [where, a] = add_command(
         app, "where",
-        "Print the position of every robot, or the places where one robot has no link", cli::where);
+        "Print the position of every robot, or the places at which one robot has no link",
+        cli::where);
     where.add_examples({"rovernet where examples/rescue/rescue.toml --at 10s,31.25s",
                         "rovernet where examples/patrol/patrol.toml --robot guard --to desk"});
     add_file(where, a, any_file);
     Option at = where.add_option("--at", a.at, "simulated times, such as 10s,31.25s");
     at.delimiter(',');
-    Option robot = where.add_option("--robot", a.robot,
-                                    "print this robot only; without --at: at each leg of its path");
-    Option to = where.add_option(
-        "--to", a.to,
-        "print where the robot has no link to any of these, such as ap1,ap2: time, place, share");
+    Option robot = where.add_option(
+        "--robot", a.robot,
+        "print only this robot; without --at: at the begin of each leg of its path");
+    Option to = where.add_option("--to", a.to,
+                                 "print where the robot has no link to any of these robots, such "
+                                 "as ap1,ap2: times, places, and the share of the run");
     to.delimiter(',').needs(robot).excludes(at);
     where
         .add_option("--over", a.over,
-                    "also accept links that these robots relay, such as the relays of a mesh")
+                    "also count connections over these robots, such as the relays of a mesh")
         .delimiter(',')
         .needs(to);
     Option csv = where.add_flag("--csv", a.csv, "print a line for each gap, as CSV").needs(to);
@@ -98,9 +100,9 @@ void add_draw(Command app) {
                        "20s -o route.svg"});
     add_file(draw, a, any_file);
     draw.add_option("--at", a.at, "simulated time, such as 12.5s").shows_default();
-    Option coverage = draw.add_option(
-        "--coverage", a.coverage,
-        "transmitting robot, or the best of A,B; draw the received power over the map");
+    Option coverage = draw.add_option("--coverage", a.coverage,
+                                      "transmitting robot; draw its received power over the map. "
+                                      "With several robots A,B: the power of the strongest one");
     coverage.delimiter(',');
     draw.add_option("--for", a.receiver,
                     "robot whose radio and antenna height are used for reception (default: those "
@@ -111,22 +113,23 @@ void add_draw(Command app) {
                     "draw the route in use from robot A to robot B, given as A,B")
         .delimiter(',');
     draw.add_flag("--search", a.search,
-                  "draw the robots that sent the last route request: of robot A in --routes, or of "
-                  "any robot");
+                  "draw the robots that sent or forwarded the last route request: the request of "
+                  "robot A of --routes, or of any robot");
     Option trails = draw.add_flag("--trails", a.trails, "draw the paths of the robots so far");
-    Option margin_to = draw.add_option("--margin-to", a.margin_to,
-                                       "colour trails by the margin of the link to a robot (of "
-                                       "A,B: to the better one), and mark where there is no link");
+    Option margin_to =
+        draw.add_option("--margin-to", a.margin_to,
+                        "colour the trails by the margin of the link to a robot (with A,B: the "
+                        "larger of the two margins), and mark where there is no link");
     margin_to.delimiter(',').needs(trails);
     draw.add_option("--over", a.over,
-                    "also accept links that these robots relay, such as the relays of a mesh")
+                    "also count connections over these robots, such as the relays of a mesh")
         .delimiter(',')
         .needs(margin_to);
     draw.add_option("--storey", a.storey, "storey to draw; the lowest is 1").shows_default();
     draw.add_flag("--axes", a.axes, "draw axes in metres");
-    draw.add_option(
-            "--width", a.width,
-            "width of the picture in pixels, of a PDF in points; the text is scaled with it")
+    draw.add_option("--width", a.width,
+                    "width of the picture in pixels (for a PDF: in points); the text is scaled "
+                    "with the width")
         .range(100, 10000)
         .shows_default();
     draw.add_option("--font-size", a.font_size,

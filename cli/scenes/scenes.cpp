@@ -55,8 +55,8 @@ Table map_report(const SceneArguments& a) {
     table.map_where = Location{a.file};
     if (is_image_name(a.file) && !a.size) {
         throw InputError(Location{a.file},
-                         "found a picture without a scale; expected a map.yaml, or also --size "
-                         "WIDTHxHEIGHT in metres, such as --size 16x16");
+                         "found a picture without a scale; expected a map.yaml, or the option "
+                         "--size WIDTHxHEIGHT in metres, such as --size 16x16");
     }
     if (a.size) table.size = size_of(*a.size);
     std::vector<std::string> notices;  // of materials; a map alone has those beside it

@@ -60,8 +60,8 @@ void print_text(const std::vector<Whereabouts>& all, const std::optional<PatrolR
     }
     if (!round) return;
     fmt::print(
-        "a round of the patrol, through all {} places, takes {:.6f} s (the last one from {:.6f} s "
-        "on)\n",
+        "a round of the patrol, through all {} places, takes {:.6f} s (the last round begins at "
+        "{:.6f} s)\n",
         round->places, seconds(round->length), seconds(round->begin));
 }
 

@@ -120,9 +120,9 @@ void tell_time(const AdviseArguments& a, const AdviceCandidates& candidates, std
     if (all < long_time) return;
     notice(
         fmt::format("a run with the reference, {}, takes about {:.2g} s of CPU time. The verdicts "
-                    "may need {} to {} such runs, {} to {} on one worker, and also runs of the "
-                    "candidates. --budget {} ends the command earlier, with a preliminary verdict; "
-                    "a cheaper --reference takes less time",
+                    "may need {} to {} such runs ({} to {} on one worker), and runs of the "
+                    "candidates in addition. --budget {} ends the command earlier, with a "
+                    "preliminary verdict; a cheaper --reference takes less time",
                     candidates.path_losses[top].name, run_s, std::min(least, most), most,
                     duration_text(run_s * static_cast<double>(std::min(least, most))),
                     duration_text(all), a.budget));

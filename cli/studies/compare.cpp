@@ -112,7 +112,7 @@ const Value* value_at(const Value& document, std::string_view path) {
     return at;
 }
 
-/// The other keys that the file's [study] varies, which are held as the file has them.
+/// The other keys that the file's [study] varies, which have their values of the file.
 std::string held_keys(const StudyTable& study, const Scenario& base, const std::string& varied) {
     std::vector<std::string> keys;
     const Value document(to_document(base));
@@ -122,8 +122,7 @@ std::string held_keys(const StudyTable& study, const Scenario& base, const std::
         keys.push_back(value ? fmt::format("{} = {}", vary.path, plain_text(*value)) : vary.path);
     }
     if (keys.empty()) return "";
-    return fmt::format("held as the file has {}: {}", keys.size() == 1 ? "it" : "them",
-                       fmt::join(keys, ", "));
+    return fmt::format("fixed as in the file: {}", fmt::join(keys, ", "));
 }
 
 /// Name of the baseline: of other keys than the model the first value, if none is given; empty for
@@ -167,8 +166,8 @@ void tell_notices(const Study& study) {
     const StudyTable& table = study.table();
     if (table.replications > 1 || table.precision) return;
     notice(
-        "one replication of each value does not tell how sure the differences are; --replications "
-        "30 repeats the runs with other random numbers");
+        "one replication of each value does not show how certain the differences are; "
+        "--replications 30 repeats the runs with other random numbers");
 }
 
 /// Prints where intervals do not use the requested method.

@@ -217,7 +217,9 @@ void print_text(const std::vector<Comparison>& all) {
     }
     if (is_brief) return;
     const Comparison& c = all.front();
-    fmt::print("\ncommon random numbers: variance of unpaired over that of paired differences\n");
+    fmt::print(
+        "\ncommon random numbers: variance of unpaired differences, divided by that of paired "
+        "differences\n");
     for (const PairedVariance& pair : c.pairs) {
         if (pair.ratio) fmt::print("  {:<32} {:.3g}\n", pair.a + ", " + pair.b, *pair.ratio);
     }

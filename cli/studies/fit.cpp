@@ -140,10 +140,10 @@ std::optional<double> half_width(double se_by_group, std::size_t groups) {
 }
 
 std::string parameter_text(const FittedParameter& p, std::size_t groups) {
-    if (!p.determined) return fmt::format("{} as it stands", p.key);
+    if (!p.determined) return fmt::format("{} unchanged", p.key);
     std::string out = fmt::format("{} {:.4g}", p.key, p.value);
     if (p.at_bound) {
-        out += " (held)";
+        out += " (at its limit)";
     } else if (const auto half = half_width(p.se_by_group, groups)) {
         out += fmt::format(" +- {:.2g}", *half);
     }
@@ -152,7 +152,7 @@ std::string parameter_text(const FittedParameter& p, std::size_t groups) {
 
 std::string parameters_text(const CalibratedModel& m, std::size_t groups) {
     if (!m.failure.empty()) return m.failure;
-    if (m.parameters.empty()) return "nothing is free";
+    if (m.parameters.empty()) return "no parameter to fit";
     std::vector<std::string> texts;
     for (const FittedParameter& p : m.parameters) texts.push_back(parameter_text(p, groups));
     return fmt::format("{}", fmt::join(texts, ", "));
@@ -246,8 +246,8 @@ void print_known(const Fit& fit) {
                                    [](const KnownLink& link) { return link.unseen; });
     if (!known.measured && far > 0) {
         fmt::print(
-            "{} of them lose over {} dB more than their budget; of their loss only this lower "
-            "bound is used\n",
+            "the loss of {} links exceeds their budget by more than {} dB; only this lower bound "
+            "of it is used\n",
             far, beyond_radio.value);
     }
     if (fit.repeatability && fit.repeatability->levels > 0) {
@@ -275,7 +275,7 @@ void print_fit(const Fit& fit, const Scenario& scenario) {
     if (c.known.groups > 1) {
         fmt::print(
             "\nerrors on each {}, by the fit to all others; wrong links: predicted up (up) or down "
-            "(down), but are not;\nas given: rmse with the parameters of the file\n",
+            "(down), but in fact are not;\nas given: rmse with the parameters of the file\n",
             c.known.group_name);
     } else {
         fmt::print(

@@ -113,9 +113,9 @@ void print(const Located& located) {
     if (!located.fixes.empty()) fmt::print("{}\n", table.text());
     if (const auto errors = located.errors()) {
         fmt::print(
-            "rms error {:.2f} m; no unbiased estimate of these places is better than {:.2f} "
-            "m, with errors of {:g} dB\n",
-            errors->rms, errors->bound, located.sigma.value);
+            "rms error {:.2f} m; with level errors of {:g} dB, the rms error of an unbiased "
+            "estimate of these positions is at least {:.2f} m\n",
+            errors->rms, located.sigma.value, errors->bound);
     }
     if (located.too_few > 0) {
         fmt::print("{} positions were not estimated, because fewer than {} anchors were heard\n",

@@ -143,8 +143,9 @@ void print_effects(const Probe& probe, std::size_t most) {
     if (n == 0) return;
     const auto cliffs = std::count_if(probe.effects.begin(), probe.effects.end(),
                                       [](const LinkEffect& e) { return e.is_cliff(); });
-    fmt::print("\nlinks; first the {} cliffs, steeper than {:g} dB per mm, then those that flip\n",
-               cliffs, LinkEffect::cliff);
+    fmt::print(
+        "\nlinks: first the {} cliffs (steeper than {:g} dB per mm), then the links that flip\n",
+        cliffs, LinkEffect::cliff);
     fmt::print("{}{}", table.text(), more_text(probe.effects.size(), most));
 }
 
@@ -181,8 +182,7 @@ void probe(const ProbeArguments& a) {
     fmt::print("{} links at {} times, losses by {}", found.links, size.times, found.model);
     if (!a.no_messages) {
         fmt::print("; {} receptions of messages until {:.6g} s{}", found.deliveries,
-                   seconds(found.until),
-                   found.whole_run ? "" : ", the time of the first million events");
+                   seconds(found.until), found.whole_run ? "" : " (the first million events)");
     }
     fmt::print("\n\n");
     print_perturbations(found, !a.no_messages);

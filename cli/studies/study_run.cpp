@@ -53,7 +53,7 @@ std::string reached_text(const ImprecisePoint& point) {
     if (point.half_width)
         return fmt::format("+- {:.2g} of {} values", *point.half_width, point.values);
     if (point.values < 2) return fmt::format("no interval of {} values", point.values);
-    return fmt::format("no interval, as its {} values are all equal", point.values);
+    return fmt::format("no interval, because its {} values are all equal", point.values);
 }
 
 }  // namespace

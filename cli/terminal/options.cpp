@@ -118,11 +118,10 @@ void add_json(Command command, bool& json) {
 
 void add_interval(Command command, std::optional<std::string>& interval) {
     command
-        .add_option(
-            "--interval", interval,
-            "method of the confidence intervals of means: t, betting or star (default: "
-            "star for metrics with a smallest and a largest possible value, betting for these "
-            "metrics if the study has a precision, t for other metrics)")
+        .add_option("--interval", interval,
+                    "method of the confidence intervals of means: t (Student), betting or star "
+                    "(STaR-Bets). Default: t for unbounded metrics; star for bounded ones, or "
+                    "betting if the study uses --precision")
         .one_of({"t", "betting", "star"});
 }
 

@@ -38,17 +38,18 @@ std::vector<ModelLoss> models_of(const std::vector<std::string>& words) {
             models.back().parameters.push_back(word);
         else
             throw std::invalid_argument(
-                fmt::format("\"{}\" stands before the models; expected MODEL {}", word, word));
+                fmt::format("\"{}\" is given before any model; expected MODEL {}", word, word));
     }
     return models;
 }
 
 LossAntennas heights_of(const LossArguments& a) {
     if (a.heights.size() > 2) {
-        throw InputError({"--heights", 0, 0, true},
-                         fmt::format("found {} heights; expected that of both antennas, or those "
-                                     "of the sender and of the receiver: 1.5,0.3",
-                                     a.heights.size()));
+        throw InputError(
+            {"--heights", 0, 0, true},
+            fmt::format("found {} heights; expected one height for both antennas, or two heights, "
+                        "of the sender and of the receiver, such as 1.5,0.3",
+                        a.heights.size()));
     }
     const Meters standard = Radio{}.antenna_height;
     return {a.heights.empty() ? standard : option_length("--heights", a.heights.front()),

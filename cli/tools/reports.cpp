@@ -154,7 +154,7 @@ void models(const ModelsArguments& a) {
     }
     for (const Value& variation : variations) {
         const std::string name = text_of(*variation.table()->find("name"));
-        fmt::print("{}, over any model: [{}]\n", name, name);
+        fmt::print("{}, in addition to any model: [{}]\n", name, name);
         print_parameters(*variation.table());
     }
 }

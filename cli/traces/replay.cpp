@@ -55,8 +55,9 @@ void print_verification(const ReplayArguments& a, const Verification& v) {
     if (v.is_identical()) {
         fmt::print("identical: {} {}\n", v.same, v.unit);
     } else if (!v.difference) {
-        fmt::print("not whole: {} {} are equal, and the rest of the trace cannot be read\n", v.same,
-                   v.unit);
+        fmt::print(
+            "incomplete: the first {} {} are equal, and the rest of the trace cannot be read\n",
+            v.same, v.unit);
     } else {
         fmt::print("different after {} {}\nrecorded  {}\nnow       {}\n", v.same, v.unit,
                    or_nothing(v.difference->recorded), or_nothing(v.difference->now));
@@ -268,7 +269,8 @@ void print_radios(const ReplayArguments& a, const Radios& radios, const std::vec
         "radio.\n");
     if (!radios.plays_first) return;
     fmt::print(
-        "{}: the protocol of the trace is not simulated. Differences are to the row \"{}\".\n",
+        "{}: the protocol of the trace is not simulated. Differences are relative to the row "
+        "\"{}\".\n",
         a.routing == "direct" ? "Messages go directly to their destinations" : "Messages flood",
         radios.first);
 }

@@ -51,8 +51,8 @@ void tell_of_log(const InputReplay& replay) {
     }
     for (const std::string& other : replay.others) {
         notice(other +
-               ": log of a different run in this folder, which did not end; give its name to "
-               "replay it");
+               ": the log of a different run, which did not end, is in this folder; give the name "
+               "of the log to replay it");
     }
 }
 

@@ -69,7 +69,7 @@ void convert_to_capture(const TraceConvertArguments& a) {
 void trace_convert(const TraceConvertArguments& a) {
     if (a.to == "pcapng") return convert_to_capture(a);
     if (a.to == "foxglove") {
-        check_is_recorded(a, "the map and the bodies of robots are those of");
+        check_is_recorded(a, "the map and the bodies of robots are taken from");
         return tell_damage(a.in, convert_to_foxglove(a.in, a.out));
     }
     TraceInput::Lines lines;

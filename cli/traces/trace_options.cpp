@@ -101,8 +101,8 @@ void add_trace_follow(Command trace) {
     follow.add_option("FILE", a.file, any_trace).required().transform(trace_of_run);
     follow.add_option("--message", a.message, "id of the message").required();
     follow.add_option("--robot", a.robot,
-                      "name or number of a robot: print only the message's path to this robot, and "
-                      "from a recorded trace also how each frame arrived there");
+                      "name or number of a robot: print only the message's path to this robot; "
+                      "from a recorded trace also print what became of each frame there");
     add_strict(follow, a.strict);
     add_json(follow, a.json);
 }

@@ -294,7 +294,7 @@ void add_view(Command app) {
         .one_word();
     view.add_option("--movements", a.movements, "for an ns-2 trace: movement file of its robots");
     view.add_option("-o,--output", a.out,
-                    "write the page to this file, which needs no server, instead of serving it");
+                    "instead of serving the page, write it to this file, which needs no server");
     view.add_flag("--open", a.opens, "open the page in a browser, by xdg-open");
     view.add_option(
             "--address", a.address,

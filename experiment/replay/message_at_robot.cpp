@@ -221,7 +221,7 @@ std::string received_in_words(const MessageAtRobot& message, const FrameAtRobot&
                                               first.distance_m, first.range->value)
                                 : fmt::format("came at {:.2f} dBm, {:.1f} dB above its sensitivity",
                                               first.level.value, first.margin.value);
-    return fmt::format("{} has it from {}, {:.3f} ms after it was sent: that frame {}{}.",
+    return fmt::format("{} got the message from {}, {:.3f} ms after it was sent: that frame {}{}.",
                        message.robot, message.names[first.from.index()],
                        seconds(first.end - message.sent) * 1e3, how,
                        walls_in_words(message, first));
@@ -254,7 +254,7 @@ std::string lost_in_words(const MessageAtRobot& message, const FrameList& lost) 
         {Outcome::collided, "while other frames were on air"},
         {Outcome::busy, "while it was sending itself"},
         {Outcome::garbled, "by wrong bits"},
-        {Outcome::not_told, "as the trace has no record of their end"}};
+        {Outcome::not_told, "because the trace has no record of their end"}};
     std::string list;
     for (const auto& [outcome, words] : causes) {
         const std::size_t count = with_outcome(message, {outcome}).size();

@@ -51,7 +51,7 @@ class Ns2DayReader {
     std::string left_out() const {
         if (left_out_ == 0) return "";
         return fmt::format(
-            "{} messages are left out, because no other robot of the trace is their destination",
+            "{} messages are left out, because their destination is no other robot of the trace",
             left_out_);
     }
     std::vector<DayLog::Said> said;

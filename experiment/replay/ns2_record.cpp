@@ -110,11 +110,11 @@ std::vector<std::string> record_ns2_trace(const std::string& path, const std::st
     trace.close();
     std::vector<std::string> sentences = day.notices();
     sentences.emplace_back(
-        "An ns-2 trace tells no map and no radio: levels and reasons are those of ns-2's default "
-        "radio on an open field.");
+        "An ns-2 trace contains no map and no radio: levels and reasons are those of ns-2's "
+        "default radio on an open field.");
     sentences.emplace_back(
-        "An ns-2 trace tells no frames that were lost: who could have heard one is not shown. "
-        "Frames last until their first reception, time in the queue included.");
+        "An ns-2 trace contains no lost frames: which robots could have heard a lost frame is not "
+        "shown. Frames last until their first reception, including the time in the queue.");
     return sentences;
 }
 

@@ -159,7 +159,7 @@ LinkGaps link_gaps(const Scenario& scenario, const LinkGapsQuestion& question,
 
 std::string link_gaps_text(const LinkGapsQuestion& question, const LinkGaps& gaps) {
     if (gaps.present == Duration{0})
-        return fmt::format("{} is not there during the run", question.robot);
+        return fmt::format("{} is not present during the run", question.robot);
     const std::string to = fmt::format("{}{}{}", fmt::join(question.partners, " or "),
                                        question.relays.empty() ? "" : ", also over ",
                                        fmt::join(question.relays, ", "));

@@ -58,7 +58,7 @@ Address read_loopback(const std::string& text) {
     const Address address{host, read_port(text, text.substr(colon + 1))};
     if (!is_number(host)) fail(text, fmt::format("found the host \"{}\"", host));
     if (!address.is_loopback()) {
-        fail(text, "only with the option --listen can other machines connect");
+        fail(text, "other machines can connect only with the option --listen");
     }
     return address;
 }

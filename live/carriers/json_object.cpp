@@ -119,9 +119,9 @@ simdjson::dom::array JsonElement::array() const {
 void fail_unknown_key(const JsonPath& object, std::string_view key,
                       std::vector<std::string> known) {
     const std::string meant = did_you_mean(key, known);
-    const std::string message =
-        fmt::format("unknown key \"{}\"; {}", key,
-                    meant.empty() ? fmt::format("known are {}", fmt::join(known, ", ")) : meant);
+    const std::string message = fmt::format(
+        "unknown key \"{}\"; {}", key,
+        meant.empty() ? fmt::format("known keys are {}", fmt::join(known, ", ")) : meant);
     throw RequestError("unknown_key", JsonPath{.above = &object, .key = key}.text(), message);
 }
 

@@ -119,8 +119,8 @@ void BonnMotionReader::refuse_track() const {
         {.source = numbers_.source()},
         fmt::format(
             "each of its {} lines has one place, at a later time than the line before: this is a "
-            "track, with a line for each time; expected a line for each robot, \"time x y\" once "
-            "or more in it (of a track of one robot: tr '\\n' ' ' < TRACK > FILE)",
+            "track, with a line for each time; expected a line for each robot, with \"time x y\" "
+            "once or more (to convert a track of one robot: tr '\\n' ' ' < TRACK > FILE)",
             robots.size()));
 }
 

@@ -141,7 +141,7 @@ void FcdReader::enter_root() {
     tags_.next();
     if (tags_.name() != "fcd-export") {
         fail_at(tags_.where(), {tags_.name(), tags_.where().column + 1},
-                "fcd-export: the only kind of XML that holds movements here");
+                "fcd-export, the only kind of XML file with movements that can be read");
     }
 }
 
@@ -176,8 +176,8 @@ void FcdReader::refuse_degrees() const {
             "the places are in degrees: {}; expected metres, as SUMO writes them without "
             "--fcd-output.geo",
             is_told
-                ? "the head of the file says that fcd-output.geo is on"
-                : "according to their speeds the robots go more than a thousand times farther"));
+                ? "the head of the file states that fcd-output.geo is on"
+                : "according to their speeds the robots move more than a thousand times farther"));
 }
 
 /// Adds the path from the previous position to both sums, if the speed is given.

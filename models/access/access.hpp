@@ -170,7 +170,7 @@ struct ArpSettings {
             field("arp", &ArpSettings::arp, "whether robots ask for the address of a next hop"),
             field("arp_timeout", &ArpSettings::arp_timeout,
                   Range{.low = 0, .high = 1e18, .low_included = false, .text = "> 0 s"},
-                  "after which an address is forgotten; never if not given"));
+                  "time after which an address is forgotten; never if not given"));
     }
 };
 

@@ -85,33 +85,36 @@ struct Csma {
         constexpr Range counts{.low = 1, .high = 1000000, .text = "from 1 to 1000000"};
         constexpr Range window{.low = 0, .high = 65535, .text = "from 0 to 65535"};
         return describe(
-            field("slot", &Csma::slot, non_negative, "of the backoff"),
-            field("queue", &Csma::queue, counts, "frames that wait at a robot, at most"),
+            field("slot", &Csma::slot, non_negative, "slot of the backoff"),
+            field("queue", &Csma::queue, counts, "largest number of frames that wait at a robot"),
             field("standard", &Csma::standard,
-                  "its timing and airtimes; 802.11a and 802.11g: [radio] rate and preamble are "
-                  "54 Mb/s and 20 us if not given"),
+                  "standard whose timing and airtimes are used; with 802.11a and 802.11g, the "
+                  "defaults of [radio] rate and preamble are 54 Mb/s and 20 us"),
             field("sifs", &Csma::sifs, non_negative, "short interframe space"),
             field("difs", &Csma::difs, non_negative, "DCF interframe space"),
             field("cca_time", &Csma::cca_time, non_negative,
-                  "energy is sensed so long after it came"),
+                  "time from the arrival of energy until it is sensed"),
             field("turnaround", &Csma::turnaround, non_negative,
-                  "from deciding to send to sending"),
+                  "time from the decision to send until the frame begins"),
             field("rx_start_delay", &Csma::rx_start_delay, non_negative,
-                  "until the beginning of an answer is noticed"),
+                  "time after which an answer counts as missing, in addition to a SIFS and a slot"),
             field("cw_min", &Csma::cw_min, window, "least contention window, in slots"),
             field("cw_max", &Csma::cw_max, window, "largest contention window, in slots"),
             field("basic_rates", &Csma::basic_rates,
-                  "broadcasts and RTS go at the lowest, answers at the highest not above the "
-                  "asker's"),
+                  "broadcasts and RTS use the lowest of these rates; answers use the highest one "
+                  "that does not exceed the rate of the frame that they answer"),
             field("eifs", &Csma::eifs,
-                  "longer wait after a frame that was begun and lost (standard), sensed and not "
-                  "decoded (ns2), or none"),
+                  "longer wait after a frame whose reception began and failed (standard), after "
+                  "every frame that was sensed but not decoded (ns2), or never (none)"),
             field("immediate_access", &Csma::immediate_access,
                   "a station that finds the medium idle sends without a backoff"),
-            field("short_retries", &Csma::short_retries, non_negative, "attempts; 0: no end"),
-            field("long_retries", &Csma::long_retries, non_negative, "behind an RTS; 0: no end"),
-            field("rts_threshold", &Csma::rts_threshold, "larger unicasts ask with an RTS first"),
-            field("header", &Csma::header, "that access adds to a message"),
+            field("short_retries", &Csma::short_retries, non_negative,
+                  "number of attempts; 0: unlimited"),
+            field("long_retries", &Csma::long_retries, non_negative,
+                  "number of attempts for frames that follow an RTS; 0: unlimited"),
+            field("rts_threshold", &Csma::rts_threshold,
+                  "unicasts larger than this are preceded by an RTS"),
+            field("header", &Csma::header, "bytes that access adds to a message"),
             field("priority", &Csma::priority, "packets of the routing protocol go first"));
     }
 

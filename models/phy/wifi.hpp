@@ -107,8 +107,8 @@ struct Wifi {
 
     static constexpr auto fields() {
         return describe(field("framing", &Wifi::framing,
-                              "standard whose symbols and fields frames are made of; without one "
-                              "they last as long as their bits"));
+                              "standard by whose symbols and fields the duration of a frame is "
+                              "computed; without a standard, a frame lasts as long as its bits"));
     }
 
     /// Functions of a physical layer, see PhysicalLayer.

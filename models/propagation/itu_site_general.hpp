@@ -62,7 +62,7 @@ struct ItuSiteGeneral {
         return describe(
             field("site", &ItuSiteGeneral::site, "kind of site: office, corridor or industrial"),
             field("los", &ItuSiteGeneral::los,
-                  "line of sight: map, as the scene's walls say; yes; or no"));
+                  "line of sight: map (decided by the scene's walls), yes or no"));
     }
 
     LossShape shape() const {

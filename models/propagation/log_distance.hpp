@@ -34,17 +34,18 @@ struct LogDistance {
     Db excess{0};
 
     static constexpr auto fields() {
-        return describe(field("exponent", &LogDistance::exponent, positive,
-                              "n, path loss exponent: 2 free space, about 4 an obstructed office")
-                            .linear(2),
-                        field("sigma", &LogDistance::sigma, non_negative,
-                              "standard deviation of the link's shadowing; 0 for the median")
-                            .spread(),
-                        field("reference_distance", &LogDistance::reference_distance, positive,
-                              "d0, below which the loss is held"),
-                        field("excess", &LogDistance::excess,
-                              "loss at d0 beyond that of free space; what a fit finds")
-                            .constant(far_from_zero));
+        return describe(
+            field("exponent", &LogDistance::exponent, positive,
+                  "n, path loss exponent: 2 is free space, about 4 an obstructed office")
+                .linear(2),
+            field("sigma", &LogDistance::sigma, non_negative,
+                  "standard deviation of the link's shadowing; 0 for the median")
+                .spread(),
+            field("reference_distance", &LogDistance::reference_distance, positive,
+                  "d0; at shorter distances the median loss is that at d0"),
+            field("excess", &LogDistance::excess,
+                  "loss at d0 in addition to that of free space; a fit determines it")
+                .constant(far_from_zero));
     }
 
     /// Shape of the loss: by_pair with shadowing, otherwise by_distance.

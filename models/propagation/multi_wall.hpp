@@ -53,21 +53,22 @@ struct MultiWall {
     static constexpr auto fields() {
         return describe(
             field("exponent", &MultiWall::exponent, positive,
-                  "n, path loss exponent apart from walls: 2 free space")
+                  "n, path loss exponent without the walls: 2 is free space")
                 .linear(2),
             field("excess", &MultiWall::excess,
-                  "loss at 1 m beyond that of free space; what a fit finds")
+                  "loss at 1 m in addition to that of free space; a fit determines it")
                 .constant(far_from_zero),
             field("light_wall", &MultiWall::light_wall, non_negative,
-                  "loss of a wall drawn thinner than 10 cm, if its material gives none")
+                  "loss of a wall that is drawn thinner than 10 cm, if its material has no loss of "
+                  "its own")
                 .linear(0),
             field("heavy_wall", &MultiWall::heavy_wall, non_negative,
-                  "loss of a thicker wall, if its material gives none")
+                  "loss of a thicker wall, if its material has no loss of its own")
                 .linear(0),
             field("floor_loss", &MultiWall::floor_loss, non_negative, "loss of one floor"),
             field("floor_saving", &MultiWall::floor_saving,
                   Range{.low = 0, .high = 1, .text = "from 0 to 1"},
-                  "b: further floors take less than the first"));
+                  "b: further floors have less loss than the first one; 0: the same loss"));
     }
 
     LossShape shape() const { return LossShape::by_walls; }

@@ -114,8 +114,8 @@ class Summing {
 void Rays::check_scene(const Scene& scene) const {
     if (scene.storeys().size() == 1) return;
     throw std::invalid_argument(
-        fmt::format("rays: found a scene of {} storeys, and paths are traced in one; expected a "
-                    "scene of one map, or another model, such as multi_wall",
+        fmt::format("rays: found a scene of {} storeys, but paths are traced within one storey "
+                    "only; expected a scene with one map, or another model, such as multi_wall",
                     scene.storeys().size()));
 }
 

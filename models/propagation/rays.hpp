@@ -95,22 +95,23 @@ struct Rays {
     static constexpr auto fields() {
         return describe(
             field("order", &Rays::order, Range{.low = 0, .high = 3, .text = "from 0 to 3"},
-                  "most reflections of a path"),
+                  "largest number of reflections of a path"),
             field("diffraction", &Rays::diffraction,
-                  "ways around edges of walls: none, knife_edge or utd"),
+                  "paths around edges of walls: none, knife_edge or utd"),
             field("sum", &Rays::sum,
-                  "power, the local mean; or coherent, one place with its fading, 3 to 5 dB off "
-                  "(rms) where walls are not along the cells"),
-            field("wall", &Rays::wall, "what walls are made of whose material gives no loss"),
+                  "power: the local mean; coherent: the level at one place, with its fading, and "
+                  "errors of 3 to 5 dB (rms) where walls are not parallel to the cells of the map"),
+            field("wall", &Rays::wall, "material of walls for which the scenario gives no loss"),
             field("wall_loss", &Rays::wall_loss, non_negative,
-                  "loss of a crossing of such a wall, in place of what `wall` takes")
+                  "loss of a crossing of a wall for which the scenario gives no loss, instead of "
+                  "the loss of the material `wall`")
                 .searched(10),
             field("reflection_loss", &Rays::reflection_loss, non_negative,
-                  "loss of a reflection by a material that is given in dB")
+                  "loss of a reflection by a material whose loss is given in dB")
                 .searched(6),
             field("max_paths", &Rays::max_paths,
                   Range{.low = 1, .high = 1000, .text = "from 1 to 1000"},
-                  "most paths that are added, the strongest ones"));
+                  "largest number of paths that are added; the strongest ones are taken"));
     }
 
     /// Forms of the model from the cheapest to the most detailed one, for `rovernet advise`.

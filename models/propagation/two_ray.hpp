@@ -73,14 +73,16 @@ struct TwoRay {
     static constexpr auto fields() {
         return describe(
             field("lowest_antenna", &TwoRay::lowest_antenna, positive,
-                  "height above z = 0 that a lower antenna counts as having"),
+                  "smallest antenna height above z = 0; lower antennas are treated as if they were "
+                  "at this height"),
             field("form", &TwoRay::form,
                   "ns2: free space, then the 4th power of the distance; exact: the sum of the two "
                   "rays"),
-            field("polarization", &TwoRay::polarization, "of form exact: vertical or horizontal"),
+            field("polarization", &TwoRay::polarization, "for form exact: vertical or horizontal"),
             field("ground_permittivity", &TwoRay::ground_permittivity,
                   Range{.low = 1, .text = ">= 1"},
-                  "of form exact: relative permittivity of the ground, 3 very dry to 30 wet"));
+                  "for form exact: relative permittivity of the ground, from 3 (very dry) to 30 "
+                  "(wet)"));
     }
 
     /// Forms of the model from the cheapest to the most detailed one, for `rovernet advise`.

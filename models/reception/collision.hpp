@@ -60,7 +60,7 @@ struct Collision {
 
     static constexpr auto fields() {
         return describe(field("capture_ratio", &Collision::capture_ratio, positive,
-                              "how much stronger a frame is that survives another"),
+                              "a frame survives another one if it is stronger by this ratio"),
                         field("capture", &Collision::capture,
                               "which of two frames may survive: the first, or also the later one"));
     }

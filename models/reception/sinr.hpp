@@ -45,10 +45,11 @@ struct Sinr {
     Db preamble_threshold{4};
 
     static constexpr auto fields() {
-        return describe(field("interference_cut", &Sinr::interference_cut, non_negative,
-                              "frames weaker than the sensitivity by this are left out"),
-                        field("preamble_threshold", &Sinr::preamble_threshold,
-                              "a receiver finds preambles that are so much above the rest"));
+        return describe(
+            field("interference_cut", &Sinr::interference_cut, non_negative,
+                  "frames that are weaker than the sensitivity by more than this are ignored"),
+            field("preamble_threshold", &Sinr::preamble_threshold,
+                  "SINR from which on a receiver detects a preamble"));
     }
 
     /// Creates the judge for one Network.

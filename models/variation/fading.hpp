@@ -62,13 +62,14 @@ struct Fading {
         return describe(
             field("model", &Fading::model, "none, rayleigh, rician or nakagami"),
             field("coherence", &Fading::coherence,
-                  "frame: each frame has its fade at each receiver; place: the places have it"),
+                  "frame: each frame has its own fade at each receiver; place: the fade depends on "
+                  "the places of both robots"),
             field("k_factor", &Fading::k_factor,
                   Range{.low = -100, .high = 30, .text = "from -100 dB to 30 dB"},
-                  "of rician: the line of sight over all other waves"),
+                  "for rician: power of the line of sight relative to all other waves"),
             field("m", &Fading::m, Range{.low = 0.5, .high = 100, .text = "from 0.5 to 100"},
-                  "of nakagami: shape; 1 is rayleigh. Of places, levels are crossed as often as in "
-                  "theory if 2 m is whole"));
+                  "for nakagami: shape; 1 is rayleigh. With coherence = \"place\", levels are "
+                  "crossed as often as in theory only if 2 m is a whole number"));
     }
 
     /// Quantile of the power g relative to its local mean [-]: g is below the quantile with

@@ -49,11 +49,13 @@ struct Shadowing {
     static constexpr auto fields() {
         return describe(
             field("model", &Shadowing::model,
-                  "none; link: a draw of each pair of robots; field: of both places"),
+                  "none; link: one draw for each pair of robots; field: a draw that depends on the "
+                  "places of both robots"),
             field("sigma", &Shadowing::sigma, non_negative, "standard deviation of the shadowing"),
             field("decorrelation_distance", &Shadowing::decorrelation_distance,
                   Range{.low = 1e-3, .text = ">= 1 mm"},
-                  "of field: the correlation falls to 1 / e as one end moves so far"));
+                  "for field: distance after which the correlation falls to 1 / e if one end of "
+                  "the link moves"));
     }
 };
 

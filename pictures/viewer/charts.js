@@ -160,7 +160,7 @@ const charts = (() => {
         if (own.drag || own.asked === Infinity || goes_on && now < own.asked + again_ms) return;
         own.asked = goes_on ? now : Infinity;
         server.ask("series", {}).then(answer => {
-            fill(answer.series, answer.metrics, ...(answer.from_ns > 0 ? [dom.make("p", "muted", `From ${words.seconds(answer.from_ns, 3)} s on, when a page came.`)] : []));
+            fill(answer.series, answer.metrics, ...(answer.from_ns > 0 ? [dom.make("p", "muted", `From ${words.seconds(answer.from_ns, 3)} s on, when a page was opened.`)] : []));
             main.redraw();
         }, error => dom.by_id("charts-panel").replaceChildren(dom.make("p", "muted", error.message)));
     }

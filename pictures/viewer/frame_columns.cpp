@@ -23,7 +23,7 @@ constexpr std::string_view words_of(DropReason reason) {
         case DropReason::off: return "robot was switched off";
         case DropReason::queue_full: return "queue was full";
         case DropReason::retries: return "no acknowledgement";
-        case DropReason::end: return "robot was switched off, with a queue";
+        case DropReason::end: return "still in the queue when the robot was switched off";
         case DropReason::unheard: return "destination out of range";
         case DropReason::cut_off: return "the run ended";
         case DropReason::held: return "the run ended, before it was sent";

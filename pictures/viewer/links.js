@@ -161,7 +161,7 @@ const links = (() => {
     /** Shows links, or takes them away. */
     function toggle() {
         const on = !selection.state.links;
-        if (on && !server.is_served() && !sides.shown().some(i => by_trace(lines_on(i)))) own.say(`The trace tells no links: record it with \u201c--set trace.links=true\u201d, or open it by \u201crovernet view\u201d.`);
+        if (on && !server.is_served() && !sides.shown().some(i => by_trace(lines_on(i)))) own.say(`The trace has no links: record it with \u201c--set trace.links=true\u201d, or open it by \u201crovernet view\u201d.`);
         else own.say("");
         for (const of of own.of) if (of) of.failed = "";
         selection.set({ links: on });

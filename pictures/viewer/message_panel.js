@@ -92,7 +92,7 @@ const message_panel = (() => {
         const parts = [dom.make("h2", "", r.message_text(message)), facts(message),
             dom.make("p", "", `${wanted.length - missing.length} of ${words.counted(wanted.length, "robot")} have it, after ${words.counted(flood.frames, "frame")}` +
                 (flood.whole ? "." : ", in the part of the run that was read."))];
-        if (flood.first.size) parts.push(dom.make("h3", "", "Who has it from whom"), dom.make("div", "tree", robot_button(origin), branch(flood, children, origin, budget)));
+        if (flood.first.size) parts.push(dom.make("h3", "", "Who got it from whom"), dom.make("div", "tree", robot_button(origin), branch(flood, children, origin, budget)));
         if (budget.left < 0) parts.push(dom.make("p", "muted", `The first ${most_rows} are shown.`));
         if (missing.length) {
             parts.push(dom.make("h3", "", `Without it: ${words.counted(missing.length, "robot")}`), dom.make("ul", "plain", ...missing.slice(0, most_rows).map(robot => without(flood, robot))));
@@ -166,7 +166,7 @@ const message_panel = (() => {
         return [item(24, c => {
             pen.take(c, theme.colors().accent, 2.4);
             pen.line(c, 0, 8, 24, 8);
-        }, "way of the message, with its hops")];
+        }, "path of the message, with its hops")];
     }
 
     /** @param {Run} r @param {Blocks} all */

@@ -93,7 +93,7 @@ const robot_panel = (() => {
 
     /** Heading with a button that asks the server, and the place of the answer. @param {string} title @param {string} id @param {string} op @param {number} robot @param {(answer: any) => Node} shown */
     function asked(title, id, op, robot, shown) {
-        const heading = dom.make("h3", "", title), place = dom.make("div", "", dom.make("p", "muted", server.is_served() ? "asked at the time shown" : server.how));
+        const heading = dom.make("h3", "", title), place = dom.make("div", "", dom.make("p", "muted", server.is_served() ? "the answer is for the time shown" : server.how));
         place.id = id;
         if (server.is_served()) heading.append(" ", dom.button("ask", "small", () => {
             place.textContent = "\u2026";
@@ -104,7 +104,7 @@ const robot_panel = (() => {
 
     /** @param {any} answer */
     function neighbours(answer) {
-        return answer.links.length ? tables.of(answer.links, ["robot", "level_dbm", "margin_db", "noise_dbm", "quality"]) : dom.make("p", "muted", "nobody hears it");
+        return answer.links.length ? tables.of(answer.links, ["robot", "level_dbm", "margin_db", "noise_dbm", "quality"]) : dom.make("p", "muted", "it hears nobody");
     }
 
     /** @param {number} robot */

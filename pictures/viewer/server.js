@@ -6,7 +6,7 @@ const server = (() => {
     /** @type {{socket: WebSocket|null, served: boolean, query: string, file: (bytes: Uint8Array) => void, gone: () => void, next: number, open: Map<number, {done: (answer: any) => void, failed: (error: Error) => void}>}} */
     const own = { socket: null, served: false, query: "", file: () => {}, gone: () => {}, next: 1, open: new Map() };
 
-    const how = "This page is a file, so nobody answers. Open the run by \u201crovernet view RUN\u201d to ask.";
+    const how = "This page is a file without a server. To ask, open the run by \u201crovernet view RUN\u201d.";
 
     const token_hint = "Open the address with ?token= that it printed at its start.";
 

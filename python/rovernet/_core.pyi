@@ -13,7 +13,7 @@ Scenario = Union[Path, Mapping[str, Any]]
 Kind = str  # of the table in docs/guide/python.md: "sent", "received", "link_up"
 
 class InputError(ValueError):
-    """Mistake in a scenario or another input. str() is what the command prints."""
+    """Mistake in a scenario or another input. str() is the message that the command prints."""
 
     file: str
     line: Optional[int]

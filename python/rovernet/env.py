@@ -87,7 +87,7 @@ def _all_off(session: Session, heard: Sequence[Heard]) -> bool:
 
 
 def _observations(session: Session, observe: Optional[Observe]) -> tuple[Callable, Optional[tuple]]:
-    """Function of observations, and (low, high, shape) of one robot's; None: the caller has to say."""
+    """Function of observations, and (low, high, shape) of one robot's observations; None: not known."""
     if observe is None or observe == "pose":
         return _pose, (-np.inf, np.inf, (3,))
     if observe == "scan":
@@ -139,13 +139,13 @@ class ParallelEnv(_Episodes, PettingZooEnv):
     An episode ends for all robots, truncated, at the end of the scenario; for a robot that is switched off
     it is terminated, and the robot leaves `agents`. `infos[agent]["heard"]` has the messages of the step.
 
-    scenario, step, seed, set, robots: as those of Session
+    scenario, step, seed, set, robots: see Session
     reward(session, heard): rewards of the step, as an array (n,) or a dict by agent
     observe(session, heard): observations, as an array with a row for each robot or a dict by agent;
-        "pose" or None: x [m], y [m] and heading [rad]; "scan": what the first range finder measures [m]
-    observation_space: of one agent; has to be given with a function that observes
+        "pose" or None: x [m], y [m] and heading [rad]; "scan": distances of the first range finder [m]
+    observation_space: of one agent; required if `observe` is a function
     act(session, actions): carries out the dict of actions; None: an action is speed [m/s] and turn rate
-        [rad/s], and a robot without one goes on as it was told
+        [rad/s], and a robot without an action keeps its last command
     action_space: of one agent; None: speed and turn rate from -1 to 1
     terminated(session, heard): which robots have ended their episode, as an array (n,); None: those
         that are off
@@ -231,11 +231,11 @@ class ParallelEnv(_Episodes, PettingZooEnv):
 class Env(_Episodes, GymnasiumEnv):
     """All robots of a scenario under one controller, in the shape of Gymnasium's Env.
 
-    scenario, step, seed, set, robots: as those of Session
+    scenario, step, seed, set, robots: see Session
     reward(session, heard): reward of the step
     observe(session, heard): observation; "pose" or None: (n, 3), x [m], y [m] and heading [rad] of each
-        robot; "scan": (n, beams), what the first range finder of each measures [m]
-    observation_space: has to be given with a function that observes
+        robot; "scan": (n, beams), distances of the first range finder of each robot [m]
+    observation_space: required if `observe` is a function
     act(session, action): carries out the action; None: (n, 2), speed [m/s] and turn rate [rad/s] of each robot
     action_space: None: speeds and turn rates from -1 to 1
     terminated(session, heard): whether the episode has ended; None: once all robots are off

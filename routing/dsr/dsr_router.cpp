@@ -79,8 +79,9 @@ std::size_t DsrRouter::pairs_too_far() const {
 std::string DsrRouter::notice() const {
     const std::size_t pairs = pairs_too_far();
     if (pairs == 0) return {};
-    return fmt::format("dsr: {} pair{} of robots lost messages, as a route has at most {} robots",
-                       pairs, pairs == 1 ? "" : "s", Path::longest);
+    return fmt::format(
+        "dsr: {} pair{} of robots lost messages, because a route has at most {} robots", pairs,
+        pairs == 1 ? "" : "s", Path::longest);
 }
 
 void DsrRouter::forget(MessageId message) {

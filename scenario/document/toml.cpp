@@ -179,10 +179,10 @@ std::string_view advice_for(std::string_view description) {
         std::string_view words, advice;
     };
     constexpr Slip slips[] = {
-        {"expected a comment or whitespace", "texts and quantities stand in quotes: \"30 mW\""},
+        {"expected a comment or whitespace", "texts and quantities need quotes: \"30 mW\""},
         {"expected '='", "a line is KEY = VALUE, [TABLE] or [[LIST OF TABLES]]"},
         {"parsing boolean", "true and false have small letters"},
-        {"dangling comma", "no comma stands before }"},
+        {"dangling comma", "there must be no comma before }"},
         {"inline table", "what begins with { ends with } on the same line"},
         {"invalid utf-8", "save the file as UTF-8"},
     };

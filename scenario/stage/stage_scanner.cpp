@@ -187,8 +187,8 @@ void ScannerReader::sensors(const WorldEntity& ranger,
     }
     if (several) {
         note(ranger.where,
-             "a ranger with several sensors has one beam for each sensor, the middle one of its "
-             "samples");
+             "a ranger with several sensors gets one beam for each sensor: the middle sample of "
+             "that sensor");
     }
     table.set("range", std::move(range));
     end_ring(std::move(table), ranger);
@@ -210,7 +210,8 @@ void ScannerReader::transducers(const WorldEntity& ranger, const WorldPose& pose
         if (each.name.starts_with("spose[")) poses[each.name] = &each;
         has_views = has_views || each.name.starts_with("sview[");
     }
-    if (has_views) note(ranger.where, "sview[i] of a ranger is not read, as in Stage; sview is");
+    if (has_views)
+        note(ranger.where, "sview[i] of a ranger is ignored, as in Stage; sview is read");
     if (!poses.empty()) return transducers(std::move(table), ranger, poses, count);
     table.set("beams", placed(count, ranger.where));
     table.set("from", angle_value(0, ranger.where));

@@ -177,7 +177,7 @@ void Gatherer::check_label(const Table& radio, std::string_view key, const std::
         labels_.try_emplace(fmt::format("{} \"{}\"", key, *label->string()), name, label->where);
     if (is_new) return;
     note(world_notice(label->where,
-                      fmt::format("{} of {} is also that of {}, at {}", other->first, name,
+                      fmt::format("{} of {} is also used by {}, at {}", other->first, name,
                                   other->second.first, other->second.second.text())));
 }
 
@@ -199,8 +199,8 @@ void Gatherer::summaries() {
     summary(nameless_, "names are generated for robots without a name");
     summary(namesakes_, "new names are generated for robots whose name is already in use");
     summary(modelless_, "a wifi without a model uses the model in [propagation], by default friis");
-    summary(flying_, "z is left out, as in the 2007 radio, for");
-    summary(doubled_, "only the first wifi counts of");
+    summary(flying_, "the height z is ignored, as in the wifi model of the 2007 thesis, for");
+    summary(doubled_, "only the first wifi is used of");
     summary(plain_,
             "robots without a wifi have the radio of [radio] and the model of [propagation], friis "
             "by default");

@@ -33,13 +33,16 @@ struct MetricsTable {
     static constexpr auto fields() {
         return describe(
             field("reach", &MetricsTable::reach,
-                  "reach; if not given, as long as it costs no more than the frames"),
-            field("flows", &MetricsTable::flows, "delivery, throughput, latency of each flow"),
-            field("robots", &MetricsTable::robots, "the same of what each robot gets"),
+                  "compute the metric reach; if not given, it is computed as long as this takes no "
+                  "longer than the frames themselves"),
+            field("flows", &MetricsTable::flows,
+                  "compute delivery, throughput and latency of each flow"),
+            field("robots", &MetricsTable::robots,
+                  "compute delivery, throughput and latency of the messages for each robot"),
             field("topology", &MetricsTable::topology,
-                  "degree, components, mean speed, lifetime of links"),
+                  "compute degree, components, mean speed and lifetime of links"),
             field("path_stretch", &MetricsTable::path_stretch,
-                  "hops of routed unicasts over those of the shortest path"));
+                  "compute the hops of routed unicasts, divided by those of the shortest path"));
     }
 };
 

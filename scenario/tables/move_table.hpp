@@ -59,10 +59,11 @@ struct WaypointsTable {
     static constexpr auto fields() {
         return describe(
             field("path", &WaypointsTable::path, "places to go to, one after the other"),
-            field("speed", &WaypointsTable::speed, positive, "between the places"),
+            field("speed", &WaypointsTable::speed, positive, "speed between the places"),
             field("times", &WaypointsTable::times,
-                  "when to be at each place of the path, instead of a speed"),
-            field("order", &WaypointsTable::order, "given, or shuffled anew in each replication"));
+                  "times at which the robot is at each place of the path, instead of a speed"),
+            field("order", &WaypointsTable::order,
+                  "given: as listed; shuffled: drawn anew in each replication"));
     }
 };
 /// Names of WaypointsTable::Order in scenario files.
@@ -85,10 +86,10 @@ struct GoalTable {
     MetersPerSecond speed{1};
 
     static constexpr auto fields() {
-        return describe(field("to", &GoalTable::to, "where to go, around the walls"),
+        return describe(field("to", &GoalTable::to, "place to go to, around the walls"),
                         field("among", &GoalTable::among,
-                              "instead of to: one of these, drawn anew in each replication"),
-                        field("speed", &GoalTable::speed, positive, "on the way"));
+                              "instead of `to`: places, one of which is drawn in each replication"),
+                        field("speed", &GoalTable::speed, positive, "speed on the path"));
     }
 };
 

@@ -44,7 +44,8 @@ struct MovementTable {
             field("file", &MovementTable::file,
                   "movements of ns-2 (setdest), BonnMotion or SUMO (FCD), for the robots it names"),
             field("syntax", &MovementTable::syntax,
-                  "strict: a line that means nothing is an error; tolerant: it is left out"));
+                  "strict: a line that cannot be read is an error; tolerant: such lines are "
+                  "ignored"));
     }
 };
 

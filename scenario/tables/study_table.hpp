@@ -86,14 +86,16 @@ struct StudyTable {
         constexpr Range share{.low = 0.5, .high = 0.9999, .text = "from 0.5 to 0.9999"};
         using S = StudyTable;
         return describe(
-            field("replications", &S::replications, counts, "independent repetitions, at least"),
-            field("confidence", &S::confidence, share, "of the intervals"),
-            field("interval", &S::interval,
-                  "of means: t, betting or star; by default star where a metric has two bounds"),
+            field("replications", &S::replications, counts,
+                  "number of independent repetitions; with `precision`, the smallest number"),
+            field("confidence", &S::confidence, share, "confidence level of the intervals"),
+            field("interval", &S::interval, "method of the intervals of means: t, betting or star"),
             field("precision", &S::precision, positive,
-                  "repeats until the interval of the first metric has this half-width"),
-            field("max_replications", &S::max_replications, counts, "for precision, at most"),
-            field("metrics", &S::metrics, "what results and pictures show first"));
+                  "replications are added until the interval of the first metric has this "
+                  "half-width"),
+            field("max_replications", &S::max_replications, counts,
+                  "with `precision`: the largest number of replications"),
+            field("metrics", &S::metrics, "metrics that results and pictures show first"));
     }
 };
 

@@ -40,10 +40,13 @@ struct TraceTable {
     bool links = false;
 
     static constexpr auto fields() {
-        return describe(field("ns2", &TraceTable::ns2, "wireless trace format of ns-2.35"),
-                        field("mac", &TraceTable::mac, "lines of the MAC layer in it, too"),
-                        field("record", &TraceTable::record, "trace of all records, to replay"),
-                        field("links", &TraceTable::links, "changes of links in that, too"));
+        return describe(field("ns2", &TraceTable::ns2,
+                              "write a trace in the wireless format of ns-2.35, old or new"),
+                        field("mac", &TraceTable::mac,
+                              "also write the lines of the MAC layer to the ns-2 trace"),
+                        field("record", &TraceTable::record,
+                              "write a recorded trace with all records, for replay"),
+                        field("links", &TraceTable::links, "also record the changes of links"));
     }
 };
 

@@ -73,7 +73,7 @@ TrafficTable read_traffic(const Value& value) {
     if (!given("payload") && !traffic.size) {
         table.missing("payload", "payload = \"F\", or size = \"64 B\"");
     }
-    if (to_one && !traffic.to) table.missing("to", "to = \"B\": whom a unicast is for");
+    if (to_one && !traffic.to) table.missing("to", "to = \"B\", the receiver of the unicast");
     table.reject_unknown();
     check_receiver(traffic);
     check_stop(traffic, table);
@@ -83,7 +83,7 @@ TrafficTable read_traffic(const Value& value) {
             "every: saturated traffic always has a message to send; expected no key \"every\"");
     }
     if (!traffic.every && (traffic.stop || traffic.count)) {
-        table.missing("every", "every = \"3 s\": stop and count need it");
+        table.missing("every", "every = \"3 s\", which the keys \"stop\" and \"count\" need");
     }
     return traffic;
 }

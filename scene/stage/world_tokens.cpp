@@ -79,7 +79,7 @@ std::string Loader::text_of(const std::string& path, const Location& where) {
     file.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(file.gcount()));
     if (const std::string_view foreign = foreign_kind(text); !foreign.empty())
-        throw InputError(where, fmt::format("{}; expected a world file, unpacked", foreign));
+        throw InputError(where, fmt::format("{}; expected an uncompressed world file", foreign));
     return text;
 }
 

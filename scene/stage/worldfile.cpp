@@ -175,9 +175,8 @@ void Parser::tuple(std::size_t& at, WorldProperty& into) {
 /// Value of a number, with a notice if it is followed by ignored characters.
 double Parser::number(const WorldToken& token) {
     if (token.is_cut) {
-        note(where(token),
-             fmt::format("\"{}\" is read as {}, as in Stage; what follows counts nothing",
-                         token.text, token.number));
+        note(where(token), fmt::format("\"{}\" is read as {}, as in Stage; the rest is ignored",
+                                       token.text, token.number));
     }
     return token.number;
 }
@@ -251,9 +250,10 @@ void Parser::note_unknown_type(const WorldEntity& entity) {
     const bool many = unknown_types_.size() > enough;
     const std::string near = many ? "" : did_you_mean(entity.type, candidates);
     const WorldRole role = world_role(entity);
-    const char* fate = role == WorldRole::robot  ? "it is taken as a position, since it has a wifi"
-                       : role == WorldRole::wall ? "it is taken as a model, since it has a bitmap"
-                                                 : "it is ignored";
+    const char* fate =
+        role == WorldRole::robot  ? "it is treated as a position, because it has a wifi"
+        : role == WorldRole::wall ? "it is treated as a model, because it has a bitmap"
+                                  : "it is ignored";
     note(entity.where, fmt::format("unknown type \"{}\", no macro of that name; {}{}{}",
                                    entity.type, fate, near.empty() ? "" : "; ", near));
 }

@@ -9,7 +9,7 @@ namespace rovernet {
 
 void throw_too_many_events(const char* state, std::uint64_t limit) {
     throw RunError("more than " + std::to_string(limit) + " events are " + state +
-                   "; the run asks for too much at once, or something schedules without end");
+                   "; the run requests too many events at once, or schedules events without end");
 }
 
 }  // namespace rovernet

@@ -93,7 +93,7 @@ std::string nearness_text(const Advice& advice, const std::string& reference) {
 std::string saving_text(const Advice& advice, const CandidateCost& choice) {
     const CandidateCost& reference = advice.reference_cost;
     if (!(reference.run_s > 0) || !(choice.run_s > 0)) return "";
-    return fmt::format(" A run takes {:.2g} ms of CPU time in place of {:.2g} ms.",
+    return fmt::format(" A run takes {:.2g} ms of CPU time instead of {:.2g} ms.",
                        1e3 * choice.run_s, 1e3 * reference.run_s);
 }
 
@@ -110,7 +110,7 @@ std::string open_text(const JudgedCandidate& each) {
 }
 
 constexpr std::string_view to_go_on =
-    "A larger --budget continues; with --store the same command does.";
+    "To continue, give a larger --budget; with --store, the same command continues.";
 
 /// Candidates that are undecided, cheaper than the choice: they count as insufficient.
 std::string undecided_text(const Advice& advice) {
@@ -121,12 +121,13 @@ std::string undecided_text(const Advice& advice) {
     }
     if (open.empty()) return "";
     if (advice.stopped) {
-        return fmt::format(" Open when it was stopped, and taken as insufficient so far: {}. {}",
-                           fmt::join(open, ", "), to_go_on);
+        return fmt::format(
+            " Undecided when the command was stopped, and treated as insufficient so far: {}. {}",
+            fmt::join(open, ", "), to_go_on);
     }
     return fmt::format(
-        " Undecided within {} replications, and taken as insufficient: {}. More replications "
-        "(--max-replications) or a longer scenario tell more.",
+        " Undecided within {} replications, and treated as insufficient: {}. More replications "
+        "(--max-replications) or a longer scenario may decide them.",
         advice.rule.most, fmt::join(open, ", "));
 }
 
@@ -152,11 +153,9 @@ void add_costs(Advice& advice, Study& study, const std::function<bool()>& stoppe
     }
     if (!costs.models.empty()) {
         advice.cost_text = fmt::format(
-            "CPU/transmission: time of the medium to find its receivers; median of {} turns "
-            "of "
-            "{:.2g} s over the same {} frames\nof run: its share of CPU/run, which is the median "
-            "of "
-            "{} replications, without path planning",
+            "CPU/transmission: time that the medium takes to find the receivers of a transmission; "
+            "median of {} turns of {:.2g} s over the same {} frames\nof run: its share of CPU/run, "
+            "which is the median of {} replications, without path planning",
             costs.turns, costs.turn_s, costs.frames, runs.replications);
     }
 }
@@ -167,8 +166,8 @@ std::string advice_text(const Advice& advice) {
     const JudgedCandidate* chosen = advice.chosen();
     if (advice.knows_nothing()) {
         return fmt::format(
-            "Interim: nothing is known yet, as no candidate was compared with {}. {}", reference,
-            to_go_on);
+            "Interim: nothing is known yet, because no candidate was compared with {}. {}",
+            reference, to_go_on);
     }
     const std::string interim = advice.stopped ? "Interim: " : "";
     if (!chosen) {
@@ -181,8 +180,8 @@ std::string advice_text(const Advice& advice) {
         advice.rule.by_betting() ? ", whatever the distribution" : ", by Student's intervals");
     if (advice.saves_nothing()) {
         return fmt::format(
-            "Take the reference, {}: radio takes {} of its runs' CPU time ({:.2g} ms), so that a "
-            "cheaper model saves next to nothing. {} would be sufficient: {} ({}).{}",
+            "Take the reference, {}: radio takes {} of its runs' CPU time ({:.2g} ms), so a "
+            "cheaper model saves almost nothing. {} would be sufficient: {} ({}).{}",
             reference, percent_text(advice.reference_cost.share.value_or(0)),
             1e3 * advice.reference_cost.run_s, chosen->name, nearness_text(advice, reference), sure,
             undecided_text(advice));

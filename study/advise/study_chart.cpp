@@ -161,7 +161,7 @@ std::string varied_path(const std::vector<std::string>& paths, const std::string
     const std::string near = did_you_mean(word, words);
     throw std::invalid_argument(fmt::format(
         "the key \"{}\" {} in this study; expected {}{}{}", word,
-        found.empty() ? "does not vary" : "means several", paths.empty() ? "" : "one of ",
+        found.empty() ? "does not vary" : "matches several keys", paths.empty() ? "" : "one of ",
         paths.empty() ? "none, because nothing varies" : fmt::format("{}", fmt::join(paths, ", ")),
         near.empty() ? "" : "; " + near));
 }

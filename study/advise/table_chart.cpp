@@ -38,7 +38,7 @@ Chart table_chart(const std::string& path, const ChartQuestion& q) {
     if (kind != ChartKind::bars && (kind != ChartKind::lines || !numbers)) {
         throw std::invalid_argument(
             kind == ChartKind::lines
-                ? fmt::format("--kind: the column {} has words, so that lines have no x", q.x)
+                ? fmt::format("--kind: the column {} has words, so lines have no x values", q.x)
                 : "--kind: expected lines or bars, the charts of a table");
     }
     Chart chart{.kind = kind,

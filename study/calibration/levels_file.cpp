@@ -76,7 +76,7 @@ class LevelsReader {
                             needed,
                             receivers == Receivers::known
                                 ? ""
-                                : " (or the column place in place of the last two)"));
+                                : " (or the column place instead of the last two)"));
         }
     }
 

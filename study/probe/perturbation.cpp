@@ -205,7 +205,7 @@ Perturbation with_material(const Scenario& scenario, const Group& group, Db more
     for (RobotTable& robot : out.scenario.robots) {
         if (robot.propagation) has_number |= change(*robot.propagation, more, thickness.at(first));
     }
-    if (!has_number) out.nothing = "the model has no loss of a wall as a parameter";
+    if (!has_number) out.nothing = "the model has no parameter for the loss of a wall";
     return out;
 }
 

@@ -165,18 +165,18 @@ std::string evidence_text(const PairedComparison& c, bool turned) {
                        c.difference.n, p_text(c.p), words_of(c.method));
 }
 
-/// "; differences below 0.021 cannot be told apart at n = 30", of a difference that was found
-/// "; one of 0.021 is found in 80 % of such studies".
+/// "; differences below 0.021 cannot be detected at n = 30", of a difference that was found
+/// "; a difference of 0.021 is found in 80 % of such studies".
 std::string power_text(const PairedComparison& c) {
     if (!c.detectable) return "";
     const bool beyond_bounds = c.method != IntervalMethod::t && *c.detectable >= 1;
     if (beyond_bounds)
-        return fmt::format("; no difference can be told apart at n = {}", c.difference.n);
+        return fmt::format("; no difference can be detected at n = {}", c.difference.n);
     if (c.found()) {
-        return fmt::format("; one of {} is found in {:.0f} % of such studies",
+        return fmt::format("; a difference of {} is found in {:.0f} % of such studies",
                            Decimals(half_width_of(c))(*c.detectable), 100 * power);
     }
-    return fmt::format("; differences below {} cannot be told apart at n = {}",
+    return fmt::format("; differences below {} cannot be detected at n = {}",
                        Decimals(half_width_of(c))(*c.detectable), c.difference.n);
 }
 
@@ -184,8 +184,8 @@ std::string power_text(const PairedComparison& c) {
 std::string direction_text(std::string_view a, std::string_view b, const PairedComparison& c) {
     const bool up = c.above > c.below;
     return fmt::format(
-        "{} is {} {} in {} of {} replications and {} in {} (p {}, sign test); that the mean "
-        "differs is not shown ({}, {}){}",
+        "{} is {} {} in {} of {} replications and {} in {} (p {}, sign test); a difference of the "
+        "means is not shown ({}, {}){}",
         a, up ? "above" : "below", b, std::max(c.above, c.below), c.difference.n,
         up ? "below" : "above", std::min(c.above, c.below), p_text(*c.sign_p),
         Decimals(half_width_of(c))(c.difference.mean), evidence_text(c, false), power_text(c));
@@ -277,10 +277,10 @@ std::string equivalence_text(std::string_view a, std::string_view b, double marg
                            level, verdict.decided_at.value_or(n), n, smallest);
     }
     const std::string more =
-        verdict.needed ? fmt::format("about {} replications would decide, if they are as these are",
-                                     *verdict.needed)
-                       : "the number that would decide cannot be estimated";
-    return fmt::format("not decided by {} replications whether {} is within {:.6g} of {} ({}); {}",
+        verdict.needed
+            ? fmt::format("about {} replications like these would decide", *verdict.needed)
+            : "the number of replications that would decide cannot be estimated";
+    return fmt::format("{} replications do not decide whether {} is within {:.6g} of {} ({}); {}",
                        n, a, margin, b, level, more);
 }
 

@@ -126,9 +126,9 @@ TEST_CASE("input: compare names the robots that have their own propagation model
     const Ended ended = command(folder, {"compare", file, "--models", "friis,two_ray", "--workers",
                                          "1", "--replications", "2"});
     CHECK(ended.exit == 0);
-    CHECK(contains(
-        ended.err,
-        "have their own propagation model, so that [propagation] does not affect them: \"C\""));
+    CHECK(
+        contains(ended.err,
+                 "have their own propagation model, so [propagation] does not affect them: \"C\""));
 }
 
 }  // namespace input_test

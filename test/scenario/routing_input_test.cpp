@@ -98,7 +98,7 @@ TEST_CASE("routing input: a broadcast over one hop gives a notice") {
     const std::string text = all_notices("[[traffic]]\nfrom = \"A\"\nsize = \"9 B\"\nhops = 1\n");
     CHECK(text ==
           "s.toml:10:8: hops: with hops = 1 the routing protocol does not forward these "
-          "broadcasts, which only neighbours of \"A\" hear; without the key it does\n");
+          "broadcasts, so only neighbours of \"A\" hear them; without the key it forwards them\n");
     CHECK(all_notices("[[traffic]]\nfrom = \"A\"\nsize = \"9 B\"\n").empty());
     CHECK(has(error_of("[[traffic]]\nfrom = \"A\"\nsize = \"9 B\"\nhops = 2\n"),
               "s.toml:10:8: hops: found the number 2; expected a value of 1"));
@@ -138,7 +138,7 @@ TEST_CASE("routing input: a route of more than sixteen robots gives a notice at 
     };
     CHECK(notice_with(16).empty());
     CHECK(notice_with(18) ==
-          "dsr: 1 pair of robots lost messages, as a route has at most 16 robots");
+          "dsr: 1 pair of robots lost messages, because a route has at most 16 robots");
 }
 
 }  // namespace routing_input_test

@@ -102,7 +102,8 @@ TEST_CASE("scene: keys of other programs in a ROS map give one notice each") {
     on_ros_map.replace(on_ros_map.find(of_picture), of_picture.size(), "map = \"m.yaml\"");
     const Scenario scenario = load_scenario(folder.write("s.toml", on_ros_map), {});
     const auto of_map = [](const std::string& notice) {
-        return notice.ends_with("m.yaml:4:1: key \"map_type\" is not one of a map, and left out");
+        return notice.ends_with(
+            "m.yaml:4:1: key \"map_type\" is not a key of a map and is ignored");
     };
     CHECK(std::count_if(scenario.notices.begin(), scenario.notices.end(), of_map) == 1);
 }

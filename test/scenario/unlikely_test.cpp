@@ -131,8 +131,8 @@ TEST_CASE(
     "unlikely: switching a robot on that is already on, or off that is already off, gives a "
     "notice") {
     check_notice(robot_a + "on = [\"1 s\"]\noff = [\"5 s\"]\n",
-                 {":4:6: on: ", "on already at 1 s"});
-    check_notice(robot_a + "off = [\"1 s\", \"2 s\"]\n", {":4:7: off: ", "off already at 2 s"});
+                 {":4:6: on: ", "already on at 1 s"});
+    check_notice(robot_a + "off = [\"1 s\", \"2 s\"]\n", {":4:7: off: ", "already off at 2 s"});
 }
 
 TEST_CASE("unlikely: robots that start off the map give one notice") {
@@ -149,7 +149,7 @@ TEST_CASE(
     const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n";
     const std::string rays = "[propagation]\nmodel = \"rays\"\n";
     check_notice(on_map + robot + rays,
-                 {":7:1: the wall drawn behind x = ",
+                 {":7:1: the wall drawn at x = ",
                   "thicker than 0.5 m (walls of this scene: up to 1 m", "0.5 m thick"});
     CHECK(notices_of(on_map + robot).empty());
     CHECK(notices_of(robot + rays).empty());
@@ -174,7 +174,7 @@ TEST_CASE("unlikely: with the model multi_wall, a thick wall without a material 
     REQUIRE(noticed.size() == 1);
     CAPTURE(noticed[0]);
     for (const char* part :
-         {":7:1: the wall drawn behind x = ", "is thicker than 0.8 m",
+         {":7:1: the wall drawn at x = ", "is thicker than 0.8 m",
           "(walls of this scene: up to 0.9 m)", "the loss of one wall, 9 dB, at any thickness"})
         CHECK(noticed[0].find(part) != std::string::npos);
     const std::string own = "propagation = { model = \"multi_wall\" }\n";

@@ -195,7 +195,7 @@ TEST_CASE("ROS map: a key of another program gives a notice, a misspelt key is a
     using Notices = std::vector<std::string>;
     CHECK(notices_of("") == Notices{});
     CHECK(notices_of("map_type: occupancy\n") ==
-          Notices{"map.yaml:4:1: key \"map_type\" is not one of a map, and left out"});
+          Notices{"map.yaml:4:1: key \"map_type\" is not a key of a map and is ignored"});
     CHECK(notices_of("name: hall\nframe_id: map\nunknown_thresh: {a: [1]}\n").size() == 3);
     CHECK(notices_of("occupied_thresh: 0.65\noccupied_threshold: 0.9\n").size() == 1);
     CHECK(notices_of("{1: 2, [a]: b}: 3\n").size() == 1);
@@ -208,8 +208,8 @@ TEST_CASE("ROS map: a key of another program gives a notice, a misspelt key is a
 TEST_CASE("ROS map: a missing threshold that would contradict the given one is set equal to it") {
     CHECK(notices_of("occupied_thresh: 0.05\n") ==
           std::vector<std::string>{
-              "map.yaml:4:18: no key free_thresh, whose default 0.25 does not go with "
-              "occupied_thresh 0.05: 0.05 taken, too"});
+              "map.yaml:4:18: no key free_thresh, whose default 0.25 contradicts "
+              "occupied_thresh 0.05: 0.05 is used for both"});
     CHECK(notices_of("free_thresh: 0.7\n").size() == 1);
     CHECK(notices_of("occupied_thresh: 0.3\n").empty());
     CHECK(notices_of("free_thresh: 0.6\n").empty());

@@ -115,7 +115,8 @@ TEST_CASE(
     CHECK(all.list[1].gaps.failed == 3);
     CHECK(all.list[2].gaps.failed == 4);
     CHECK(coverage_text(all) ==
-          "averaged over traffic.0.every; reach without 4 of 8 cells, which not every row has; 7 "
+          "averaged over traffic.0.every; reach is averaged without 4 of 8 cells, which are "
+          "missing from some rows; 7 "
           "runs failed");
     // Held at one value, nothing is averaged over, and each row has its own n.
     const Answers held = answers(store, {.group_by = by_ttl, .where = {{"traffic.0.every", "2"}}});

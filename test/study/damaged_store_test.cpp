@@ -190,7 +190,8 @@ TEST_CASE("damaged stores: the error names table, row and column, and both types
         CHECK_MESSAGE(text.find(part) != std::string::npos, text);
     };
     has(error("UPDATE point SET settings = 5 WHERE key = 2", 0),
-        "t.db: a damaged store: table point at key 2, column settings: found the number 5, "
+        "t.db: a damaged store: table \"point\", row with key \"2\", column \"settings\": found "
+        "the number 5, "
         "expected a text; ");
     has(error("UPDATE point SET settings = '[1]' WHERE key = 2", 0), "expected an object");
     has(error("UPDATE point SET settings = '{' WHERE key = 2", 0), "expected JSON");
@@ -198,24 +199,27 @@ TEST_CASE("damaged stores: the error names table, row and column, and both types
         "found other keys, expected those of the first point");
     has(error("UPDATE point SET settings = '{\"propagation.model\":null}'", 0), "found null for");
     has(error("UPDATE point SET number = 7 WHERE key = 2", 0),
-        "column number: found the number 7, expected 1: ");
+        "column \"number\": found the number 7, expected 1: ");
     has(error("UPDATE point SET number = 0", 0), "points are numbered from 0 on");
     has(error("UPDATE run SET point = 77 WHERE key = 3", 2),
-        "table run at key 3, column point: found nothing (NULL)");
+        "table \"run\", row with key \"3\", column \"point\": found nothing (NULL)");
     has(error("UPDATE run SET replication = 2000000 WHERE key = 3", 2),
-        "column replication: found the number 2000000, expected a whole number from 0 to 999999");
+        "column \"replication\": found the number 2000000, expected a whole number from 0 to "
+        "999999");
     has(error("UPDATE run SET started = x'ff' WHERE key = 3", 2),
         "found 1 bytes that are not text");
     has(error("UPDATE metric SET value = 'many' WHERE run = 2", 1),
-        ", column value: found the text \"many\", expected a finite number");
-    has(error("UPDATE metric SET value = 'many' WHERE run = 2", 1), "table metric at run 2, name ");
+        ", column \"value\": found the text \"many\", expected a finite number");
+    has(error("UPDATE metric SET value = 'many' WHERE run = 2", 1),
+        "table \"metric\", row with run \"2\", name \"");
     has(error("UPDATE metric SET value = 9e999", 0), "expected a finite number");
     has(error("UPDATE study SET value = 5 WHERE key = 'study'", 0),
-        "table study at key study, column value: found the number 5");
+        "table \"study\", row with key \"study\", column \"value\": found the number 5");
     has(error("UPDATE study SET value = '{\"metrics\":5}' WHERE key = 'study'", 0),
-        "table study at key study, column value: metrics: found the number 5");
+        "table \"study\", row with key \"study\", column \"value\": metrics: found the number 5");
     has(error("UPDATE study SET value = '{}' WHERE key = 'options'", 5),
-        "table study at key options, column value: found a table, expected a list");
+        "table \"study\", row with key \"options\", column \"value\": found a table, expected a "
+        "list");
     has(error("UPDATE study SET value = '[1]' WHERE key = 'options'", 5),
         "found the number 1, expected texts");
     const std::string deep(200'000, '[');

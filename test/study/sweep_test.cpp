@@ -209,7 +209,7 @@ TEST_CASE("sweep: a different scenario or version is not mixed with existing run
     const std::string fewer =
         message_of(bench, {"study.vary={ \"propagation.range\" = [\"30 m\"] }"});
     CHECK(fewer.find("propagation.range=15 m, which this study does not have: [study] no longer "
-                     "asks for it; expected --fresh") != std::string::npos);
+                     "contains it; expected --fresh") != std::string::npos);
     CHECK(fewer.find("its map") == std::string::npos);
     { Store::open_to_write(bench.store()).set_property("version", "0.0.9 (abc)"); }
     CHECK(message_of(bench).find("0.0.9 (abc)") != std::string::npos);

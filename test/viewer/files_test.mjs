@@ -24,7 +24,7 @@ test("V22: the page of an ns-2 trace has its robots and messages, and a notice t
     assert.equal(head.counts.flights, truth.transmissions);
     assert.equal(head.counts.receptions, truth.receptions);
     assert.equal(head.counts.outcomes.reduce((sum, n, outcome) => sum + (outcome % 2 ? n : 0), 0), truth.deliveries);
-    assert.match(await page.textContent("#notice"), /ns-2 trace tells no map and no radio/);
+    assert.match(await page.textContent("#notice"), /ns-2 trace contains no map and no radio/);
     // Its positions have two digits.
     const most = await most_apart(page, "rescue", 80e9, 50);
     assert.ok(most < 0.03, `${most} m apart`);

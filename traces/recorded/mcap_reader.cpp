@@ -51,7 +51,7 @@ McapReader::McapReader(const std::string& path) : file_(mapped(path)), at_(mcap_
     const std::string kind(foreign_kind(file_.substr(0, 512)));
     unmap();
     if (!kind.empty())
-        throw InputError({.source = path}, kind + "; expected a recorded trace, unpacked");
+        throw InputError({.source = path}, kind + "; expected an uncompressed recorded trace");
     throw InputError({.source = path},
                      "this is no recorded trace: expected a file in the format MCAP");
 }
@@ -174,14 +174,14 @@ std::optional<McapMessages> McapReader::unpack(const McapRecord& chunk) {
         if (at_ > chunk_behind || !leads_on(at_)) at_ = chunk_behind;
         return broken("its length is wrong");
     }
-    if (compression != "zstd" && !compression.empty()) return broken("it is packed otherwise");
+    if (compression != "zstd" && !compression.empty()) return broken("its compression is unknown");
     if (size > largest_chunk) return broken("its size is wrong");
     if (compression.empty()) {
         plain_ = packed;
     } else {
         plain_.resize(size);
         const auto n = ZSTD_decompress(plain_.data(), size, packed.data(), packed.size());
-        if (ZSTD_isError(n) || n != size) return broken("it cannot be unpacked");
+        if (ZSTD_isError(n) || n != size) return broken("it cannot be decompressed");
     }
     if (crc != 0 && mcap_crc(plain_) != crc) return broken("its checksum differs");
     messages.records = plain_;

@@ -203,8 +203,8 @@ const Record* RecordedReader::next() {
             const std::string_view content = chunk_.take(chunk_.fixed<std::uint64_t>());
             if (chunk_.failed() || (opcode == McapOpcode::message && !take_message(content))) {
                 file_.tell(
-                    fmt::format("the chunk at byte {} has a message that is none after "
-                                "{:.6f} s: the rest of the chunk is left out",
+                    fmt::format("the chunk at byte {} has a damaged message after {:.6f} s: the "
+                                "rest of the chunk is left out",
                                 chunk_offset_, seconds(now_)));
                 chunk_ = ByteReader({});
                 next_header_ = {};

@@ -115,11 +115,10 @@ move = { model = "patrol", path = [["0 m", "0 m"], ["10 m", "0 m"], ["0 m", "0 m
 )");
     // 30 m at 2 m/s. The robot turns by 90, 180, 90 and 180 degrees; at the start by 90 degrees.
     const std::vector<std::string> asked = {"where", path, "--robot", "A"};
-    CHECK(
-        command(folder, asked)
-            .out.ends_with(
-                "a round of the patrol, through all 4 places, takes 21.000000 s (the last one from "
-                "62.000000 s on)\n"));
+    CHECK(command(folder, asked)
+              .out.ends_with("a round of the patrol, through all 4 places, takes 21.000000 s (the "
+                             "last round begins "
+                             "at 62.000000 s)\n"));
     CHECK(near(json_of(folder, asked)["round_s"], 21, 1e-9));
     const auto with = [&](const std::string& setting) {
         std::vector<std::string> words = asked;
@@ -128,9 +127,9 @@ move = { model = "patrol", path = [["0 m", "0 m"], ["10 m", "0 m"], ["0 m", "0 m
     };
     // From elsewhere a round begins at the first place, here after a turn by 90 degrees and 6 m.
     const std::string place = "robot.A.at=[\"0 m\", \"-6 m\"]";
-    CHECK(with(place).ends_with("takes 21.000000 s (the last one from 67.000000 s on)\n"));
+    CHECK(with(place).ends_with("takes 21.000000 s (the last round begins at 67.000000 s)\n"));
     CHECK(with("scenario.duration=\"20 s\"")
-              .ends_with("takes 20.000000 s (the last one from 0.000000 s on)\n"));
+              .ends_with("takes 20.000000 s (the last round begins at 0.000000 s)\n"));
     CHECK(with("scenario.duration=\"19.9 s\"").find("round") == std::string::npos);
     CHECK(command(folder, {"where", path, "--at", "9s"}).out.find("round") == std::string::npos);
 }

@@ -118,7 +118,7 @@ TEST_CASE(
     const Ended ended = begun.wait();
     CHECK(ended.exit == 130);
     CHECK(ended.out.find("Interim: Take ") != std::string::npos);
-    CHECK(ended.out.find("Open when it was stopped") != std::string::npos);
+    CHECK(ended.out.find("Undecided when the command was stopped") != std::string::npos);
     // Nothing was compared yet: nothing is advised, and nothing is offered.
     const Ended nothing = command(advised.folder, strict({"--budget", "1us"}));
     CHECK(nothing.exit == 0);

@@ -54,7 +54,7 @@ TEST_CASE("probe: the text names the cliff, the link that flips and the lost mes
     CHECK(ended.out.find("2 cliffs") != std::string::npos);
     CHECK(ended.out.find("1 um north of the sender") != std::string::npos);
     // A disc has no levels: links are told by their distance.
-    CHECK(ended.out.find(" dB ") == ended.out.find(" dB per mm, then"));
+    CHECK(ended.out.find(" dB ") == ended.out.find(" dB per mm), then"));
     CHECK(ended.out.find("10 m") != std::string::npos);
     const Json all = json_of(folder, {"probe", folder.path("rim.toml")});
     CHECK(all["perturbations"][0]["worst_db"].is_null());

@@ -438,7 +438,7 @@ TEST_CASE(
     };
     const Ended made = with({"--models", "disc,friis"});
     CHECK(made.exit == 0);
-    CHECK(made.out.find("held as the file has them: propagation.range = 30 m, routing.ttl = ") !=
+    CHECK(made.out.find("fixed as in the file: propagation.range = 30 m, routing.ttl = ") !=
           std::string::npos);
     const Ended twice = with({"--models", "disc,disc"});
     CHECK(twice.exit == 2);

@@ -198,8 +198,8 @@ TEST_CASE("replay --store writes rows for results, and adds the rows of a second
     CHECK(json["rows"][5]["value"] == 5);
     CHECK(json["missing"] == 0);
     const Ended explained = command(folder, {"explain", store, "2/0"});
-    CHECK(explained.out.find("again: rovernet replay " + sample + " --with 'radio.power=40 dBm'") !=
-          std::string::npos);
+    CHECK(explained.out.find("to repeat it: rovernet replay " + sample +
+                             " --with 'radio.power=40 dBm'") != std::string::npos);
     std::vector<std::string> other = words;
     other.insert(other.end(), {"radio.power=0 dBm", "--routing", "direct"});
     const Ended refused = command(folder, other);
@@ -239,14 +239,15 @@ TEST_CASE("replay --verify of a damaged, incomplete or empty trace fails and say
         const Ended ended = verify(bytes);
         CHECK(ended.exit == 1);
         CHECK(ended.out.find("identical") == ended.out.npos);
-        CHECK(ended.out.find("not whole") != ended.out.npos);
+        CHECK(ended.out.find("incomplete") != ended.out.npos);
         CHECK(ended.err.find("x.mcap") != ended.err.npos);
         CHECK(command(folder, {"replay", folder.path("x.mcap"), "--verify", "--json"})
                   .out.find("\"identical\": false") != std::string::npos);
     }
     CHECK(verify("").exit == 3);
     CHECK(verify("").err.find("empty") != std::string::npos);
-    CHECK(verify("PK\x03\x04 nothing").err.find("is a ZIP archive; expected a recorded trace") !=
+    CHECK(verify("PK\x03\x04 nothing")
+              .err.find("is a ZIP archive; expected an uncompressed recorded trace") !=
           std::string::npos);
     CHECK(verify(whole.substr(0, 40)).exit == 3);
 }

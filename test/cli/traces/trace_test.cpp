@@ -113,8 +113,8 @@ TEST_CASE("trace: an empty file, or a file of an unknown packer, is refused with
     const std::vector<std::pair<std::string, std::string>> files = {
         {"", "the file is empty"},
         {"\n\n# nothing\n", "blank lines and comments only"},
-        {std::string("\xfd\x37zXZ\0 packed", 13), "packed by xz"},
-        {"BZh91AY packed", "packed by bzip2"},
+        {std::string("\xfd\x37zXZ\0 packed", 13), "compressed by xz"},
+        {"BZh91AY packed", "compressed by bzip2"},
         {"<html>\n</html>\n", "no line of this file"}};
     for (const auto& each : files) {
         const std::string &bytes = each.first, &why = each.second;
@@ -150,7 +150,7 @@ TEST_CASE("an ns-2 movement file is recognised, also if it is compressed or begi
     const Ended packed =
         command(folder, {"where", folder.write("m.tcl.bz2", "BZh91AY"), "--at", "3 s"});
     CHECK(packed.exit == 3);
-    CHECK(packed.err.find("packed by bzip2") != packed.err.npos);
+    CHECK(packed.err.find("compressed by bzip2") != packed.err.npos);
     const Ended toml = command(folder, {"where", folder.write("x", "set = 3\n"), "--at", "3 s"});
     CHECK(toml.err.find("unknown key \"set\"") != toml.err.npos);
 }

@@ -83,14 +83,15 @@ TEST_CASE(
 TEST_CASE("message at a robot: a received message is described by sender, time and level") {
     const Run run({0, 100, 400}, one_message);
     CHECK(run.says(0, 0) == "A sent it.");
-    CHECK(run.says(0, 1).starts_with(
-        "B has it from A, 0.193 ms after it was sent: that frame came at -63.70 dBm, 11.3 dB "
-        "above its sensitivity."));
+    CHECK(
+        run.says(0, 1).starts_with("B got the message from A, 0.193 ms after it was sent: that "
+                                   "frame came at -63.70 dBm, 11.3 dB "
+                                   "above its sensitivity."));
     const MessageAtRobot there = run.look(0, 2);
     REQUIRE(there.frames.size() >= 2);
     CHECK(there.frames[0].outcome == Outcome::too_weak);  // A's, over 400 m
     CHECK(there.frames[1].outcome == Outcome::received);
-    CHECK(sentence(there).starts_with("C has it from B"));
+    CHECK(sentence(there).starts_with("C got the message from B"));
     const MessageAtRobot back = run.look(0, 0);
     REQUIRE_FALSE(back.frames.empty());
     CHECK(back.frames[0].outcome == Outcome::duplicate);

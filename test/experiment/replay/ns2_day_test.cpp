@@ -249,7 +249,7 @@ TEST_CASE(
     const RecordedDay day = read_ns2_day(trace, {});
     CHECK(day.notices() ==
           std::vector<std::string>{
-              "2 messages are left out, because no other robot of the trace is their destination"});
+              "2 messages are left out, because their destination is no other robot of the trace"});
     CHECK(day.play({}).metrics.messages == 1);
 }
 

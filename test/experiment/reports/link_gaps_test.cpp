@@ -121,7 +121,7 @@ TEST_CASE("link gaps: a gap continues while the robot is off, and ends when the 
     REQUIRE(vehicle.gaps.size() == 1);
     CHECK(near(seconds(vehicle.present), 10));
     CHECK(link_gaps_text({.robot = "v", .partners = {"west"}}, {}) ==
-          "v is not there during the run");
+          "v is not present during the run");
     CHECK(near(vehicle.lost_share(), 1));
 }
 

@@ -179,7 +179,7 @@ TEST_CASE("lockstep: an unknown robot gets a list of robots, an unknown key a su
     CHECK(message(R"(,"do":{"A":{"timeuot":"1 s"}})") ==
           "unknown key \"timeuot\"; did you mean \"timeout\"?");
     CHECK(message(R"(,"do":{"A":{"x":1}})") ==
-          "unknown key \"x\"; known are v, w, timeout, goal, speed, stop, place, heading");
+          "unknown key \"x\"; known keys are v, w, timeout, goal, speed, stop, place, heading");
     CHECK(message(R"(,"do":{"A":{"v":1,"goal":[1,2]}})") ==
           "expected one command only: v, w and timeout, or goal and speed, or stop, or place and "
           "heading");

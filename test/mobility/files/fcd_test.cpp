@@ -151,8 +151,8 @@ TEST_CASE("fcd: content that is invalid in an FCD file is refused with its posit
           "fcd.xml:4:20: found <vehicel>, expected <timestep> with <vehicle>, <person> or "
           "<container>; did you mean \"vehicle\"?");
     CHECK(error_of("<routes><vehicle/></routes>") ==
-          "fcd.xml:1:2: found \"routes\", expected fcd-export: the only kind of XML that holds "
-          "movements here");
+          "fcd.xml:1:2: found \"routes\", expected fcd-export, the only kind of XML file with "
+          "movements that can be read");
 }
 
 TEST_CASE("fcd: XML that is not well-formed is an error with its position") {

@@ -273,7 +273,7 @@ TEST_CASE(
     CHECK(n.link.drops[1].reason == DropReason::timeout);   // not heard of
     CHECK(n.router.pairs_too_far() == 1);
     CHECK(n.router.notice() ==
-          "dsr: 1 pair of robots lost messages, as a route has at most 16 robots");
+          "dsr: 1 pair of robots lost messages, because a route has at most 16 robots");
 }
 
 TEST_CASE("dsr 4.2: at most 64 messages wait, for 30 s each, and the oldest is dropped first") {

@@ -156,7 +156,7 @@ TEST_CASE(
     CHECK(mixed.notices[0] ==
           "a.world:2: the sensors of this ranger have different ranges; all measure up to the "
           "largest, 5 m");
-    CHECK(mixed.notices[1].ends_with("one beam for each sensor, the middle one of its samples"));
+    CHECK(mixed.notices[1].ends_with("one beam for each sensor: the middle sample of that sensor"));
 }
 
 TEST_CASE("stage scanner: a ranger of Stage 2 becomes a ring of sonars") {

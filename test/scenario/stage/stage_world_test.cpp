@@ -274,7 +274,8 @@ TEST_CASE("stage world: poses of four numbers, unit_length and unit_angle of Sta
     CHECK(read_quantity(*world.robot(0).find("radius"), "radius", Dimension::length) == 0.1);
     CHECK(value(world.propagation(0), "range") == "2.5 m");
     REQUIRE(world.notices.size() == 1);
-    CHECK(world.notices[0] == "a.world:2: z is left out, as in the 2007 radio, for: a");
+    CHECK(world.notices[0] ==
+          "a.world:2: the height z is ignored, as in the wifi model of the 2007 thesis, for: a");
 }
 
 TEST_CASE("stage world: a robot that is part of another model has the combined pose of both") {
@@ -292,7 +293,7 @@ TEST_CASE("stage world: a robot that is part of another model has the combined p
     CHECK(value(world.robot(1), "at") == "9 m, 2 m");
     CHECK(value(world.robot(1), "heading") == "60 deg");
     REQUIRE(world.notices.size() == 1);
-    CHECK(world.notices[0] == "a.world:1: only the first wifi counts of: a");
+    CHECK(world.notices[0] == "a.world:1: only the first wifi is used of: a");
 }
 
 TEST_CASE(
@@ -450,7 +451,7 @@ TEST_CASE("stage world: an address of two robots gives a notice that names both"
         "position ( name \"a\" wifi ( model \"friis\" ip \"1.2\" mac \"1.2\" ) )\n"
         "position ( name \"b\" wifi ( model \"friis\" ip \"1.2\" mac \"1.3\" ) )\n");
     REQUIRE(twice.notices.size() == 1);
-    CHECK(twice.notices[0] == "a.world:2: ip \"1.2\" of b is also that of a, at a.world:1:42");
+    CHECK(twice.notices[0] == "a.world:2: ip \"1.2\" of b is also used by a, at a.world:1:42");
 }
 
 TEST_CASE("stage world: models that are neither robots nor walls are listed in one line") {
@@ -556,7 +557,7 @@ TEST_CASE("stage world: the worlds that came with Stage load") {
     const Read commando = read_shipped(*folder, "commando.world");
     REQUIRE(commando.notices.size() == 2);
     CHECK(commando.notices[0].find("commando.world:53: mac \"00:03:03:ac:a7:b5\" of robot2 is "
-                                   "also that of robot1") != std::string::npos);
+                                   "also used by robot1") != std::string::npos);
 }
 
 TEST_CASE("stage world: a world with a missing bitmap is refused, and loads with a replacement") {

@@ -159,8 +159,8 @@ TEST_CASE(
                    ":2: unknown type \"commbott\", no macro of that name; it is ignored; did you "
                    "mean \"commbot\"?"));
     CHECK(contains(world.notices[1], ":4: unknown type \"rover\""));
-    CHECK(contains(world.notices[1], "taken as a position, since it has a wifi"));
-    CHECK(contains(world.notices[2], "taken as a model, since it has a bitmap"));
+    CHECK(contains(world.notices[1], "treated as a position, because it has a wifi"));
+    CHECK(contains(world.notices[2], "treated as a model, because it has a bitmap"));
     CHECK(world_role(world.root.children[0]) == WorldRole::ignored);
     CHECK(world_role(world.root.children[2]) == WorldRole::robot);
     CHECK(world_role(world.root.children[3]) == WorldRole::wall);
@@ -176,7 +176,7 @@ TEST_CASE("worldfile: of a malformed number such as 3.75.2, the number at its be
     CHECK(world.root.children[0].find("a")->number() == 6);
     REQUIRE(world.notices.size() == 5);
     CHECK(world.notices[0].ends_with(
-        "a.world:1: \"3.75.2\" is read as 3.75, as in Stage; what follows counts nothing"));
+        "a.world:1: \"3.75.2\" is read as 3.75, as in Stage; the rest is ignored"));
 }
 
 TEST_CASE("worldfile: a tuple may continue over several lines, with comments") {

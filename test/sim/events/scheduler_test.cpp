@@ -242,10 +242,11 @@ TEST_CASE("scheduler: too many events end the run with an error, and keep the qu
     Scheduler<int> narrow({.pending = 2});
     const auto first = narrow.schedule(at(1), Priority::timer, 1);
     narrow.schedule(at(2), Priority::timer, 2);
-    CHECK_THROWS_WITH_AS(narrow.schedule(at(3), Priority::timer, 3),
-                         "more than 2 events are pending; the run asks for too much at once, or "
-                         "something schedules without end",
-                         RunError);
+    CHECK_THROWS_WITH_AS(
+        narrow.schedule(at(3), Priority::timer, 3),
+        "more than 2 events are pending; the run requests too many events at once, "
+        "or schedules events without end",
+        RunError);
     CHECK(narrow.cancel(first));
     narrow.schedule(at(3), Priority::timer, 3);
     CHECK(served(narrow) == std::vector{2, 3});

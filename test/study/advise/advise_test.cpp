@@ -351,9 +351,9 @@ TEST_CASE("advise: an undecided candidate counts as insufficient, and is named")
     CHECK(a.decision.verdict() == Equivalence::undecided);
     CHECK(a.decision.n() == 120);  // then the forecast is beyond 150
     CHECK(advice.chosen()->name == "b + some");
-    CHECK(
-        advice_text(advice).find("Undecided within 150 replications, and taken as insufficient: a "
-                                 "+ all") != std::string::npos);
+    CHECK(advice_text(advice).find(
+              "Undecided within 150 replications, and treated as insufficient: a "
+              "+ all") != std::string::npos);
 }
 
 TEST_CASE(
@@ -417,7 +417,8 @@ TEST_CASE("advise: after a stop the verdict is preliminary, and names undecided 
     CHECK(judged(advice, "a + all").decision.n() == 30);
     CHECK(advice_text(advice).starts_with("Interim: Take the reference, top + all"));
     CHECK(advice_text(advice).find(
-              "Open when it was stopped, and taken as insufficient so far: ") != std::string::npos);
+              "Undecided when the command was stopped, and treated as insufficient so far: ") !=
+          std::string::npos);
     CHECK(advice_text(advice).find("would decide") != std::string::npos);
 }
 
@@ -427,7 +428,7 @@ TEST_CASE("advise: if it is stopped before any run, the advice states that nothi
     const Advice advice = study.advice(rule_of(0.2));
     CHECK(advice.knows_nothing());
     CHECK(advice_text(advice).starts_with(
-        "Interim: nothing is known yet, as no candidate was compared with top + all."));
+        "Interim: nothing is known yet, because no candidate was compared with top + all."));
     CHECK(advice_text(advice).find("tolerance") == std::string::npos);
 }
 

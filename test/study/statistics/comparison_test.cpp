@@ -91,7 +91,7 @@ TEST_CASE("comparison: Student's ten patients slept 1.58 h more on the other dru
     CHECK(comparison_text("the first drug", "the second", *c) ==
           "the first drug is 1.58 below the second (95 % 0.70 to 2.46, n = 10, p = 0.003, by "
           "Student's t); "
-          "one of 1.23 is found in 80 % of such studies");
+          "a difference of 1.23 is found in 80 % of such studies");
 }
 
 TEST_CASE("comparison: fewer than two pairs give no comparison") {
@@ -236,7 +236,7 @@ TEST_CASE("comparison in words: states that no difference is found, and the dete
     c.p = 0.0012;
     CHECK(comparison_text("friis", "disc", c) ==
           "no detectable difference between friis and disc (0.002, 99.9 % for all 4: -0.010 to "
-          "0.014, n = 30, p = 0.001, by Student's t); differences below 0.021 cannot be told apart "
+          "0.014, n = 30, p = 0.001, by Student's t); differences below 0.021 cannot be detected "
           "at n = 30");
 }
 
@@ -293,8 +293,8 @@ TEST_CASE("comparison in words: states whether two models are equivalent") {
     verdict.decided_at = {};
     verdict.needed = 800;
     CHECK(equivalence_text("disc", "friis", 0.05, verdict, c) ==
-          "not decided by 30 replications whether disc is within 0.05 of friis (95 % for all 4, "
-          "by betting); about 800 replications would decide, if they are as these are");
+          "30 replications do not decide whether disc is within 0.05 of friis (95 % for all 4, "
+          "by betting); about 800 replications like these would decide");
 }
 
 TEST_CASE(
@@ -311,7 +311,7 @@ TEST_CASE(
     CHECK(!c->found());
     CHECK(comparison_text("friis", "disc", *c)
               .starts_with("friis is above disc in 54 of 60 replications and below in 0 (p < "
-                           "0.001, sign test); that the mean differs is not shown ("));
+                           "0.001, sign test); a difference of the means is not shown ("));
     CHECK(comparison_text("disc", "friis", *compare_pairs(b, a, share))
               .starts_with("disc is below friis in 54 of 60 replications and above in 0"));
     // Twice as large, the mean tells it, and the interval is that of the fixed n.

@@ -289,7 +289,7 @@ TEST_CASE("a file that is not a recorded trace is refused with the reason") {
         return std::string("read");
     };
     CHECK(refused("\x1f\x8b\x08 and more") ==
-          "the file is packed by gzip; expected a recorded trace, unpacked");
+          "the file is compressed by gzip; expected an uncompressed recorded trace");
     CHECK(refused("") == "this is no recorded trace: expected a file in the format MCAP");
     CHECK(refused("s 1.0 _0_ AGT") ==
           "this is no recorded trace: expected a file in the format MCAP");
