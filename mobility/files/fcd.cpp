@@ -172,12 +172,11 @@ void FcdReader::refuse_degrees() const {
     if (!is_told && !is_so) return;
     throw InputError(
         {.source = tags_.source()},
-        fmt::format(
-            "the places are in degrees: {}; expected metres, as SUMO writes them without "
-            "--fcd-output.geo",
-            is_told
-                ? "the head of the file states that fcd-output.geo is on"
-                : "according to their speeds the robots move more than a thousand times farther"));
+        fmt::format("the places are in degrees: {}; expected metres, as SUMO writes them without "
+                    "--fcd-output.geo",
+                    is_told ? "the head of the file states that fcd-output.geo is on"
+                            : "by their speeds the robots move over a thousand times as far as by "
+                              "their positions"));
 }
 
 /// Adds the path from the previous position to both sums, if the speed is given.

@@ -39,7 +39,7 @@ Chart table_chart(const std::string& path, const ChartQuestion& q) {
         throw std::invalid_argument(
             kind == ChartKind::lines
                 ? fmt::format("--kind: the column {} has words, so lines have no x values", q.x)
-                : "--kind: expected lines or bars, the charts of a table");
+                : "--kind: a table can only be drawn as lines or bars");
     }
     Chart chart{.kind = kind,
                 .x_label = axis_label(q.x, numbers ? numbers->unit : ""),

@@ -121,9 +121,9 @@ ValidationChart shadowing_chart(const ValidationSize& size) {
         .name = "shadowing",
         .title = "How often does shadowing flip a link?",
         .truth = fmt::format("In {} cases, a robot walks {:g} m at 1 m/s while its peer rests; the "
-                             "margin without shadowing is 0 dB. The reference is the flip rate of "
-                             "a normal process with the correlation exp(-D / {:g} m) over a "
-                             "distance D.",
+                             "margin without shadowing is 0 dB. The reference is the rate at "
+                             "which the link goes up or down if shadowing is a Gaussian process "
+                             "with the correlation exp(-D / {:g} m) over a distance D.",
                              seeds, walk, decorrelation)};
     for (const double step : {1.0, 0.1}) {  // [s]
         const ValidationPanel& panel = chart.panels.emplace_back(flips_panel(step, seeds, size));

@@ -134,7 +134,8 @@ TEST_CASE("a trace of format 3, without the bit rates of its frames, can be repe
     CHECK(again.same == 28);
 }
 
-TEST_CASE("a trace that the scenario no longer reproduces differs, and both lines are shown") {
+TEST_CASE(
+    "if the scenario no longer reproduces its trace, the recorded and the new line are shown") {
     const RecordedRunOf run(examples + "/patrol/patrol.toml", {"scenario.duration=30 s"});
     std::string bytes = content(run.trace);
     const auto at = bytes.find("seed = 3");

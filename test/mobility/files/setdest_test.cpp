@@ -116,7 +116,7 @@ TEST_CASE("setdest: start positions may follow the motions in the file, and then
     CHECK(played(places + moves).file.end() == p.file.end());
 }
 
-TEST_CASE("setdest: a coordinate set at a time is a jump in this coordinate") {
+TEST_CASE("setdest: a timed set of X_, Y_ or Z_ makes the robot jump in this coordinate") {
     const auto p = played(
         "$ns_ at 1.0 \"$node_(0) set X_ 10\"\n"
         "$ns_ at 2.0 \"$node_(0) set Y_ 20\"\n"

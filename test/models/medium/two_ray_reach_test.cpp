@@ -72,7 +72,8 @@ struct Ground {
 
 }  // namespace
 
-TEST_CASE("two-ray: no receiver is missed as robots climb, jump and join above all others") {
+TEST_CASE(
+    "two-ray: no receiver is missed as robots climb, jump, or are added higher than the others") {
     std::size_t links = 0;
     for (std::uint32_t seed = 1; seed <= 10; ++seed) {
         Ground ground(seed);
