@@ -82,6 +82,7 @@ void AnswerWriter::put_map() {
         : table.map ? to_json_line(Value(*table.map))
                     : "null");
     put(",\"resolution\":", grid.cell_width);
+    put(",\"cell_size\":[", grid.cell_width, ",", grid.cell_height, "]");
     put(",\"origin\":[", grid.origin.x, ",", grid.origin.y, "]");
     put(",\"columns\":", std::int64_t{grid.columns});
     put(",\"rows\":", std::int64_t{grid.rows});

@@ -2,6 +2,7 @@
 #include "live/rosbridge/messages.hpp"
 
 #include "experiment/reports/link_table.hpp"
+#include "live/rosbridge/square_cells.hpp"
 #include "mobility/planners.hpp"
 #include "models/medium/medium.hpp"
 #include "sim/math.hpp"
@@ -152,7 +153,8 @@ void RosMessages::write_static_transforms(RosWriter& out) const {
 }
 
 void RosMessages::write_map(RosWriter& out) const {
-    const OccupancyGrid& grid = network().planners().scene().grid();  // with all doors open
+    // All doors are open. The message has a single number for both sides of a cell.
+    const OccupancyGrid grid = square_cells(network().planners().scene().grid());
     put_header(out, start_of_run, world_frame);
     {
         const Within info(out, "info");

@@ -377,6 +377,20 @@ at = ["2 m", "0 m"]
     CHECK(scan.at("A")[0][0] == 6);
 }
 
+TEST_CASE("lockstep: welcome describes the placement of the map and both sides of its cells") {
+    const TemporaryFolder folder;
+    folder.write("m.pgm", "P2 4 3 255\n255 255 255 0\n255 255 255 255\n0 255 255 255\n");
+    const auto map = [&](const std::string& scene) {
+        const std::string robot = "[[robot]]\nname = \"A\"\nat = [0.5, 1.5]\n";
+        Talk talk(load_scenario(folder.write("s.toml", "[scene]\n" + scene + robot), {}));
+        return Json::parse(talk.ask(0, hello_a)).at("map");
+    };
+    const Json picture = map("map = \"m.pgm\"\nsize = [\"8 m\", \"3 m\"]\n");
+    CHECK(picture.at("columns") == 4);
+    CHECK(picture.at("rows") == 3);
+    CHECK(picture.at("cell_size") == Json{2, 1});
+}
+
 TEST_CASE("lockstep: a robot climbs stairs to its goals, and heights are sent") {
     Talk talk(load_scenario(ROVERNET_EXAMPLES "/storeys/storeys.toml", {}));
     const Json welcome = Json::parse(talk.ask(

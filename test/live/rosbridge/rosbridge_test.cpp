@@ -268,6 +268,22 @@ TEST_CASE("rosbridge: constant topics are sent once to each subscriber") {
     CHECK(talk.told().empty());
 }
 
+TEST_CASE("rosbridge: the map has square cells, also if the cells of the scene are not square") {
+    const TemporaryFolder folder;
+    folder.write("m.pgm", "P2 4 3 255\n255 255 255 0\n255 255 255 255\n0 255 255 255\n");
+    const std::string map = "[scene]\nmap = \"m.pgm\"\nsize = [\"8 m\", \"3 m\"]\n";
+    RosTalk talk(load_scenario(
+        folder.write("s.toml", map + "[[robot]]\nname = \"A\"\nat = [4, 1.5]\n"), {}));
+    talk.subscribe("/map");
+    const Json told = talk.messages("/map").at(0);
+    CHECK(told["info"]["resolution"] == 1);
+    CHECK(told["info"]["width"] == 8);
+    CHECK(told["info"]["height"] == 3);
+    CHECK(told["data"] == Json{100, 100, 0, 0, 0, 0, 0,   0,  //
+                               0,   0,   0, 0, 0, 0, 0,   0,  //
+                               0,   0,   0, 0, 0, 0, 100, 100});
+}
+
 TEST_CASE("rosbridge: a scan is equal in JSON and CBOR, and infinity means no obstacle") {
     RosTalk talk(office());
     talk.subscribe("/A/scan");
