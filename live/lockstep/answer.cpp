@@ -84,6 +84,7 @@ void AnswerWriter::put_map() {
     put(",\"resolution\":", grid.cell_width);
     put(",\"cell_size\":[", grid.cell_width, ",", grid.cell_height, "]");
     put(",\"origin\":[", grid.origin.x, ",", grid.origin.y, "]");
+    put(",\"yaw\":", grid.yaw);
     put(",\"columns\":", std::int64_t{grid.columns});
     put(",\"rows\":", std::int64_t{grid.rows});
     if (is_building) {

@@ -389,6 +389,13 @@ TEST_CASE("lockstep: welcome describes the placement of the map and both sides o
     CHECK(picture.at("columns") == 4);
     CHECK(picture.at("rows") == 3);
     CHECK(picture.at("cell_size") == Json{2, 1});
+    CHECK(picture.at("yaw") == 0);
+
+    folder.write("m.yaml", "image: m.pgm\nresolution: 2\norigin: [-2.5, -2.0, 0.3]\n");
+    const Json turned = map("map = \"m.yaml\"\n");
+    CHECK(turned.at("cell_size") == Json{2, 2});
+    CHECK(turned.at("origin") == Json{-2.5, -2});
+    CHECK(turned.at("yaw") == 0.3);
 }
 
 TEST_CASE("lockstep: a robot climbs stairs to its goals, and heights are sent") {
