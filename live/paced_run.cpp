@@ -73,12 +73,16 @@ class PacedServer {
     std::string close(const RunResult& result) {
         Table metrics;
         append_metrics(metrics, result.metrics);
-        for (const ServedFront& each : open_) each.front->ended(result.fingerprint, metrics);
+        std::chrono::milliseconds time_to_end = 10s;
+        for (const ServedFront& each : open_) {
+            each.front->ended(result.fingerprint, metrics);
+            time_to_end = std::min(time_to_end, each.front->time_to_end());
+        }
         stay(result);
         constexpr auto soon = 400ms;
         web_.close(soon);
         const bool is_hurried = !options_.stop.go_on();
-        std::vector<std::string> faults = listeners_.close(soon, is_hurried ? soon : 10s);
+        std::vector<std::string> faults = listeners_.close(soon, is_hurried ? soon : time_to_end);
         if (is_hurried) faults.clear();
         for (const ServedFront& each : open_) faults.insert(faults.begin(), each.front->fault());
         faults.insert(faults.begin(), fault_);
@@ -106,7 +110,8 @@ class PacedServer {
         ServedFront& opened = open_.emplace_back(ServedFront{listeners});
         opened.front = listeners.make(carrier_for(opened));
         for (const std::string& each : listeners.programs) {
-            listeners_.start(each, streams_for(opened, {}));
+            const auto program = listeners_.start(each, streams_for(opened, {}));
+            if (program) opened.front->started(*program, each);
         }
         for (std::size_t i = 0; i < listeners.entries.size(); ++i) listen(opened, i);
         if (!listeners.unix_path) return;
@@ -217,12 +222,7 @@ class PacedServer {
     /// Tells fronts at whose limits the run waits for how long it does.
     void tell_held() {
         const auto time = options_.clock();
-        for (ServedFront& each : open_) {
-            const Time limit = each.front->limit();
-            if (limit > now() || limit != each.held_at) each.held_since = time;
-            each.held_at = limit;
-            if (limit <= now()) each.front->held(time - each.held_since);
-        }
+        for (ServedFront& each : open_) each.tell_held(now(), time);
     }
 
     /// Simulated time of the clock.

@@ -140,7 +140,8 @@ void add_lockstep(Command live, LiveArguments& a) {
                     "listen for controllers at a Unix socket with this path");
     live.add_option(
         "--patience", a.patience,
-        "longest real time that a controller may take for a step, such as 30s (default: no limit)");
+        "longest real time that a controller may take for a step, or a started program for its "
+        "hello, such as 30s (default: no limit)");
     live.add_option("--on-loss", a.on_loss,
                     "what to do when a controller disconnects without `bye`: end the run, stop its "
                     "robots, or wait for it")

@@ -63,6 +63,8 @@ class Front {
     /// run; the scenario outlives the front.
     virtual void begin(Session& session, const Scenario& scenario) = 0;
     virtual void opened(Connection client, ListenerId at) = 0;
+    /// Called before begin() for each program that was started for this front.
+    virtual void started(Connection /*program*/, const std::string& /*command*/) {}
     /// Handles input from a client: the next piece of its byte stream, one WebSocket message, one
     /// packet, or one line without its end.
     /// @return number of messages that the input completes; 0 for a line outside the protocol
@@ -95,6 +97,8 @@ class Front {
     virtual bool stays() const { return false; }
     /// Error that ended the run, such as a lost client; empty: no error.
     virtual std::string fault() const { return {}; }
+    /// Longest real time in which started programs may end by themselves after the run.
+    virtual std::chrono::milliseconds time_to_end() const { return std::chrono::seconds(10); }
     /// Adds the front's counters to the table `live` of summary.json.
     virtual void report(Table&) const {}
 };

@@ -292,7 +292,7 @@ Listeners::Listeners() : state_(std::make_unique<State>()) {}
 
 Listeners::~Listeners() { Child::end(state_->children); }
 
-void Listeners::start(const std::string& command, Streams streams) {
+std::optional<Listeners::Connection> Listeners::start(const std::string& command, Streams streams) {
     if (state_->children.size() >= most_connections) {
         throw RunError(fmt::format("{}: expected {} programs at most", command, most_connections));
     }
@@ -302,7 +302,9 @@ void Listeners::start(const std::string& command, Streams streams) {
     state_->children.push_back(std::move(child));
     const auto client =
         state_->add(std::move(socket), state_->users.emplace_back(std::move(streams)));
-    if (client) client->has_sent = true;  // it may take its time
+    if (!client) return std::nullopt;
+    client->has_sent = true;  // it may take its time
+    return client->id;
 }
 
 Address Listeners::listen(const Address& address, Streams streams) {

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -75,8 +76,9 @@ class Listeners {
     Listeners& operator=(const Listeners&) = delete;
 
     /// Starts a program by the shell, and connects to its standard input and output.
+    /// @return connection of the program; none if there are too many connections
     /// @throws RunError if the program cannot be started
-    void start(const std::string& command, Streams streams);
+    std::optional<Connection> start(const std::string& command, Streams streams);
     /// Listens on an address for clients. May be called for several addresses. Access is not
     /// restricted.
     /// @param address  port 0: any free port

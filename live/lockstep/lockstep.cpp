@@ -40,6 +40,10 @@ void Lockstep::begin(Session& session, const Scenario& scenario) {
     catch_up();
 }
 
+void Lockstep::started(Connection program, const std::string& command) {
+    silent_.emplace(program, command);
+}
+
 std::size_t Lockstep::received(Connection from, std::string_view line) {
     if (!goes_on()) return 1;
     if (step_end_ && (controllers_.of(from) || is_object(line))) {
@@ -124,7 +128,12 @@ void Lockstep::handle(Connection from, HelloRequest& hello) {
         throw RequestError("hello_again", "type", "you have already sent hello");
     }
     if (hello.name.empty()) hello.name = session_->network().name(hello.robots.front());
-    if (come_back(from, hello)) return;
+    if (!come_back(from, hello)) join(from, hello);
+    silent_.erase(from);
+}
+
+/// Makes a program that has said hello a controller.
+void Lockstep::join(Connection from, const HelloRequest& hello) {
     check_claims(hello);
     if (hello.seed) seed_ = *hello.seed;
     Controller controller(from, hello);
@@ -216,6 +225,7 @@ void Lockstep::remove_leaving() {
 
 void Lockstep::closed(Connection gone) {
     if (settings_.programs) --*settings_.programs;
+    silent_.erase(gone);
     if (step_end_) {
         after_step_.emplace_back([this, gone] { lose(gone); });
         return;
@@ -296,10 +306,32 @@ void Lockstep::held(std::chrono::nanoseconds waited) {
         settings_.say(fmt::format("waiting for controllers: {} of {} {} connected", present, wanted,
                                   present == 1 ? "is" : "are"));
     }
-    if (!has_started_ || !settings_.patience || waited < *settings_.patience) return;
+    if (settings_.patience && waited >= *settings_.patience) end_if_slow();
+}
+
+/// Ends the run if it waits for controllers, or for programs that have said no hello.
+void Lockstep::end_if_slow() {
     const std::chrono::duration<double> patience = *settings_.patience;
-    end_run("patience", fmt::format("no request within {:g} s from controller {}", patience.count(),
-                                    fmt::join(controllers_.owing(), ", ")));
+    if (has_started_) {
+        return end_run("patience",
+                       fmt::format("no request within {:g} s from controller {}", patience.count(),
+                                   fmt::join(controllers_.owing(), ", ")));
+    }
+    std::vector<std::string> commands;
+    for (const auto& [connection, command] : silent_) {
+        commands.push_back(fmt::format("\"{}\"", command));
+    }
+    if (commands.empty()) return;
+    end_run("patience", fmt::format("no hello within {:g} s from controller {}", patience.count(),
+                                    fmt::join(commands, ", ")));
+}
+
+std::chrono::milliseconds Lockstep::time_to_end() const {
+    constexpr std::chrono::milliseconds shortest{400};
+    const std::chrono::milliseconds usual = Front::time_to_end();
+    if (reason_ != "patience") return usual;
+    return std::clamp(std::chrono::ceil<std::chrono::milliseconds>(*settings_.patience), shortest,
+                      usual);
 }
 
 void Lockstep::end_run(std::string reason, std::string fault) {

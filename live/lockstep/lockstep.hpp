@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -39,7 +40,8 @@ class Lockstep : public Front {
     struct Settings {
         std::size_t wait_for = 1;  ///< number of controllers needed to start the run
         OnLoss on_loss = OnLoss::end;
-        /// Timeout for a request of a controller, in real time; none: no timeout.
+        /// Timeout for a request of a controller, and for the "hello" of a started program, in real
+        /// time; none: no timeout.
         std::optional<std::chrono::nanoseconds> patience = {};
         /// Number of started programs if only these can connect; none: other programs can connect.
         std::optional<std::size_t> programs = {};
@@ -52,6 +54,7 @@ class Lockstep : public Front {
     /// Starts a run. After a restart of the run, connected controllers get the answer "welcome".
     void begin(Session& session, const Scenario& scenario) override;
     void opened(Connection, ListenerId) override {}
+    void started(Connection program, const std::string& command) override;
     /// Handles a line of a controller, without its end. Errors are sent to the controller.
     /// @return 1; 0 if the line is no JSON object
     std::size_t received(Connection from, std::string_view line) override;
@@ -68,6 +71,8 @@ class Lockstep : public Front {
     void ended(std::string_view fingerprint, const Table& metrics) override;
     /// Error that ended the run; empty if the controllers ended it.
     std::string fault() const override { return fault_; }
+    /// The patience if the patience has ended the run, between 0.4 s and 10 s; else 10 s.
+    std::chrono::milliseconds time_to_end() const override;
 
     const Controllers& controllers() const { return controllers_; }
 
@@ -79,6 +84,7 @@ class Lockstep : public Front {
     void handle(Connection from, ResetRequest& reset);
     void handle(Connection from, ByeRequest& bye);
     Controller& asking(Connection from);
+    void join(Connection from, const HelloRequest& hello);
     bool come_back(Connection from, const HelloRequest& hello);
     void check_claims(const HelloRequest& hello);
     void start_if_complete();
@@ -87,6 +93,7 @@ class Lockstep : public Front {
     void answer(Controller& controller);
     void go_on();
     void catch_up();
+    void end_if_slow();
     void end_run(std::string reason, std::string fault);
     Time now() const { return session_->network().now(); }
     bool is_at_end() const { return now() >= session_->end(); }
@@ -99,6 +106,7 @@ class Lockstep : public Front {
     std::optional<AnswerWriter> answers_;
     RequestReader reader_;
     Controllers controllers_;
+    std::map<Connection, std::string> silent_;  // commands of started programs before their "hello"
     std::vector<Connection> leaving_;  // connections that sent "bye" and wait for the last line
     std::deque<std::function<void()>> after_step_;  // calls deferred to the end of the step
     std::optional<Time> step_end_;                  // end of the current step; none: between steps

@@ -170,6 +170,14 @@ TEST_CASE("live: a lost controller, a slow one and a failed program end the run 
     CHECK(Json::parse(client.line()).at("reason") == "patience");
     CHECK(slow.wait().err.find("no request within 0.05 s from controller A") != std::string::npos);
 
+    for (const std::string program : {"sleep 30", "yes"}) {
+        const Live silent({"--controller", program, "--patience", "50ms"});
+        const Ended ended = silent.wait();
+        CHECK(ended.exit == 1);
+        CHECK(ended.err.find("no hello within 0.05 s from controller \"" + program + "\"") !=
+              std::string::npos);
+    }
+
     const Live failing({"--controller", "exit 7"});
     const Ended failed = failing.wait();
     CHECK(failed.exit == 1);

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <memory>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -601,6 +603,35 @@ TEST_CASE(
     gone.lockstep.closed(0);
     gone.lockstep.held(0s);
     CHECK(gone.lockstep.fault() == "a controller has ended before its hello");
+}
+
+TEST_CASE("lockstep: the patience holds for a started program that says no hello") {
+    using namespace std::chrono_literals;
+    const auto run_of_three = [](std::optional<std::chrono::nanoseconds> patience) {
+        auto talk = std::make_unique<Talk>(three_in_a_row(),
+                                           Lockstep::Settings{.wait_for = 3, .patience = patience});
+        talk->lockstep.started(0, "python3 a.py");
+        talk->lockstep.started(1, "sleep 30");
+        talk->say(0, hello_a);
+        return talk;
+    };
+    const auto slow = run_of_three(50ms);
+    slow->lockstep.held(49ms);
+    CHECK_FALSE(slow->lockstep.is_done());
+    slow->say(1, "no hello");
+    slow->lockstep.held(50ms);
+    CHECK(slow->lockstep.fault() == "no hello within 0.05 s from controller \"sleep 30\"");
+    CHECK(slow->lockstep.time_to_end() == 400ms);
+
+    const auto complete = run_of_three(50ms);
+    complete->say(1, hello_b);
+    complete->lockstep.held(1h);  // for a controller that somebody else starts
+    CHECK_FALSE(complete->lockstep.is_done());
+
+    const auto patient = run_of_three({});
+    patient->lockstep.held(1h);
+    CHECK_FALSE(patient->lockstep.is_done());
+    CHECK(patient->lockstep.time_to_end() == 10s);
 }
 
 }  // namespace lockstep_test
