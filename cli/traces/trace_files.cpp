@@ -5,6 +5,7 @@
 #include "experiment/replay/capture.hpp"
 #include "experiment/replay/trace_input.hpp"
 #include "experiment/reports/loss_table.hpp"
+#include "files/input_file.hpp"
 #include "pictures/foxglove/foxglove_trace.hpp"
 #include "traces/ns2/ns2_convert.hpp"
 #include "traces/ns2/ns2_diff.hpp"
@@ -47,6 +48,7 @@ void print_kinds(const TraceDifference& d) {
 
 void check_is_recorded(const TraceConvertArguments& a, std::string_view why) {
     if (is_recorded_trace(a.in)) return;
+    need_file(a.in);
     throw InputError({.source = a.in},
                      fmt::format("{} can be made only from a recorded trace (run --record), "
                                  "because {} the scenario in it",

@@ -65,9 +65,10 @@ std::string RecordedRun::names_in_words() const {
 
 RecordedReader::RecordedReader(const std::string& path) : path_(path), file_(path) {
     run_.has_names = false;
-    bool has_profile = false, has_metadata = false;
+    bool has_header = false, has_profile = false, has_metadata = false, has_data = false;
     while (const auto record = file_.next()) {
         if (record->opcode == McapOpcode::header) {
+            has_header = true;
             has_profile = ByteReader(record->content).text() == "rovernet";
         } else if (record->opcode == McapOpcode::metadata && has_profile) {
             read_metadata(record->content);
@@ -78,12 +79,16 @@ RecordedReader::RecordedReader(const std::string& path) : path_(path), file_(pat
             read_channel(record->content);
         } else if (record->opcode == McapOpcode::chunk || record->opcode == McapOpcode::data_end) {
             file_.go_to(*record);
+            has_data = true;
             break;
         }
     }
-    if (!has_metadata) {
-        throw InputError({.source = path}, "this MCAP file was not recorded by rovernet");
+    const bool is_cut = !has_data && (!has_header || has_profile);
+    if (!has_metadata && is_cut) {
+        fail(fmt::format("this {} is cut off before its first data; record the run again",
+                         has_profile ? "recorded trace" : "MCAP file"));
     }
+    if (!has_metadata) fail("this MCAP file was not recorded by rovernet");
     for (std::size_t i = 0; i < run_.robots.size(); ++i) legs_.add({});
 }
 

@@ -104,6 +104,12 @@ TEST_CASE("trace convert --to pcapng needs a recorded trace, and says why") {
     CHECK(ended.exit == 3);
     CHECK(ended.err.find("pcapng can be made only from a recorded trace") != std::string::npos);
     CHECK(content(out).empty());
+    for (const std::string to : {"pcapng", "foxglove", "csv"}) {
+        const std::string missing = run.folder.path("none.mcap");
+        const Ended none = command(run.folder, {"trace", "convert", missing, out, "--to", to});
+        CHECK(none.exit == 3);
+        CHECK(none.err.find("none.mcap: no such file") != std::string::npos);
+    }
     CHECK(command(run.folder, {"trace", "convert", run.recorded, out, "--to", "pcapng"}).exit == 0);
     CHECK(content(out).size() > 100);
 }

@@ -250,6 +250,27 @@ TEST_CASE("an incomplete recorded trace is read up to its last complete chunk") 
     CHECK(before < recorded.all->records.size());
 }
 
+TEST_CASE("a recorded trace that is cut off before its first data is not called one of others") {
+    const Recorded recorded(200);
+    const std::string whole = content(recorded.path);
+    const std::string rest = " is cut off before its first data; record the run again";
+    int refused = 0, of_rovernet = 0;
+    for (std::size_t cut = mcap_magic.size(); cut < whole.size(); ++cut) {
+        write_file(recorded.path, whole.substr(0, cut));
+        try {
+            RecordedReader reader(recorded.path);
+            break;  // what follows can be read
+        } catch (const InputError& error) {
+            ++refused;
+            const bool is_known = error.message() == "this recorded trace" + rest;
+            of_rovernet += is_known;
+            if (!is_known) CHECK(error.message() == "this MCAP file" + rest);
+        }
+    }
+    CHECK(refused > 100);
+    CHECK(of_rovernet > 50);
+}
+
 TEST_CASE("in a damaged recorded trace, a broken chunk affects only the records of this chunk") {
     const Recorded recorded(8000);
     std::string bytes = content(recorded.path);
@@ -293,7 +314,8 @@ TEST_CASE("a file that is not a recorded trace is refused with the reason") {
     CHECK(refused("") == "this is no recorded trace: expected a file in the format MCAP");
     CHECK(refused("s 1.0 _0_ AGT") ==
           "this is no recorded trace: expected a file in the format MCAP");
-    CHECK(refused(std::string(mcap_magic)) == "this MCAP file was not recorded by rovernet");
+    CHECK(refused(std::string(mcap_magic)) ==
+          "this MCAP file is cut off before its first data; record the run again");
     CHECK_THROWS_AS(RecordedReader("/nowhere/at/all"), InputError);
     CHECK_THROWS_AS(RecordedReader("/tmp"), InputError);
 }
