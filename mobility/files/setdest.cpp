@@ -58,6 +58,7 @@ class SetdestReader final : public MovementFile::Reader {
     SetdestReader(TextSource source, MovementSyntax syntax)
         : lines_(std::move(source)), tolerant_(syntax == MovementSyntax::tolerant) {
         scan();
+        if (robots.empty() && no_brackets_) throw NoBracketsError(*no_brackets_);
         const std::uint64_t skipped = skipped_;  // reading again counts again
         sort_robots();
         if (!in_order_) keep();
@@ -66,8 +67,10 @@ class SetdestReader final : public MovementFile::Reader {
         if (end > last_of_run) find_end();
         start_over();
         if (skipped > 0) {
-            notices.push_back(fmt::format("{} line{} left out; the first: {}", skipped,
-                                          skipped == 1 ? " is" : "s are", first_skipped_));
+            notices.push_back(fmt::format("{} line{} left out; the first{}: {}", skipped,
+                                          skipped == 1 ? " is" : "s are",
+                                          no_brackets_ ? " that moves a robot" : "",
+                                          no_brackets_ ? no_brackets_->what() : first_skipped_));
         }
     }
 
@@ -109,6 +112,7 @@ class SetdestReader final : public MovementFile::Reader {
     SetdestLine line_;
     std::uint64_t skipped_ = 0;
     std::string first_skipped_;
+    std::optional<NoBracketsError> no_brackets_;  ///< the first; its line is skipped
 
     std::vector<std::uint32_t> robot_of_;  ///< by node
     std::vector<Course> courses_;          ///< by robot
@@ -133,6 +137,10 @@ bool SetdestReader::next_line() {
         } else {
             try {
                 line_ = parse_setdest_line(*text, lines_.where());
+            } catch (const NoBracketsError& error) {
+                if (!no_brackets_) no_brackets_ = error;
+                skip(error);
+                continue;
             } catch (const InputError& error) {
                 skip(error);
                 continue;

@@ -69,8 +69,27 @@ std::uint8_t axis_of(Word word, const Words& words) {
     words.fail(word, "X_, Y_ or Z_", {"X_", "Y_", "Z_"});
 }
 
+/// Checks that a command which places or moves a node has a node with brackets.
+/// @param rest  words after the name of the node
+/// @throws NoBracketsError if there are none
+void check_brackets(Word name, Words rest, const Location& where) {
+    if (!name.text.starts_with('$') || name.text.find('(') != name.text.npos) return;
+    rest.next();
+    const std::string_view verb = rest.next().text, axis = rest.next().text;
+    const bool is_axis = axis == "X_" || axis == "Y_" || axis == "Z_";
+    if (verb != "setdest" && (verb != "set" || !is_axis)) return;
+    constexpr std::size_t longest = 40;
+    const std::string_view number = name.text.substr(name.text.find_last_not_of("0123456789") + 1);
+    throw NoBracketsError(
+        {where.source, where.line, name.column},
+        fmt::format("found \"{}\", expected a node as in $node_({}): names without brackets are "
+                    "not read",
+                    printable(name.text, longest), number.empty() ? "0" : number));
+}
+
 /// Parses a command to a node; `line` already has its time.
 void parse_command(Words& words, const Location& where, bool scheduled, SetdestLine& line) {
+    check_brackets(words.peek(), words, where);
     line.node = node_number(words.next(), where);
     const Word verb = words.next();
     if (verb.text == "set") {
@@ -103,6 +122,7 @@ SetdestLine parse_setdest_line(std::string_view text, const Location& where) {
     if (first.text.empty() || is_to_god(first)) return line;
     if (first.text != "$ns_" && first.text != "$ns") {
         if (first.text.find('(') == first.text.npos) {
+            check_brackets(first, words, where);
             words.fail(first, "$node_(0) set ..., $ns_ at ..., $god_ ... or a comment (#)",
                        {"$ns_", "$god_", "$node_(0)"});
         }

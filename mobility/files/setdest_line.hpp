@@ -26,7 +26,15 @@ struct SetdestLine {
     double speed = 0;       ///< speed [m/s]
 };
 
+/// Error: a command places or moves a node whose name has no brackets, such as `$n0`. Such names
+/// are not read, because `$a0` and `$b0` may be different nodes.
+class NoBracketsError : public InputError {
+  public:
+    using InputError::InputError;
+};
+
 /// Parses a line of an ns-2 movement file. @throws InputError if the line is invalid
+/// @throws NoBracketsError if only the brackets in the name of the node are missing
 SetdestLine parse_setdest_line(std::string_view line, const Location& where);
 
 }  // namespace rovernet

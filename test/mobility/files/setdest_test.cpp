@@ -139,7 +139,10 @@ TEST_CASE("setdest: an invalid line is refused with its number, or in tolerant m
          "1: found \"$node_()\", expected a node as in $node_(0), its number "
          "below 10000000"},
         {"$node_ set X_ 2",
-         "1: found \"$node_\", expected $node_(0) set ..., $ns_ at ..., $god_ ... "
+         "1: found \"$node_\", expected a node as in $node_(0): names without brackets are not "
+         "read"},
+        {"$node set Y 2",
+         "1: found \"$node\", expected $node_(0) set ..., $ns_ at ..., $god_ ... "
          "or a comment (#); did you mean \"$node_(0)\"?"},
         {"$node_(0 set X_ 3",
          "1: found \"$node_(0\", expected a node as in $node_(0), its number "
@@ -187,9 +190,34 @@ TEST_CASE("setdest: an invalid line is refused with its number, or in tolerant m
         CHECK(p.file.robots().size() == 1);
         CHECK(p.commands.size() == 1);
         REQUIRE(p.file.notices().size() == 1);
-        CHECK(p.file.notices()[0].starts_with("1 line is left out; the first: "));
+        CHECK(p.file.notices()[0].starts_with("1 line is left out; the first"));
         CHECK(p.file.notices()[0].ends_with(error));
     }
+}
+
+TEST_CASE("setdest: for a node without brackets the error shows how to write it") {
+    const std::string course_script =
+        "set ns [new Simulator]\n"
+        "$ns node-config -adhocRouting AODV\n"
+        "$n0 set X_ 100.0\n"
+        "$n12 set X_ 200.0\n"
+        "$ns at 1.0 \"$n0 setdest 300.0 100.0 25.0\"\n";
+    const std::string expected =
+        "scen.tcl:3:1: found \"$n0\", expected a node as in $node_(0): names without brackets are "
+        "not read";
+    CHECK(error_of(course_script, MovementSyntax::tolerant) == expected);
+    CHECK(error_of("$n12 set X_ 1\n") ==
+          "scen.tcl:1:1: found \"$n12\", expected a node as in $node_(12): names without brackets "
+          "are not read");
+    CHECK(error_of("$ns at 1.0 \"$n0 setdest 300.0 100.0 25.0\"\n")
+              .starts_with("scen.tcl:1:13: found \"$n0\", expected a node as in $node_(0): "));
+    CHECK(error_of("$udp0 set class_ 1\n").find("brackets") == std::string::npos);
+    const auto some = played(course_script + place_0, MovementSyntax::tolerant);
+    CHECK(some.file.robots().size() == 1);
+    REQUIRE(some.file.notices().size() == 1);
+    CHECK(
+        some.file.notices()[0].starts_with("5 lines are left out; the first that moves a robot: "));
+    CHECK(some.file.notices()[0].ends_with(expected));
 }
 
 TEST_CASE("setdest: impossible values are refused, or in tolerant mode skipped with one notice") {
