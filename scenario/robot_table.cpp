@@ -42,13 +42,15 @@ void read_reactions(TableReader& table, RobotTable& robot) {
     }
 }
 
-void check_name(const Value& value, const std::string& name) {
+/// @param may_have_dots  whether a movement file has the name
+void check_name(const Value& value, const std::string& name, bool may_have_dots) {
     check_printable(value, "name", name);
-    if (name.empty() || name.find_first_of(".\"") != std::string::npos) {
-        throw InputError(value.where, fmt::format("name: found {}; expected a name, without dots "
-                                                  "and quotes",
-                                                  value.description()));
-    }
+    const bool has_dot = !may_have_dots && name.find('.') != std::string::npos;
+    if (!name.empty() && !has_dot && name.find('"') == std::string::npos) return;
+    throw InputError(value.where,
+                     fmt::format("name: found {}; expected a name, without dots and quotes{}",
+                                 value.description(),
+                                 has_dot ? "; only robots of a movement file have dots" : ""));
 }
 
 void check_switching(TableReader& table, RobotTable& robot) {
@@ -136,7 +138,7 @@ RobotTable read_robot(const Value& value, const Scenario& scenario, bool needs_p
     robot.where = robot.at_where = robot.radio_where = robot.propagation_where = value.where;
     table.read_fields(robot);
     if (!table.table().find("name")) table.missing("name", "name = \"A\"");
-    check_name(*table.take("name"), robot.name);
+    check_name(*table.take("name"), robot.name, !needs_place);
     if (robot.at) robot.at_where = table.take("at")->where;
     if (const Value* place = table.take("place")) robot.place = read_place(*place);
     if (robot.at && robot.place) table.only_one_of("at", "place");

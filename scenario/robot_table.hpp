@@ -132,7 +132,8 @@ struct Scenario;
 
 /// Reads a [[robot]]. Defaults come from the scenario's other tables, which must have been read
 /// before.
-/// @param needs_place  false for a robot whose position comes from a movement file
+/// @param needs_place  false for a robot whose position and name come from a movement file; its
+/// name may have dots
 /// @throws InputError at the first mistake
 RobotTable read_robot(const Value& value, const Scenario& scenario, bool needs_place);
 

@@ -28,7 +28,7 @@ namespace {
 Vary key_to_vary(const std::string& given) {
     const std::string typed = "--vary " + given;
     const Location option{typed, 0, 0, true};
-    const std::size_t equals = given.find('=');
+    const std::size_t equals = find_equals(given);
     const auto value_of = [&](const std::string& text) {
         Value document{Table{}};
         set_option(document, "value=" + text, typed);
@@ -98,8 +98,7 @@ std::vector<std::string> names_of(const Vary& vary) {
 const Value* value_at(const Value& document, std::string_view path) {
     const Value* at = &document;
     while (at && !path.empty()) {
-        const std::string_view step = path.substr(0, path.find('.'));
-        path.remove_prefix(std::min(step.size() + 1, path.size()));
+        const std::string_view step = take_key(path);
         const Value* next = at->table() ? at->table()->find(step) : nullptr;
         for (std::size_t i = 0; at->array() && i < at->array()->size(); ++i) {
             const Value& item = (*at->array())[i];

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <charconv>
 #include <iostream>
-#include <sstream>
 #include <vector>
 
 namespace rovernet {
@@ -133,6 +132,18 @@ bool is_list_of_tables(const Value& value) {
            std::all_of(list->begin(), list->end(), [](const Value& v) { return v.table(); });
 }
 
+/// Reports that no item of a list has the name `step` of a path.
+[[noreturn]] void fail_unnamed(const std::string& step, const std::vector<std::string>& names,
+                               const Location& option) {
+    std::string near = did_you_mean(step, names);
+    const auto dotted = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
+        return name.starts_with(step + ".");
+    });
+    if (dotted != names.end()) near = fmt::format("write a name with dots as \"{}\"", *dotted);
+    throw InputError(option, fmt::format("nothing in the list is named \"{}\"{}{}", step,
+                                         near.empty() ? "" : "; ", near));
+}
+
 /// Value at `step` of a path (a key, or in a list an index or name), created if missing.
 Value& descend(Value& at, const std::string& step, const Location& option) {
     if (Array* list = at.array()) {
@@ -156,9 +167,7 @@ Value& descend(Value& at, const std::string& step, const Location& option) {
                                                  "an item before it, from 0 to {}",
                                                  step, list->size() - 1));
         }
-        const std::string near = did_you_mean(step, names);
-        throw InputError(option, fmt::format("nothing in the list is named \"{}\"{}{}", step,
-                                             near.empty() ? "" : "; ", near));
+        fail_unnamed(step, names, option);
     }
     Table* table = at.table();
     if (!table) {
@@ -304,11 +313,39 @@ std::string to_toml(const Table& document) {
     return text;
 }
 
+std::string_view take_key(std::string_view& path) {
+    const bool is_quoted = path.starts_with('"');
+    if (is_quoted) path.remove_prefix(1);
+    const std::size_t end = std::min(path.find(is_quoted ? '"' : '.'), path.size());
+    const std::string_view key = path.substr(0, end);
+    path.remove_prefix(end);
+    if (is_quoted) {
+        if (path.empty()) return {};
+        path.remove_prefix(1);
+        if (!path.empty() && path.front() != '.') return {};
+    }
+    if (!path.empty()) path.remove_prefix(1);
+    return key;
+}
+
+std::size_t find_equals(std::string_view assignment) {
+    bool is_quoted = false;
+    for (std::size_t i = 0; i < assignment.size(); ++i) {
+        if (assignment[i] == '"') is_quoted = !is_quoted;
+        if (assignment[i] == '=' && !is_quoted) return i;
+    }
+    return assignment.npos;
+}
+
 void set_value(Value& document, const std::string& path, Value value, const Location& where) {
-    std::stringstream steps(path);
+    std::string_view steps = path;
     Value* at = &document;
-    for (std::string step; std::getline(steps, step, '.');) {
-        if (step.empty()) throw InputError(where, "expected keys joined by single dots");
+    while (!steps.empty()) {
+        const std::string step(take_key(steps));
+        if (step.empty()) {
+            throw InputError(where,
+                             "expected keys joined by single dots; a key with dots is in quotes");
+        }
         at = &descend(*at, step, where);
     }
     *at = std::move(value);
@@ -316,7 +353,7 @@ void set_value(Value& document, const std::string& path, Value value, const Loca
 
 void set_option(Value& document, const std::string& assignment, const std::string& typed) {
     const Location option{typed, 0, 0, true};
-    const auto equals = assignment.find('=');
+    const auto equals = find_equals(assignment);
     if (equals == std::string::npos || equals == 0) {
         throw InputError(option, "expected key=value, such as radio.power=\"15 dBm\"");
     }

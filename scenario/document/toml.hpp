@@ -3,6 +3,7 @@
 
 #include "scenario/document/value.hpp"
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -35,9 +36,17 @@ std::string to_toml(const Value& value);
 /// Text of a value for users: the TOML of the value, but a string is printed without quotes.
 std::string plain_text(const Value& value);
 
+/// Takes the first key from a path of keys that are joined by dots: `robot` from `robot.A.radio`. A
+/// key with dots is in quotes: `"flow.0".radio`.
+/// @return the key without quotes; empty if the path does not begin with a complete key
+std::string_view take_key(std::string_view& path);
+
+/// Position of the first `=` of an assignment that is not in quotes; npos if there is none.
+std::size_t find_equals(std::string_view assignment);
+
 /// Sets the value at `path` in a scenario's document: `radio.power`, `robot.NAME.radio.power`,
-/// `traffic.0.start`. An item of a list is given by its number or by its `name`. Missing tables
-/// along the path are created.
+/// `robot."flow.0".radio.power`, `traffic.0.start`. An item of a list is given by its number or by
+/// its `name`. Missing tables along the path are created.
 /// @param where  file position given to the new values, for later error messages
 /// @throws InputError at `where` if the path does not exist and cannot be created
 void set_value(Value& document, const std::string& path, Value value, const Location& where);

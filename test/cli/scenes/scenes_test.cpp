@@ -275,6 +275,35 @@ payload = "F"
     CHECK(again.out == printed.out);
 }
 
+TEST_CASE("scene: a robot of a flow of SUMO, whose name has a dot, has its own radio") {
+    const TemporaryFolder folder;
+    folder.write("v.xml",
+                 "<fcd-export>\n<timestep time=\"0\">"
+                 "<vehicle id=\"flow.0\" x=\"5\" y=\"0\"/><vehicle id=\"flow.1\" x=\"9\" y=\"0\"/>"
+                 "</timestep>\n</fcd-export>\n");
+    const std::string movement = "[movement]\nfile = \"v.xml\"\n[[robot]]\n";
+    const std::string file =
+        folder.write("s.toml", movement + "name = \"flow.0\"\nradio = { power = \"7 dBm\" }\n");
+    CHECK(near(json_of(folder, {"scene", file})["robots"][0]["power_dbm"], 7));
+    const Json set =
+        json_of(folder, {"scene", file, "--set", "robot.\"flow.0\".radio.power=\"11 dBm\""});
+    CHECK(set["robots"][0]["name"] == "flow.0");
+    CHECK(near(set["robots"][0]["power_dbm"], 11));
+    const Ended printed = command(folder, {"run", file, "--print-scenario"});
+    folder.write("again.toml", printed.out);
+    CHECK(command(folder, {"run", folder.path("again.toml"), "--print-scenario"}).out ==
+          printed.out);
+
+    const auto refused = [&](const std::string& name) {
+        folder.write("r.toml", movement + "name = " + name + "\nat = [0, 0]\n");
+        return command(folder, {"scene", folder.path("r.toml")}).err;
+    };
+    CHECK(refused("\"flow.2\"")
+              .find("without dots and quotes; only robots of a movement file have") !=
+          std::string::npos);
+    CHECK(refused("'flow\"0'").find("without dots and quotes\n") != std::string::npos);
+}
+
 TEST_CASE("where: absent robots are marked, and times are printed in the given order") {
     const TemporaryFolder folder;
     folder.write("v.xml",

@@ -102,6 +102,21 @@ TEST_CASE(
     CHECK(after_option("[a]\nb = 1\n", "a.b=2") == "[a]\nb = 2\n");
 }
 
+TEST_CASE(
+    "set_option: a name with dots stands in quotes, and the error for a name without says so") {
+    const std::string text = "[[robot]]\nname = \"flow.0\"\n\n[[robot]]\nname = \"a=b\"\n";
+    CHECK(contains(after_option(text, "robot.\"flow.0\".radio.power=2"),
+                   "name = \"flow.0\"\nradio = { power = 2 }\n"));
+    CHECK(contains(after_option(text, "robot.\"a=b\".radius=2"), "name = \"a=b\"\nradius = 2\n"));
+    CHECK(after_option("", "\"a.b\"=1") == "\"a.b\" = 1\n");
+    CHECK(contains(error_of_option(text, "robot.flow.0.radio.power=2"),
+                   "nothing in the list is named \"flow\"; write a name with dots as \"flow.0\""));
+    for (const char* option : {"\"a.b=1", "\"a\"b=1", "\"\".a=1"}) {
+        CAPTURE(option);
+        CHECK(error_of_option(text, option).starts_with("--set " + std::string(option) + ": "));
+    }
+}
+
 TEST_CASE("set_option: a value is read as TOML if possible, and as text otherwise") {
     CHECK(after_option("", "a=friis") == "a = \"friis\"\n");
     CHECK(after_option("", "a=\"friis\"") == "a = \"friis\"\n");
