@@ -44,17 +44,27 @@ inline py::object to_python(const Value& value) {
     return py::none();
 }
 
-inline std::int64_t whole_number(py::handle given, const std::string& place) {
-    const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(given.ptr()));
-    if (!index) throw py::error_already_set();
+inline std::int64_t whole_number(const py::object& index, const std::string& place) {
     int overflow = 0;
     const std::int64_t number = PyLong_AsLongLongAndOverflow(index.ptr(), &overflow);
     if (overflow == 0) return number;
     throw InputError({.source = place}, "expected a whole number below 2^63");
 }
 
-/// Scenario value from a Python object: dict, list, tuple, str, bool or number. Numbers without a
-/// unit are in SI units, as on the command line.
+/// Whether an object is a scalar or an array of NumPy, or of a library with the same functions.
+inline bool is_from_numpy(py::handle given) {
+    return py::hasattr(given, "dtype") && py::hasattr(given, "tolist");
+}
+
+/// Python object with the value of a NumPy scalar or array: a number, bool, str or list.
+inline py::object plain(py::handle given) {
+    const py::object value = given.attr("tolist")();
+    // A longdouble is a longdouble again.
+    return py::type::of(value).is(py::type::of(given)) ? py::object(py::float_(value)) : value;
+}
+
+/// Scenario value from a Python object: dict, list, tuple, str, bool or number; a NumPy scalar or
+/// array is converted by tolist(). Numbers without a unit are in SI units, as on the command line.
 /// @param place  path of the value in Python notation, for errors: scenario["radio"]["power"]
 /// @throws InputError for objects of other types, keys that are not texts, whole numbers that do
 ///         not fit into 64 bits, and more than 32 nesting levels
@@ -64,6 +74,7 @@ inline Value to_value(py::handle given, const std::string& place, int depth = 0)
     if (depth > deepest) {
         throw InputError(where, fmt::format("expected {} levels at most", deepest));
     }
+    if (is_from_numpy(given)) return to_value(plain(given), place, depth + 1);
     if (py::isinstance<py::dict>(given)) {
         Table table;
         for (const auto& [key, value] : py::cast<py::dict>(given)) {
@@ -89,7 +100,10 @@ inline Value to_value(py::handle given, const std::string& place, int depth = 0)
     if (py::isinstance<py::bool_>(given)) return placed(py::cast<bool>(given), where);
     if (py::isinstance<py::str>(given)) return placed(py::cast<std::string>(given), where);
     if (PyFloat_Check(given.ptr())) return placed(py::cast<double>(given), where);
-    if (PyIndex_Check(given.ptr())) return placed(whole_number(given, place), where);
+    const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(given.ptr()));
+    if (index) return placed(whole_number(index, place), where);
+    if (!PyErr_ExceptionMatches(PyExc_TypeError)) throw py::error_already_set();
+    PyErr_Clear();
     throw InputError(where, fmt::format("found {}; expected a text, a number, True or False, a "
                                         "list or a dict",
                                         std::string(py::repr(given))));

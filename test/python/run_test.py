@@ -74,6 +74,24 @@ class Run(FolderTest):
         self.assertEqual(numbers.fingerprint, texts.fingerprint)
         self.assertNotEqual(numbers.fingerprint, rn.run(ROW).fingerprint)
 
+    def test_scalars_and_arrays_of_numpy_count_as_the_values_of_python_that_they_have(self):
+        def run(number, at):
+            robots = [{"name": "a", "at": at, "radius": number}, {"name": "b", "at": [number, 2]}]
+            traffic = [{"from": "a", "payload": "F", "every": 1}]
+            return rn.run({"scenario": {"duration": 2}, "robot": robots, "traffic": traffic},
+                          set={"robot.a.heading": number})
+        expected = run(0.5, [0.0, 0.0]).fingerprint
+        for number in (np.float16(0.5), np.float32(0.5), np.float64(0.5), np.longdouble(0.5), np.array(0.5)):
+            for at in (np.zeros(2), np.zeros(2, dtype=int), (np.int8(0), np.float32(0))):
+                self.assertEqual(run(number, at).fingerprint, expected, (number, at))
+        for truth in (True, np.bool_(True)):
+            with self.assertRaisesRegex(rn.InputError, r'set\["robot.B.radius"\].*found true'):
+                rn.run(ROW, set={"robot.B.radius": truth})
+        with self.assertRaisesRegex(rn.InputError, r'set\["robot.B.at"\]'):
+            rn.run(ROW, set={"robot.B.at": np.zeros((2, 2))})
+        with self.assertRaisesRegex(rn.InputError, r'set\["radio.power"\].*expected a text, a number'):
+            rn.run(ROW, set={"radio.power": np.array([object()])[0]})
+
     def test_progress_gets_the_finished_share_and_an_error_in_it_ends_the_run(self):
         told = []
         rn.run(ROW, progress=told.append)
