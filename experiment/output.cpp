@@ -30,8 +30,8 @@ void make_folder(const std::string& path) {
     std::filesystem::create_directories(path, error);
     if (!error && std::filesystem::is_directory(path, error)) return;
     throw RunError(
-        fmt::format("{}: cannot create this folder ({}); give a different folder with --out", path,
-                    error ? error.message() : "a file is in the way"));
+        fmt::format("{}: cannot create this folder ({}); give a different folder for the results",
+                    path, error ? error.message() : "a file is in the way"));
 }
 
 }  // namespace rovernet

@@ -58,6 +58,13 @@ inline std::string shown(py::handle object) {
     return std::string(py::str(text[py::slice(0, longest, 1)])) + "...";
 }
 
+/// Checks that an argument can be called, or is None. @param name  of the argument
+inline void check_callable(const py::object& function, std::string_view name) {
+    if (function.is_none() || PyCallable_Check(function.ptr()) != 0) return;
+    throw py::type_error(
+        fmt::format("{}: expected a function, or None, got {}", name, shown(function)));
+}
+
 }  // namespace rovernet::python
 
 namespace pybind11::detail {

@@ -108,6 +108,7 @@ class RunObject {
 inline RunObject run(const py::object& given, const py::object& set, const py::object& seed,
                      const py::object& out, const KindsArgument& records,
                      const py::object& progress) {
+    check_callable(progress, "progress");
     const auto scenario = std::make_shared<const Scenario>(to_scenario(given, set, seed));
     auto rows = rows_of(records.value);
     const auto folder = folder_in(out);

@@ -111,9 +111,9 @@ class SessionObject {
         interruption_.raise();
         return {std::move(scenario), std::move(result), kept_, true};
     }
-    /// Calls the Python function `function` with each record of the kind `name` from now on. If
-    /// `function` is None, the calls for this kind end.
+    /// Calls `function` with each record of the kind `name` from now on; None ends these calls.
     void on_record(const std::string& name, const py::object& function) {
+        check_callable(function, "function");
         const Working working(*this);
         Network& network = run_.session().network();
         const KindMask kind = record_named(name);

@@ -134,6 +134,8 @@ class Steps(unittest.TestCase):
                 (lambda: rn.run(RESCUE, records="received"), "records: expected a list of kinds of records"),
                 (lambda: rn.run(None), "scenario: expected the path of a file or a dict, got None"),
                 (lambda: rn.run(RESCUE, out=3), "out: expected the path of a folder, or None, got 3"),
+                (lambda: rn.run(RESCUE, progress=3), "progress: expected a function, or None, got 3"),
+                (lambda: session.on_record("moved", 3), "function: expected a function, or None, got 3"),
                 (lambda: session.go_to("A", list(range(1000)) + ["x"]), r"got \[0, 1, 2, [0-9, ]+\.\.\.$")):
             with self.assertRaisesRegex(TypeError, why):
                 call()
@@ -141,6 +143,11 @@ class Steps(unittest.TestCase):
             session.go_to("a", (1, 2))
         with self.assertRaisesRegex(ValueError, "command: found vv, w; expected v, w, timeout; or goal"):
             session.command("A", vv=1, w=2)
+
+    def test_an_error_about_the_folder_names_no_option_of_the_command(self):
+        with self.assertRaisesRegex(rn.RunError, "/proc/nope: cannot create this folder") as raised:
+            rn.Session(RESCUE, out="/proc/nope")
+        self.assertNotIn("--", str(raised.exception))
 
     def test_a_goal_off_the_map_is_an_error_with_the_extent_of_the_map(self):
         session = rn.Session(RESCUE, robots=["A"], step=1)
