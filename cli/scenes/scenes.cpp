@@ -257,11 +257,13 @@ void draw(const DrawArguments& a) {
 
 void convert_movements(const ConvertArguments& a) {
     const Scenario scenario = scenario_of(a);
+    std::vector<std::string> notices;
     const auto files = [&] {
         Playing playing(a.file, start_of_run + scenario.scenario.duration);
-        return movement_files(scenario, a.out, playing.tell());
+        return movement_files(scenario, a.out, notices, playing.tell());
     }();
     write_whole(files);
+    for (const std::string& each : notices) notice(each);
 }
 
 }  // namespace rovernet::cli

@@ -8,10 +8,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 namespace rovernet {
 namespace {
@@ -54,6 +56,24 @@ struct Recorder {
     }
 };
 
+/// Notice that robots have other names in a movement file, of which the first three are shown;
+/// empty if no name is different. @param numbers  of the robots in the file
+std::string renaming_notice(const std::string& path, const std::vector<Track>& all,
+                            const std::vector<std::uint32_t>& numbers) {
+    constexpr std::size_t most = 3;
+    std::vector<std::string> changes;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const std::string name = fmt::format("n{}", numbers[i]);
+        if (all[i].name == name || ++count > most) continue;
+        changes.push_back(fmt::format("{} is {}", all[i].name, name));
+    }
+    if (changes.empty()) return {};
+    return fmt::format("{}: robots have numbers in this format: {}{}", path,
+                       fmt::join(changes, ", "),
+                       count > most ? fmt::format(", and {} more", count - most) : "");
+}
+
 }  // namespace
 
 std::vector<Whereabouts> whereabouts(const Scenario& scenario, const std::vector<Time>& times,
@@ -91,20 +111,23 @@ std::vector<Track> tracks(const Scenario& scenario, const TellTime& tell) {
 }
 
 std::vector<OutputFile> movement_files(const Scenario& scenario, const std::string& path,
-                                       const TellTime& tell) {
+                                       std::vector<std::string>& notices, const TellTime& tell) {
     const std::filesystem::path out(path);
     const std::string ending = out.extension().string();
-    const Time end = start_of_run + scenario.scenario.duration;
-    if (ending == ".tcl" || ending == ".ns_movements") {
-        return {{path, setdest_text(tracks(scenario, tell), end)}};
-    }
-    if (ending != ".movements") {
+    const bool is_ns2 = ending == ".tcl" || ending == ".ns_movements";
+    if (!is_ns2 && ending != ".movements") {
         throw std::invalid_argument(
             fmt::format("{}: unknown ending \"{}\"; expected .tcl or .ns_movements for ns-2, "
                         ".movements for BonnMotion",
                         path, ending));
     }
+    const Time end = start_of_run + scenario.scenario.duration;
     const auto all = tracks(scenario, tell);
+    std::vector<std::uint32_t> numbers = node_numbers(all);
+    if (!is_ns2) std::iota(numbers.begin(), numbers.end(), 0U);  // of lines
+    std::string notice = renaming_notice(path, all, numbers);
+    if (!notice.empty()) notices.push_back(std::move(notice));
+    if (is_ns2) return {{path, setdest_text(all, end)}};
     std::filesystem::path params(out);
     return {{path, bonnmotion_text(all, end)},
             {params.replace_extension(".params").string(), bonnmotion_params(all, end)}};

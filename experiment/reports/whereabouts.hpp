@@ -39,8 +39,10 @@ std::vector<Track> tracks(const Scenario& scenario, const TellTime& tell = {});
 
 /// Movement files with the movements of a scenario's robots. The ending of `path` selects the
 /// format: NAME.movements and NAME.params for BonnMotion, NAME.tcl or NAME.ns_movements for ns-2.
+/// @param notices  receives a notice if the robots have other names in the file
 /// @throws std::invalid_argument for any other ending of `path`
 std::vector<OutputFile> movement_files(const Scenario& scenario, const std::string& path,
+                                       std::vector<std::string>& notices,
                                        const TellTime& tell = {});
 
 }  // namespace rovernet

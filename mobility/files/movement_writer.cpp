@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "mobility/files/movement_writer.hpp"
 
+#include "files/word.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <tuple>
 
@@ -104,22 +109,47 @@ void append_field(std::string& text, const Box& box) {
     }
 }
 
+/// Number k in the name "nk" of a node; empty for other names.
+std::optional<std::uint32_t> number_in(const std::string& name) {
+    std::uint32_t number = 0;
+    if (!name.starts_with('n')) return std::nullopt;
+    const char* end = name.data() + name.size();
+    const auto [stop, error] = std::from_chars(name.data() + 1, end, number);
+    const bool is_number = error == std::errc{} && stop == end && number < most_file_robots;
+    if (!is_number || name != fmt::format("n{}", number)) return std::nullopt;
+    return number;
+}
+
+/// Appends a comment for each track whose name differs from the number of its node.
+void append_names(std::string& text, std::span<const Track> tracks,
+                  const std::vector<std::uint32_t>& numbers) {
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+        if (number_in(tracks[i].name) == numbers[i]) continue;
+        std::string name = tracks[i].name;
+        std::replace_if(
+            name.begin(), name.end(), [](char c) { return c >= 0 && c < ' '; }, ' ');
+        append(text, "# {} -> $node_({})\n", name, numbers[i]);
+    }
+}
+
 struct Departure {
     Time time;
-    std::size_t node;
+    std::size_t track;
+    std::uint32_t node;  ///< number in the file
     Piece piece;
 };
 
-std::vector<Departure> departures_of(std::span<const Track> tracks, Time end) {
+std::vector<Departure> departures_of(std::span<const Track> tracks,
+                                     const std::vector<std::uint32_t>& numbers, Time end) {
     std::vector<Departure> departures;
     for (std::size_t i = 0; i < tracks.size(); ++i) {
         for (const Piece& p : pieces_of(tracks[i], end)) {
             const bool moves = p.from.x != p.to.x || p.from.y != p.to.y;
-            if (moves || p.jump) departures.push_back({p.start, i, p});
+            if (moves || p.jump) departures.push_back({p.start, i, numbers[i], p});
         }
     }
     std::sort(departures.begin(), departures.end(), [](const Departure& a, const Departure& b) {
-        return std::tie(a.time, a.node) < std::tie(b.time, b.node);
+        return std::tie(a.time, a.track) < std::tie(b.time, b.track);
     });
     return departures;
 }
@@ -150,19 +180,32 @@ bool leaves_the_ground(std::span<const Track> tracks, Time end) {
 
 }  // namespace
 
+std::vector<std::uint32_t> node_numbers(std::span<const Track> tracks) {
+    std::vector<std::uint32_t> numbers;
+    for (const Track& track : tracks) {
+        if (const auto number = number_in(track.name)) numbers.push_back(*number);
+    }
+    if (numbers.size() == tracks.size()) return numbers;
+    numbers.resize(tracks.size());
+    std::iota(numbers.begin(), numbers.end(), 0U);
+    return numbers;
+}
+
 std::string setdest_text(std::span<const Track> tracks, Time end) {
+    const std::vector<std::uint32_t> numbers = node_numbers(tracks);
     std::string text;
     const Box box = box_of(tracks, end);
     append(text, "# nodes: {}, max x: {:.2f}, max y: {:.2f}\n", tracks.size(), box.high.x,
            box.high.y);
     append_field(text, box);
+    append_names(text, tracks, numbers);
     for (std::size_t i = 0; i < tracks.size(); ++i) {
         const Vec3 at = tracks[i].legs.front().from;
-        append(text, "$node_({}) set X_ {:.9f}\n", i, at.x);
-        append(text, "$node_({}) set Y_ {:.9f}\n", i, at.y);
-        append(text, "$node_({}) set Z_ {:.9f}\n", i, at.z);
+        append(text, "$node_({}) set X_ {:.9f}\n", numbers[i], at.x);
+        append(text, "$node_({}) set Y_ {:.9f}\n", numbers[i], at.y);
+        append(text, "$node_({}) set Z_ {:.9f}\n", numbers[i], at.z);
     }
-    for (const Departure& departure : departures_of(tracks, end)) {
+    for (const Departure& departure : departures_of(tracks, numbers, end)) {
         if (departure.piece.jump) append_jump(text, departure);
         append_setdest(text, departure);
     }

@@ -163,6 +163,25 @@ TEST_CASE(
         2);
 }
 
+TEST_CASE("move convert: nodes keep their numbers, and a notice shows the names that change") {
+    const TemporaryFolder folder;
+    folder.write("five.tcl", "$node_(5) set X_ 1\n");
+    folder.write("v.xml",
+                 "<fcd-export>\n<timestep time=\"0\"><vehicle id=\"flow.0\" x=\"5\" y=\"1\"/>"
+                 "<vehicle id=\"b\" x=\"9\" y=\"1\"/></timestep>\n</fcd-export>\n");
+    const auto convert = [&](const std::string& from, const std::string& to) {
+        return command(folder, {"move", "convert", folder.path(from), folder.path(to)}).err;
+    };
+    CHECK(convert("five.tcl", "a.tcl").find("numbers") == std::string::npos);
+    CHECK(content(folder.path("a.tcl")).find("$node_(5) set X_") != std::string::npos);
+    CHECK(convert("five.tcl", "a.movements").find("numbers in this format: n5 is n0\n") !=
+          std::string::npos);
+    CHECK(convert("v.xml", "b.tcl").find("numbers in this format: flow.0 is n0, b is n1\n") !=
+          std::string::npos);
+    CHECK(content(folder.path("b.tcl")).find("# flow.0 -> $node_(0)\n# b -> $node_(1)\n") !=
+          std::string::npos);
+}
+
 TEST_CASE("scene: an image without a size is refused; with a size it is described") {
     const TemporaryFolder folder;
     folder.write("m.png", wall_picture());

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -135,6 +136,9 @@ TEST_CASE("writer: an ns-2 movement file has the expected lines") {
     CHECK(setdest_text(tracks, at(100)) ==
           "# nodes: 3, max x: 50.00, max y: 60.00\n"
           "# ns-2 stops at a target outside of its field: load_flatgrid 51 61 or more\n"
+          "# a -> $node_(0)\n"
+          "# b -> $node_(1)\n"
+          "# c -> $node_(2)\n"
           "$node_(0) set X_ 1.000000000\n"
           "$node_(0) set Y_ 2.000000000\n"
           "$node_(0) set Z_ 3.000000000\n"
@@ -154,6 +158,30 @@ TEST_CASE(
     CHECK(setdest_text(tracks, at(100))
               .find("# and at one with x or y not above 0; here the least are x -3.50, y 2.00\n") !=
           std::string::npos);
+}
+
+TEST_CASE("writer: nodes of an ns-2 file keep their numbers, and other names are in comments") {
+    const auto numbers = [](const std::vector<std::string>& names) {
+        std::vector<Track> tracks;
+        for (const std::string& each : names) tracks.push_back({each, {rest(0, {1, 1, 0})}});
+        return node_numbers(tracks);
+    };
+    using Numbers = std::vector<std::uint32_t>;
+    CHECK(numbers({"n5", "n0", "n9999999"}) == Numbers{5, 0, 9999999});
+    for (const std::string other : {"flow.0", "n", "n05", "n10000000", "m1", "n1 "}) {
+        CAPTURE(other);
+        CHECK(numbers({"n5", other}) == Numbers{0, 1});
+    }
+    const std::vector<Track> kept = {{"n5", {leg(0, 1, {1, 1, 0}, {2, 1, 0})}}};
+    const std::string text = setdest_text(kept, at(1));
+    CHECK(text.find("$node_(5) set X_ 1.000000000\n") != text.npos);
+    CHECK(text.find("\"$node_(5) setdest 2.000000000") != text.npos);
+    CHECK(text.find("$node_(0)") == text.npos);
+    CHECK(text.find("->") == text.npos);
+    const std::vector<Track> mixed = {{"n0", {rest(0, {1, 1, 0})}}, {"a\nb", {rest(0, {1, 1, 0})}}};
+    const std::string renamed = setdest_text(mixed, at(1));
+    CHECK(renamed.find("# a b -> $node_(1)\n") != renamed.npos);
+    CHECK(renamed.find("# n0") == renamed.npos);
 }
 
 TEST_CASE("writer: a BonnMotion file has the expected positions and parameters") {
