@@ -76,7 +76,7 @@ bool Session::run(std::optional<double> speed, const std::function<bool(double)>
         Time until = end_;
         if (speed) {
             const std::chrono::duration<double> wall = WallClock::now() - started;
-            until = std::min(end_, begun + from_seconds(wall.count() * *speed));
+            until = begun + from_seconds(std::min(wall.count() * *speed, seconds(end_ - begun)));
         }
         const bool arrived = advance(until, events_a_slice);
         const bool done = arrived && until == end_;

@@ -28,13 +28,12 @@ class RunClock {
     /// Present time, at most `end`; `never` without a speed.
     Time now(Time end) const {
         if (!speed_) return never;
-        const std::chrono::duration<double> wall = real_() - started_;
-        return start_of_run + from_seconds(std::min(wall.count() * *speed_, seconds(end)));
+        return set_to_ + simulated(real_() - set_at_, end);
     }
     /// Sets the clock to the time `t`.
     void set(Time t) {
-        started_ = real_();
-        if (speed_) started_ -= std::chrono::duration_cast<Real::duration>(real_time(t));
+        set_at_ = real_();
+        set_to_ = t;
     }
     /// Sets the clock to the time `t`, and changes its speed from then on.
     void set_speed(std::optional<double> speed, Time t) {
@@ -43,23 +42,24 @@ class RunClock {
     }
     /// Real time that has passed since the clock showed `t`; negative if the clock has not reached
     /// `t` yet. To be called only if the clock has a speed.
-    Duration since(Time t) const { return real_() - started_ - real_time(t); }
-    /// Real time that a simulated duration takes. To be called only if the clock has a speed.
+    Duration since(Time t) const { return real_() - set_at_ - real_time(t - set_to_); }
+    /// Real time that a simulated duration takes, at most 31 years. To be called only if the clock
+    /// has a speed.
     Duration real_time(Duration simulated) const {
-        return from_seconds(seconds(simulated) / *speed_);
+        constexpr double longest = 1e9;  // [s]
+        return from_seconds(std::clamp(seconds(simulated) / *speed_, -longest, longest));
     }
-    /// Simulated time that passes in a real duration, at most until `end`. To be called only if the
-    /// clock has a speed.
+    /// Simulated time that passes in a real duration, at most from the time of set() until `end`.
+    /// To be called only if the clock has a speed.
     Duration simulated(Duration real, Time end) const {
-        return from_seconds(std::min(seconds(real) * *speed_, seconds(end)));
+        return from_seconds(std::min(seconds(real) * *speed_, seconds(end - set_to_)));
     }
 
   private:
-    Duration real_time(Time t) const { return real_time(t - start_of_run); }
-
     std::function<Real::time_point()> real_;
     std::optional<double> speed_;
-    Real::time_point started_;
+    Real::time_point set_at_;     // real time of the last set()
+    Time set_to_ = start_of_run;  // time that the clock showed then
 };
 
 }  // namespace rovernet

@@ -19,7 +19,7 @@ void add_run_options(Command run, RunArguments& a) {
                    "(default: as fast as possible)")
         .transform(
             [](const std::string& text) { return text.starts_with('x') ? text.substr(1) : text; })
-        .check(above_zero());
+        .check(speed_of_time());
     run.add_flag("--record", a.record,
                  "also write trace.mcap, a recorded trace with all records, for replay and view");
     add_json(run, a.json);

@@ -146,7 +146,7 @@ void add_emulate(Command app) {
     a.fronts.add_to(command);
     a.view.add_to(command);
     command.add_option("--speed", a.speed, "speed relative to real time (default: 1)")
-        .check(above_zero());
+        .check(speed_of_time());
     command.add_option("--late", a.late, "longest time by which the run may lag behind real time")
         .shows_default();
     command

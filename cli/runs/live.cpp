@@ -170,7 +170,7 @@ void add_by_clock(Command live, LiveArguments& a) {
     live.add_option(
             "--speed", a.speed,
             "speed relative to real time, with --player, --rosbridge or --view (default: 1)")
-        .check(above_zero())
+        .check(speed_of_time())
         .excludes(lockstep);
 }
 

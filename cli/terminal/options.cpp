@@ -43,6 +43,12 @@ Check above_zero() {
                                 [](double v) { return std::isfinite(v) && v > 0; });
 }
 
+Check speed_of_time() {
+    constexpr double slowest = 1e-6, fastest = 1e9;
+    return number_check<double>("a speed from 1e-6 to 1e9", "SPEED",
+                                [](double v) { return v >= slowest && v <= fastest; });
+}
+
 Check not_negative() {
     return number_check<double>("a number >= 0", "NONNEGATIVE",
                                 [](double v) { return std::isfinite(v) && v >= 0; });

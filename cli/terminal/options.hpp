@@ -59,6 +59,8 @@ constexpr const char* any_file =
 /// Check that an option's value is a number in a range. The error message names the found and the
 /// expected value.
 Check above_zero();
+/// Check of the ratio of simulated time to real time [-].
+Check speed_of_time();
 Check not_negative();
 Check below_90_degrees();
 /// Check that an option's value is a whole number from 0 to 2^63 - 1, as in a scenario file.

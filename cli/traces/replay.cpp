@@ -372,7 +372,7 @@ void add_replay(Command app) {
             .transform([](const std::string& text) {
                 return text.starts_with('x') ? text.substr(1) : text;
             })
-            .check(above_zero())
+            .check(speed_of_time())
             .excludes(verify);
     replay
         .add_option("--with", a.with,

@@ -108,8 +108,15 @@ TEST_CASE("input: an impossible number in an option is an error in plain words")
         CHECK(ended.err.size() < 120);
         return ended.err;
     };
-    CHECK(contains(said("--speed", "0"), "--speed: found \"0\"; expected a number > 0"));
-    CHECK(contains(said("--speed", "fast"), "--speed: found \"fast\"; expected a number > 0"));
+    for (const std::string speed : {"0", "fast", "-1", "nan", "inf", "1e308", "1e10", "1e-7"}) {
+        CHECK(contains(said("--speed", speed),
+                       "--speed: found \"" + speed + "\"; expected a speed from 1e-6 to 1e9\n"));
+    }
+    for (const std::string name : {"live", "emulate", "replay"}) {
+        const Ended ended = command(folder, {name, file, "--speed", "1e308"});
+        CHECK(ended.exit == 2);
+        CHECK(contains(ended.err, "--speed: found \"1e308\"; expected a speed from"));
+    }
     CHECK(contains(said("--seed", "-1"), "--seed: found \"-1\"; expected a whole number >= 0"));
     CHECK(contains(said("--seed", "abc"), "--seed: found \"abc\""));
     const Ended parameter = command(folder, {"loss", "two_ray", "n=2", "--distance", "1"});

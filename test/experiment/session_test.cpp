@@ -71,6 +71,7 @@ TEST_CASE("session: a run in one piece, in steps or paced has the same fingerpri
               for (Time t = start_of_run; t < s.end(); t += 170ms) s.step(t);
           }) == whole);
     CHECK(fingerprint_of([](Session& s) { CHECK(s.run({}, {})); }) == whole);
+    CHECK(fingerprint_of([](Session& s) { CHECK(s.run(1e300, {})); }) == whole);
     double last = 0;
     CHECK(fingerprint_of([&](Session& s) {
               CHECK(s.run(200, [&](double share) { return last = share, true; }));
