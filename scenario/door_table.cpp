@@ -33,10 +33,10 @@ void check_times(const DoorTable& door, TableReader& table) {
 
 DoorTable read_door(const Value& value) {
     TableReader table(value, "[[scene.door]]");
+    table.expect<DoorTable>();
     DoorTable door;
     door.where = value.where;
     table.read_fields(door);
-    table.reject_unknown();
     if (door.name) check_printable(*table.take("name"), "name", *door.name);
     if (!table.table().find("from")) table.missing("from", "from = [\"12 m\", \"4 m\"]");
     if (!table.table().find("to")) table.missing("to", "to = [\"13 m\", \"4 m\"]");

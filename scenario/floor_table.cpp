@@ -12,9 +12,9 @@ namespace {
 
 CeilingTable read_ceiling(const Value& value) {
     TableReader table(value, "ceiling");
+    table.expect<CeilingTable>();
     CeilingTable ceiling;
     table.read_fields(ceiling);
-    table.reject_unknown();
     if (ceiling.itu && !ceiling.thickness) table.missing("thickness", "thickness = \"0.2 m\"");
     if (ceiling.thickness && !ceiling.itu) table.missing("itu", "itu = \"concrete\"");
     if (ceiling.itu && ceiling.per_crossing) table.only_one_of("itu", "per_crossing");
@@ -23,10 +23,10 @@ CeilingTable read_ceiling(const Value& value) {
 
 FloorTable read_floor(const Value& value) {
     TableReader table(value, "[[scene.floor]]");
+    table.expect<FloorTable>({"ceiling"});
     FloorTable floor;
     table.read_fields(floor);
     if (const Value* ceiling = table.take("ceiling")) floor.ceiling = read_ceiling(*ceiling);
-    table.reject_unknown();
     if (!table.table().find("map")) table.missing("map", "map = \"ground.png\"");
     if (!table.table().find("height")) table.missing("height", "height = \"3 m\"");
     floor.map_where = table.take("map")->where;

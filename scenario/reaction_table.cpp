@@ -45,6 +45,10 @@ ReactionTable read_reaction(const Value& value, Trigger trigger) {
     reaction.trigger = trigger;
     reaction.where = value.where;
     for_each_field<ReactionTable>([&](const auto& f) {
+        if (ReactionTable::has_key(trigger, f.name)) table.take(f.name);
+    });
+    table.expect({"move"});
+    for_each_field<ReactionTable>([&](const auto& f) {
         if (ReactionTable::has_key(trigger, f.name))
             table.read(f.name, reaction.*f.member, f.range);
     });
@@ -54,7 +58,6 @@ ReactionTable read_reaction(const Value& value, Trigger trigger) {
     if (trigger == Trigger::on_time && !table.table().find("time")) {
         table.missing("time", "time = \"10 s\"");
     }
-    table.reject_unknown();
     check_receiver(reaction, table);
     if (reaction.stop && reaction.move) table.only_one_of("move", "stop");
     if (reaction.size && !reaction.send)

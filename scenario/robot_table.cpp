@@ -14,10 +14,10 @@ namespace {
 
 PlaceTable read_place(const Value& value) {
     TableReader table(value, "place");
+    table.expect<PlaceTable>();
     PlaceTable place;
     place.where = value.where;
     table.read_fields(place);
-    table.reject_unknown();
     if (place.model == PlaceTable::Model::uniform && place.area.size() != 2) {
         table.missing("area", "area = [[\"0 m\", \"0 m\"], [\"100 m\", \"50 m\"]]");
     }
@@ -25,6 +25,16 @@ PlaceTable read_place(const Value& value) {
         table.missing("points", "points = [[\"5 m\", \"3 m\"], [\"15 m\", \"3 m\"]]");
     }
     return place;
+}
+
+/// Declares the keys of [[robot]], so that a misspelt one is reported before values are read.
+void expect_keys(TableReader& table) {
+    for_each_field<RobotTable>([&](const auto& f) { table.take(f.name); });
+    for (const char* key : {"place", "move", "scan", "role", "radio", "propagation"}) {
+        table.take(key);
+    }
+    for (const std::string_view trigger : EnumNames<Trigger>::values) table.take(trigger);
+    table.reject_unknown();
 }
 
 void read_reactions(TableReader& table, RobotTable& robot) {
@@ -111,9 +121,9 @@ Table place_document(const PlaceTable& place) {
 
 void read_radio(const Value& value, const std::string& name, Radio& out, RadioPlaces& places) {
     TableReader table(value, name);
+    table.expect<Radio, RadioLabels>();
     table.read_fields(out);
     table.read_fields(out.labels);
-    table.reject_unknown();
     for (const char* label : {"essid", "ip", "netmask", "mac"}) {
         if (const Value* text = table.take(label)) check_printable(*text, label, *text->string());
     }
@@ -134,6 +144,7 @@ void read_radio(const Value& value, const std::string& name, Radio& out, RadioPl
 
 RobotTable read_robot(const Value& value, const Scenario& scenario, bool needs_place) {
     TableReader table(value, "[[robot]]");
+    expect_keys(table);
     RobotTable robot;
     robot.where = robot.at_where = robot.radio_where = robot.propagation_where = value.where;
     table.read_fields(robot);
@@ -155,7 +166,6 @@ RobotTable read_robot(const Value& value, const Scenario& scenario, bool needs_p
     read_air(table, robot, scenario);
     read_reactions(table, robot);
     check_switching(table, robot);
-    table.reject_unknown();
     return robot;
 }
 

@@ -8,6 +8,7 @@
 #include "scenario/memory.hpp"
 #include "scenario/names.hpp"
 #include "scenario/tables/flow_names.hpp"
+#include "scenario/tables/read_model.hpp"
 #include "scenario/tables/reader.hpp"
 #include "scenario/traffic_file.hpp"
 #include "scenario/unlikely.hpp"
@@ -114,8 +115,8 @@ void read_section(TableReader& document, std::string_view key, T& out) {
     const Value* value = document.take(key);
     if (!value) return;
     TableReader table(*value, fmt::format("[{}]", key));
+    table.expect<T>();
     table.read_fields(out);
-    table.reject_unknown();
 }
 
 /// Checks values that are valid for other access models, but not for csma.
@@ -282,6 +283,9 @@ Scenario read_scenario(const Value& value, const std::string& file, bool needs_r
     Scenario out;
     out.file = file;
     TableReader document(value, "the scenario");
+    document.expect({"scenario", "scene", "access", "radio", "medium", "propagation", "shadowing",
+                     "fading", "reception", "links", "movement", "robot", "routing", "traffic",
+                     "trace", "metrics", "study"});
     read_section(document, "scenario", out.scenario);
     check_run_name(document, out.scenario.name);
     if (const Value* scene = document.take("scene")) out.scene = read_scene(*scene);
@@ -313,7 +317,6 @@ Scenario read_scenario(const Value& value, const std::string& file, bool needs_r
     const std::vector<std::string>& asked = out.study.metrics;
     const bool asks_reach = std::find(asked.begin(), asked.end(), "reach") != asked.end();
     if (asks_reach && !out.metrics.reach) out.metrics.reach = true;
-    document.reject_unknown();
     if (needs_robots) check_robots(document, out);
     check_memory(out, available_memory());
     check_names(out);

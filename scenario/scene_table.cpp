@@ -21,9 +21,9 @@ void check_greys(const MaterialTable& material, TableReader& table) {
 
 MaterialTable read_material(const Entry& entry) {
     TableReader table(entry.value, fmt::format("material \"{}\"", entry.key));
+    table.expect<MaterialTable>();
     MaterialTable material;
     table.read_fields(material);
-    table.reject_unknown();
     material.name = entry.key;
     material.where = entry.key_where;
     Value name{entry.key};
@@ -107,12 +107,12 @@ void check_world(const SceneTable& scene, TableReader& table) {
 
 SceneTable read_scene(const Value& value) {
     TableReader table(value, "[scene]");
+    table.expect<SceneTable>({"floor", "door", "materials"});
     SceneTable scene;
     table.read_fields(scene);
     if (const Value* floors = table.take("floor")) scene.floors = read_floors(*floors);
     if (const Value* doors = table.take("door")) scene.doors = read_doors(*doors);
     const Value* materials = table.take("materials");
-    table.reject_unknown();
     check_floors(scene, table);
     const Value* source = table.table().find(scene.world ? "world" : "map");
     scene.map_where = source ? source->where : value.where;

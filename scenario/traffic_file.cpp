@@ -253,9 +253,9 @@ TrafficFile read_traffic_file(const std::string& path) { return TrafficReader(pa
 
 void read_flows(const Value& value, Scenario& out) {
     TableReader table(value, "[traffic] with a file");
+    table.expect({"file"});
     std::string name;
     table.read("file", name);
-    table.reject_unknown();
     const auto path = std::filesystem::path(out.file).parent_path() / name;
     TrafficFile file = located_file(table.take("file")->where, "file",
                                     [&] { return read_traffic_file(path.string()); });

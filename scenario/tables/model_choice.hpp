@@ -103,52 +103,6 @@ constexpr bool has_key(std::string_view key) {
     return has;
 }
 
-/// Checks that the file gives all parameters of the chosen model that have no default.
-/// @param what  kind of the model, for the error message: "propagation model"
-/// @throws InputError at `where`, naming the first missing parameter
-template <class... Choice>
-void check_given(const ModelChoice<Choice...>& choice, std::string_view what, Location where) {
-    choice.for_each([&]<class M>(const M& each, bool chosen) {
-        for_each_field<M>([&](const auto& f) {
-            const auto number = number_in(each.*f.member);
-            if (chosen && number && *number != *number)
-                throw_not_given(where, what, M::name, f.name, f.meaning);
-        });
-    });
-}
-
-/// Reads the chosen model, and the given parameters of all listed models, from a table. A key that
-/// several models have sets the parameter of each of these models. The value must be in the range
-/// of the chosen model. Every other model ignores a value outside of its range.
-/// @param key   key whose value is the name of the model: "model"
-/// @param what    kind of the model, for error messages: "propagation model"
-/// @param common  described structs whose keys the table has in addition to the models' keys
-/// @throws InputError at the first mistake, such as a missing parameter of the chosen model
-template <class... Choice, Described... Common>
-void read_model(const Value& value, std::string table_name, std::string_view key,
-                std::string_view what, ModelChoice<Choice...>& out, Common&... common) {
-    TableReader table(value, std::move(table_name));
-    if (const Value* word = table.take(key)) out.model = read_choice(*word, what, out.names());
-    const auto is_of_chosen = [&](std::string_view name) {
-        bool is = false;
-        out.for_each(
-            [&]<class M>(const M&, bool chosen) { is = is || (chosen && has_key<M>(name)); });
-        return is;
-    };
-    out.for_each([&]<class M>(M& each, bool chosen) {
-        for_each_field<M>([&](const auto& f) {
-            if (chosen || !is_of_chosen(f.name)) {
-                table.read(f.name, each.*f.member, f.range);
-            } else {
-                table.read_if_valid(f.name, each.*f.member, f.range);
-            }
-        });
-    });
-    (table.read_fields(common), ...);
-    table.reject_unknown();
-    check_given(out, what, value.where);
-}
-
 /// Converts a model choice to a table: the inverse of read_model(). The table has the chosen model
 /// with its parameters, and the parameters of other models that differ from their defaults.
 template <class... Choice>

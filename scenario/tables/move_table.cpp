@@ -114,9 +114,13 @@ MoveTable read_move(const Value& value, bool placed) {
     std::size_t index = 0;
     for_each_move([&]<class Model>(Model model) {
         if (index++ != chosen) return;
+        if constexpr (LedModel<Model>) {
+            table.expect<Model>({"leader"});
+        } else {
+            table.expect<Model>();
+        }
         table.read_fields(model);
         read_leader<Model>(table, move);
-        table.reject_unknown();
         check(model, table);
         settle_start(model, table, placed);
         move.model = std::move(model);

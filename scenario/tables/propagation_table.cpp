@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "scenario/tables/propagation_table.hpp"
 
+#include "scenario/tables/read_model.hpp"
+
 namespace rovernet {
 
 void read_propagation(const Value& value, PropagationTable& out) {

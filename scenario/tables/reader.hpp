@@ -5,6 +5,7 @@
 #include "scenario/tables/read_value.hpp"
 #include "sim/fields.hpp"
 
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,8 +15,8 @@
 // line and column:
 //
 //     TableReader table(value, "[radio]");
+//     table.expect<Radio>();
 //     table.read_fields(radio);
-//     table.reject_unknown();
 
 namespace rovernet {
 
@@ -28,14 +29,24 @@ namespace rovernet {
                                   std::string_view model, std::string_view key,
                                   std::string_view meaning);
 
-/// Reader of one table of a document, key by key. The reader records the keys that callers read, so
-/// that reject_unknown() finds misspelt keys. The value must outlive the reader.
+/// Reader of one table of a document, key by key. The reader records the keys that callers expect
+/// or read, so that reject_unknown() finds misspelt keys. The value must outlive the reader.
 class TableReader {
   public:
     /// @param name  name of the table, for error messages: "[radio]"
     /// @throws InputError if the value is no table
     TableReader(const Value& value, std::string name);
 
+    /// Declares the keys of the table: the fields of the structs T, then `more`. To be called
+    /// before any value is read, so that a misspelt key is reported before a value that it might
+    /// explain.
+    /// @throws InputError for the first other key; the message suggests a key
+    template <Described... T>
+    void expect(std::initializer_list<std::string_view> more = {}) {
+        (for_each_field<T>([&](const auto& f) { take(f.name); }), ...);
+        for (const std::string_view key : more) take(key);
+        reject_unknown();
+    }
     /// Value of `key`, or null if the table lacks the key. reject_unknown() accepts the key from
     /// now on.
     const Value* take(std::string_view key);
@@ -52,13 +63,16 @@ class TableReader {
         return true;
     }
     /// Reads `key` if it is present and valid; otherwise `out` is unchanged.
+    /// @return whether the key was read
     template <class T>
-    void read_if_valid(std::string_view key, T& out, const Range& range) {
+    bool read_if_valid(std::string_view key, T& out, const Range& range) {
         T given = out;
         try {
-            read(key, given, range);
+            if (!read(key, given, range)) return false;
             out = std::move(given);
+            return true;
         } catch (const InputError&) {
+            return false;
         }
     }
     /// Reads every key of a struct with fields(), and checks its range. A missing key leaves its
@@ -68,7 +82,8 @@ class TableReader {
     void read_fields(T& out) {
         for_each_field<T>([&](const auto& f) { read(f.name, out.*f.member, f.range); });
     }
-    /// Checks, after the last key was read, that the table has no unknown keys.
+    /// Checks that the table has no unknown keys, after the last key was read or taken. A table
+    /// whose keys are known beforehand calls expect() instead.
     /// @throws InputError for the first key that no caller has read; the message suggests a key
     void reject_unknown() const;
     /// Reports that a required key is missing.

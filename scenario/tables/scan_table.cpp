@@ -58,10 +58,10 @@ void check_ring(const Scanner& ring, const Value& angles, TableReader& table) {
 
 Scanner read_scanner(const Value& value) {
     TableReader table(value, "scan");
+    table.expect<RangeFinder, Scanner>();
     Scanner scanner;
     table.read_fields(scanner.finder);
     table.read_fields(scanner);
-    table.reject_unknown();
     if (const Value* name = table.take("name")) check_scanner_name(*name, scanner.name);
     if (const Value* angles = table.take("angles")) {
         check_ring(scanner, *angles, table);

@@ -68,8 +68,7 @@ Value value_at(double number, const Amount& like, bool whole) {
 /// The values from, from + step ... to.
 Array expand(const Value& range, std::string_view path) {
     TableReader keys(range, fmt::format("vary.\"{}\"", path));
-    for (const char* key : {"from", "to", "step"}) keys.take(key);
-    keys.reject_unknown();
+    keys.expect({"from", "to", "step"});
     const Amount from = read_amount(range, path, "from");
     const Amount to = read_amount(range, path, "to");
     const Amount step = read_amount(range, path, "step");
@@ -237,6 +236,7 @@ void check_interval(const TableReader& table, const StudyTable& study) {
 StudyTable read_study(const Value& value, Duration duration) {
     StudyTable study;
     TableReader table(value, "[study]");
+    table.expect<StudyTable>({"warmup", "vary", "zip", "exclude"});
     table.read_fields(study);
     check_interval(table, study);
     if (const Value* metrics = table.table().find("metrics")) {
@@ -246,7 +246,6 @@ StudyTable read_study(const Value& value, Duration duration) {
     if (const Value* vary = table.take("vary")) study.vary = read_vary(*vary);
     if (const Value* zip = table.take("zip")) read_zip(*zip, study);
     if (const Value* exclude = table.take("exclude")) read_exclude(*exclude, study);
-    table.reject_unknown();
     return study;
 }
 

@@ -49,6 +49,7 @@ void check_stop(const TrafficTable& traffic, TableReader& table) {
 
 TrafficTable read_traffic(const Value& value) {
     TableReader table(value, "[[traffic]]");
+    table.expect<TrafficTable>({"start"});
     TrafficTable traffic;
     table.read_fields(traffic);
     read_start(table.take("start"), traffic, table);
@@ -74,7 +75,6 @@ TrafficTable read_traffic(const Value& value) {
         table.missing("payload", "payload = \"F\", or size = \"64 B\"");
     }
     if (to_one && !traffic.to) table.missing("to", "to = \"B\", the receiver of the unicast");
-    table.reject_unknown();
     check_receiver(traffic);
     check_stop(traffic, table);
     if (traffic.saturate && traffic.every) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "study/calibration/free_parameters.hpp"
 
+#include "scenario/tables/read_model.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

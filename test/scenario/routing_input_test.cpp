@@ -73,6 +73,18 @@ TEST_CASE("routing input: an unknown key is an error, and keys of other protocol
     CHECK(has(error_of(chosen + "hop_limit = 8\n"), "s.toml:9:13: hop_limit: found the number 8"));
 }
 
+TEST_CASE(
+    "routing input: a key of another protocol may have each value that some protocol allows") {
+    for (const std::string protocol : {"flood", "aodv", "dsr", "managed"}) {
+        CAPTURE(protocol);
+        const std::string chosen = "[routing]\nprotocol = \"" + protocol + "\"\n";
+        CHECK(error_of(chosen + "hello = \"0 s\"\n").empty());  // valid under aodv only
+    }
+    const std::string text = error_of("[routing]\nprotocol = \"suppression\"\nhello = \"0 s\"\n");
+    CHECK(has(text, "s.toml:9:9: hello: found \"0 s\"; expected a value > 0 s, up to 10000 s"));
+    CHECK(has(error_of("[routing]\nhello = \"-1 s\"\n"), "s.toml:8:9: hello: found \"-1 s\""));
+}
+
 TEST_CASE("routing input: a role that the protocol does not have is an error at the robot") {
     const std::string robots = two_robots + "role = \"ruoter\"\n";
     const std::string error = error_of("[routing]\nprotocol = \"managed\"\n", robots);

@@ -4,6 +4,7 @@
 #include "scenario/document/toml.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/tables/access_table.hpp"
+#include "scenario/tables/read_model.hpp"
 #include "sim/error.hpp"
 
 #include <doctest/doctest.h>
@@ -35,7 +36,12 @@ struct Far {
             field("share", &Far::share, Range{.low = 0, .high = 1, .text = "to 1"}, ""));
     }
 };
-using Choice = ModelChoice<std::tuple<Near, Far>, std::variant<Near, Far>>;
+/// A model without keys.
+struct Bare {
+    static constexpr std::string_view name = "bare";
+    static constexpr auto fields() { return describe(); }
+};
+using Choice = ModelChoice<std::tuple<Near, Far, Bare>, std::variant<Near, Far, Bare>>;
 
 Choice read(const std::string& toml) {
     Choice out;
@@ -76,6 +82,13 @@ TEST_CASE("models: a key of a model that is not chosen is checked and kept") {
     CHECK(near.as<Far>() == nullptr);
     CHECK(error_of("share = 2.0").find("expected a value to 1") != std::string::npos);
     CHECK(error_of("shar = 0.2").find("did you mean \"share\"?") != std::string::npos);
+}
+
+TEST_CASE("models: a key that the chosen model lacks must be valid for one of the others") {
+    const Choice bare = read("model = \"bare\"\nhops = 30");
+    CHECK(std::get<Far>(bare.parameters).hops == 30);
+    CHECK(std::get<Near>(bare.parameters).hops == 2);
+    CHECK(error_of("model = \"bare\"\nhops = 100").find("m.toml:2:8: hops") == 0);
 }
 
 TEST_CASE("models: a printed table is read back with the same model and parameters") {
