@@ -3,8 +3,10 @@
 
 #include "scenario/tables/model_choice.hpp"
 #include "scenario/tables/reader.hpp"
+#include "sim/out_of_range.hpp"
 
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -25,6 +27,20 @@ void check_given(const ModelChoice<Choice...>& choice, std::string_view what, Lo
                 throw_not_given(where, what, M::name, f.name, f.meaning);
         });
     });
+}
+
+/// Checks that the chosen model can be made: its constructor checks parameters together.
+/// @throws InputError at the parameter that the model refuses, or at the table if it lacks the key
+template <class... Choice>
+void check_made(const ModelChoice<Choice...>& choice, const Value& value) {
+    try {
+        (void)choice.make();
+    } catch (const OutOfRange& error) {
+        const Value* given = value.table()->find(error.parameter());
+        throw InputError(given ? given->where : value.where, error.what());
+    } catch (const std::invalid_argument& error) {
+        throw InputError(value.where, error.what());
+    }
 }
 
 /// Reads the parameters of all models of a choice. The chosen model must accept the values of its
@@ -67,6 +83,7 @@ void read_model(const Value& value, std::string table_name, std::string_view key
     read_parameters(table, out);
     (table.read_fields(common), ...);
     check_given(out, what, value.where);
+    check_made(out, value);
 }
 
 }  // namespace rovernet

@@ -85,6 +85,16 @@ TEST_CASE(
     CHECK(has(error_of("[routing]\nhello = \"-1 s\"\n"), "s.toml:8:9: hello: found \"-1 s\""));
 }
 
+TEST_CASE("routing input: a value that the scheme of a protocol refuses is an error at its key") {
+    const std::string chosen = "[routing]\nprotocol = \"suppression\"\n";
+    CHECK(has(error_of(chosen + "scheme = \"counter\"\nthreshold = 2.5\n"),
+              "s.toml:10:13: suppression: threshold must be a whole number from 1 to 1e9"));
+    CHECK(has(error_of(chosen + "scheme = \"location\"\n"),
+              "s.toml:7:1: suppression: range must be given, > 0 m for scheme \"location\""));
+    CHECK(has(error_of(chosen + "scheme = \"cluster\"\nthreshold = 2\n"),
+              "s.toml:10:13: suppression: threshold must be left out for scheme \"cluster\""));
+}
+
 TEST_CASE("routing input: a role that the protocol does not have is an error at the robot") {
     const std::string robots = two_robots + "role = \"ruoter\"\n";
     const std::string error = error_of("[routing]\nprotocol = \"managed\"\n", robots);
