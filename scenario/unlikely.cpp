@@ -147,8 +147,38 @@ void note_unicasts(Scenario& out) {
     unicasts.note(out.notices);
 }
 
-/// Notices broadcasts over one hop: the key is mostly meant for unicasts.
+/// Notices broadcasts that go over one hop because the routing protocol forwards only unicasts, and
+/// that do not say so.
+void note_unforwarded(Scenario& out) {
+    if (!out.routing.make().traits().routes_unicasts) return;
+    Affected broadcasts;
+    const auto note = [&](const Location& where, std::string_view key, std::string_view from,
+                          std::string_view advice) {
+        broadcasts.add([&] {
+            return fmt::format(
+                "{}: {}: the routing protocol does not forward broadcasts, so those of \"{}\" go "
+                "over one hop{}",
+                where.text(), key, from, advice);
+        });
+    };
+    for (const TrafficTable& traffic : out.traffic) {
+        if (traffic.to || traffic.hops || traffic.saturate) continue;
+        note(traffic.from_where, "from", traffic.from,
+             "; hops = 1 states this in the scenario, and [routing] protocol = \"flood\" forwards "
+             "them");
+    }
+    for (const RobotTable& robot : out.robots) {
+        for (const ReactionTable& reaction : robot.reactions) {
+            if (reaction.send && !reaction.to) note(reaction.where, "send", robot.name, "");
+        }
+    }
+    broadcasts.note(out.notices);
+}
+
+/// Notices broadcasts over one hop that the routing protocol would forward: the key is mostly meant
+/// for unicasts.
 void note_broadcasts(Scenario& out) {
+    if (out.routing.make().traits().routes_unicasts) return;
     Affected broadcasts;
     for (const TrafficTable& traffic : out.traffic) {
         if (traffic.kind == TrafficKind::unicast || !traffic.hops) continue;
@@ -196,6 +226,7 @@ void note_unlikely(Scenario& scenario) {
     }
     note_payloads(scenario);
     note_unicasts(scenario);
+    note_unforwarded(scenario);
     note_broadcasts(scenario);
     note_equal_starts(scenario);
 }

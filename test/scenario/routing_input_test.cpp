@@ -140,6 +140,25 @@ TEST_CASE("routing input: a unicast under a flood gives a notice that names a ro
     }
 }
 
+TEST_CASE("routing input: a broadcast under a protocol of unicasts gives a notice") {
+    const std::string broadcast = "[[traffic]]\nfrom = \"A\"\nsize = \"9 B\"\n";
+    for (const std::string protocol : {"aodv", "dsr"}) {
+        const std::string chosen = "[routing]\nprotocol = \"" + protocol + "\"\n";
+        const std::string text = all_notices(broadcast + chosen);
+        CHECK(text ==
+              "s.toml:8:8: from: the routing protocol does not forward broadcasts, so "
+              "those of \"A\" go over one hop; hops = 1 states this in the scenario, and "
+              "[routing] protocol = \"flood\" forwards them\n");
+        CHECK(all_notices(broadcast + "hops = 1\n" + chosen).empty());
+        CHECK(has(all_notices("on_time = { time = \"1 s\", send = \"x\" }\n" + chosen),
+                  "s.toml:7:11: send: the routing protocol does not forward broadcasts, so those "
+                  "of \"B\" go over one hop"));
+    }
+    for (const std::string protocol : {"flood", "suppression", "managed"}) {
+        CHECK(all_notices(broadcast + "[routing]\nprotocol = \"" + protocol + "\"\n").empty());
+    }
+}
+
 TEST_CASE("routing input: a route of more than sixteen robots gives a notice at the end") {
     const auto notice_with = [](int robots) {
         std::string text =
