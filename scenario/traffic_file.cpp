@@ -37,6 +37,18 @@ std::vector<Word> words_of(std::string_view line) {
     return words;
 }
 
+/// Adds a flow of messages of `size` bytes, which leave as packets of at most `largest` bytes: as
+/// many as fit, and one with the rest (ns-2.35, apps/udp.cc, UdpAgent::sendmsg). Packets after the
+/// first one are flows of their own.
+void add_packets(const TrafficTable& flow, std::uint32_t size, std::uint32_t largest,
+                 TrafficFile& file) {
+    do {
+        TrafficTable& packet = file.flows.emplace_back(flow);
+        packet.size = Bytes{std::min(size, largest)};
+        size -= std::min(size, largest);
+    } while (size > 0);
+}
+
 class TrafficReader {
   public:
     explicit TrafficReader(const std::string& path)
@@ -55,6 +67,12 @@ class TrafficReader {
                             "half longer or shorter, but here all intervals are equal",
                             lines_.where().source, random_, random_ == 1 ? "" : "s"));
         }
+        if (left_out_ > 0) {
+            file.notices.push_back(
+                fmt::format("{}: this line about an agent is left out{}; expected set packetSize_",
+                            first_left_out_.text(),
+                            left_out_ > 1 ? fmt::format(", and {} more", left_out_ - 1) : ""));
+        }
         return file;
     }
 
@@ -64,11 +82,13 @@ class TrafficReader {
         bool sends = false;
         std::optional<std::uint32_t> node = std::nullopt;
         std::string peer = {};
-        Location where = {};  // of its node
+        Location where = {};        // of its node
+        std::uint32_t size = 1000;  // [bytes] of the largest packet, by default as in ns-2.35
     };
     /// Application of ns-2, which makes an agent send; the defaults are those of ns-2.35.
     struct App {
-        double size = 210, rate = 448e3;  // [bytes], [bit/s]
+        std::uint32_t size = 210;  // [bytes]
+        double rate = 448e3;       // [bit/s]
         std::optional<double> interval = std::nullopt;
         double most = 268435456;
         std::string agent = {};
@@ -105,6 +125,7 @@ class TrafficReader {
         if (error != std::errc{} || !(v >= 1 && v <= 1e12)) fail(word, expected);
         return v;
     }
+    std::uint32_t size(const Word& word, std::uint32_t least) const;
     std::string reference(const Word& word) const {
         if (!word.text.starts_with('$')) fail(word, "a name with $ before it");
         return std::string(word.text.substr(1));
@@ -121,6 +142,7 @@ class TrafficReader {
     void tell_simulator();
     void schedule();
     void tell(App& app);
+    void tell(Agent& agent);
     void add_flow(const App& app, TrafficFile& file);
 
     TextLines lines_;
@@ -129,6 +151,8 @@ class TrafficReader {
     std::map<std::string, App, std::less<>> apps_;
     std::vector<std::string> order_;  // of the applications
     std::size_t random_ = 0;          // flows that ns-2 would make irregular
+    std::size_t left_out_ = 0;        // lines about agents that change nothing here
+    Location first_left_out_ = {};
 };
 
 void TrafficReader::command() {
@@ -139,7 +163,26 @@ void TrafficReader::command() {
     if (!first.text.starts_with('$')) fail(first, "set, $ns_ ..., $cbr_(0) ... or a comment (#)");
     const std::string name = reference(first);
     if (const auto app = apps_.find(name); app != apps_.end()) return tell(app->second);
-    if (!agents_.contains(name)) fail(first, "an agent or an application that was made before");
+    tell(named(agents_, first, "an agent or an application that was made before"));
+}
+
+/// Size of a packet [bytes], at least `least`.
+std::uint32_t TrafficReader::size(const Word& word, std::uint32_t least) const {
+    const std::string sizes = fmt::format(
+        "a size in bytes from {} to {}, the content of a UDP packet", least, longest_message);
+    const double bytes = amount(word, least, sizes);
+    if (bytes > longest_message || bytes != std::floor(bytes)) fail(word, sizes);
+    return static_cast<std::uint32_t>(bytes);
+}
+
+/// Command  $udp_(0) set packetSize_ 2000
+void TrafficReader::tell(Agent& agent) {
+    const std::string_view key = word(2).text;
+    if (word(1).text == "set" && key == "packetSize_") {
+        agent.size = size(word(3), 1);
+    } else if (word(1).text != "set" || (key != "fid_" && key != "class_" && key != "prio_")) {
+        if (left_out_++ == 0) first_left_out_ = here(word(0));
+    }
 }
 
 /// Command  set NAME [new CLASS]
@@ -201,10 +244,7 @@ void TrafficReader::tell(App& app) {
     if (word(1).text != "set") fail(word(1), "set or attach-agent");
     const Word key = word(2), value = word(3);
     if (key.text == "packetSize_") {
-        constexpr std::string_view sizes =
-            "a size in bytes from 0 to 65507, the content of a UDP packet";
-        app.size = amount(value, 0, sizes);
-        if (app.size > longest_message || app.size != std::floor(app.size)) fail(value, sizes);
+        app.size = size(value, 0);
     } else if (key.text == "interval_") {
         app.interval = amount(value, 1e-9, "a time from 1e-9 to 1e9 [s]");
     } else if (key.text == "rate_") {
@@ -234,7 +274,6 @@ void TrafficReader::add_flow(const App& app, TrafficFile& file) {
     flow.kind = TrafficKind::unicast;
     flow.from = fmt::format("n{}", *from->second.node);
     flow.to = fmt::format("n{}", *to->second.node);
-    flow.size = Bytes{static_cast<std::uint32_t>(app.size)};
     flow.start = *app.start - start_of_run;
     const double interval = app.interval.value_or(8 * app.size / app.rate);
     flow.every = std::max(from_seconds(interval), Duration{1});
@@ -244,7 +283,7 @@ void TrafficReader::add_flow(const App& app, TrafficFile& file) {
     if (flow.stop && *flow.stop <= *flow.start) fault("stops before it starts");
     if (flow.from == flow.to) fault("sends to its own node, expected another");
     if (app.most < most) flow.count = static_cast<int>(app.most);
-    file.flows.push_back(std::move(flow));
+    add_packets(flow, app.size, from->second.size, file);
 }
 
 }  // namespace

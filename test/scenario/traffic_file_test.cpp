@@ -8,7 +8,9 @@
 
 #include <doctest/doctest.h>
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace traffic_file_test {
 using namespace rovernet;
@@ -77,6 +79,39 @@ TEST_CASE("traffic file: a rate gives the interval, and defaults are those of ns
     CHECK(every("$cbr_(0) set rate_ 64k\n") == from_seconds(512 * 8 / 64e3));
     CHECK(every("$cbr_(0) set rate_ 0.5Mb\n") == from_seconds(512 * 8 / 0.5e6));
     CHECK(every("") == from_seconds(512 * 8 / 448e3));
+}
+
+TEST_CASE("traffic file: messages above the agent's packet size leave as several packets") {
+    const TemporaryFolder folder;
+    std::vector<std::string> notices;
+    const auto sizes = [&](const std::string& size, const std::string& agent) {
+        std::string text = with(flow(0, 1, 2, "1.0"), "packetSize_ 512", "packetSize_ " + size);
+        text = with(text, "set null_(0)", agent + "set null_(0)");
+        const TrafficFile file = read_traffic_file(folder.write("cbr.tcl", text));
+        notices = file.notices;
+        std::vector<std::uint32_t> all;
+        for (const TrafficTable& each : file.flows) {
+            CHECK(each.start == from_seconds(1));
+            CHECK(each.every == from_seconds(0.25));
+            CHECK(each.count == 10000);
+            all.push_back(each.size->value);
+        }
+        return all;
+    };
+    using Sizes = std::vector<std::uint32_t>;
+    // The packets that ns-2.35 sends at 1 s.
+    CHECK(sizes("2000", "") == Sizes{1000, 1000});
+    CHECK(sizes("2500", "") == Sizes{1000, 1000, 500});
+    CHECK(sizes("1000", "") == Sizes{1000});
+    CHECK(sizes("1500", "$udp_(0) set packetSize_ 600\n") == Sizes{600, 600, 300});
+    CHECK(sizes("2000", "$udp_(0) set packetSize_ 2000\n$udp_(0) set fid_ 2\n") == Sizes{2000});
+    CHECK(notices.size() == 1);  // random_
+    CHECK(sizes("512", "$udp_(0) set ttl_ 3\n$udp_(0) set ttl_ 4\n") == Sizes{512});
+    REQUIRE(notices.size() == 2);
+    CHECK(notices[1].find("cbr.tcl:6:1: this line about an agent is left out, and 1 more") !=
+          std::string::npos);
+    CHECK_THROWS_WITH_AS(sizes("512", "$udp_(0) set packetSize_ 0\n"),
+                         doctest::Contains("a size in bytes from 1 to 65507"), InputError);
 }
 
 TEST_CASE("traffic file: content other than CBR over UDP is an error with its position") {
