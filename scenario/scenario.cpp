@@ -119,6 +119,15 @@ void read_section(TableReader& document, std::string_view key, T& out) {
     table.read_fields(out);
 }
 
+/// Checks that the largest contention window is not below the least one.
+void check_windows(const Csma& csma, const Table& table) {
+    const int least = csma.timing().cw_min;
+    if (!csma.cw_max || csma.timing().cw_max == *csma.cw_max) return;
+    const Value& given = *table.find("cw_max");
+    throw InputError(given.where, fmt::format("cw_max: found {}; expected at least cw_min = {}",
+                                              given.description(), least));
+}
+
 /// Checks values that are valid for other access models, but not for csma.
 void check_csma(const Csma& csma, const Table& table) {
     constexpr double longest = 1e9;  // [s] of a backoff; see read_value of a time
@@ -132,6 +141,7 @@ void check_csma(const Csma& csma, const Table& table) {
                         "backoff; expected a slot > 0, and a longest backoff of at most 1e9 s",
                         slot.description(), timing.cw_max));
     }
+    check_windows(csma, table);
     const auto& given_rates = csma.basic_rates;
     const auto is_none = [](BitRate rate) { return !(rate > BitRate{0}); };
     if (given_rates &&
