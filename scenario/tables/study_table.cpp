@@ -179,6 +179,25 @@ void read_zip(const Value& value, StudyTable& study) {
     }
 }
 
+/// @throws InputError for a value that the key never has in the study: it would exclude nothing
+void check_varied(const Vary& vary, const Value& value) {
+    constexpr std::size_t most_shown = 20;
+    std::vector<std::string> texts, words;
+    for (const Value& each : vary.values) {
+        texts.push_back(to_toml(each));
+        words.push_back(plain_text(each));
+        if (texts.back() == to_toml(value)) return;
+    }
+    const std::string near = did_you_mean(plain_text(value), words);
+    const bool is_cut = texts.size() > most_shown;
+    texts.resize(std::min(texts.size(), most_shown));
+    throw InputError(
+        value.where,
+        fmt::format("exclude: found {} = {}, which vary does not have; expected one of {}{}{}{}",
+                    vary.path, to_toml(value), fmt::join(texts, ", "), is_cut ? ", ..." : "",
+                    near.empty() ? "" : "; ", near));
+}
+
 void read_exclude(const Value& value, StudyTable& study) {
     const Array* list = value.array();
     if (!list) {
@@ -192,10 +211,11 @@ void read_exclude(const Value& value, StudyTable& study) {
         const auto no_leaf = [](const Table&) { return false; };
         flatten(TableReader(item, "exclude").table(), "", no_leaf,
                 [&](const std::string& path, const Entry& entry) {
-                    varied(study, path, entry.key_where, "exclude");
+                    const Vary& vary = varied(study, path, entry.key_where, "exclude");
                     const Array* several = entry.value.array();
                     exclusion.push_back(
                         {path, entry.key_where, several ? *several : Array{entry.value}});
+                    for (const Value& each : exclusion.back().values) check_varied(vary, each);
                 });
         study.exclude.push_back(std::move(exclusion));
     }

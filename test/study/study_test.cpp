@@ -82,6 +82,11 @@ TEST_CASE("study: a point is skipped if each key of an exclusion has one of the 
           Texts{"a=1, b=7", "a=2, b=7", "a=2, b=8", "a=3, b=7"});
     CHECK(points_of("vary.a = [1, 2]\nvary.b = [7, 8]\nexclude = [{ a = 1 }, { b = 8 }]") ==
           Texts{"a=2, b=7"});
+    CHECK_THROWS_WITH_AS(
+        points_of("vary.a = [\"disc\", \"friis\"]\nexclude = [{ a = [\"disc\", \"fris\"] }]"),
+        doctest::Contains("exclude: found a = \"fris\", which vary does not have; expected one of "
+                          "\"disc\", \"friis\"; did you mean \"friis\"?"),
+        InputError);
     CHECK_THROWS_WITH_AS(points_of("vary.a = [1]\nexclude = [{ a = 1 }]"),
                          doctest::Contains("excludes every point"), InputError);
 }
