@@ -76,6 +76,25 @@ std::vector<std::string> names_of(const std::vector<MetricValue>& list) {
     return names;
 }
 
+bool has(const std::vector<std::string>& names, std::string_view name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Key of [metrics] that the scenario lacks for a metric; none if it lacks no key.
+std::optional<std::string_view> key_for(const std::string& name, const Scenario& scenario) {
+    const bool is_stretch = name == "path_stretch" || name.starts_with("path_stretch.");
+    if (is_stretch && !scenario.metrics.path_stretch) return "path_stretch";
+    if (name == "reach" && scenario.metrics.reach == false) return "reach";
+    if (has(names_of(list_of({}, &scenario)), name)) return std::nullopt;
+    std::optional<std::string_view> needed;
+    for_each_field<MetricsTable>([&](const auto& f) {
+        Scenario asked = scenario;
+        asked.metrics.*f.member = true;
+        if (has(names_of(list_of({}, &asked)), name)) needed = f.name;
+    });
+    return needed;
+}
+
 /// Cuts the text before the next `end` off the front; all of it if there is none.
 std::string_view cut(std::string_view& text, char end) {
     const std::string_view piece = text.substr(0, text.find(end));
@@ -107,10 +126,13 @@ std::vector<std::string> metric_names(const Scenario& scenario) {
 }
 
 void check_metric(const std::string& name, const Scenario& scenario, const Location& where) {
-    const std::vector<std::string>& usual = metric_names();
-    if (std::find(usual.begin(), usual.end(), name) != usual.end()) return;
+    if (const auto key = key_for(name, scenario)) {
+        throw InputError(where,
+                         fmt::format("the metric \"{}\" needs [metrics] {} = true", name, *key));
+    }
+    if (has(metric_names(), name)) return;
     const std::vector<std::string> names = metric_names(scenario);
-    if (std::find(names.begin(), names.end(), name) != names.end()) return;
+    if (has(names, name)) return;
     const std::string near = did_you_mean(name, names);
     throw InputError(where, fmt::format("there is no metric \"{}\"; expected one of {}{}{}", name,
                                         fmt::join(names, ", "), near.empty() ? "" : "; ", near));

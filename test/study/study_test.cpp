@@ -174,6 +174,20 @@ TEST_CASE("study: an unknown metric is an error with its position and a suggesti
     CHECK(text.ends_with("did you mean \"delivery_ratio\"?"));
 }
 
+TEST_CASE("study: a metric that has to be asked for is an error that names its key of [metrics]") {
+    const auto error = [&](const std::string& metric, const std::string& more = "") {
+        return error_of(two_robots + "[study]\nmetrics = [\"" + metric + "\"]\n" + more);
+    };
+    CHECK(error("degree_mean")
+              .ends_with("s.toml:17:12: the metric \"degree_mean\" needs [metrics] "
+                         "topology = true"));
+    CHECK(error("degree_mean", "[metrics]\ntopology = true\n") == "no error");
+    CHECK(error("path_stretch").ends_with("needs [metrics] path_stretch = true"));
+    CHECK(error("delivery_ratio.at.A").ends_with("needs [metrics] robots = true"));
+    CHECK(error("reach", "[metrics]\nreach = false\n").ends_with("needs [metrics] reach = true"));
+    CHECK(error("reach") == "no error");
+}
+
 TEST_CASE("study: a point's id changes exactly if a change affects results") {
     const std::string id = id_of(two_robots);
     CHECK(id.size() == 16);
