@@ -44,7 +44,8 @@ void check(const WaypointsTable& waypoints, TableReader& table) {
 void check(const GoalTable& goal, TableReader& table) {
     if (goal.to && !goal.among.empty()) table.only_one_of("to", "among");
     if (!goal.to && goal.among.empty()) {
-        table.missing("to", "to = [\"5 m\", \"9 m\"], or among = [...]");
+        table.missing(table.table().find("among") ? "among" : "to",
+                      "to = [\"5 m\", \"9 m\"], or among = [[\"5 m\", \"9 m\"]]");
     }
 }
 

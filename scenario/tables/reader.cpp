@@ -45,6 +45,12 @@ void TableReader::missing(std::string_view key, std::string_view example) const 
         throw InputError(entry.key_where,
                          fmt::format("unknown key \"{}\" in {}; {}", entry.key, name_, near));
     }
+    if (const Value* given = table_->find(key)) {
+        const bool is_empty = given->array() && given->array()->empty();
+        throw InputError(given->where,
+                         fmt::format("{}: {}: found {}; expected for example {}", name_, key,
+                                     is_empty ? "an empty list" : given->description(), example));
+    }
     throw InputError(
         where_, fmt::format("{}: the key \"{}\" is missing; for example {}", name_, key, example));
 }

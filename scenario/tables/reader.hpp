@@ -86,9 +86,10 @@ class TableReader {
     /// whose keys are known beforehand calls expect() instead.
     /// @throws InputError for the first key that no caller has read; the message suggests a key
     void reject_unknown() const;
-    /// Reports that a required key is missing.
+    /// Reports that a required key is missing, or that its value is empty or too short.
     /// @param example  example line for the message
-    /// @throws InputError at the table, or at an unknown key that looks like a misspelling of `key`
+    /// @throws InputError at the value of the key if the table has it, at an unknown key that looks
+    ///         like a misspelling of `key`, or else at the table
     [[noreturn]] void missing(std::string_view key, std::string_view example) const;
 
     /// Reports that the keys `key` and `other` exclude each other.
