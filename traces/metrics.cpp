@@ -183,7 +183,7 @@ void Metrics::count(const Transmitted& transmitted, const RecordContext& context
     }
     if (!counts(frame, context)) return;
     ++totals_.transmissions;
-    if (frame.sender == context.messages[frame.message].origin) return;
+    if (message.to != everyone || frame.sender == message.origin) return;
     auto& bits = state_of(frame.message, context).forwarders;
     const std::size_t word = frame.sender.index() / 64;
     const std::uint64_t bit = std::uint64_t{1} << (frame.sender.index() % 64);
@@ -235,6 +235,7 @@ void Metrics::deliver(const Reception& rx, const Frame& frame, const RecordConte
     const Message& message = context.messages[frame.message];
     const Duration delay = rx.time - message.created;
     ++totals_.deliveries;
+    if (message.to == everyone) ++broadcast_deliveries_;
     if (hops_.size() <= frame.hops) hops_.resize(frame.hops + std::size_t{1});
     ++hops_[frame.hops];
     delays_.push_back(delay);
@@ -285,8 +286,9 @@ MetricValues Metrics::values() const {
     v.delivery_ratio = ratio(v.deliveries, others_);
     if (v.reach_known) v.reach = ratio(reached_, reachable_);
     // Signed numbers, because t may exceed r: robots that are not counted in r may forward.
-    const auto saved = static_cast<double>(v.deliveries) - static_cast<double>(forwarders_);
-    if (v.deliveries > 0) v.saved_rebroadcasts = saved / static_cast<double>(v.deliveries);
+    const auto received = static_cast<double>(broadcast_deliveries_);
+    if (received > 0)
+        v.saved_rebroadcasts = (received - static_cast<double>(forwarders_)) / received;
     v.latency = latency_of(delays_);
     std::uint64_t sum = 0;
     for (std::uint32_t h = 0; h < hops_.size(); ++h) {

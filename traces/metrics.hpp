@@ -17,7 +17,7 @@ namespace rovernet {
 ///
 /// Messages sent before `begin` are not counted, and neither are their copies.
 ///
-/// Memory: one bit per robot for each message that is still in use and was forwarded; 8 bytes per
+/// Memory: one bit per robot for each broadcast that is still in use and was forwarded; 8 bytes per
 /// delivery, for the percentiles of latency; 40 bytes per measured flow, and per measured robot.
 class Metrics {
   public:
@@ -42,7 +42,7 @@ class Metrics {
     /// message, including control packets of a routing protocol, which have no Sent record.
     struct MessageState {
         std::uint64_t uid = ~std::uint64_t{0};
-        std::vector<std::uint64_t> forwarders;   ///< bit n: robot n has transmitted the message
+        std::vector<std::uint64_t> forwarders;   ///< bit n: robot n has forwarded the broadcast
         std::uint32_t others = 0;                ///< number of the message's destinations
         std::optional<std::uint32_t> reachable;  ///< Sent::reachable of the message
         std::optional<std::uint32_t> shortest;   ///< Sent::shortest of the message
@@ -86,14 +86,16 @@ class Metrics {
     MetricValues totals_;  ///< totals of the run; only the counters are used
     Counts<Fate, last_fate> fates_;
     Counts<DropReason, last_drop_reason> drops_;
-    std::uint64_t others_ = 0;      ///< sum over messages of the number of destinations
-    std::uint64_t reachable_ = 0;   ///< sum over messages of Sent::reachable
-    std::uint64_t reached_ = 0;     ///< deliveries of messages with a known Sent::reachable
-    std::uint64_t forwarders_ = 0;  ///< number of pairs of a message and a robot that forwarded it
-    RoutingValues routing_;         ///< counts of the routing protocol
-    RoutedSums routed_;             ///< sums over routed unicasts
-    std::uint64_t bytes_ = 0;       ///< size of the messages delivered [bytes]
-    std::vector<Duration> delays_;  ///< latencies of the deliveries, unsorted
+    std::uint64_t others_ = 0;     ///< sum over messages of the number of destinations
+    std::uint64_t reachable_ = 0;  ///< sum over messages of Sent::reachable
+    std::uint64_t reached_ = 0;    ///< deliveries of messages with a known Sent::reachable
+    std::uint64_t broadcast_deliveries_ = 0;  ///< deliveries of broadcasts
+    /// Number of pairs of a broadcast and a robot that forwarded it.
+    std::uint64_t forwarders_ = 0;
+    RoutingValues routing_;             ///< counts of the routing protocol
+    RoutedSums routed_;                 ///< sums over routed unicasts
+    std::uint64_t bytes_ = 0;           ///< size of the messages delivered [bytes]
+    std::vector<Duration> delays_;      ///< latencies of the deliveries, unsorted
     std::vector<std::uint64_t> hops_;   // deliveries by number of hops
     std::vector<MessageState> states_;  ///< states of the messages, by index of the MessageId
     std::vector<PartValues> flows_;     ///< values of each flow, at index flow - 1

@@ -78,6 +78,23 @@ TEST_CASE("metrics: transmissions of the origin, and repeated ones, do not count
 }
 
 TEST_CASE(
+    "metrics: unicasts do not count in saved_rebroadcasts, which is empty without broadcasts") {
+    Measured run;
+    for (int i = 0; i < 3; ++i) run.place(Vec3{10.0 * i, 0, 0});
+    const auto unicast = run.messages.add(
+        {.origin = a, .uid = 9, .to = c, .created = at(0), .payload = {}, .is_routed = true});
+    run.transmit(at(1), frame(unicast, a, 2, 1));
+    run.transmit(at(2), frame(unicast, b, 1, 2), a);
+    run.receive(frame(unicast, b, 1, 2), {{at(3), c, Fate::arrived, true}});
+    CHECK(run.values().deliveries == 1);
+    CHECK_FALSE(run.values().saved_rebroadcasts);
+    const auto broadcast =
+        run.messages.add({.origin = a, .uid = 10, .created = at(9), .payload = {}});
+    run.receive(frame(broadcast, a, 2, 1), {{at(10), b, Fate::arrived, true}});
+    CHECK(run.values().saved_rebroadcasts == 1.0);
+}
+
+TEST_CASE(
     "metrics: a new message in the slot of an old one does not inherit the old message's relays") {
     LineOfFour run;
     REQUIRE(run.messages.release(MessageId{0}));
