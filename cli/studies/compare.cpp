@@ -180,6 +180,41 @@ void tell_other_methods(const Comparison& c, std::optional<IntervalMethod> wish)
     if (!text.empty()) notice(text);
 }
 
+/// Whether the protocol of a point of the study routes unicasts.
+bool routes_unicasts(Study& study, std::size_t point) {
+    return study.scenario(point, 0).routing.make().traits().routes_unicasts;
+}
+
+/// Whether the scenario has unicasts that a protocol may route.
+bool has_unicasts(const Scenario& scenario) {
+    return std::ranges::any_of(
+        scenario.traffic, [](const TrafficTable& t) { return t.to && !t.hops && !t.saturate; });
+}
+
+/// Prints that delivery_ratio counts unicasts that are on their way at the end of a run if the
+/// protocol routes them, and leaves them out if it does not.
+void tell_cut_off(Study& study, const Store& store, const Vary& vary,
+                  const std::vector<std::string>& metrics) {
+    if (vary.path != protocol_path || std::ranges::count(metrics, "delivery_ratio") == 0) return;
+    if (!has_unicasts(study.base())) return;
+    std::vector<std::string> routing, others;
+    double most_of_routing = 0, most_of_others = 0;
+    for (std::uint32_t point = 0; point < vary.values.size(); ++point) {
+        double sum = 0;
+        for (const StoredValue& run : store.values("cut_off", point)) sum += run.value.value_or(0);
+        const bool routes = routes_unicasts(study, point);
+        double& most = routes ? most_of_routing : most_of_others;
+        most = std::max(most, sum);
+        (routes ? routing : others).push_back(compared_name(vary.path, vary.values[point]));
+    }
+    if (routing.empty() || most_of_others <= most_of_routing) return;
+    notice(fmt::format(
+        "unicasts on their way at the end of a run are left out of delivery_ratio under {} ({}{} "
+        "in all runs), and count as not delivered under {}",
+        fmt::join(others, ", "), others.size() > 1 ? "up to " : "",
+        most_of_others - most_of_routing, fmt::join(routing, ", ")));
+}
+
 /// @throws CommandEnd if the user has ended it before it was done: a part of a comparison is none
 void check_interrupted(const CompareArguments& a, bool done) {
     if (stops_asked() == 0 || done) return;
@@ -237,6 +272,7 @@ void compare(const CompareArguments& a) {
         tell_other_methods(c, interval_method_of(store));
         c.held = held_keys(given, study.base(), vary.path);
     }
+    tell_cut_off(study, store, vary, metrics);
     if (a.picture) write_comparison(*a.picture, all.front(), store);
     print_comparisons(all, a.json ? ReportForm::json : a.csv ? ReportForm::csv : ReportForm::text);
     check_failures(a, store, result);

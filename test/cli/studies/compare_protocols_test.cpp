@@ -126,6 +126,34 @@ TEST_CASE(
     CHECK(csv.out.find("\nrouting_load,flood,,,,0,0,0,3,,") != std::string::npos);
 }
 
+TEST_CASE("compare --protocols: reads a printed scenario of aodv, whose hello is 0 s by default") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("s.toml", three);
+    const Ended printed = command(folder, {"run", file, "--set", "routing.protocol=aodv", "--set",
+                                           "routing.hello=0 s", "--print-scenario"});
+    REQUIRE(printed.exit == 0);
+    const Ended ended =
+        command(folder, protocols(folder.write("p.toml", printed.out), "aodv,flood"));
+    CHECK(ended.exit == 0);
+    CHECK(ended.err.find("hello") == std::string::npos);
+}
+
+TEST_CASE("compare --protocols: unicasts that the end cuts off under one protocol give a notice") {
+    const TemporaryFolder folder;
+    const std::string notice =
+        "unicasts on their way at the end of a run are left out of delivery_ratio under flood (3 "
+        "in all runs), and count as not delivered under aodv";
+    const auto errors = [&](const std::string& stop, const std::string& names) {
+        return command(folder, protocols(folder.write("s.toml", three + stop), names)).err;
+    };
+    const std::string to_end =  // sends at the end of the run, too
+        "[[traffic]]\nkind = \"unicast\"\nfrom = \"B\"\nto = \"A\"\nsize = \"64 B\"\n"
+        "every = \"1 s\"\n";
+    CHECK(errors(to_end, "flood,aodv").find(notice) != std::string::npos);
+    CHECK(errors(to_end, "aodv,dsr").find("on their way") == std::string::npos);
+    CHECK(errors("", "flood,aodv").find("on their way") == std::string::npos);
+}
+
 TEST_CASE("compare --protocols: an impossible comparison ends at once with an error") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", three);
