@@ -119,6 +119,13 @@ void note_payloads(Scenario& out) {
     sizes.note(out.notices);
 }
 
+/// Whether the routing protocol gets messages of a flow: the flow starts during the run, and its
+/// messages are not bound to one hop.
+bool is_for_protocol(const Scenario& scenario, const TrafficTable& flow) {
+    const bool is_late = flow.start && *flow.start > scenario.scenario.duration;
+    return !flow.hops && !flow.saturate && !is_late;
+}
+
 /// Notices unicasts that go over one hop because the routing protocol does not route them, and that
 /// do not say so.
 void note_unicasts(Scenario& out) {
@@ -133,7 +140,7 @@ void note_unicasts(Scenario& out) {
         });
     };
     for (const TrafficTable& traffic : out.traffic) {
-        if (!traffic.to || traffic.hops || traffic.saturate) continue;
+        if (!traffic.to || !is_for_protocol(out, traffic)) continue;
         note(traffic.to_where, *traffic.to,
              "; hops = 1 states this in the scenario, and [routing] protocol = \"aodv\" finds "
              "routes");
@@ -162,7 +169,7 @@ void note_unforwarded(Scenario& out) {
         });
     };
     for (const TrafficTable& traffic : out.traffic) {
-        if (traffic.to || traffic.hops || traffic.saturate) continue;
+        if (traffic.to || !is_for_protocol(out, traffic)) continue;
         note(traffic.from_where, "from", traffic.from,
              "; hops = 1 states this in the scenario, and [routing] protocol = \"flood\" forwards "
              "them");

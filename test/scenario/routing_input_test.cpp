@@ -150,6 +150,7 @@ TEST_CASE("routing input: a broadcast under a protocol of unicasts gives a notic
               "those of \"A\" go over one hop; hops = 1 states this in the scenario, and "
               "[routing] protocol = \"flood\" forwards them\n");
         CHECK(all_notices(broadcast + "hops = 1\n" + chosen).empty());
+        CHECK(all_notices(broadcast + "start = \"1 h\"\n" + chosen).empty());  // after the run
         CHECK(has(all_notices("on_time = { time = \"1 s\", send = \"x\" }\n" + chosen),
                   "s.toml:7:11: send: the routing protocol does not forward broadcasts, so those "
                   "of \"B\" go over one hop"));
