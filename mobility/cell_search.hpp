@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scene/free_space.hpp"
+#include "mobility/free_space.hpp"
 #include "scene/map_frame.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mobility/cell_search.hpp"
-#include "scene/free_space.hpp"
+#include "mobility/free_space.hpp"
 #include "scene/scene.hpp"
 #include "sim/geometry.hpp"
 #include "sim/units.hpp"

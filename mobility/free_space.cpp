@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/free_space.hpp"
+#include "mobility/free_space.hpp"
 
 #include "scene/rectangles.hpp"
 
