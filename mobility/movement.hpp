@@ -103,7 +103,8 @@ enum class AtDoors {
     waits,   ///< the robot stops at the door, and continues the leg once the door opens
     looks,   ///< the robot stops at the door, and the model returns a new leg
     drives,  ///< like `looks`; a standing robot also gets a new leg whenever a door closes or opens
-    passes   ///< the robot moves on, also through walls
+    passes   ///< the robot moves on, also through walls: a recorded movement, which is played
+            ///< exactly as it is, also without turning in place first
 };
 
 /// Movement model that stores the state of a robot separately, in its Progress: copies of one

@@ -136,6 +136,7 @@ void Motion::next_leg(NodeId id) {
 void Motion::begin_leg(NodeId id, const Leg& leg) {
     const auto& rate = body(id).turn_rate;
     if (!rate || leg.velocity == Vec3{}) return go(id, leg);
+    if (nodes_[id.index()].movement.at_doors() == AtDoors::passes) return go(id, leg);
     const double facing = wrapped(world_.legs.leg(id).heading_at(world_.now));
     const double turn = wrapped(leg.heading - facing);
     if (turn == 0) return go(id, leg);

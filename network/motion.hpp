@@ -24,7 +24,7 @@ struct World;
 struct Body {
     /// Radius of the body [m], for paths around walls.
     Meters radius;
-    /// Speed limit of all movements [m/s]; may be infinite.
+    /// Speed limit of all movements but recorded ones [m/s]; may be infinite.
     MetersPerSecond top_speed;
     /// Rate of turning in place before the robot moves [rad/s]; empty: the robot turns instantly.
     std::optional<RadiansPerSecond> turn_rate;

@@ -37,10 +37,10 @@ struct Robot {
     Movement move = Fixed{};
     /// Heading at the start [rad].
     Radians heading{0};
-    /// Speed limit of all movements [m/s], > 0.
+    /// Speed limit of all movements but recorded ones [m/s], > 0.
     MetersPerSecond top_speed{std::numeric_limits<double>::infinity()};
-    /// Turn rate [rad/s], within the range turn_rates: the robot turns in place before it moves;
-    /// empty: the robot turns instantly.
+    /// Turn rate [rad/s], within the range turn_rates: the robot turns in place before it moves,
+    /// except for recorded movements; empty: the robot turns instantly.
     std::optional<RadiansPerSecond> turn_rate = std::nullopt;
     /// Role in the routing protocol, one of the protocol's RouterTraits::roles; empty: the
     /// protocol's default.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mobility/recorded_legs.hpp"
 
+#include "network/network.hpp"
 #include "scene/scene.hpp"
 #include "test/mobility/lone_mover.hpp"
 
@@ -52,6 +53,19 @@ TEST_CASE(
     CHECK(robot.leg.to == Vec3{3, 0});
     CHECK_THROWS_AS(RecordedLegs({leg(3s, 5s, {}, {}), leg(3s, 6s, {}, {})}),
                     std::invalid_argument);
+}
+
+TEST_CASE("recorded legs: a robot with a turn rate and a top speed follows them at their times") {
+    Network net;
+    const NodeId robot =
+        net.add({.name = "r",
+                 .at = {},
+                 .move = RecordedLegs({leg(0s, 4s, {}, {1, 0}), leg(4s, 8s, {4, 0}, {0, 1})}),
+                 .heading = {1},
+                 .top_speed = {0.5},
+                 .turn_rate = RadiansPerSecond{0.1}});
+    net.run_for(6s);
+    CHECK(distance(net.position(robot), {4, 2}) < 1e-9);
 }
 
 }  // namespace recorded_legs_test

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/movement_play.hpp"
+
+#include "experiment/reports/network_at.hpp"
+#include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace movement_play_test {
+using namespace rovernet;
+using namespace std::chrono_literals;
+using test::TemporaryFolder;
+
+namespace {
+
+constexpr double rounding = 1e-6;  // [m] of times in nanoseconds at 2 m/s, and of speeds in a file
+
+bool near(Vec3 a, Vec3 b) { return distance(a, b) < rounding; }
+
+/// The same motion in three formats: from (0, 0) to (20, 0) until 10 s, to (20, 20) until 20 s.
+struct Format {
+    std::string file, robot, content;
+};
+const std::vector<Format> formats{
+    {"m.movements", "n0", "0 0 0 10 20 0 20 20 20\n"},
+    {"m.tcl", "n0",
+     "$node_(0) set X_ 0\n$node_(0) set Y_ 0\n$ns_ at 0.0 \"$node_(0) setdest 20 0 2\"\n"
+     "$ns_ at 10.0 \"$node_(0) setdest 20 20 2\"\n"},
+    {"m.xml", "car",
+     "<fcd-export><timestep time=\"0\"><vehicle id=\"car\" x=\"0\" y=\"0\"/></timestep>"
+     "<timestep time=\"10\"><vehicle id=\"car\" x=\"20\" y=\"0\"/></timestep>"
+     "<timestep time=\"20\"><vehicle id=\"car\" x=\"20\" y=\"20\"/></timestep></fcd-export>\n"}};
+
+/// Folder with the file of one format, and a scenario of 30 s in which it moves its robot.
+struct Played {
+    TemporaryFolder folder;
+    Scenario scenario;
+
+    /// @param keys  keys of the robot's table
+    Played(const Format& format, const std::string& keys) {
+        folder.write(format.file, format.content);
+        scenario = load_scenario(
+            folder.write("s.toml", "[scenario]\nduration = \"30 s\"\n[movement]\nfile = \"" +
+                                       format.file + "\"\n[[robot]]\nname = \"" + format.robot +
+                                       "\"\n" + keys),
+            {});
+    }
+};
+
+}  // namespace
+
+TEST_CASE("movement file: it is played as written, whatever the robot's top speed and turn rate") {
+    for (const Format& format : formats) {
+        for (const std::string keys :
+             {"", "top_speed = \"1 m/s\"\n", "turn_rate = \"10 deg/s\"\n",
+              "heading = \"90 deg\"\ntop_speed = \"0.5 m/s\"\nturn_rate = \"1 deg/s\"\n"}) {
+            CAPTURE(format.file);
+            CAPTURE(keys);
+            const Played played(format, keys);
+            const auto at = [&](Duration t) {
+                const auto network = network_at(played.scenario, start_of_run + t);
+                return network->position(*network->find(format.robot));
+            };
+            CHECK(near(at(5s), {10, 0, 0}));
+            CHECK(near(at(10s), {20, 0, 0}));
+            CHECK(near(at(15s), {20, 10, 0}));
+            CHECK(near(at(20s), {20, 20, 0}));
+        }
+    }
+}
+
+}  // namespace movement_play_test
