@@ -187,12 +187,14 @@ void MotionBuilder::check_way(Vec3 from, Vec3 to, const RobotTable& robot, const
                                "expected a place at the foot from which the path is free",
                                coordinates(from), coordinates(to), robot.radius.value));
     }
-    throw InputError(where, fmt::format("move: no path from {} m to {} m for a robot of radius {} "
-                                        "m: {}; expected a place that can be reached",
-                                        coordinates(from), coordinates(to), robot.radius.value,
-                                        fits_there ? "walls enclose it"
-                                                   : "it is in a wall, too near to one, or off "
-                                                     "the map"));
+    const char* const why = fits_there ? "walls enclose it"
+                            : network_.scene().has_border()
+                                ? "it is in a wall, too near to one, or off the map"
+                                : "it is in a wall, or too near to one";
+    throw InputError(where,
+                     fmt::format("move: no path from {} m to {} m for a robot of radius {} "
+                                 "m: {}; expected a place that can be reached",
+                                 coordinates(from), coordinates(to), robot.radius.value, why));
 }
 
 }  // namespace rovernet

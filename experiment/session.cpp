@@ -41,7 +41,6 @@ Session::Session(const Scenario& scenario, NetworkSettings settings, std::option
     : file_(scenario.file),
       network_(std::make_shared<Network>(std::move(settings))),
       end_(start_of_run + scenario.scenario.duration),
-      has_border_(scenario.scene.has_maps()),
       driven_(std::make_unique<DrivenRobots>(*network_)),
       radios_(std::make_unique<ClientRadios>(*network_)) {
     router ? populate(*network_, scenario, std::move(*router)) : populate(*network_, scenario);
@@ -179,8 +178,7 @@ void Session::set_hearing(ClientId client, bool hears) {
 std::string Session::why_not(NodeId robot, const RobotCommand& command) const {
     const Scene& scene = network_->scene();
     if (const auto* goal = std::get_if<GoalCommand>(&command)) {
-        const bool is_reachable = scene.open_field() || scene.inside_map(goal->to);
-        return is_reachable ? "" : off_map_text(scene, goal->to);
+        return scene.inside_map(goal->to) ? "" : off_map_text(scene, goal->to);
     }
     const auto* place = std::get_if<PlaceCommand>(&command);
     return place ? why_not_at(robot, place->at) : "";
@@ -190,7 +188,7 @@ std::string Session::why_not_at(NodeId robot, Vec3 at) const {
     const Scene& storey = network_->scene().storey_at(at.z);
     const Vec3 low = storey.lower_left(), high = storey.upper_right();
     const bool is_on_map = at.x >= low.x && at.x <= high.x && at.y >= low.y && at.y <= high.y;
-    if (has_border_ && !is_on_map) return off_map_text(network_->scene(), at);
+    if (storey.has_border() && !is_on_map) return off_map_text(network_->scene(), at);
     const Storeys& storeys = network_->scene().storeys();
     if (const std::size_t top = storeys.size() - 1; top > 0) {
         const double lowest = storeys.floor(0), highest = storeys.floor(top);

@@ -154,7 +154,6 @@ class Session {
     std::string file_;  // path of the scenario file, for error messages
     std::shared_ptr<Network> network_;
     Time end_;
-    bool has_border_;  // true: robots must stay within the border of the map; false: a Stage world
     std::unique_ptr<DrivenRobots> driven_;
     std::unique_ptr<ClientRadios> radios_;
     std::map<ClientId, Client> clients_;

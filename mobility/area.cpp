@@ -42,9 +42,9 @@ double exit_length(double x, double along, double lower, double upper) {
 
 Area::Area(const std::vector<Vec3>& corners, const Scene& scene, std::string_view model)
     : lower(scene.lower_left()), upper(scene.upper_right()) {
-    const bool map = !scene.open_field();
     if (corners.empty()) {
-        if (!map) refuse(model, "area must be given on an open field: [[x, y], [x, y]]");
+        if (scene.open_field())
+            refuse(model, "area must be given on an open field: [[x, y], [x, y]]");
         return;
     }
     if (corners.size() != 2) {
@@ -57,6 +57,7 @@ Area::Area(const std::vector<Vec3>& corners, const Scene& scene, std::string_vie
         refuse(model,
                "area's second corner must lie right of and above its first, got " + text(a, b));
     }
+    const bool map = scene.has_border();
     if (map && !(std::max(a.x, lower.x) < std::min(b.x, upper.x) &&
                  std::max(a.y, lower.y) < std::min(b.y, upper.y))) {
         refuse(model, fmt::format("area {} lies off the map, which is {}", text(a, b),

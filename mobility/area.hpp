@@ -28,8 +28,8 @@ struct Area {
     Vec3 lower;  ///< lower-left corner [m]
     Vec3 upper;  ///< upper-right corner [m], beyond `lower` in x and y
 
-    /// @param corners  lower-left and upper-right corner [m], limited to the map's box if there is
-    ///                 a map; empty: the map's box
+    /// @param corners  lower-left and upper-right corner [m], limited to the map's box if the map
+    ///                 has a border; empty: the box around the map, or around the walls of a world
     /// @param model    name of the model, for errors
     /// @throws std::invalid_argument if the corners enclose no area, or if there are neither
     ///         corners nor a map
@@ -50,9 +50,9 @@ struct Area {
     /// border.
     Vec3 exit(Vec3 p, Vec3 direction) const;
 
-    /// Uniform random position in the area at which the mover's body touches no obstacle. If there
-    /// is a map, the position is on the map. The position has the mover's height. Empty if 10,000
-    /// draws find no such position.
+    /// Uniform random position in the area at which the mover's body touches no obstacle. If the
+    /// map has a border, the position is on the map. The position has the mover's height. Empty if
+    /// 10,000 draws find no such position.
     std::optional<Vec3> free_place(const Mover& mover, Draws& draws) const;
     /// Start position of a movement in the area. It is random, by free_place(), if `start` is
     /// StartPlace::uniform and the movement begins at the start of the run. In all other cases it

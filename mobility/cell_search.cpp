@@ -5,9 +5,10 @@
 
 namespace rovernet {
 
-CellSearch::CellSearch(const MapFrame& frame, int columns)
+CellSearch::CellSearch(const MapFrame& frame, int columns, int margin)
     : norm_(frame),
       columns_(columns),
+      margin_(margin),
       bucket_width_(std::min(norm_.width, norm_.height) / 2),
       rounding_(1e-9 * bucket_width_) {
     for (std::size_t d = 0; d < cell_steps.size(); ++d) {

@@ -59,7 +59,9 @@ struct PathEnd {
 /// of Minimum Cost Paths, IEEE SSC-4 (1968); R. B. Dial, Algorithm 360, Comm. ACM 12 (1969).
 class CellSearch {
   public:
-    CellSearch(const MapFrame& frame, int columns);
+    /// @param columns  columns of cells, with the margin
+    /// @param margin   cells beyond each side of the grid of `frame`, see FreeSpace
+    CellSearch(const MapFrame& frame, int columns, int margin = 0);
 
     /// Indices of the cells on the shortest path from start to goal; empty if there is no path.
     /// The first call allocates 16 bytes for every cell of the map, which the CellSearch keeps.
@@ -83,7 +85,9 @@ class CellSearch {
     };
 
     void begin(std::size_t cells, const PathEnd& start, const PathEnd& goal);
-    CellPoint centre(int cell) const { return {cell % columns_ + 0.5, cell / columns_ + 0.5}; }
+    CellPoint centre(int cell) const {
+        return {cell % columns_ - margin_ + 0.5, cell / columns_ - margin_ + 0.5};
+    }
     double least_left(int cell) const { return norm_(centre(cell), goal_); }
     float aside(int cell) const;
     void reach(const Reached& way, int cell);
@@ -92,7 +96,7 @@ class CellSearch {
     std::vector<int> way_to(int cell) const;
 
     CellNorm norm_;
-    int columns_;
+    int columns_, margin_;
     double bucket_width_;                             // [m] range of estimates in a bucket
     double rounding_;                                 // [m] lengths that differ by less are equal
     std::array<int, cell_steps.size()> offset_{};     // difference of cell indices, by step

@@ -26,10 +26,12 @@ Duration chord_time(double v, double w, double chord) {
     return std::max(from_seconds(std::min(t, longest_leg)), Duration{1});
 }
 
-/// Length [m] that leads off any map from any point on it.
-double beyond_map(const Scene& scene) {
-    const Vec3 size = scene.upper_right() - scene.lower_left();
-    return 1 + std::sqrt(size.x * size.x + size.y * size.y);
+/// Length [m] of a straight path from p, in any direction, that ends off the map.
+double beyond_map(const Scene& scene, Vec3 p) {
+    const Vec3 low = scene.lower_left(), high = scene.upper_right(), size = high - low;
+    const double x = std::max({0.0, low.x - p.x, p.x - high.x});
+    const double y = std::max({0.0, low.y - p.y, p.y - high.y});
+    return 1 + std::sqrt(size.x * size.x + size.y * size.y) + std::sqrt(x * x + y * y);
 }
 
 /// Time until the end of the next chord, or of the straight path; empty if it is endless.
@@ -37,7 +39,7 @@ std::optional<Duration> time_ahead(const Mover& mover, double v, double w, doubl
     Duration time = end == never ? Duration::max() : end - mover.now;
     if (w != 0) return std::min(time, chord_time(v, w, chord));
     if (!mover.scene().open_field()) {
-        const double t = beyond_map(mover.scene()) / std::abs(v);
+        const double t = beyond_map(mover.scene(), mover.position) / std::abs(v);
         return std::min(time, std::max(from_seconds(std::min(t, longest_leg)), Duration{1}));
     }
     return end == never ? std::nullopt : std::optional(time);

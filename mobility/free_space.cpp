@@ -14,6 +14,20 @@ namespace {
 /// Half of the tolerance of Scene::passable [m], so that every step found here is passable there.
 constexpr double slack = 0.5e-9;
 
+/// Number of cells to add on each side of the grid, see FreeSpace. It is limited to the size of the
+/// grid: a robot larger than all walls together finds only straight paths.
+int margin_of(const Scene& scene, Meters radius) {
+    const OccupancyGrid& grid = scene.grid();
+    if (scene.open_field() || scene.has_border()) return 0;
+    const double needed = radius.value / std::min(grid.cell_width, grid.cell_height) + 2;
+    constexpr int enough = 1000;
+    return static_cast<int>(std::min(needed, std::max({grid.columns, grid.rows, enough}) + 0.0));
+}
+
+CellRectangle shifted(CellRectangle r, int cells) {
+    return {r.column0 + cells, r.row0 + cells, r.column1 + cells, r.row1 + cells};
+}
+
 /// Squared distance along one axis [m^2] between a rectangle's side and the centre of the cell
 /// `beyond` cells outside it; 0 within the rectangle's rows or columns.
 double squared_gap(int beyond, double side) {
@@ -24,9 +38,9 @@ double squared_gap(int beyond, double side) {
 /// Cells near a rectangle whose centres are nearer to it than `reach` [m], row by row.
 ///
 /// They depend only on the row's distance from the rectangle, so all rectangles share them.
-class Margin {
+class Surroundings {
   public:
-    Margin(const OccupancyGrid& grid, double reach) {
+    Surroundings(const OccupancyGrid& grid, double reach) {
         const auto cells = [&](double side, int most) {
             return static_cast<int>(std::min(reach / side, most + 0.0)) + 1;
         };
@@ -54,10 +68,10 @@ class Margin {
 
 /// Marks as not free the cells whose centre is inside a rectangle or in the margin around it.
 void take_away(std::vector<std::uint8_t>& free, const OccupancyGrid& grid, const CellRectangle& r,
-               const Margin& margin) {
-    const int top = std::min(r.row1 + margin.rows(), grid.rows);
-    for (int row = std::max(r.row0 - margin.rows(), 0); row < top; ++row) {
-        const int aside = margin.columns(std::max({0, r.row0 - row, row + 1 - r.row1}));
+               const Surroundings& around) {
+    const int top = std::min(r.row1 + around.rows(), grid.rows);
+    for (int row = std::max(r.row0 - around.rows(), 0); row < top; ++row) {
+        const int aside = around.columns(std::max({0, r.row0 - row, row + 1 - r.row1}));
         const int left = std::max(r.column0 - aside, 0);
         const int right = std::min(r.column1 + aside, grid.columns);
         const auto cells = free.begin() + std::ptrdiff_t{row} * grid.columns;
@@ -170,10 +184,20 @@ class FreeRuns {
 }  // namespace
 
 FreeSpace::FreeSpace(const Scene& scene, Meters radius)
-    : free(scene.grid().cells.size(), 1), part(scene.grid().cells.size(), -1) {
-    const OccupancyGrid& grid = scene.grid();
-    const Margin margin(grid, std::max(radius.value - slack, 0.0));
-    for (const CellRectangle& r : scene.obstacles()) take_away(free, grid, r, margin);
+    : margin(margin_of(scene, radius)),
+      columns(scene.grid().columns + 2 * margin),
+      rows(scene.grid().rows + 2 * margin) {
+    const OccupancyGrid grid{.columns = columns,
+                             .rows = rows,
+                             .cell_width = scene.grid().cell_width,
+                             .cell_height = scene.grid().cell_height,
+                             .cells = {}};
+    free.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 1);
+    part.assign(free.size(), -1);
+    const Surroundings surroundings(grid, std::max(radius.value - slack, 0.0));
+    for (const CellRectangle& r : scene.obstacles()) {
+        take_away(free, grid, shifted(r, margin), surroundings);
+    }
     steps = steps_between(free, grid);
     if (!free.empty()) {
         FreeRuns(free, static_cast<std::size_t>(grid.columns)).number_parts(part);

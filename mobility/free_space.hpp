@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scene/map_frame.hpp"
 #include "scene/scene.hpp"
 #include "sim/units.hpp"
 
@@ -21,10 +22,19 @@ inline constexpr std::array<CellStep, 8> cell_steps{
     {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
 
 /// Cells of a map where a round robot may stand, and allowed steps between them.
+///
+/// If the map has a border, the cells are those of Scene::grid(). Otherwise a margin of cells is
+/// added on each side. The outermost cells are then free, so that a robot can go around everything.
 struct FreeSpace {
     /// @param radius  radius of the robot [m], >= 0
     FreeSpace(const Scene& scene, Meters radius);
 
+    int margin;         ///< number of cells that are added on each side of the grid
+    int columns, rows;  ///< numbers of columns and rows, with the margin
+    /// Centre of a cell, given by its index, in cells of the grid without the margin.
+    CellPoint centre(int cell) const {
+        return {cell % columns - margin + 0.5, cell / columns - margin + 0.5};
+    }
     /// Flag of each cell, row by row from the bottom: 1 (free) if the distance of the cell's centre
     /// to every obstacle is at least the robot's radius, otherwise 0.
     std::vector<std::uint8_t> free;

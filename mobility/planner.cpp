@@ -12,37 +12,72 @@
 namespace rovernet {
 namespace {
 
-CellPoint centre(int column, int row) { return {column + 0.5, row + 0.5}; }
+/// Connects an end of a path to cells by straight lines.
+class Joining {
+  public:
+    Joining(const Scene& scene, Meters radius, const FreeSpace& space, Vec3 end)
+        : scene_(scene), radius_(radius), space_(space), end_(end) {}
 
-/// Straight connections between an end of the path and the centres of free cells around it, ring by
-/// ring until enough are found; nearest first.
-PathEnd joined_to_cells(const Scene& scene, Meters radius, const std::vector<std::uint8_t>& free,
-                        Vec3 end) {
+    PathEnd joined() {
+        const double margin = space_.margin;
+        const double right = space_.columns - margin, top = space_.rows - margin;
+        if (at_.u < -margin) join_column(0);
+        if (at_.u > right) join_column(space_.columns - 1);
+        if (at_.v < -margin) join_row(0);
+        if (at_.v > top) join_row(space_.rows - 1);
+        if (ways_.empty()) join_cells_around();
+        return {at_, std::move(ways_)};
+    }
+
+  private:
+    /// Connects the end to a cell if the cell is free and the line is passable.
+    void join(int column, int row) {
+        const int cell = row * space_.columns + column;
+        const CellPoint centre = space_.centre(cell);
+        if (space_.free[static_cast<std::size_t>(cell)] &&
+            scene_.passable(end_, scene_.frame().to_world(centre), radius_))
+            ways_.push_back({cell, norm_(at_, centre)});
+    }
+    // Connect an end beyond the cells to cells of the outermost column or row on its side, evenly
+    // spread. The path is pulled tight later.
+    void join_column(int column) {
+        spread(space_.rows, [&](int row) { join(column, row); });
+    }
+    void join_row(int row) {
+        spread(space_.columns, [&](int column) { join(column, row); });
+    }
+    static void spread(int cells, auto take) {
+        const int count = std::min(cells, 33);
+        for (int k = 0; k < count; ++k)
+            take(static_cast<int>(std::int64_t{k} * (cells - 1) / std::max(count - 1, 1)));
+    }
+    void join_cells_around();
+
+    const Scene& scene_;
+    Meters radius_;
+    const FreeSpace& space_;
+    Vec3 end_;
+    CellNorm norm_{scene_.frame()};
+    CellPoint at_ = scene_.frame().to_cells(end_);
+    std::vector<PathEnd::Access> ways_;
+};
+
+/// Connects the end to free cells around it, ring by ring until enough are found; nearest first.
+void Joining::join_cells_around() {
     constexpr std::size_t enough = 8, most = 16;
-    const OccupancyGrid& grid = scene.grid();
-    const CellNorm norm(scene.frame());
-    const CellPoint p = scene.frame().to_cells(end);
-    const int column = std::min(static_cast<int>(p.u), grid.columns - 1);
-    const int row = std::min(static_cast<int>(p.v), grid.rows - 1);
-    const double rings = radius.value / std::min(grid.cell_width, grid.cell_height) + 2;
-    const int last_ring =
-        static_cast<int>(std::min(rings, std::max(grid.columns, grid.rows) + 0.0));
-    std::vector<PathEnd::Access> ways;
-    for (int k = 0; k <= last_ring && ways.size() < enough; ++k)
-        for (int j = std::max(row - k, 0); j <= std::min(row + k, grid.rows - 1); ++j)
-            for (int i = std::max(column - k, 0); i <= std::min(column + k, grid.columns - 1);
-                 ++i) {
-                const int cell = j * grid.columns + i;
-                if (std::max(std::abs(i - column), std::abs(j - row)) == k &&
-                    free[static_cast<std::size_t>(cell)] &&
-                    scene.passable(end, scene.frame().to_world(centre(i, j)), radius))
-                    ways.push_back({cell, norm(p, centre(i, j))});
-            }
-    std::sort(ways.begin(), ways.end(), [](const auto& a, const auto& b) {
+    const int columns = space_.columns, rows = space_.rows;
+    const int column = std::min(static_cast<int>(at_.u + space_.margin), columns - 1);
+    const int row = std::min(static_cast<int>(at_.v + space_.margin), rows - 1);
+    const double rings = radius_.value / std::min(norm_.width, norm_.height) + 2;
+    const int last_ring = static_cast<int>(std::min(rings, std::max(columns, rows) + 0.0));
+    for (int k = 0; k <= last_ring && ways_.size() < enough; ++k)
+        for (int j = std::max(row - k, 0); j <= std::min(row + k, rows - 1); ++j)
+            for (int i = std::max(column - k, 0); i <= std::min(column + k, columns - 1); ++i)
+                if (std::max(std::abs(i - column), std::abs(j - row)) == k) join(i, j);
+    std::sort(ways_.begin(), ways_.end(), [](const auto& a, const auto& b) {
         return std::pair(a.length, a.cell) < std::pair(b.length, b.cell);
     });
-    if (ways.size() > most) ways.resize(most);
-    return {p, std::move(ways)};
+    if (ways_.size() > most) ways_.resize(most);
 }
 
 /// Whether cells of the two ends lie in the same connected part of the map.
@@ -64,12 +99,13 @@ double length_of(const Path& path) {
     return sum;
 }
 
-/// Path with points at most `spacing` [m] apart.
-Path subdivided(const Path& path, double spacing) {
+/// Path with points at most `spacing` [m] apart; a line has at most `most_parts` parts.
+Path subdivided(const Path& path, double spacing, int most_parts) {
     Path points{path.front()};
     for (std::size_t i = 1; i < path.size(); ++i) {
         const Vec3 start = path[i - 1], along = path[i] - path[i - 1];
-        const int parts = static_cast<int>(distance(path[i - 1], path[i]) / spacing) + 1;
+        const double spaces = distance(path[i - 1], path[i]) / spacing;
+        const int parts = static_cast<int>(std::min(spaces, most_parts + 0.0)) + 1;
         for (int k = 1; k < parts; ++k) points.push_back(start + (1.0 * k / parts) * along);
         points.push_back(path[i]);
     }
@@ -105,7 +141,9 @@ bool passable(const Scene& scene, Meters radius, const Path& path) {
 Path pulled_tight(const Scene& scene, Meters radius, const Path& cells) {
     const double spacing = std::max(scene.frame().cell_width(), scene.frame().cell_height());
     const Path forward = straightened(scene, radius, cells);
-    Path points = subdivided(forward, spacing);
+    constexpr int enough = 1000;
+    const int most_parts = std::max(scene.grid().columns + scene.grid().rows, enough);
+    Path points = subdivided(forward, spacing, most_parts);
     std::reverse(points.begin(), points.end());
     Path both = straightened(scene, radius, points);
     std::reverse(both.begin(), both.end());
@@ -131,12 +169,12 @@ Planner::Planner(const Scene& scene, Meters radius)
     : scene_(&scene),
       radius_(checked(radius)),
       space_(scene, radius),
-      search_(scene.frame(), scene.grid().columns) {}
+      search_(scene.frame(), space_.columns, space_.margin) {}
 
 /// Ends of a path around obstacles; empty if there is none.
 std::optional<Planner::Ends> Planner::ends(Vec3 from, Vec3 to) const {
-    Ends ends{joined_to_cells(*scene_, radius_, space_.free, from),
-              joined_to_cells(*scene_, radius_, space_.free, to)};
+    Ends ends{Joining(*scene_, radius_, space_, from).joined(),
+              Joining(*scene_, radius_, space_, to).joined()};
     if (!joined(ends.start, ends.goal, space_.part)) return std::nullopt;
     return ends;
 }
@@ -160,10 +198,9 @@ std::optional<std::vector<Vec3>> Planner::shortest_path(Vec3 from, Vec3 to) {
 std::optional<std::vector<Vec3>> Planner::path_around(Vec3 from, Vec3 to) {
     const auto found = ends(from, to);
     if (!found) return std::nullopt;
-    const int columns = scene_->grid().columns;
     Path path{from};
     for (const int cell : search_.shortest_way(space_.steps, found->start, found->goal))
-        path.push_back(scene_->frame().to_world(centre(cell % columns, cell / columns), from.z));
+        path.push_back(scene_->frame().to_world(space_.centre(cell), from.z));
     path.push_back(to);
     return pulled_tight(*scene_, radius_, path);
 }

@@ -20,7 +20,8 @@ namespace rovernet {
 /// A path is found by A* over the cells whose centres are at least the radius away from every
 /// obstacle (8 neighbours, no corner is cut). The path is then shortened along lines of sight.
 /// Start and goal are connected to nearby cells by passable straight lines, so start and goal may
-/// lie where no cell centre is free. The path is slightly longer than the shortest: its corners are
+/// lie where no cell centre is free. If the map has no border, they may also lie beyond all cells,
+/// and the path may lead there. The path is slightly longer than the shortest: its corners are
 /// about a cell away from the walls. Every part of a path is Scene::passable. A path depends only
 /// on its two ends, not on earlier calls: see CellSearch for ties. Recent paths are cached, so
 /// paths between places of a list are searched once.
@@ -32,8 +33,8 @@ class Planner {
 
     /// Corners of the path [m], including both ends; {from, to} if the straight line is passable.
     ///
-    /// Empty if an end lies off the map or nearer to an obstacle than the radius, or if there is no
-    /// path. Corners between the ends are at the height of `from`.
+    /// Empty if an end lies beyond the map's border or nearer to an obstacle than the radius, or if
+    /// there is no path. Corners between the ends are at the height of `from`.
     std::optional<std::vector<Vec3>> shortest_path(Vec3 from, Vec3 to);
     /// Whether there is a path between two positions; the path itself is not searched for.
     bool has_way(Vec3 from, Vec3 to) const;

@@ -265,7 +265,7 @@ void note_places(Scenario& scenario, const Scene* scene) {
         for_each_start(robot, [&](Vec3 p, const Location& where) {
             const Scene& storey = scene->storey_at(p.z);
             const double metres = distance(p, on_map(storey, p));
-            if (!scenario.scene.has_maps() || metres == 0) return;  // a world has no border
+            if (!scene->has_border() || metres == 0) return;
             beyond.add([&] {
                 return fmt::format(
                     "{}: robot \"{}\" starts at {}, {:.4g} m off the map, which goes "

@@ -75,6 +75,7 @@ OccupancyGrid lines(const std::vector<OccupancyGrid>& maps) {
     OccupancyGrid grid;
     grid.cell_width = grid.cell_height = cell_without_maps;
     grid.origin = maps.front().origin;
+    grid.open_ground = maps.front().open_ground;
     bool found = false;
     for (const OccupancyGrid& map : maps) {
         if (map.cells.size() <= 1) continue;

@@ -214,7 +214,7 @@ bool Scene::occupied(Vec3 p) const {
 }
 
 bool Scene::inside_map(Vec3 p) const {
-    if (open_field()) return true;
+    if (!has_border()) return true;
     if (!plans_.empty()) return storey_at(p.z).inside_map(p);
     const CellPoint c = frame_.to_cells(p);
     return c.u >= 0 && c.u <= grid_.columns && c.v >= 0 && c.v <= grid_.rows;
@@ -236,8 +236,8 @@ bool Scene::passable(Vec3 a, Vec3 b, Meters radius) const {
 std::vector<Contact> Scene::contacts(Vec3 p, Meters radius) const {
     if (!plans_.empty()) return storey_at(p.z).contacts(p, radius);
     std::vector<Contact> all;
-    if (open_field()) return all;
     for (const Obstacles& map : obstacles_) map.add_contacts(p, radius, all);
+    if (!has_border()) return all;
     const CellPoint c = frame_.to_cells(p);
     const double gap_u = contact_gap / frame_.cell_width();
     const double gap_v = contact_gap / frame_.cell_height();
@@ -270,6 +270,7 @@ std::vector<OccupancyGrid> Scene::maps() const {
     for (const WallLayer& layer : layers_) {
         OccupancyGrid map = layer.frame.map(layer.walls->columns(), layer.walls->rows());
         map.material = static_cast<std::uint8_t>(layer.material);
+        map.open_ground = grid_.open_ground;
         for (std::size_t i = 0; i < map.cells.size(); ++i) {
             const auto columns = static_cast<std::size_t>(map.columns);
             const bool is_wall =

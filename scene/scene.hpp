@@ -70,8 +70,9 @@ class Scene {
     Scene(std::vector<OccupancyGrid> maps, std::vector<Material> materials,
           std::vector<Material> ceilings = {});
 
-    /// Whether the scene has no map.
+    /// Whether the scene has no map; below, whether robots are confined to its map.
     bool open_field() const { return grid_.columns == 0; }
+    bool has_border() const { return !open_field() && !grid_.open_ground; }
 
     /// Storeys of the scene: one for each different height of a map's origin, at least one.
     const Storeys& storeys() const { return storeys_; }
@@ -133,7 +134,7 @@ class Scene {
 
     /// Whether the point lies in an occupied cell; a cell includes its left and lower edges only.
     bool occupied(Vec3 p) const;
-    /// Whether the point lies within the maps, edges included; true everywhere on an open field.
+    /// Whether the point lies within the maps, edges included; always true if there is no border.
     bool inside_map(Vec3 p) const;
     /// Distance from p to the nearest obstacle [m]: 0 in or at an obstacle, infinity without
     /// obstacles.
@@ -146,7 +147,7 @@ class Scene {
     /// of its storey.
     bool passable(Vec3 a, Vec3 b, Meters radius) const;
     /// Contacts of a disc of the given radius [m] at p: with obstacles of the storey of p, and with
-    /// the map's border, which the disc's centre must not cross.
+    /// the map's border, if there is one, which the disc's centre must not cross.
     std::vector<Contact> contacts(Vec3 p, Meters radius) const;
 
     /// Corners of the smallest axis-parallel box around the maps [m]; both (0, 0) on an open field.

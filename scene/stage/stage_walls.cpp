@@ -266,6 +266,7 @@ void Builder::place(OccupancyGrid grid, const Body& body) {
     grid.origin = {corner.at.x, corner.at.y, 0};
     grid.yaw = corner.degrees * radians;
     grid.material = body.material;
+    grid.open_ground = true;
     out_.grids.push_back(std::move(grid));
 }
 

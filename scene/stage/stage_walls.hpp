@@ -28,7 +28,7 @@ struct StageWalls {
 /// without bitmap and outline is a solid box, unless noblocks is 1. Outlines (polygons, blocks) are
 /// scaled together to the model's size; axis-parallel boxes are exact, other shapes become cells of
 /// at most 0.02 m, with a notice. boundary 1 adds four walls of 0.01 m just inside the model's
-/// size. Walls are infinitely high.
+/// size. Walls are infinitely high. The ground around the walls is free for robots.
 ///
 /// A model with laser_return <= 0 (Stage 2 and 3) or ranger_return < 0 (Stage 4) is not a wall: the
 /// radio of Stage's wifi of 2007 passed through models that a laser passes through. A model without

@@ -38,6 +38,33 @@ TEST_CASE("area: an area is clipped to the map, and refused if it does not overl
     CHECK_THROWS_AS(Area({{4, 0}, {6, 1}}, map, "x"), std::invalid_argument);
 }
 
+TEST_CASE(
+    "area: around walls on open ground an area is not clipped, and its free places are off walls") {
+    OccupancyGrid grid = test::drawn_map({"#"});
+    grid.open_ground = true;
+    const Scene scene(grid);
+    const Area area({{-5, -4}, {50, 10}}, scene, "x");
+    CHECK(area.lower == Vec3{-5, -4});
+    CHECK(area.upper == Vec3{50, 10});
+    CHECK(Area({{5, 5}, {6, 6}}, scene, "x").lower == Vec3{5, 5});
+    CHECK(Area({}, scene, "x").upper == Vec3{1, 1});
+    Planners planners(scene);
+    LoneMover robot(planners, 3, {3, 3, 0}, {0.5});
+    Mover mover = robot.mover(nobody);
+    Draws draws;
+    bool is_far = false;
+    for (int i = 0; i < 1000; ++i) {
+        const auto place = area.free_place(mover, draws);
+        REQUIRE(place);
+        CHECK(scene.clearance(*place) >= 0.5);
+        is_far = is_far || place->x > 40;
+    }
+    CHECK(is_far);
+    CHECK(straight_stop(mover, {3000, 3, 0}) == Vec3{3000, 3, 0});
+    CHECK(std::abs(straight_stop(robot.mover(nobody), {-1, -1, 0}).x - (1 + 0.5 / std::sqrt(2))) <
+          2e-6);
+}
+
 TEST_CASE("area: the point where a ray leaves the area lies exactly on its border") {
     const Area area({{-1, 0.1}, {0.3, 0.7}}, Scene{}, "x");
     test::Draw draw(1);

@@ -103,6 +103,30 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("free space: on open ground the outermost cells are free, and the others are the same") {
+    for (const double radius : {0.0, 0.2, 0.5, 3.3}) {
+        OccupancyGrid grid = test::drawn_map({"#..#", ".#..", "##.#"}, 0.5);
+        const FreeSpace bordered(Scene(grid), Meters{radius});
+        CHECK(bordered.margin == 0);
+        grid.open_ground = true;
+        const Scene scene(grid);
+        const FreeSpace open(scene, Meters{radius});
+        REQUIRE(open.margin > 0);
+        REQUIRE(open.free.size() == static_cast<std::size_t>(open.columns * open.rows));
+        for (int cell = 0; cell < open.columns * open.rows; ++cell) {
+            const int column = cell % open.columns, row = cell / open.columns;
+            const CellPoint p = open.centre(cell);
+            CHECK(p == CellPoint{column - open.margin + 0.5, row - open.margin + 0.5});
+            const Vec3 at = scene.frame().to_world(p);
+            const bool is_free = open.free[static_cast<std::size_t>(cell)] != 0;
+            CHECK(is_free == scene.passable(at, at, Meters{radius}));
+            const bool is_outermost =
+                column == 0 || row == 0 || column == open.columns - 1 || row == open.rows - 1;
+            if (is_outermost) CHECK(is_free);
+        }
+    }
+}
+
 TEST_CASE("free space: a robot larger than the map fits nowhere near a wall") {
     const Scene scene(test::drawn_map({"....", ".#..", "...."}, 0.5));
     for (const double radius : {10.0, 1e9, 1e300}) {

@@ -114,6 +114,77 @@ TEST_CASE("planner: there is no path into a wall, off the map or into a closed r
     CHECK(planner.shortest_path({2.5, 2.5}, {4.5, 4.5}));
 }
 
+TEST_CASE("planner: around walls on open ground a path may start, lead and end off their grid") {
+    // A pillar of one cell, and a corridor that is open on the right only.
+    for (const auto& rows :
+         {std::vector<std::string>{"#"}, std::vector<std::string>{"######", "......", "######"}}) {
+        for (const double radius : {0.0, 0.3, 2.0, 40.0}) {
+            OccupancyGrid grid = drawn_map(rows);
+            grid.open_ground = true;
+            const Scene scene(grid);
+            Planner planner(scene, Meters{radius});
+            const double reach = radius + 0.5;
+            const Vec3 left{-reach, 0.5}, right{grid.columns + reach, 0.5};
+            const Vec3 above{3, grid.rows + reach}, far{-1e7, -2e7};
+            for (const auto& [from, to] : {std::pair{left, right},
+                                           {right, left},
+                                           {above, far},
+                                           {far, right},
+                                           {left, Vec3{1e6, 0.5}}}) {
+                const auto path = planner.shortest_path(from, to);
+                CAPTURE(radius);
+                REQUIRE(path);
+                CHECK(planner.has_way(from, to));
+                CHECK(path->front() == from);
+                CHECK(path->back() == to);
+                CHECK(passable(scene, *path, Meters{radius}));
+                // No farther than around the circle that encloses the walls.
+                const double size = grid.columns + grid.rows + 2 * reach;
+                CHECK(length_of(*path) < distance(from, to) + 4 * size);
+            }
+        }
+    }
+}
+
+TEST_CASE("planner: from open ground there is a path into a room exactly if it has a door") {
+    for (const bool has_door : {false, true}) {
+        OccupancyGrid grid =
+            drawn_map({"#####", "#...#", has_door ? "#...." : "#...#", "#...#", "#####"});
+        grid.open_ground = true;
+        const Scene scene(grid);
+        Planner planner(scene, 0.4_m);
+        for (const Vec3 outside : {Vec3{-3, 2.5}, Vec3{-0.5, -0.5}, Vec3{900, -1e5}}) {
+            CHECK(planner.has_way(outside, {2.5, 2.5}) == has_door);
+            const auto path = planner.shortest_path({2.5, 2.5}, outside);
+            REQUIRE(path.has_value() == has_door);
+            if (path) CHECK(passable(scene, *path, 0.4_m));
+        }
+        CHECK(planner.shortest_path({2.5, 2.5}, {1.5, 1.5}));
+        CHECK_FALSE(planner.shortest_path({-3, 2.5}, {-0.3, 2.5}));  // too near to the wall
+    }
+}
+
+TEST_CASE("planner: inside of closed walls, paths are the same with and without open ground") {
+    test::Draw draw(32);
+    for (int trial = 0; trial < 20; ++trial) {
+        OccupancyGrid grid = test::random_map(draw, 30, 20, 20);
+        for (int i = 0; i < 600; ++i) {
+            const int column = i % 30, row = i / 30;
+            const bool is_edge = column % 29 == 0 || row % 19 == 0;
+            if (is_edge) grid.cells[static_cast<std::size_t>(i)] = Cell::occupied;
+        }
+        const Scene bordered(grid);
+        grid.open_ground = true;
+        const Scene open(grid);
+        Planner one(bordered, 0.35_m), other(open, 0.35_m);
+        for (int i = 0; i < 30; ++i) {
+            const Vec3 from{draw.uniform(0, 30), draw.uniform(0, 20)};
+            const Vec3 to{draw.uniform(0, 30), draw.uniform(0, 20)};
+            CHECK(one.shortest_path(from, to) == other.shortest_path(from, to));
+        }
+    }
+}
+
 TEST_CASE("planner: no path passes between two walls that touch at a corner") {
     const Scene scene(drawn_map({".#", "#."}));
     CHECK_FALSE(shortest_path(scene, {0.2, 1.7}, {1.6, 0.5}, 0_m));
