@@ -142,21 +142,22 @@ void read_radio(const Value& value, const std::string& name, Radio& out, RadioPl
     find("mac", places.mac);
 }
 
-RobotTable read_robot(const Value& value, const Scenario& scenario, bool needs_place) {
+RobotTable read_robot(const Value& value, const Scenario& scenario,
+                      const std::function<bool(const RobotTable&)>& needs_place) {
     TableReader table(value, "[[robot]]");
     expect_keys(table);
     RobotTable robot;
     robot.where = robot.at_where = robot.radio_where = robot.propagation_where = value.where;
     table.read_fields(robot);
     if (!table.table().find("name")) table.missing("name", "name = \"A\"");
-    check_name(*table.take("name"), robot.name, !needs_place);
+    check_name(*table.take("name"), robot.name, !needs_place(robot));
     if (robot.at) robot.at_where = table.take("at")->where;
     if (const Value* place = table.take("place")) robot.place = read_place(*place);
     if (robot.at && robot.place) table.only_one_of("at", "place");
     const bool placed = robot.at || robot.place;
     if (const Value* move = table.take("move")) robot.move = read_move(*move, placed);
     if (const Value* scan = table.take("scan")) robot.scan = read_scanners(*scan);
-    if (!placed && needs_place && !robot.move.draws_place()) {
+    if (!placed && needs_place(robot) && !robot.move.draws_place()) {
         table.missing("at", "at = [\"2 m\", \"3 m\"], or place = { ... }");
     }
     if (const Value* role = table.take("role")) {

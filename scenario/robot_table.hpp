@@ -12,6 +12,7 @@
 #include "sim/geometry.hpp"
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -132,10 +133,11 @@ struct Scenario;
 
 /// Reads a [[robot]]. Defaults come from the scenario's other tables, which must have been read
 /// before.
-/// @param needs_place  false for a robot whose position and name come from a movement file; its
-/// name may have dots
+/// @param needs_place  returns false for robots, known by name and count, whose positions all come
+///                     from a movement file; their names may have dots
 /// @throws InputError at the first mistake
-RobotTable read_robot(const Value& value, const Scenario& scenario, bool needs_place);
+RobotTable read_robot(const Value& value, const Scenario& scenario,
+                      const std::function<bool(const RobotTable&)>& needs_place);
 
 /// Converts a robot to a table [[robot]]: the inverse of read_robot(). Values equal to the
 /// scenario's defaults are omitted.

@@ -3,6 +3,7 @@
 
 #include "models/phy/phy.hpp"
 #include "models/propagation/disc.hpp"
+#include "scenario/affected.hpp"
 #include "scenario/document/choice.hpp"
 #include "scenario/document/located.hpp"
 #include "scenario/memory.hpp"
@@ -19,6 +20,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <utility>
 
 namespace rovernet {
 namespace {
@@ -246,20 +248,58 @@ void check_robots(TableReader& document, const Scenario& scenario) {
         "[[robot]] that names the world: [scene] world = \"...\"");
 }
 
-/// Whether the movement file, which names these robots, places the robot of that table.
-bool placed_by_file(const Value& robot, const std::set<std::string_view>& names) {
-    const Table* table = robot.table();
-    const Value* name = table ? table->find("name") : nullptr;
-    return name && name->string() && names.contains(*name->string());
+/// Robots of a table that the movement file places and moves: their number, and the last name.
+struct MovedByFile {
+    int robots = 0;
+    std::string name = {};
+};
+MovedByFile moved_by_file(const RobotTable& robot, const std::set<std::string_view>& in_file) {
+    MovedByFile moved;
+    if (in_file.empty()) return moved;
+    for (int i = 0; i < robot.count.value_or(1); ++i) {
+        std::string name = robot.name_of(i);
+        if (in_file.contains(name)) moved = {moved.robots + 1, std::move(name)};
+    }
+    return moved;
+}
+
+/// Adds a notice about places and movements that have no effect beside those of the movement file.
+void note_idle_motion(const Value& robots, const std::set<std::string_view>& in_file,
+                      Scenario& out) {
+    Affected idle;
+    for (std::size_t i = 0; i < out.robots.size(); ++i) {
+        const RobotTable& robot = out.robots[i];
+        const MovedByFile moved = moved_by_file(robot, in_file);
+        if (moved.robots == 0) continue;
+        const bool stands = std::holds_alternative<FixedTable>(robot.move.model);
+        for (const char* key : {"at", "place", "move"}) {
+            const Value* given = (*robots.array())[i].table()->find(key);
+            if (!given || (stands && key == std::string_view("move"))) continue;
+            // A world has to place all its robots.
+            if (out.scene.world && given->where.source != out.file) continue;
+            idle.add([&] {
+                return fmt::format(
+                    "{}: {} has no effect on robot \"{}\": the movement file places "
+                    "and moves this robot",
+                    given->where.text(), key, moved.name);
+            });
+        }
+    }
+    idle.note(out.notices);
 }
 
 /// Reads [[robot]]; robots that the movement file places need no place there.
 void read_robots(TableReader& document, Scenario& out) {
     std::set<std::string_view> in_file;
     for (const FileRobot& robot : out.movement.robots) in_file.insert(robot.name);
-    out.robots = read_list<RobotTable>(document, "robot", [&](const Value& v) {
-        return read_robot(v, out, !placed_by_file(v, in_file));
-    });
+    const auto needs_place = [&](const RobotTable& robot) {
+        return moved_by_file(robot, in_file).robots < robot.count.value_or(1);
+    };
+    out.robots = read_list<RobotTable>(
+        document, "robot", [&](const Value& v) { return read_robot(v, out, needs_place); });
+    if (!in_file.empty() && !out.robots.empty()) {
+        note_idle_motion(*document.take("robot"), in_file, out);
+    }
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ namespace {
 
 const std::string robot_a = "[[robot]]\nname = \"A\"\nat = [\"2 m\", \"2 m\"]\n";  // 3 lines
 const std::string on_map = "[scene]\nmap = \"walls.png\"\nsize = [\"8 m\", \"8 m\"]\n" + robot_a;
+const std::string in_file = "[movement]\nfile = \"two.tcl\"\n[[robot]]\n";  // it moves n0 and n1
 const std::string yaml = "[scene]\nmap = \"m.yaml\"\n" + robot_a;
 
 struct Mistake {
@@ -58,6 +59,7 @@ void write_maps(const TemporaryFolder& folder) {
     folder.write("cut.png", walls_png().substr(0, 60));
     folder.write("huge.png", huge_png());
     folder.write("text.png", "this is no picture");
+    folder.write("two.tcl", "$node_(0) set X_ 1\n$node_(1) set X_ 2\n");
     std::filesystem::create_directory(folder.path("folder.png"));
     const std::string rest = "resolution: 1\norigin: [0, 0, 0]\n";
     const std::string thresholds = "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.2\n";
@@ -422,6 +424,8 @@ const std::vector<Mistake> mistakes = {
      "6:6",
      {"\"A\"", "inside a wall"}},
     {on_map + "move = { model = \"goal\", to = [\"6 m\", \"2 m\"] }", "7:8", {"no path from"}},
+    {in_file + "name = \"n1\"\ncount = 2\n", "3:1", {"\"at\" is missing"}},
+    {in_file + "name = \"n\"\ncount = 3\n", "3:1", {"\"at\" is missing"}},
     {on_map + "move = { model = \"goal\", to = [\"50 m\", \"2 m\"] }", "7:8", {"off the map"}},
     {on_map + "move = { model = \"goal\", to = [\"4.5 m\", \"2 m\"] }", "7:8", {"in a wall"}},
 };

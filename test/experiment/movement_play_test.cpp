@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <string>
@@ -75,6 +76,39 @@ TEST_CASE("movement file: it is played as written, whatever the robot's top spee
             CHECK(near(at(20s), {20, 20, 0}));
         }
     }
+}
+
+TEST_CASE("movement file: a [[robot]] with a count may describe robots that the file moves") {
+    const TemporaryFolder folder;
+    folder.write("m.movements", "0 0 0 10 20 0\n0 1 5 10 21 5\n");
+    const Scenario s =
+        load_scenario(folder.write("s.toml",
+                                   "[movement]\nfile = \"m.movements\"\n[[robot]]\nname = \"n\"\n"
+                                   "count = 2\nradius = \"3 m\"\nmove = { model = \"fixed\" }\n"),
+                      {});
+    const auto network = network_at(s, start_of_run + 5s);
+    REQUIRE(network->size() == 2);
+    CHECK(near(network->position(*network->find("n1")), {11, 5, 0}));
+    CHECK(network->robot(*network->find("n1")).radius == 3_m);
+}
+
+TEST_CASE("movement file: the robots that it moves may have another place in a Stage world") {
+    const TemporaryFolder folder;
+    folder.write("m.movements", "0 0 0 10 20 0\n");
+    folder.write("w.world", "position ( name \"n0\" pose [5 6 0] )\n");
+    const std::string text = "[movement]\nfile = \"m.movements\"\n[scene]\nworld = \"w.world\"\n";
+    const Scenario s = load_scenario(folder.write("s.toml", text), {});
+    const auto network = network_at(s, start_of_run + 5s);
+    CHECK(near(network->position(*network->find("n0")), {10, 0, 0}));
+    const std::string own =
+        folder.write("own.toml", text + "[[robot]]\nname = \"n0\"\nat = [\"2 m\", \"2 m\"]\n");
+    const auto idle = [](const Scenario& each) {
+        return std::count_if(each.notices.begin(), each.notices.end(), [](const auto& notice) {
+            return notice.find("at has no effect on robot \"n0\"") != notice.npos;
+        });
+    };
+    CHECK(idle(s) == 0);
+    CHECK(idle(load_scenario(own, {})) == 1);
 }
 
 }  // namespace movement_play_test

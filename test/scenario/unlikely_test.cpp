@@ -135,6 +135,27 @@ TEST_CASE(
     check_notice(robot_a + "off = [\"1 s\", \"2 s\"]\n", {":4:7: off: ", "already off at 2 s"});
 }
 
+TEST_CASE("unlikely: keys of a robot's motion that a movement file overrides give one notice") {
+    const TemporaryFolder folder;
+    folder.write("m.tcl", "$node_(0) set X_ 1\n$node_(1) set X_ 2\n");
+    const std::string head = "[movement]\nfile = \"m.tcl\"\n[[robot]]\nname = \"n0\"\n";
+    const std::string at = "at = [\"2 m\", \"2 m\"]\n";
+    const std::string move = "move = { model = \"goal\", to = [\"6 m\", \"2 m\"] }\n";
+    const auto notices = [&](const std::string& keys) {
+        return loaded(folder, head + keys).notices;
+    };
+    const std::string file = folder.path("s.toml"), why = " has no effect on robot \"n0\": the ";
+    REQUIRE(notices(at).size() == 1);
+    CHECK(notices(at)[0].starts_with(file + ":5:6: at" + why));
+    CHECK(notices(move)[0].starts_with(file + ":5:8: move" + why));
+    CHECK(notices("place = { model = \"choice\", points = [[\"2 m\", \"2 m\"]] }\n")[0].starts_with(
+        file + ":5:9: place" + why));
+    CHECK(notices(at + move + "[[robot]]\nname = \"n1\"\n" + at)[0].ends_with(
+        "and 2 more"));
+    CHECK(notices("radius = \"1 m\"\nmove = { model = \"fixed\" }\n").empty());
+    CHECK(notices("[[robot]]\nname = \"own\"\n" + at).empty());
+}
+
 TEST_CASE("unlikely: robots that start off the map give one notice") {
     check_notice(on_map + "[[robot]]\nname = \"A\"\nat = [\"448 m\", \"0.5 m\"]\n",
                  {":6:6: robot \"A\" starts at (448, 0.5) m, 440 m off the map", "(8, 1) m"});
