@@ -3,6 +3,7 @@
 
 #include "mobility/straight.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -10,15 +11,37 @@
 namespace rovernet {
 namespace {
 
+/// Robot that a movement file moves.
+struct PlayedRobot {
+    static constexpr std::uint32_t absent = 0xffffffff, taken = 0xfffffffe;
+    NodeId node;
+    /// Network::movements() after the file's last command. `absent`: the robot is away until the
+    /// file lets it appear. `taken`: something else has moved the robot, and the file no longer
+    /// does.
+    std::uint32_t movements;
+};
+
 /// A movement file that is being played: one pending event, for the next command.
 struct Player {
     Network& network;
     MovementFile file;
-    std::vector<NodeId> nodes;
+    std::vector<PlayedRobot> robots;
     std::optional<MovementCommand> next;
 
     void obey(const MovementCommand& command) {
-        const NodeId node = nodes[command.robot];
+        PlayedRobot& robot = robots[command.robot];
+        if (robot.movements == PlayedRobot::taken) return;
+        const bool is_there = robot.movements != PlayedRobot::absent;
+        if (is_there && network.movements(robot.node) != robot.movements) {
+            robot.movements = PlayedRobot::taken;
+            return;
+        }
+        move(robot.node, command);
+        const bool vanishes = command.kind == MovementCommand::Kind::vanish;
+        robot.movements = vanishes ? PlayedRobot::absent : network.movements(robot.node);
+    }
+
+    void move(NodeId node, const MovementCommand& command) {
         using Kind = MovementCommand::Kind;
         switch (command.kind) {
             case Kind::appear: network.place(node, command.to); return network.switch_on(node);
@@ -44,13 +67,14 @@ struct Player {
 }  // namespace
 
 void play(Network& network, MovementFile file, std::vector<NodeId> nodes) {
+    std::vector<PlayedRobot> robots;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-        if (file.robots()[i].appears > network.now()) {
-            network.take_away(nodes[i], Presence::not_departed);
-        }
+        const bool is_there = file.robots()[i].appears <= network.now();
+        if (!is_there) network.take_away(nodes[i], Presence::not_departed);
+        robots.push_back({nodes[i], is_there ? network.movements(nodes[i]) : PlayedRobot::absent});
     }
     const auto player =
-        std::make_shared<Player>(Player{network, std::move(file), std::move(nodes), std::nullopt});
+        std::make_shared<Player>(Player{network, std::move(file), std::move(robots), std::nullopt});
     player->next = player->file.next();
     Player::go_on(player);
 }

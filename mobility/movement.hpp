@@ -104,7 +104,7 @@ enum class AtDoors {
     looks,   ///< the robot stops at the door, and the model returns a new leg
     drives,  ///< like `looks`; a standing robot also gets a new leg whenever a door closes or opens
     passes   ///< the robot moves on, also through walls: a recorded movement, which is played
-            ///< exactly as it is, also without turning in place first
+             ///< exactly as it is, also without turning in place first
 };
 
 /// Movement model that stores the state of a robot separately, in its Progress: copies of one

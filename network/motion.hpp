@@ -83,6 +83,8 @@ class Motion {
     /// Body of a node: radius and motion limits.
     /// @throws std::out_of_range if there is no such node
     const Body& body(NodeId node) { return bodies_[nodes_.at(node.index()).body]; }
+    /// Number of movements that a node was given by move() and place().
+    std::uint32_t movements(NodeId node) { return nodes_.at(node.index()).movements; }
 
   private:
     /// State of one robot's motion. There may be millions of robots, so rare state is in maps of

@@ -127,6 +127,7 @@ Vec3 Network::position(NodeId node) const { return engine_->world.legs.position(
 Radians Network::heading(NodeId node) const {
     return {wrapped(engine_->world.legs.leg(node).heading_at(now()))};
 }
+std::uint32_t Network::movements(NodeId node) const { return engine_->motion.movements(node); }
 
 RobotState Network::robot(NodeId node) const {
     const Medium& medium = engine_->world.medium;

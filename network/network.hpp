@@ -145,13 +145,10 @@ class Network {
 
     /// Simulated time: time of the current event, or the end of the last run.
     Time now() const;
-    /// Time of the next event; `never` if there is none.
-    Time next_event() const;
-    std::size_t size() const;  ///< number of robots
-    /// Number of events served so far.
-    std::uint64_t events() const;
-    /// Number of frames transmitted so far.
-    std::uint64_t transmissions() const;
+    Time next_event() const;              ///< time of the next event; `never` if there is none
+    std::size_t size() const;             ///< number of robots
+    std::uint64_t events() const;         ///< number of events served so far
+    std::uint64_t transmissions() const;  ///< number of frames transmitted so far
     /// Upper bound [dB] on the reduction of any SINR so far by frames that the reception model
     /// `sinr` neglected (Sinr::interference_cut), as if all frames on air anywhere came from just
     /// beyond the cut-off; empty if no frames are neglected.
@@ -175,6 +172,8 @@ class Network {
     Db path_loss(NodeId from, NodeId to) const;
     /// Appends to `out` the nodes that would hear `node` if `node` transmitted now, in any order.
     void find_hearers(NodeId node, std::vector<NodeId>& out);
+    /// Number of movements that a robot was given so far: by move(), place() and stop().
+    std::uint32_t movements(NodeId node) const;
     /// Current state of a robot.
     RobotState robot(NodeId node) const;
     /// Settings passed to the constructor; below, current legs of all robots.

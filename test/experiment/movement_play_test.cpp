@@ -2,6 +2,7 @@
 #include "experiment/movement_play.hpp"
 
 #include "experiment/reports/network_at.hpp"
+#include "experiment/session.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/scenario_file.hpp"
 #include "test/scene/temporary_folder.hpp"
@@ -109,6 +110,58 @@ TEST_CASE("movement file: the robots that it moves may have another place in a S
     };
     CHECK(idle(s) == 0);
     CHECK(idle(load_scenario(own, {})) == 1);
+}
+
+TEST_CASE("movement file: a robot that a program commands has left the file for good") {
+    const Format walk{"m.movements", "n0", "0 0 0 4 4 0 6 4 0 10 4 4\n"};
+    const Played played(walk, "");
+    const auto x_after_12_s = [&](const RobotCommand& command) {
+        Session session(played.scenario);
+        const NodeId n0 = *session.network().find("n0");
+        const ClientId client = session.attach({n0});
+        session.step(start_of_run + 1s);
+        session.carry_out(client, n0, command);
+        session.step(start_of_run + 12s);
+        return session.network().position(n0).x;
+    };
+    CHECK(std::abs(x_after_12_s(DriveCommand{.speed = {-1}}) - (1 - 11)) < rounding);
+    CHECK(std::abs(x_after_12_s(DriveCommand{.speed = {-1}, .timeout = 2s}) - (1 - 2)) < rounding);
+    CHECK(x_after_12_s(GoalCommand{.to = {-3, 0}}) == -3);
+    CHECK(std::abs(x_after_12_s(StopCommand{}) - 1) < rounding);
+    CHECK(x_after_12_s(PlaceCommand{.at = {7, 8}, .heading = {}}) == 7);
+    CHECK(std::abs(x_after_12_s(SendCommand{.payload = "x", .one_hop = true}) - 4) < rounding);
+}
+
+TEST_CASE("movement file: a reaction takes a robot out of the file, as it replaces any movement") {
+    const Format walk{"m.movements", "n0", "0 0 0 4 4 0 6 4 0 10 4 4\n"};
+    for (const auto& [reaction, x] :
+         {std::pair<std::string, double>{"stop = true", 1},
+          {"move = { model = \"goal\", to = [\"-9 m\", \"0 m\"] }", -9}}) {
+        const Played played(walk, "on_time = { time = \"1 s\", " + reaction + " }\n");
+        const auto network = network_at(played.scenario, start_of_run + 20s);
+        CHECK(std::abs(network->position(*network->find("n0")).x - x) < rounding);
+    }
+}
+
+TEST_CASE("movement file: a commanded robot stays on when the file ends its presence") {
+    const Format bus{"m.xml", "bus",
+                     "<fcd-export><timestep time=\"1\"><vehicle id=\"bus\" x=\"5\" y=\"0\"/>"
+                     "</timestep><timestep time=\"4\"><vehicle id=\"bus\" x=\"8\" y=\"0\"/>"
+                     "</timestep><timestep time=\"5\"/></fcd-export>\n"};
+    const Played played(bus, "");
+    for (const bool is_commanded : {false, true}) {
+        Session session(played.scenario);
+        Network& net = session.network();
+        const NodeId node = *net.find("bus");
+        const ClientId client = session.attach({node});
+        session.drive(client, node, {9}, {0});  // it is not there yet: the file brings it
+        session.step(start_of_run + 2s);
+        CHECK(near(net.position(node), {6, 0, 0}));
+        if (is_commanded) session.drive(client, node, {0}, {1});
+        session.step(start_of_run + 10s);
+        CHECK(net.robot(node).presence == (is_commanded ? Presence::on : Presence::left));
+        CHECK(near(net.position(node), {is_commanded ? 6.0 : 8.0, 0, 0}));
+    }
 }
 
 }  // namespace movement_play_test
