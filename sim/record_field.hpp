@@ -36,8 +36,10 @@ using FieldUse = unsigned;
 inline constexpr FieldUse not_hashed = 1;
 /// Field that recorded traces do not contain, so that replays do not compare it.
 inline constexpr FieldUse not_recorded = 2;
+/// Field that tables of rows do not contain.
+inline constexpr FieldUse not_in_rows = 4;
 /// Field that fingerprints, recorded traces and tables of rows do not contain.
-inline constexpr FieldUse not_visited = 4 | not_hashed | not_recorded;
+inline constexpr FieldUse not_visited = not_in_rows | not_hashed | not_recorded;
 /// Field of type NodeId whose value may be `everyone`.
 inline constexpr FieldUse or_everyone = 8;
 /// Field of type MessageId: fingerprints contain the message's origin and size in addition to its
@@ -90,7 +92,7 @@ struct FieldsOf<Frame> {
                         field<not_visited>("path", &Frame::path), field("ttl", &Frame::ttl),
                         field("hops", &Frame::hops),
                         field<or_everyone | not_hashed>("next_hop", &Frame::next_hop),
-                        field<not_visited>("bytes", &Frame::bytes),
+                        field<not_hashed | not_in_rows | since(5)>("bytes", &Frame::bytes),
                         field<not_visited>("header", &Frame::header));
     }
 };

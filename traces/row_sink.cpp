@@ -50,7 +50,7 @@ class Cells {
     template <DescribedPart Part>
     void put_all(const Part& part) {
         for_each_field_of<Part>([&]<class Field>(const Field& f) {
-            if constexpr (Field::use != not_visited) {
+            if constexpr ((Field::use & not_in_rows) == 0) {
                 if (is_time_of_record(f)) return out_.put("t", "_ns", [&] { return ns(time_); });
                 put(f.name, part.*f.member);
             }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/replay/trace_input.hpp"
 
+#include "experiment/replay/packet_text.hpp"
 #include "scenario/document/toml.hpp"
 #include "scenario/document/value.hpp"
 #include "scenario/scenario.hpp"
@@ -33,8 +34,10 @@ bool take_record(RecordedReader& reader, Ns2Trace& trace, KindMask kinds = kind_
         trace.finish();
         return false;
     }
-    if (kinds & trace.kinds() & (KindMask{1} << record->index()))
-        trace.on(*record, reader.context());
+    if ((kinds & trace.kinds() & (KindMask{1} << record->index())) == 0) return true;
+    RecordContext context = reader.context();
+    context.router = &packet_describer();
+    trace.on(*record, context);
     return true;
 }
 

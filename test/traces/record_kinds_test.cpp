@@ -227,10 +227,10 @@ TEST_CASE("kinds of records: each kind has its rows in tables, its name and its 
     CHECK(kinds.size() == std::variant_size_v<Record> + 1);
 }
 
-// The layouts are those of format 4, which readers elsewhere were written for.
-TEST_CASE("kinds of records: the layouts in recorded traces are those of format 4") {
+// The layouts are those of format 5, which readers elsewhere were written for.
+TEST_CASE("kinds of records: the layouts in recorded traces are those of format 5") {
     const std::vector<RecordedKind> kinds = recorded_kinds();
-    const std::string frame = "message:v sender:v ttl:v hops:v next_hop:node?";
+    const std::string frame = "message:v sender:v ttl:v hops:v next_hop:node? bytes:v";
     const std::string air = frame + " heard_from:node? kind:b attempt:b number:v reserved:z";
     const std::string expected[] = {
         "slot:v uid:v origin:v number:v to:node? size:v created:z(before this time) flow:v "

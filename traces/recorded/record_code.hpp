@@ -20,7 +20,7 @@ namespace rovernet {
 
 /// Version of the layouts of records in a recorded trace; a reader refuses any later version. A
 /// field that is added to the records of an earlier version is described with since(VERSION).
-inline constexpr std::uint32_t recorded_format = 4;
+inline constexpr std::uint32_t recorded_format = 5;
 
 /// Number by which a recorded trace stores the kind of a frame: 0 for a data frame (`control` is
 /// null), 1 for RTS, 2 for CTS, 3 for ACK, 4 for any other control frame.

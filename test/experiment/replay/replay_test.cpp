@@ -134,6 +134,15 @@ TEST_CASE("a trace of format 3, without the bit rates of its frames, can be repe
     CHECK(again.same == 28);
 }
 
+TEST_CASE("a trace of format 4, without the sizes of its frames, can be repeated") {
+    // Two robots with AODV, recorded before format 5.
+    const std::string path = std::string(ROVERNET_TEST_DATA) + "/recorded_format4.mcap";
+    CHECK(RecordedReader(path).format() == 4);
+    const Verification again = verify_replay(path, {});
+    CHECK_FALSE(again.difference);
+    CHECK(again.same > 20);
+}
+
 TEST_CASE(
     "if the scenario no longer reproduces its trace, the recorded and the new line are shown") {
     const RecordedRunOf run(examples + "/patrol/patrol.toml", {"scenario.duration=30 s"});

@@ -10,6 +10,7 @@
 #include "traces/ns2/ns2_stats.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <filesystem>
 #include <string>
@@ -36,6 +37,30 @@ struct Rescue {
                          to);
     }
 };
+
+/// Six messages over a line of five robots, of which the fourth is switched off.
+std::string routed(const std::string& protocol, const std::string& format, const std::string& mac) {
+    std::string text = "[scenario]\nduration = \"8 s\"\n[access]\nmodel = \"csma\"\n[routing]\n" +
+                       protocol + "[trace]\nrecord = true\nns2 = \"" + format + "\"\nmac = " + mac +
+                       R"(
+[propagation]
+model = "disc"
+range = "250 m"
+[[traffic]]
+kind = "unicast"
+from = "n0"
+to = "n4"
+size = "64 B"
+start = "1 s"
+every = "1 s"
+)";
+    for (int i = 0; i < 5; ++i) {
+        const std::string off = i == 3 ? "off = [\"4.5 s\"]\n" : "";
+        text +=
+            fmt::format("[[robot]]\nname = \"n{}\"\nat = [\"{} m\", \"0 m\"]\n{}", i, 200 * i, off);
+    }
+    return text;
+}
 
 std::string all_of(Ns2Source source) {
     while (source.more()) continue;
@@ -66,6 +91,39 @@ TEST_CASE("the text of a recorded trace equals the ns-2 trace of its run, byte b
             CHECK(content(run.folder / "later.tr") == content(run.text));
         }
     }
+}
+
+TEST_CASE("the text of a recorded run with AODV or DSR equals its ns-2 trace, byte by byte") {
+    for (const char* protocol :
+         {"protocol = \"aodv\"\n", "protocol = \"aodv\"\nprofile = \"ns2\"\nhello = \"1 s\"\n",
+          "protocol = \"dsr\"\n", "protocol = \"dsr\"\nprofile = \"ns2\"\n"}) {
+        for (const char* format : {"old", "new"}) {
+            for (const char* mac : {"false", "true"}) {
+                CAPTURE(protocol);
+                CAPTURE(format);
+                CAPTURE(mac);
+                const TempFolder folder;
+                testing::write_file(folder / "s.toml", routed(protocol, format, mac));
+                RunOptions to;
+                to.folder = folder / ".";
+                run_scenario(load_scenario(folder / "s.toml", {}), to);
+                const std::string text = content(folder / "trace.tr");
+                CHECK(text.find("CBK") != text.npos);
+                const TraceInput trace(
+                    folder / "trace.mcap",
+                    {.format = std::string(format) == "old" ? Ns2Format::old_format
+                                                            : Ns2Format::new_format});
+                CHECK(all_of(trace.text()) == text);
+            }
+        }
+    }
+}
+
+TEST_CASE("a recorded trace of format 4, without sizes of frames, has the control packets") {
+    const std::string path = std::string(ROVERNET_TEST_DATA) + "/recorded_format4.mcap";
+    const std::string text = all_of(old_with_mac(path).text());
+    CHECK(text.find("[0x2 1 1 [1 0] [0 1]] (REQUEST)\n") != text.npos);
+    CHECK(text.find("_0_ RTR  --- 3 cbr 64 ") != text.npos);
 }
 
 TEST_CASE("a file of ns-2 text is read unchanged") {

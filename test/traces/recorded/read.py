@@ -58,8 +58,8 @@ class Bytes:
 
 
 def frame(m, uids):
-    slot, sender, ttl, hops, next_hop = m.v(), m.v(), m.v(), m.v(), m.node()
-    return uids.get(slot, "-"), f"{sender} {ttl} {hops} {next_hop}"
+    slot, sender, ttl, hops, next_hop, size = m.v(), m.v(), m.v(), m.v(), m.node(), m.v()
+    return uids.get(slot, "-"), f"{sender} {ttl} {hops} {next_hop} {size}"
 
 
 def air(m, uids):
