@@ -127,7 +127,8 @@ Table stats_table(const ToldStats& stats, const std::string& by) {
     append_metrics(table, stats.metrics);
     leave_out_unknown(table);
     append_drops(table, stats);
-    if (stats.routing_packets > 0) {
+    const bool is_recorded = stats.file_bytes.has_value();  // its metrics have these values
+    if (!is_recorded && stats.routing_packets > 0) {
         table.set("routing_packets", stats.routing_packets);
         table.set("routing_bytes", stats.routing_bytes);
         table.set("routing_load", per(stats.routing_packets, stats.metrics.deliveries));

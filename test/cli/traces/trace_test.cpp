@@ -97,6 +97,37 @@ TEST_CASE("trace stats names the kind of a recorded trace") {
     CHECK(json_of(run.folder, {"trace", "stats", run.text})["format"] == "old");
 }
 
+TEST_CASE("trace stats of a recorded trace has the metrics of the summary, also those of routing") {
+    const std::string aodv =
+        "[routing]\nprotocol = \"aodv\"\n[access]\nmodel = \"csma\"\n"
+        "[[traffic]]\nkind = \"unicast\"\nfrom = \"n0\"\nto = \"n4\"\n"
+        "size = \"64 B\"\nstart = \"1 s\"\nevery = \"250 ms\"\n";
+    const std::string cluster =
+        "[routing]\nprotocol = \"suppression\"\nscheme = \"cluster\"\n"
+        "[[traffic]]\nfrom = \"n0\"\nsize = \"64 B\"\nstart = \"1 s\"\nevery = \"250 ms\"\n";
+    for (const std::string& scenario : {aodv, aodv + "[study]\nwarmup = \"3 s\"\n", cluster}) {
+        CAPTURE(scenario);
+        std::string text = "[scenario]\nduration = \"8 s\"\n" + scenario +
+                           "[propagation]\nmodel = \"disc\"\nrange = \"250 m\"\n";
+        for (int i = 0; i < 5; ++i) {
+            text += "[[robot]]\nname = \"n" + std::to_string(i) + "\"\nat = [\"" +
+                    std::to_string(200 * i) + " m\", \"0 m\"]\n" +
+                    (i == 3 ? "off = [\"4.9 s\"]\n" : "");
+        }
+        const TemporaryFolder folder;
+        const std::string out = folder.path("out");
+        json_of(folder, {"run", folder.write("s.toml", text), "--record", "--out", out});
+        const Json summary = Json::parse(content(out + "/summary.json"));
+        const Json stats = json_of(folder, {"trace", "stats", out + "/trace.mcap"});
+        REQUIRE(stats.contains("data_transmissions"));
+        for (const auto& metric : stats.items()) {
+            const std::string key = metric.key();
+            CAPTURE(key);
+            if (summary.contains(key)) CHECK(summary[key].dump() == metric.value().dump());
+        }
+    }
+}
+
 TEST_CASE("trace convert --to pcapng needs a recorded trace, and says why") {
     const Run run;
     const std::string out = run.folder.path("x.pcapng");
