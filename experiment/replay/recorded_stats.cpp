@@ -167,8 +167,8 @@ bool RecordedCounter::count(const Received& r) {
         ++fates[static_cast<std::size_t>(rx.fate)];
         if (!rx.delivered && !has_rows) continue;
         const bool has_line = rx.delivered && !is_lost_on_air(rx.fate, is_unicast);
-        // r AGT, which a routed unicast has in place of its r RTR.
-        if (has_line && !is_routed) ++deliveries_;
+        // r AGT, which a routed unicast without a header has in place of its r RTR.
+        if (has_line && (!is_routed || r.frame.header != 0)) ++deliveries_;
         if (message) receive(rx, is_unicast, *message);
     }
     return true;  // tell() adds the lines

@@ -78,6 +78,8 @@ void Ns2Trace::Writer::lines(const Received& r, const RecordContext& context) {
     const bool is_link_packet = context.messages[frame.message].is_link_packet();
     const bool is_unicast = context.messages[frame.message].is_routed_unicast();
     if (is_unicast) reserved_ = r.reserved;
+    Frame handed_over = frame;  // as the application gets it: without a header of the protocol
+    if (frame.header != 0) handed_over.bytes = 0;
     for (const Reception& rx : r.receptions) {
         Ns2PacketFields line{{'r', rx.time, rx.node, "MAC", "---", mac}, frame};
         const bool repeated = frame.next_hop != everyone && rx.fate == Fate::duplicate;
@@ -92,9 +94,12 @@ void Ns2Trace::Writer::lines(const Received& r, const RecordContext& context) {
         if (mac_ == MacTrace::on) packet(line, context);
         if (is_link_packet) continue;
         line.layer = "RTR";
-        if (!is_unicast || !rx.delivered) packet(line, context);
+        // A protocol with headers removes them at the destination; another one does not see the
+        // packet there.
+        if (!is_unicast || !rx.delivered || frame.header != 0) packet(line, context);
         if (rx.delivered) {
             line.layer = "AGT";
+            line.frame = &handed_over;
             packet(line, context);
         }
         if (rx.fate == Fate::waiting || rx.fate == Fate::arrived) continue;

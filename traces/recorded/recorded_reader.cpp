@@ -287,6 +287,8 @@ bool RecordedReader::define(std::string_view bytes) {
     if (ours && messages_[*ours].uid == message.uid) return true;
     if (ours) messages_.release(*ours);
     ours = messages_.add(std::move(message));
+    if (ours->index() >= has_header_.size()) has_header_.resize(ours->index() + 1);
+    has_header_[ours->index()] = false;
     return true;
 }
 
@@ -304,10 +306,16 @@ void RecordedReader::meet(NodeId robot) {
     while (legs_.size() <= robot.index()) legs_.add({});
 }
 
-/// Completes a record of format 1, which has only the size of a frame with its header.
-void RecordedReader::complete(Record& record) const {
+/// Marks the frames of messages that have a header. Completes a record of format 1, which has only
+/// the size of a frame with its header.
+void RecordedReader::complete(Record& record) {
+    if (auto* received = std::get_if<Received>(&record)) {
+        received->frame.header = has_header_[received->frame.message.index()] ? 1 : 0;
+    }
     auto* sent = std::get_if<AirSent>(&record);
-    if (format_ > 1 || !sent || sent->air.control) return;
+    if (!sent || sent->air.control) return;
+    if (!header_.bytes.empty()) has_header_[sent->air.frame.message.index()] = true;
+    if (format_ > 1) return;
     const std::uint32_t size = messages_[sent->air.frame.message].size;
     sent->header = sent->bytes - std::min(size, sent->bytes);
 }

@@ -55,7 +55,8 @@ bool is_recorded_trace(const std::string& path);
 /// Every message id of a record is in the context's message table. Every robot id of a record has a
 /// name in the trace, except robots that a C++ program added to its network later.
 ///
-/// Records lack the keys of random draws (0) and the levels of receptions (empty). An incomplete
+/// Records lack the keys of random draws (0) and the levels of receptions (empty). Frame::header is
+/// 1 in a Received whose message was transmitted with a header, otherwise 0. An incomplete
 /// file is read up to its last complete chunk. A broken chunk is skipped: after the chunk, messages
 /// are correct immediately, and the position of a robot is correct from its next leg on. Memory
 /// grows with the number of robots and of messages in use, not with records.
@@ -102,7 +103,7 @@ class RecordedReader {
     bool define(std::string_view bytes);
     bool take_header(std::string_view bytes);
     bool has_message(const Record& record) const;
-    void complete(Record& record) const;
+    void complete(Record& record);
     void meet(const Record& record);
     void meet(NodeId robot);
     [[noreturn]] void fail(const std::string& message) const;
@@ -126,6 +127,7 @@ class RecordedReader {
     Legs legs_;
     MessageTable messages_;
     std::vector<std::optional<MessageId>> slots_;  // message ids by slots of the file
+    std::vector<bool> has_header_;  // by MessageId: the message was transmitted with a header
     std::set<std::string, std::less<>>
         kinds_;  // texts to which Message::kind and FrameHeader::protocol refer
 };

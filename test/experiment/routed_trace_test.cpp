@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/run.hpp"
+#include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
+#include "test/traces/record_stream.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace routed_trace_test {
+using namespace rovernet;
+using namespace rovernet::testing;
+
+namespace {
+
+/// Old trace of messages over a line of robots, which are 200 m apart and have a range of 250 m.
+std::string trace_of(const std::string& routing, int robots, const std::string& third = "",
+                     const std::string& access = "") {
+    std::string text =
+        "[scenario]\nduration = \"8 s\"\n[access]\nmodel = \"csma\"\n" + access +
+        "[propagation]\nmodel = \"disc\"\nrange = \"250 m\"\n[routing]\nprofile = \"ns2\"\n" +
+        routing +
+        "[trace]\nns2 = \"old\"\nmac = true\n[[traffic]]\nkind = \"unicast\"\nfrom = \"n0\"\nto = "
+        "\"n" +
+        std::to_string(robots - 1) + "\"\nsize = \"64 B\"\nstart = \"1 s\"\nevery = \"250 ms\"\n";
+    for (int i = 0; i < robots; ++i) {
+        text += fmt::format("[[robot]]\nname = \"n{}\"\nat = [\"{} m\", \"0 m\"]\n{}", i, 200 * i,
+                            i == 3 ? third : "");
+    }
+    const TempFolder folder;
+    testing::write_file(folder / "s.toml", text);
+    RunOptions to;
+    to.folder = folder / ".";
+    run_scenario(load_scenario(folder / "s.toml", {}), to);
+    return content(folder / "trace.tr");
+}
+
+/// Lines that have the pattern.
+std::vector<std::string> lines_with(const std::string& text, const std::string& pattern) {
+    const std::regex searched(pattern);
+    std::istringstream in(text);
+    std::vector<std::string> found;
+    for (std::string line; std::getline(in, line);) {
+        if (std::regex_search(line, searched)) found.push_back(line);
+    }
+    return found;
+}
+
+/// Part of the line from the size of the packet on.
+std::string from_size(const std::string& line) {
+    return std::regex_replace(line, std::regex("^.* cbr "), "");
+}
+
+}  // namespace
+
+// The lines of ns-2.35 for its DSR are "r RTR cbr 108" and "r AGT cbr 64".
+TEST_CASE(
+    "ns-2 trace of DSR: the destination's router receives, its application gets the message "
+    "alone") {
+    const std::string text = trace_of("protocol = \"dsr\"\n", 4);
+    const auto router = lines_with(text, "^r .* _3_ RTR .* cbr "),
+               agent = lines_with(text, "^r .* _3_ AGT ");
+    REQUIRE(agent.size() > 20);
+    REQUIRE(router.size() == agent.size());
+    CHECK(from_size(router[9]) == "100 [d5 3 2 800] ------- [0:0 3:0 30 3] [9] 3 0");
+    CHECK(from_size(agent[9]) == "64 [d5 3 2 800] ------- [0:0 3:0 30 3] [9] 3 0");
+}
+
+TEST_CASE("ns-2 trace of AODV: the destination has one line, with the header, as in ns-2") {
+    const std::string text = trace_of("protocol = \"aodv\"\n", 4);
+    CHECK(lines_with(text, "^r .* _3_ RTR .* cbr ").empty());
+    const auto agent = lines_with(text, "^r .* _3_ AGT ");
+    REQUIRE(agent.size() > 20);
+    CHECK(from_size(agent[9]) == "84 [d5 3 2 800] ------- [0:0 3:0 28 3] [9] 3 0");
+}
+
+}  // namespace routed_trace_test
