@@ -79,4 +79,42 @@ TEST_CASE("ns-2 trace of AODV: the destination has one line, with the header, as
     CHECK(from_size(agent[9]) == "84 [d5 3 2 800] ------- [0:0 3:0 28 3] [9] 3 0");
 }
 
+// ns-2.35 has the same fields in both lines; its duration is 13a, as it acknowledges at 1 Mbit/s.
+TEST_CASE("ns-2 trace: a message whose next hop is gone is dropped with the frame of the attempt") {
+    const std::string text = trace_of("protocol = \"aodv\"\n", 5, "off = [\"4.9 s\"]\n");
+    const auto lost = lines_with(text, "^D .* _2_ (MAC  RET|RTR  CBK) .* cbr ");
+    REQUIRE(lost.size() == 2);
+    for (const std::string& line : lost) {
+        CHECK(from_size(line) == "84 [d5 3 2 800] ------- [0:0 4:0 28 3] [16] 2 0");
+    }
+}
+
+TEST_CASE("ns-2 trace: a reply that is forwarded has the MAC header with which it came") {
+    for (const char* protocol : {"protocol = \"aodv\"\n", "protocol = \"dsr\"\n"}) {
+        CAPTURE(protocol);
+        const std::string text = trace_of(protocol, 4);
+        const auto forwarded = lines_with(text, "^f .* _2_ RTR .* ------- \\[3:255 0:255 ");
+        REQUIRE_FALSE(forwarded.empty());
+        for (const std::string& line : forwarded) {
+            CHECK(line.find(" [d5 2 3 800] ") != line.npos);
+        }
+    }
+}
+
+TEST_CASE(
+    "ns-2 trace: a message that waits at the end has the TTL with which it was sent, and no next "
+    "hop") {
+    const std::string text = trace_of("protocol = \"dsr\"\n", 5, "off = [\"4.9 s\"]\n");
+    const auto held = lines_with(text, "^D .* RTR  END ");
+    REQUIRE_FALSE(held.empty());
+    for (const std::string& line : held) CHECK(line.find(" [0:0 4:0 32 0] ") != line.npos);
+}
+
+TEST_CASE("ns-2 trace: a line of ARP in the old format ends with the bracket, as in ns-2") {
+    const std::string text = trace_of("protocol = \"aodv\"\n", 3, "", "arp = true\n");
+    const auto arp = lines_with(text, " ARP ");
+    REQUIRE_FALSE(arp.empty());
+    for (const std::string& line : arp) CHECK(line.back() == ']');
+}
+
 }  // namespace routed_trace_test

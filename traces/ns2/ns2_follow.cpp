@@ -67,7 +67,9 @@ void Ns2Follower::on(const Ns2Packet& p) {
     }
     if (!carries(p)) return;
     if (p.op == 'D') {
-        way_.lost.push_back({p.time, p.node, from(p), std::string(p.layer), std::string(p.reason)});
+        std::optional<NodeId> sender = from(p);
+        if (sender == p.node) sender.reset();  // the copy that the robot could not send on
+        way_.lost.push_back({p.time, p.node, sender, std::string(p.layer), std::string(p.reason)});
     } else if (p.op == 'r' && (p.layer == "RTR" || p.layer == "AGT")) {
         received(p);
     } else if (p.layer == "RTR" && by_robot_.contains(p.node.value)) {

@@ -36,7 +36,7 @@ void Ns2Trace::Writer::arp_packet(Ns2PacketFields line, const Message& message,
         old_start(line, message.uid, message.protocol(), line.size(message));
         text("------- ["), text(kind), text(" "), integer(from.value), text("/");
         integer(from.value), text(" "), integer(hardware.value), text("/"), integer(to.value);
-        text("] ");
+        text("]");
     } else {
         new_start(line, context.legs.position(line.node, line.time));
         text("-P arp -Po "), text(kind), text(" -Pms "), integer(from.value);

@@ -11,6 +11,12 @@
 namespace rovernet {
 namespace {
 
+/// Whether the loss ends an attempt to send the frame over the air.
+constexpr bool has_been_on_air(DropReason reason) {
+    return reason == DropReason::retries || reason == DropReason::unheard ||
+           reason == DropReason::broken || reason == DropReason::salvaged;
+}
+
 /// [bytes] that a frame with this header of the access model has on air beside its message.
 constexpr std::uint32_t on_air(std::uint32_t header) { return header ? header + plcp_bytes : 0; }
 
@@ -40,6 +46,8 @@ void Ns2Trace::Writer::lines(const Sent& r, const RecordContext& context) {
         text("}}");
         end_line();
     }
+    if (r.message.index() >= ttls_.size()) ttls_.resize(r.message.index() + 1);
+    ttls_[r.message.index()] = r.ttl;
     Ns2PacketFields line{{'s', r.time, r.node, "AGT"}, r.message, r.ttl};
     packet(line, context);
     line.op = 'r';
@@ -77,7 +85,7 @@ void Ns2Trace::Writer::lines(const Received& r, const RecordContext& context) {
     const Ns2MacFields mac = ip_header(frame.sender, frame.next_hop, r.reserved);
     const bool is_link_packet = context.messages[frame.message].is_link_packet();
     const bool is_unicast = context.messages[frame.message].is_routed_unicast();
-    if (is_unicast) reserved_ = r.reserved;
+    if (frame.next_hop != everyone && !is_link_packet) reserved_ = r.reserved;
     Frame handed_over = frame;  // as the application gets it: without a header of the protocol
     if (frame.header != 0) handed_over.bytes = 0;
     for (const Reception& rx : r.receptions) {
@@ -110,18 +118,44 @@ void Ns2Trace::Writer::lines(const Received& r, const RecordContext& context) {
 }
 
 void Ns2Trace::Writer::lines(const Dropped& r, const RecordContext& context) {
-    Ns2MacFields mac;
-    if (r.frame.sender != r.node) mac = ip_header(r.frame.sender, r.frame.next_hop);
     const auto [code, layer] = r.loss();
     if (layer == "MAC" && mac_ == MacTrace::off) return;
     if (layer != "MAC" && r.protocol_decides) return;  // the protocol's drop follows
-    packet({{'D', r.time, r.node, layer, code, mac}, r.frame}, context);
+    const Frame frame = lost_frame(r);
+    const NodeId before = r.frame.sender;
+    const bool is_unicast = frame.next_hop != everyone;
+    Ns2MacFields mac;
+    const bool is_sent_on = before != r.node && r.reason != DropReason::queue_full;
+    if (is_unicast && frame.sender == r.node && (is_sent_on || has_been_on_air(r.reason))) {
+        mac = ip_header(r.node, frame.next_hop, layer == "MAC" ? sent_reserved_ : reserved_);
+    } else if (before != r.node) {
+        mac = is_unicast ? ip_header(before, r.node, reserved_) : ip_header(before);
+    }
+    packet({{'D', r.time, r.node, layer, code, mac}, frame}, context);
+}
+
+/// Frame in which the node would have sent the lost copy on; the frame that it received, if it has
+/// chosen no next hop.
+Frame Ns2Trace::Writer::lost_frame(const Dropped& r) const {
+    Frame frame = r.frame;
+    if (r.reason == DropReason::cut_off || r.reason == DropReason::held) {
+        const std::size_t message = frame.message.index();
+        if (message < ttls_.size()) frame.ttl = ttls_[message];
+        frame.next_hop = everyone;
+    }
+    const bool has_next_hop = frame.next_hop != everyone && frame.next_hop != r.node;
+    if (frame.sender == r.node || !has_next_hop || r.reason == DropReason::off) return frame;
+    frame.sender = r.node;
+    if (frame.ttl > 0) --frame.ttl;
+    ++frame.hops;
+    return frame;
 }
 
 void Ns2Trace::Writer::lines(const AirSent& r, const RecordContext& context) {
     const AirFrame& air = r.air;
     const Ns2LineFields line{'s', r.time, air.frame.sender, "MAC", "---", mac_header(air)};
     if (air.control) return control(line, air, r.bytes, context);
+    if (air.frame.next_hop != everyone) sent_reserved_ = air.reserved;
     packet({line, air.frame, on_air(r.header)}, context);
 }
 

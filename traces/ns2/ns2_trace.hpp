@@ -46,7 +46,12 @@ std::string_view ns2_type(const Message& message);
 /// Times are exact [ns], with 9 decimals; 5 decimals in an `M` line. The id of a packet is the
 /// message's uid, its type is `message`, its size [bytes] is the message's, except on air (see
 /// below); ports are 0. The ttl is the one transmitted, also in a `D RTR TTL` line (ns-2 has 0
-/// there).
+/// there); in a line of the reason END it is the one with which the message was sent.
+///
+/// At the destination of a routed unicast, a protocol with headers (Frame::header: DSR) has `r
+/// RTR`, and an `r AGT` without the header; another one has `r AGT` alone, of the size of the
+/// frame. A drop after an attempt to send the copy on has the TTL and the MAC header of this
+/// attempt.
 ///
 /// The size in an `s MAC` line, and of a frame lost on air, is the size on air. A frame with a
 /// header of the access model has 24 bytes more, those of the PLCP (802.11-2020, 15.2.2: 144 + 48

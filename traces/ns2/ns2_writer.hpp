@@ -15,6 +15,7 @@
 #include <string_view>
 #include <utility>
 #include <variant>
+#include <vector>
 
 // Lines of an ns-2 trace: ns2_trace.cpp has the lines of each record, ns2_packet_lines.cpp the
 // fields of a line in both formats.
@@ -118,6 +119,7 @@ class Ns2Trace::Writer {
     void router_line(Time, const Frame&, std::optional<NodeId> heard_from, const RecordContext&);
     void lines(const Received&, const RecordContext&);
     void lines(const Dropped&, const RecordContext&);
+    Frame lost_frame(const Dropped&) const;
     void lines(const Moved&, const RecordContext&);
     void lines(const AirSent&, const RecordContext&);
     void lines(const ControlReceived&, const RecordContext&);
@@ -164,7 +166,10 @@ class Ns2Trace::Writer {
     char* at_ = nullptr;  ///< end of the current line so far
     bool finished_ = false, closed_ = false;
     std::string description_;  ///< description of a control packet; kept to reuse its memory
-    Duration reserved_{0};     ///< time reserved by the last routed unicast that was received [ns]
+    std::vector<Hops> ttls_;   ///< TTL of each message when it was sent, by MessageId
+    Duration reserved_{0};     ///< time reserved by the last unicast that was received [ns]
+    Duration sent_reserved_{
+        0};  ///< time reserved by the last unicast on air [ns]; if MAC is traced
 };
 
 }  // namespace rovernet
