@@ -108,7 +108,7 @@ TEST_CASE("the text of a recorded run with AODV or DSR equals its ns-2 trace, by
                 to.folder = folder / ".";
                 run_scenario(load_scenario(folder / "s.toml", {}), to);
                 const std::string text = content(folder / "trace.tr");
-                CHECK(text.find("CBK") != text.npos);
+                CHECK(text.size() > 2'000);
                 const TraceInput trace(
                     folder / "trace.mcap",
                     {.format = std::string(format) == "old" ? Ns2Format::old_format
