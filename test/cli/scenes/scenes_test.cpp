@@ -314,7 +314,7 @@ TEST_CASE("scene: a robot of a flow of SUMO, whose name has a dot, has its own r
           printed.out);
 
     const auto refused = [&](const std::string& name) {
-        folder.write("r.toml", movement + "name = " + name + "\nat = [0, 0]\n");
+        folder.write("r.toml", movement + "name = " + name + "\nat = [\"0 m\", \"0 m\"]\n");
         return command(folder, {"scene", folder.path("r.toml")}).err;
     };
     CHECK(refused("\"flow.2\"")

@@ -139,7 +139,7 @@ TEST_CASE("trace convert --to pcapng needs a recorded trace, and says why") {
         const std::string missing = run.folder.path("none.mcap");
         const Ended none = command(run.folder, {"trace", "convert", missing, out, "--to", to});
         CHECK(none.exit == 3);
-        CHECK(none.err.find("none.mcap: no such file") != std::string::npos);
+        CHECK(none.err.find("none.mcap: cannot read the file: no such file") != std::string::npos);
     }
     CHECK(command(run.folder, {"trace", "convert", run.recorded, out, "--to", "pcapng"}).exit == 0);
     CHECK(content(out).size() > 100);

@@ -383,7 +383,7 @@ TEST_CASE("lockstep: welcome describes the placement of the map and both sides o
     const TemporaryFolder folder;
     folder.write("m.pgm", "P2 4 3 255\n255 255 255 0\n255 255 255 255\n0 255 255 255\n");
     const auto map = [&](const std::string& scene) {
-        const std::string robot = "[[robot]]\nname = \"A\"\nat = [0.5, 1.5]\n";
+        const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"1.5 m\"]\n";
         Talk talk(load_scenario(folder.write("s.toml", "[scene]\n" + scene + robot), {}));
         return Json::parse(talk.ask(0, hello_a)).at("map");
     };

@@ -273,7 +273,7 @@ TEST_CASE("rosbridge: the map has square cells, also if the cells of the scene a
     folder.write("m.pgm", "P2 4 3 255\n255 255 255 0\n255 255 255 255\n0 255 255 255\n");
     const std::string map = "[scene]\nmap = \"m.pgm\"\nsize = [\"8 m\", \"3 m\"]\n";
     RosTalk talk(load_scenario(
-        folder.write("s.toml", map + "[[robot]]\nname = \"A\"\nat = [4, 1.5]\n"), {}));
+        folder.write("s.toml", map + "[[robot]]\nname = \"A\"\nat = [\"4 m\", \"1.5 m\"]\n"), {}));
     talk.subscribe("/map");
     const Json told = talk.messages("/map").at(0);
     CHECK(told["info"]["resolution"] == 1);
