@@ -30,7 +30,7 @@ struct OccupancyGrid {
     std::vector<std::uint8_t> greys = {};
     std::uint8_t material = 0;  ///< material of all walls: index into Scene::materials()
     std::vector<std::uint8_t> cell_materials =
-        {};  ///< material of each cell; empty: `material` for all cells
+        {};                    ///< material of each cell; empty: `material` for all cells
     bool open_ground = false;  ///< whether robots may leave the map: the ground around it is free
 
     /// Material of a cell, by the cell's index in `cells`; meaningful only for occupied cells.
