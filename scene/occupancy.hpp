@@ -29,8 +29,8 @@ struct OccupancyGrid {
     /// has no image.
     std::vector<std::uint8_t> greys = {};
     std::uint8_t material = 0;  ///< material of all walls: index into Scene::materials()
-    std::vector<std::uint8_t> cell_materials =
-        {};                    ///< material of each cell; empty: `material` for all cells
+    /// Material of each cell; empty: `material` for all cells.
+    std::vector<std::uint8_t> cell_materials = {};
     bool open_ground = false;  ///< whether robots may leave the map: the ground around it is free
 
     /// Material of a cell, by the cell's index in `cells`; meaningful only for occupied cells.

@@ -179,10 +179,10 @@ TEST_CASE("arp: ns-2 traces have ARP packets only at the MAC, in the format of n
         row.net.finish();
         CHECK(lines.find("RTR  --- 1 ARP") == lines.npos);
         const std::string_view request =
-            is_old ? "806] ------- [REQUEST 0/0 0/1] \n"
+            is_old ? "806] ------- [REQUEST 0/0 0/1]\n"
                    : "-Mt 806 -P arp -Po REQUEST -Pms 0 -Ps 0 -Pmd 0 -Pd 1 \n";
         const std::string_view reply =
-            is_old ? "806] ------- [REPLY 1/1 0/0] \n"
+            is_old ? "806] ------- [REPLY 1/1 0/0]\n"
                    : "-Mt 806 -P arp -Po REPLY -Pms 1 -Ps 1 -Pmd 0 -Pd 0 \n";
         CHECK(lines.find(request) != lines.npos);
         CHECK(lines.find(reply) != lines.npos);

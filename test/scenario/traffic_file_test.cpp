@@ -67,7 +67,7 @@ TEST_CASE("traffic file: flows of cbrgen are unicasts with their size, interval,
     CHECK(file.flows[1].from == "n0");
     CHECK(file.flows[1].to == "n2");
     REQUIRE(file.notices.size() == 1);
-    CHECK(file.notices[0].find("random_ of 2 flows is left out") != std::string::npos);
+    CHECK(file.notices[0].find("random_ of 2 flows is ignored") != std::string::npos);
 }
 
 TEST_CASE("traffic file: a rate gives the interval, and defaults are those of ns-2") {

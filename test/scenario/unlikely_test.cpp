@@ -150,8 +150,7 @@ TEST_CASE("unlikely: keys of a robot's motion that a movement file overrides giv
     CHECK(notices(move)[0].starts_with(file + ":5:8: move" + why));
     CHECK(notices("place = { model = \"choice\", points = [[\"2 m\", \"2 m\"]] }\n")[0].starts_with(
         file + ":5:9: place" + why));
-    CHECK(notices(at + move + "[[robot]]\nname = \"n1\"\n" + at)[0].ends_with(
-        "and 2 more"));
+    CHECK(notices(at + move + "[[robot]]\nname = \"n1\"\n" + at)[0].ends_with("and 2 more"));
     CHECK(notices("radius = \"1 m\"\nmove = { model = \"fixed\" }\n").empty());
     CHECK(notices("[[robot]]\nname = \"own\"\n" + at).empty());
 }

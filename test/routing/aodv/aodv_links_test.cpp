@@ -424,24 +424,24 @@ TEST_CASE(
 }
 
 TEST_CASE("aodv 6.12: the wait for a repair follows from its TTL, also at the network's diameter") {
-    AodvNode n({.net_diameter = 7, .local_repair = true});
+    AodvNode n({.net_diameter = 10, .local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     const MessageId id = n.link.message_from(NodeId{7}, NodeId{5});
     const Frame frame{
-        .message = id, .sender = NodeId{2}, .ttl = 50, .hops = 12, .next_hop = NodeId{0}};
+        .message = id, .sender = NodeId{2}, .ttl = 50, .hops = 18, .next_hop = NodeId{0}};
     n.link.arrive(n.router, frame, {0});
     n.fail_last();
     const Time begun = n.link.time;
-    CHECK(n.sent<aodv::Request>().back().first.ttl == 7);
+    CHECK(n.sent<aodv::Request>().back().first.ttl == 10);
     n.wait();
-    CHECK(n.link.time == begun + 720ms);
+    CHECK(n.link.time == begun + 960ms);
     CHECK(n.link.drops.size() == 1);
 }
 
 TEST_CASE("aodv 6.12: a route is repaired up to 0.3 of the net diameter from its destination") {
     const auto repairs = [](int net_diameter, int hops) {
         AodvNode n({.net_diameter = net_diameter, .local_repair = true});
-        n.pass_reply(7, 2, 5, 1, 9, static_cast<std::uint8_t>(hops - 1));
+        n.pass_reply(7, 2, 5, 1, 9, static_cast<std::uint8_t>(hops - 2));
         REQUIRE(n.route(5)->hops == hops);
         n.forward(7, 2, 5);
         const std::size_t before = n.sent<aodv::Request>().size();

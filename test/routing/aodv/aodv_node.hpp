@@ -87,8 +87,8 @@ struct AodvNode {
         link.go();
         link.end(router, link.sent.size() - 1, SendResult::retries);
     }
-    /// Gives node `origin` a route to `to`: from `origin` over `from`, node 0 and `over`, from which
-    /// there are `beyond` hops.
+    /// Gives node `origin` a route to `to`: from `origin` over `from`, node 0 and `over`, from
+    /// which there are `beyond` hops.
     void pass_reply(std::uint32_t origin, std::uint32_t from, std::uint32_t to, std::uint32_t over,
                     std::uint32_t number = 9, std::uint8_t beyond = 1) {
         hear(from,
