@@ -2,7 +2,7 @@
 // Frames on air: a ring that grows from the sender, lines to the receivers, signs where they end.
 const flights = (() => {
     "use strict";
-    const most_lines = 2500;
+    const most_lines = 4000;
     /** Wall time that a frame stays after its end, and that its ring takes at least [s]. */
     const kept_s = 0.35, least_ring_s = 0.15;
     const shades = 3, crowd = 600;

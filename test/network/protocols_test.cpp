@@ -130,4 +130,17 @@ TEST_CASE("protocols: every unicast is either delivered or lost, exactly once") 
     });
 }
 
+TEST_CASE("protocols: without an access model, messages that waited for a route do not collide") {
+    for (const bool is_dsr : {false, true}) {
+        Network net({.propagation = Disc{.range = {100}}, .reception = Collision{}});
+        for (int i = 0; i < 4; ++i) net.add({.name = {}, .at = {80.0 * i, 0, 0}});
+        net.route(is_dsr ? Router(Dsr{}) : Router(Aodv{}));
+        for (int i = 0; i < 10; ++i) net.send(NodeId{0}, NodeId{3}, "waits");
+        net.run_for(20s);
+        net.finish();
+        CHECK(net.metrics().deliveries == 10);
+        CHECK(net.metrics().transmissions == 30);
+    }
+}
+
 }  // namespace protocols_test
