@@ -147,9 +147,8 @@ void Engine::count_next() {
     if (!is_of_robot || !watch.is_counting(world.now) || !watch.is_stuck(node)) return;
     const Vec3 at = world.legs.position(node, world.now);
     throw StalledRun(fmt::format(
-        "robot \"{}\" at ({:.6f}, {:.6f}) m: {} events at {:.9f} s of the run, and "
-        "time hardly goes "
-        "on; {} asks for events without end",
+        "robot \"{}\" at ({:.6f}, {:.6f}) m: {} events at {:.9f} s of the run, and time "
+        "hardly goes on; {} asks for events without end",
         names[node.value], at.x, at.y, Liveness::most_events, seconds(world.now),
         kind == Kind::leg_end ? "its movement" : "its protocol, or its reaction to a message,"));
 }

@@ -148,22 +148,20 @@ struct MetricValues {
     std::optional<double> reach;
     bool reach_known = true;  ///< true if connected robots were counted for every message
 
-    /// Saved rebroadcasts SRB = (r - t) / r [-]: r is the number of deliveries; t is the number of
-    /// different (message, robot) pairs in which the robot, other than the message's origin,
-    /// transmitted it. Empty without deliveries. Source: S.-Y. Ni et al., MobiCom 1999.
+    /// Saved rebroadcasts SRB = (r - t) / r [-] of broadcasts: r is the number of their deliveries;
+    /// t is the number of different (message, robot) pairs in which the robot, other than the
+    /// message's origin, transmitted it. Empty if r is 0. Source: S.-Y. Ni et al., MobiCom 1999.
     std::optional<double> saved_rebroadcasts;
 
     std::optional<LatencyValues> latency;  ///< latency of the deliveries; empty without deliveries
-
     std::optional<double> mean_hops;  ///< mean hops of a delivery [-]; empty without deliveries
     std::uint32_t max_hops = 0;       ///< largest number of hops of a delivery [-]
     std::vector<std::uint64_t> hops;  ///< number of deliveries after h hops, h = 0 ... max_hops
 
-    /// Cost of the routing protocol; empty if it sent no control packets and no message to one
-    /// robot.
+    /// Cost of the routing protocol, and metrics of the unicasts that it routes; empty if it sent
+    /// no control packets and no message to one robot.
     std::optional<RoutingValues> routing;
-    std::optional<RoutedMetrics> routed;  ///< metrics of routed unicasts; empty if `routing` is
-                                          ///< empty
+    std::optional<RoutedMetrics> routed;
 
     std::vector<PartValues> flows;   ///< values of each flow, at index flow - 1, if measured
     std::vector<PartValues> robots;  ///< values of each robot, by its id, if measured

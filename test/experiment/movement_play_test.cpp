@@ -27,7 +27,8 @@ constexpr double rounding = 1e-6;  // [m] of times in nanoseconds at 2 m/s, and 
 
 bool near(Vec3 a, Vec3 b) { return distance(a, b) < rounding; }
 
-/// The same motion in three formats: from (0, 0) to (20, 0) until 10 s, to (20, 20) until 20 s.
+/// Movement file of one robot, in one of three formats: the robot goes from (0, 0) to (20, 0) until
+/// 10 s, and to (20, 20) until 20 s.
 struct Format {
     std::string file, robot, content;
 };

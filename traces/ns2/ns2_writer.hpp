@@ -167,9 +167,9 @@ class Ns2Trace::Writer {
     bool finished_ = false, closed_ = false;
     std::string description_;  ///< description of a control packet; kept to reuse its memory
     std::vector<Hops> ttls_;   ///< TTL of each message when it was sent, by MessageId
-    Duration reserved_{0};     ///< time reserved by the last unicast that was received [ns]
-    Duration sent_reserved_{
-        0};  ///< time reserved by the last unicast on air [ns]; if MAC is traced
+    /// Time reserved by the last unicast that was received, and by the last one on air [ns]. The
+    /// latter is known only if the MAC is traced.
+    Duration reserved_{0}, sent_reserved_{0};
 };
 
 }  // namespace rovernet

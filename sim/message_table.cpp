@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim/message.hpp"
+#include "sim/message_table.hpp"
 
 #include <utility>
 
