@@ -10,8 +10,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <memory>
 #include <string_view>
 #include <utility>
+#include <variant>
+#include <vector>
 
 namespace run_end_test {
 using namespace rovernet;
@@ -39,6 +42,15 @@ struct Line : Network {
 };
 
 constexpr NodeId a{0}, b{1}, c{2};
+
+/// Sink that keeps the robots at which messages were dropped.
+struct Losers {
+    std::vector<NodeId> robots = {};
+    KindMask kinds() const { return kind_of<Dropped>(); }
+    void on(const Record& record, const RecordContext&) {
+        robots.push_back(std::get<Dropped>(record).node);
+    }
+};
 
 }  // namespace
 
@@ -81,6 +93,8 @@ TEST_CASE("end of the run: a message that a robot on the route still has is drop
         Network net(Line::of({.access = Csma{}}));
         net.route(std::move(protocol));
         for (int i = 0; i < 3; ++i) net.add({.name = "", .at = {10.0 * i, 0, 0}});
+        const auto losers = std::make_shared<Losers>();
+        net.add_sink(losers);
         net.send(a, c, "arrives");
         net.run_for(1s);
         net.switch_off(c);
@@ -95,6 +109,8 @@ TEST_CASE("end of the run: a message that a robot on the route still has is drop
         std::uint64_t all = 0;
         for (const DropCount& each : values.drops) all += each.count;
         CHECK(all == 1);
+        REQUIRE(!losers->robots.empty());
+        CHECK(losers->robots.back() == b);
     };
     check(Aodv{.local_repair = true});
     check(Dsr{.profile = DsrProfile::ns2});
