@@ -33,8 +33,8 @@ set(ROVERNET_PUBLIC_HEADERS
     scene/materials/material.hpp scene/materials/p2040.hpp
     scene/occupancy.hpp scene/scene.hpp scene/scene_change.hpp scene/storeys.hpp
     sim/error.hpp sim/fate.hpp sim/fields.hpp sim/geometry.hpp sim/ids.hpp sim/leg.hpp
-    sim/link_layer.hpp sim/math.hpp sim/message.hpp sim/message_table.hpp sim/random.hpp
-    sim/parameter.hpp sim/record.hpp sim/record_field.hpp sim/record_kind.hpp sim/robot_record.hpp
+    sim/link_layer.hpp sim/math.hpp sim/message.hpp sim/random.hpp sim/parameter.hpp sim/record.hpp
+    sim/record_field.hpp sim/record_kind.hpp sim/robot_record.hpp
     sim/router.hpp sim/routing_protocol.hpp sim/sink.hpp sim/time.hpp sim/units.hpp
     study/statistics/interval.hpp
     study/statistics/metric_bounds.hpp study/statistics/summary.hpp

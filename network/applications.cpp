@@ -149,13 +149,13 @@ void Applications::react(NodeId id, std::size_t slot) {
 /// Drops the messages that are on their way at the end of the run. The routing protocol may still
 /// hold those to one robot.
 void Applications::cut_off() {
-    world_.messages.for_each_on_its_way([this](MessageId id, NodeId at) {
+    for (const auto& [id, at] : world_.messages.on_their_way()) {
         const Message& m = world_.messages[id];
         const Frame frame{.message = id, .sender = at, .ttl = 1, .hops = 1, .next_hop = m.to};
         const bool is_held = m.is_routed && m.to != everyone;
         world_.emit(
             Dropped{world_.now, at, frame, is_held ? DropReason::held : DropReason::cut_off});
-    });
+    }
 }
 
 }  // namespace rovernet

@@ -10,7 +10,7 @@
 #include "scene/scene.hpp"
 #include "sim/events/scheduler.hpp"
 #include "sim/legs.hpp"
-#include "sim/message_table.hpp"
+#include "sim/message.hpp"
 #include "sim/random.hpp"
 #include "sim/slots.hpp"
 #include "sim/time.hpp"

@@ -4,10 +4,13 @@
 #include "sim/ids.hpp"
 #include "sim/time.hpp"
 
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 // Data of a packet at three layers: a Message (application) is stored once; a Frame refers to it
 // and is copied at every hop; an AirFrame is transmitted by the radio.
@@ -144,6 +147,58 @@ struct AirFrame {
     /// Time [ns] that the frame reserves after its end for the response: the Duration field of IEEE
     /// 802.11.
     Duration reserved{0};
+};
+
+/// Table of the messages that a frame in flight or a waiting copy refers to, with reference counts.
+/// Every stored MessageId counts as a reference: hold() when it is copied, release() when it is
+/// dropped. The slot is reused after the last release; World::release then notifies the routing
+/// protocol.
+class MessageTable {
+  public:
+    /// Stores a message with one reference, the caller's.
+    MessageId add(Message message);
+    /// Adds a reference to the message.
+    void hold(MessageId id) { ++slots_[id.index()].holders; }
+    /// Removes a reference; the last one frees the slot. @return whether the slot was freed
+    bool release(MessageId id) {
+        assert(slots_[id.index()].holders > 0);
+        if (--slots_[id.index()].holders > 0) return false;
+        free_.push_back(id);
+        return true;
+    }
+
+    /// Message with this id, which must be in use; the reference is valid until the next add().
+    const Message& operator[](MessageId id) const { return slots_[id.index()].message; }
+    /// Marks the message as having had a frame that ended at a receiver.
+    void mark_ended(MessageId id) { slots_[id.index()].has_ended = true; }
+    /// Notes that a node has received the message as its next hop. A message stays at its
+    /// destination, whatever becomes of further copies.
+    void pass_to(MessageId id, NodeId node) {
+        Slot& slot = slots_[id.index()];
+        if (slot.at != slot.message.to) slot.at = node;
+    }
+    /// Messages in use that are on their way, in order of id, each with the node that has it: those
+    /// of which no frame has ended at any receiver, and those that a protocol brings to one robot,
+    /// until they are there. At the end of a run they are reported as cut off or held.
+    std::vector<std::pair<MessageId, NodeId>> on_their_way() const;
+    /// Number of messages in use.
+    std::size_t size() const { return slots_.size() - free_.size(); }
+    /// Upper bound on ids: the index of every MessageId so far is below this number.
+    std::size_t capacity() const { return slots_.size(); }
+
+  private:
+    // Slot: message, number of its references, whether a frame of the message has ended, and the
+    // last node that received it as its next hop (at first its origin).
+    struct Slot {
+        Message message;
+        std::uint32_t holders = 0;
+        bool has_ended = false;
+        NodeId at{};
+    };
+    // Slots of the table, by MessageId.
+    std::vector<Slot> slots_;
+    // Free slots; the last one is reused first.
+    std::vector<MessageId> free_;
 };
 
 }  // namespace rovernet

@@ -3,7 +3,7 @@
 
 #include "sim/fate.hpp"
 #include "sim/ids.hpp"
-#include "sim/message_table.hpp"
+#include "sim/message.hpp"
 #include "sim/record_field.hpp"
 #include "sim/record_kind.hpp"
 #include "sim/robot_record.hpp"
