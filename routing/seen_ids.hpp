@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "routing/node_map.hpp"
 #include "routing/sequence.hpp"
 #include "sim/ids.hpp"
 #include "sim/time.hpp"
 
-#include <algorithm>
 #include <cstdint>
-#include <vector>
 
 namespace rovernet {
 
@@ -21,14 +20,12 @@ class SeenIds {
     /// @param memory  time [ns] after which the numbers of a silent originator are forgotten
     /// @return whether the number is new
     bool note(NodeId originator, std::uint32_t id, Time now, Duration memory) {
-        const auto place =
-            std::lower_bound(of_.begin(), of_.end(), originator,
-                             [](const Of& each, NodeId node) { return each.originator < node; });
-        if (place == of_.end() || place->originator != originator) {
-            of_.insert(place, {originator, id, 0, now});
+        Numbers* const found = of_.find(originator);
+        if (!found) {
+            of_.insert({originator, id, 0, now});
             return true;
         }
-        Of& known = *place;
+        Numbers& known = *found;
         if (now - known.last > memory) {
             known = {originator, id, 0, now};
             return true;
@@ -49,18 +46,20 @@ class SeenIds {
     /// which restart at 0 after 65535. Of all numbers that end with the 16 bits of `id`, the one
     /// nearest to the originator's highest number is stored.
     bool note16(NodeId originator, std::uint16_t id, Time now, Duration memory) {
-        const auto known = std::find_if(
-            of_.begin(), of_.end(), [&](const Of& each) { return each.originator == originator; });
-        const std::uint32_t highest = known == of_.end() ? 0 : known->highest;
+        const Numbers* const known = of_.find(originator);
+        const std::uint32_t highest = known ? known->highest : 0;
         const auto step = static_cast<std::int16_t>(id - static_cast<std::uint16_t>(highest));
         return note(originator, highest + static_cast<std::uint32_t>(step), now, memory);
     }
     void clear() { of_.clear(); }
 
+    /// Fetches the numbers of an originator into the processor's cache; see NodeMap.
+    void prefetch(NodeId originator) const { of_.prefetch(originator); }
+
   private:
     /// Numbers received from one originator: the highest number, and a bit mask of lower numbers.
     /// Bit k of `below` is set if the number highest - 1 - k was received.
-    struct Of {
+    struct Numbers {
         NodeId originator;
         std::uint32_t highest;
         std::uint64_t below;
@@ -68,8 +67,8 @@ class SeenIds {
     };
     static std::uint64_t bit(std::uint32_t back) { return std::uint64_t{1} << (back - 1); }
 
-    // Numbers of each originator, in the order of the originators' ids.
-    std::vector<Of> of_;
+    // Numbers of each originator.
+    NodeMap<Numbers, &Numbers::originator> of_;
 };
 
 }  // namespace rovernet

@@ -128,6 +128,8 @@ class AodvRouter {
     void use(NodeId at, NodeId destination, NodeId next_hop, Time now);
     bool is_silent(NodeId at, Time now) { return now < node(at).silent_until; }
 
+    void prefetch(std::span<const Reception> receptions, NodeId from, NodeId originator);
+
     // Messages of applications (aodv_router.cpp).
     void receive_message(LinkLayer& link, const Frame& frame, Reception& reception);
     void send_on(LinkLayer& link, const QueuedFrame& queued, NodeId next_hop, Time at);

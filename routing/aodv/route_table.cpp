@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "routing/aodv/route_table.hpp"
 
+#include <algorithm>
+
 namespace rovernet {
 
 bool RouteTable::is_kept(Route& route, Time now, Duration delete_period) {
@@ -14,23 +16,22 @@ bool RouteTable::is_kept(Route& route, Time now, Duration delete_period) {
 }
 
 Route* RouteTable::find(NodeId destination, Time now, Duration delete_period) {
-    const auto found = place(destination);
-    if (found == routes_.end() || found->destination != destination) return nullptr;
-    if (is_kept(*found, now, delete_period)) return &*found;
-    routes_.erase(found);
+    Route* const found = routes_.find(destination);
+    if (!found || is_kept(*found, now, delete_period)) return found;
+    routes_.erase(destination);
     clear_precursors(destination);
     return nullptr;
 }
 
 Route& RouteTable::add(NodeId destination, Time now, Duration delete_period) {
     if (Route* known = find(destination, now, delete_period)) return *known;
-    if (routes_.size() == routes_.capacity()) clean(now, delete_period);
-    return *routes_.insert(place(destination), {.destination = destination});
+    if (routes_.is_full()) clean(now, delete_period);
+    return routes_.insert({.destination = destination});
 }
 
 /// Brings all entries up to date, and removes those whose time is over.
 void RouteTable::clean(Time now, Duration delete_period) {
-    std::erase_if(routes_, [&](Route& route) {
+    routes_.erase_if([&](Route& route) {
         if (is_kept(route, now, delete_period)) return false;
         clear_precursors(route.destination);
         return true;
@@ -38,8 +39,7 @@ void RouteTable::clean(Time now, Duration delete_period) {
 }
 
 void RouteTable::add_precursor(NodeId destination, NodeId neighbour) {
-    const auto used = place(destination);
-    if (used == routes_.end() || used->destination != destination) return;
+    if (!routes_.find(destination)) return;
     const Precursor added{destination, neighbour};
     const auto at = std::lower_bound(precursors_.begin(), precursors_.end(), added);
     if (at == precursors_.end() || *at != added) precursors_.insert(at, added);

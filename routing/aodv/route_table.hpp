@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "routing/node_map.hpp"
 #include "sim/ids.hpp"
 #include "sim/message.hpp"
 #include "sim/time.hpp"
 
-#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -44,10 +44,10 @@ class RouteTable {
     template <class Visit>
     void for_each(Time now, Duration delete_period, Visit visit) {
         clean(now, delete_period);
-        for (Route& route : routes_) visit(route);
+        for (Route& route : routes_.values()) visit(route);
     }
     /// Entries as stored, in the order of destinations, including expired routes not yet updated.
-    std::span<const Route> stored() const { return routes_; }
+    std::span<const Route> stored() const { return routes_.values(); }
 
     /// Adds a neighbour that uses the route to a destination, if the table has an entry for this
     /// route.
@@ -56,6 +56,9 @@ class RouteTable {
     std::vector<NodeId> precursors(NodeId destination) const;
     void clear_precursors(NodeId destination);
     void clear() { routes_.clear(), precursors_.clear(); }
+
+    /// Fetches the entry for a destination into the processor's cache; see NodeMap.
+    void prefetch(NodeId destination) const { routes_.prefetch(destination); }
 
   private:
     struct Precursor {
@@ -66,14 +69,9 @@ class RouteTable {
     /// @return whether the entry remains; false if its broken route has expired, too
     static bool is_kept(Route& route, Time now, Duration delete_period);
     void clean(Time now, Duration delete_period);
-    std::vector<Route>::iterator place(NodeId destination) {
-        return std::lower_bound(routes_.begin(), routes_.end(), destination,
-                                [](const Route& r, NodeId node) { return r.destination < node; });
-    }
 
-    // Routes in the order of destinations; precursors in the order of destinations, then
-    // neighbours.
-    std::vector<Route> routes_;
+    // Routes by destination; precursors in the order of destinations, then neighbours.
+    NodeMap<Route, &Route::destination> routes_;
     std::vector<Precursor> precursors_;
 };
 
