@@ -184,7 +184,8 @@ void MotionBuilder::check_way(Vec3 from, Vec3 to, const RobotTable& robot, const
         throw InputError(
             where, fmt::format("move: no stairs from {} m to {} m for a robot of radius {} m: the "
                                "path between two storeys is straight, and a wall is in the way; "
-                               "expected a place at the foot from which the path is free",
+                               "expected a place at the foot of the stairs from which this "
+                               "straight path is free of walls",
                                coordinates(from), coordinates(to), robot.radius.value));
     }
     const char* const why = fits_there ? "walls enclose it"

@@ -31,7 +31,7 @@ void make_folder(const std::string& path) {
     if (!error && std::filesystem::is_directory(path, error)) return;
     throw RunError(
         fmt::format("{}: cannot create this folder ({}); give a different folder for the results",
-                    path, error ? error.message() : "a file is in the way"));
+                    path, error ? error.message() : "a file has this name"));
 }
 
 }  // namespace rovernet

@@ -39,7 +39,7 @@ CsvTable::CsvTable(const std::string& path) : path_(path) {
         }
         rows_.push_back({fields, lines.where()});
     }
-    if (names_.empty()) throw InputError({path_, 0, 0}, "no line of column names");
+    if (names_.empty()) throw InputError({path_, 0, 0}, "the file has no line of column names");
 }
 
 bool CsvTable::has(std::string_view column) const {

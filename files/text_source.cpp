@@ -43,7 +43,7 @@ constexpr Mark marks[] = {
     {257, "ustar", "the file is a tar archive"},
     {0, "\xff\xfe", "the file is in UTF-16"},
     {0, "\xfe\xff", "the file is in UTF-16"},
-    {0, "\x89MCAP", "the file is a recorded trace (MCAP), which is read as a plain file only"},
+    {0, "\x89MCAP", "the file is a recorded trace (MCAP), which can be read only uncompressed"},
     {0, "\xd4\xc3\xb2\xa1", "the file is a capture (pcap)"},
     {0, "\xa1\xb2\xc3\xd4", "the file is a capture (pcap)"},
     {0, "\x0a\x0d\x0d\x0a", "the file is a capture (pcapng)"},

@@ -143,7 +143,7 @@ class Replayed {
         }
         const Input input = input_in(line, session_.network(), format_);
         if (input.time < session_.network().now()) {
-            line.fail("out_of_range", "this input is before the one above it");
+            line.fail("out_of_range", "the time of this input is before that of the input above");
         }
         run_to(input.time);
         session_.carry_out(driver_of(input.robot), input.robot, input.command);

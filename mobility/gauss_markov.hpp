@@ -52,9 +52,9 @@ struct GaussMarkov {
                   "given"),
             field("direction_sigma", &GaussMarkov::direction_sigma, spread,
                   "standard deviation of the direction from its mean"),
-            field(
-                "memory", &GaussMarkov::memory, share,
-                "a, correlation of one step with the next: 0: none; 1: the velocity never changes"),
+            field("memory", &GaussMarkov::memory, share,
+                  "a, correlation of one step with the next; 0: no correlation; 1: the velocity "
+                  "never changes"),
             field("step", &GaussMarkov::step, step_length, "time from one draw to the next"),
             field("start", &GaussMarkov::start,
                   "uniform: at a place drawn uniformly from the area; here: at the robot's own "

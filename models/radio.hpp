@@ -129,7 +129,7 @@ struct Radio {
                   "noise figure of the receiver"),
             field("success_rate", &Radio::success_rate,
                   Range{.low = 0, .high = 1, .text = "from 0 to 1"},
-                  "share of the sender's frames that a receiver in range gets"),
+                  "probability that a receiver in range gets a frame of this sender"),
             field("essid", &Radio::essid, "name of its network; \"any\" joins all networks"),
             field("channel", &Radio::channel, non_negative, "number that both ends must share"),
             field("gate", &Radio::gate,

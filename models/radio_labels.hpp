@@ -43,11 +43,14 @@ struct RadioLabels {
     static constexpr auto fields() {
         return describe(
             field("ip", &RadioLabels::ip, "IP address; unique; if left out, one is generated"),
-            field("netmask", &RadioLabels::netmask, "netmask of its IP address; a label"),
+            field("netmask", &RadioLabels::netmask,
+                  "netmask of its IP address; without effect on radio"),
             field("mac", &RadioLabels::mac,
                   "hardware address; unique; if left out, one is generated"),
-            field("mode", &RadioLabels::mode, "role of the radio in its network; a label"),
-            field("encryption", &RadioLabels::encryption, "encryption of its network; a label"),
+            field("mode", &RadioLabels::mode,
+                  "role of the radio in its network; without any effect"),
+            field("encryption", &RadioLabels::encryption,
+                  "encryption of its network; without any effect"),
             field("range_db", &RadioLabels::range_db, "level that pictures draw as a contour"));
     }
 };

@@ -48,7 +48,7 @@ std::optional<std::uint32_t> Applications::shortest(NodeId from, NodeId to) {
 
 bool Applications::is_routed(NodeId from, NodeId to, bool one_hop) const {
     if (to != everyone && (to.index() >= world_.size() || to == from)) {
-        throw std::invalid_argument("a unicast needs another robot to go to");
+        throw std::invalid_argument("a unicast needs another robot as its destination");
     }
     if (one_hop) return false;
     const auto& router = routing_.router();

@@ -122,7 +122,7 @@ void Engine::count_events() {
         const auto advice =
             applications.has_sent()
                 ? "lower the load: a shorter duration, fewer messages, a smaller ttl"
-                : "play less: a shorter duration or an earlier time";
+                : "simulate less: a shorter duration or an earlier time";
         throw RunError(fmt::format(
             "event limit of {} reached at {:.9f} s; raise [scenario] event_limit, or {}", limit,
             seconds(world.now), advice));
@@ -147,8 +147,8 @@ void Engine::count_next() {
     if (!is_of_robot || !watch.is_counting(world.now) || !watch.is_stuck(node)) return;
     const Vec3 at = world.legs.position(node, world.now);
     throw StalledRun(fmt::format(
-        "robot \"{}\" at ({:.6f}, {:.6f}) m: {} events at {:.9f} s of the run, and time "
-        "hardly goes on; {} asks for events without end",
+        "robot \"{}\" at ({:.6f}, {:.6f}) m: {} events at {:.9f} s of the run, and the simulated "
+        "time hardly advances; {} causes events without end",
         names[node.value], at.x, at.y, Liveness::most_events, seconds(world.now),
         kind == Kind::leg_end ? "its movement" : "its protocol, or its reaction to a message,"));
 }

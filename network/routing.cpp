@@ -311,9 +311,10 @@ void Routing::check_held() const {
 #ifndef NDEBUG
     for (MessageId id{0}; id.index() < held_.size(); ++id.value) {
         if (held_[id.index()] == 0 || router_->keeps(id)) continue;
-        throw std::logic_error(fmt::format(
-            "the routing protocol still holds {} reference(s) to {}, and does not keep it",
-            held_[id.index()], name_of(world_.messages[id])));
+        throw std::logic_error(
+            fmt::format("the routing protocol still holds {} reference(s) to {}, but its keeps() "
+                        "returns false for this message",
+                        held_[id.index()], name_of(world_.messages[id])));
     }
 #endif
 }

@@ -35,7 +35,8 @@ World::World(NetworkSettings given)
         throw_out_of_range("network", "floor_height", positive.text, settings.floor_height.value);
     }
     if (&planners->scene() != scene) {
-        throw std::invalid_argument("network: the planners must belong to its scene");
+        throw std::invalid_argument(
+            "network: the planners must belong to the scene of the network");
     }
     for (const Duration d : {settings.links.tolerance, settings.links.min_dwell}) {
         if (d < Duration{1}) throw_out_of_range("network", "links", ">= 1 ns", seconds(d));

@@ -57,10 +57,11 @@ void add_run(py::module_& m) {
         .def_property_readonly(
             "timeline", &RunObject::timeline,
             "list of the events of the timeline: dicts with t_ns, robot and text.")
-        .def_property_readonly("names", &RunObject::names, "Names of all robots, by number.")
+        .def_property_readonly("names", &RunObject::names,
+                               "Names of all robots, in the order of their numbers.")
         .def_property_readonly(
             "fingerprint", [](const RunObject& run) { return run.result().fingerprint; },
-            "16 digits: the same for the same behaviour, on every machine.")
+            "16 hexadecimal digits, equal for equal behaviour of runs, on every machine.")
         .def_property_readonly(
             "folder",
             [](const RunObject& run) {
@@ -121,8 +122,9 @@ void add_heard(py::module_& m) {
         .def_property_readonly(
             "port", [](const HeardObject& heard) { return heard.message.port; },
             "Port to which it was sent.")
-        .def_property_readonly("rssi", rssi,
-                               "Level of this frame at the robot [dBm]; None: not known.")
+        .def_property_readonly(
+            "rssi", rssi,
+            "Level [dBm] at the robot of the frame in which the message arrived; None: not known.")
         .def_property_readonly(
             "noise", [](const HeardObject& heard) { return heard.noise; },
             "Noise at the robot [dBm].")
@@ -227,8 +229,8 @@ void add_commands(SessionClass& session) {
              "there it is at rest. None: the current height or heading.")
         .def("stop", stop, "robot"_a, "Stops a robot.")
         .def("command", &command, "robot"_a,
-             "Gives a robot any command, by the keys of the lock-step protocol, such as v=0.5,\n"
-             "w=0.1. Times are in seconds, data are bytes.")
+             "Gives a robot any command. The keywords are keys of the lock-step protocol, such "
+             "as\nv=0.5, w=0.1. Times are in seconds, data are bytes.")
         .def("send", &send, "robot"_a, "data"_a, "to"_a = py::none(), "port"_a = 0,
              "size"_a = py::none(),
              "Lets a robot send bytes when the next step begins.\n\n"
@@ -255,22 +257,23 @@ void add_robots(SessionClass& session) {
         return by_robot<bool>(self, [](Session& s, NodeId robot) { return s.has_no_way(robot); });
     };
     session
-        .def_property_readonly("robots", &robots,
-                               "Names of the robots that the program drives, by row.")
+        .def_property_readonly(
+            "robots", &robots,
+            "Names of the robots that the program drives, in the order of the rows of all arrays.")
         .def_property_readonly(
             "names", [](SessionObject& self) { return self.names(); },
-            "Names of all robots, by number.")
+            "Names of all robots, in the order of their numbers.")
         .def_property_readonly(
             "pose", &pose,
             "(n, 3): x [m], y [m], heading [rad]. A view of an array that each step updates.")
         .def_property_readonly("z", z, "(n,): height [m].")
         .def_property_readonly("twist", &twist, "(n, 2): speed [m/s], turn rate [rad/s].")
-        .def_property_readonly("on", on, "(n,): the radio is on.")
+        .def_property_readonly("on", on, "(n,): whether the radio is on.")
         .def_property_readonly("stalled", stalled,
-                               "(n,): the robot has a command to drive, but cannot move.")
+                               "(n,): whether the robot has a command to drive, but cannot move.")
         .def_property_readonly(
             "no_way", no_way,
-            "(n,): the robot has a command to go to a place, but no path leads there.")
+            "(n,): whether the robot has a command to go to a place, but no path leads there.")
         .def("scan", &scan, "robot"_a = py::none(), "scanner"_a = 0,
              "Distances that a range finder measures now [m]: (beams,) of one robot; None:\n"
              "(n, beams) of all driven robots, if all have the same number of beams.\n\n"
@@ -297,17 +300,17 @@ void add_state(SessionClass& session) {
             "Simulated time [s].")
         .def_property_readonly(
             "end", [](SessionObject& self) { return seconds(self.run().session().end()); },
-            "End of the scenario [s].")
+            "Time at which the scenario ends [s].")
         .def_property_readonly(
             "done", [](SessionObject& self) { return self.run().is_done(); },
-            "The scenario is at its end.")
+            "Whether the scenario is at its end.")
         .def_property_readonly(
             "seed", [](SessionObject& self) { return self.run().scenario().scenario.seed; },
             "Seed of the random draws.")
         .def_property_readonly("metrics", &metrics, "dict of the metrics so far.")
         .def_property_readonly(
             "fingerprint", [](SessionObject& self) { return self.run().fingerprint(); },
-            "16 digits: the same for the same behaviour so far.");
+            "16 hexadecimal digits, equal for equal behaviour so far.");
 }
 
 }  // namespace

@@ -178,7 +178,7 @@ class SessionObject {
     };
     void check_idle() const {
         if (works_ && !interruption_.is_calling()) {
-            throw RunError("the session is in a step; expected to be asked between steps");
+            throw RunError("the session is in a step; expected a call between two steps");
         }
     }
     void prepare(Network& network) {

@@ -72,16 +72,16 @@ struct Aodv {
         constexpr Range seconds_range{.low = 0, .high = 1e4, .text = "from 0 to 10000 s"};
         constexpr Range hops_range{.low = 1, .high = 255, .text = "from 1 to 255"};
         return describe(
-            field("profile", &Aodv::profile, "RFC 3561, or as ns-2.35 does it"),
+            field("profile", &Aodv::profile, "rfc: as in RFC 3561; ns2: as in ns-2.35"),
             field("active_route_timeout", &Aodv::active_route_timeout, seconds_range,
                   "time for which an unused route is kept; 3 s if not given"),
             field("my_route_timeout", &Aodv::my_route_timeout, seconds_range,
                   "lifetime of a route that its destination offers; if not given, 2 * "
                   "active_route_timeout"),
             field("node_traversal_time", &Aodv::node_traversal_time, seconds_range,
-                  "longest time of a packet for a hop; 40 ms if not given"),
+                  "longest time that a packet needs for one hop; 40 ms if not given"),
             field("net_diameter", &Aodv::net_diameter, hops_range,
-                  "hops of a search of the whole network; 35 if not given"),
+                  "largest number of hops in a search of the whole network; 35 if not given"),
             field("rreq_retries", &Aodv::rreq_retries,
                   Range{.low = 0, .high = 100, .text = "from 0 to 100"},
                   "searches of the whole network after the first one; 2 if not given"),

@@ -46,7 +46,7 @@ struct Dsr {
 
     static constexpr auto fields() {
         return describe(
-            field("profile", &Dsr::profile, "RFC 4728, or as ns-2.35 does it"),
+            field("profile", &Dsr::profile, "rfc: as in RFC 4728; ns2: as in ns-2.35"),
             field("promiscuous", &Dsr::promiscuous,
                   "whether nodes learn routes from packets for others"),
             field("salvage", &Dsr::salvage, Range{.low = 0, .high = 15, .text = "from 0 to 15"},

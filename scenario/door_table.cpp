@@ -18,7 +18,8 @@ void check_times(const DoorTable& door, TableReader& table) {
             if (t >= Duration{0}) continue;
             throw InputError(
                 table.take(key)->where,
-                fmt::format("{}: found a time before 0 s; expected times of the run", key));
+                fmt::format("{}: found a time before 0 s; expected simulated times from 0 s on",
+                            key));
         }
     }
     for (const Duration t : door.opens) {
@@ -43,7 +44,7 @@ DoorTable read_door(const Value& value) {
     if (door.closes.empty()) table.missing("closes", "closes = [\"10 s\"]");
     if (door.from.x == door.to.x && door.from.y == door.to.y) {
         throw InputError(table.take("to")->where,
-                         "to: found the place of from; expected the other end of the door");
+                         "to: found the same place as in from; expected the other end of the door");
     }
     if (door.material) door.material_where = table.take("material")->where;
     check_times(door, table);

@@ -59,11 +59,12 @@ struct FloorTable {
     Location map_where = {};
 
     static constexpr auto fields() {
-        return describe(field("height", &FloorTable::height,
-                              "height of the floor, which is the z of robots on it"),
-                        field("map", &FloorTable::map,
-                              "ROS map.yaml, or a picture with a size; relative to the file"),
-                        field("size", &FloorTable::size, "width and height of a picture"));
+        return describe(
+            field("height", &FloorTable::height,
+                  "height of the floor, which is the z of robots on it"),
+            field("map", &FloorTable::map,
+                  "ROS map.yaml, or a picture with a size; relative to the scenario file"),
+            field("size", &FloorTable::size, "width and height of a picture"));
     }
 };
 

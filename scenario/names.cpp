@@ -44,7 +44,7 @@ class Names {
     std::string suggestion(const std::string& name) const {
         for (const RobotTable& robot : scenario_.robots) {
             if (robot.count && robot.name == name) {
-                return fmt::format("its robots are named {}0 to {}{}", name, name,
+                return fmt::format("the robots of this table are named {}0 to {}{}", name, name,
                                    *robot.count - 1);
             }
         }

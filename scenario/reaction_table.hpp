@@ -86,7 +86,7 @@ struct ReactionTable {
             field("hops", &R::hops, hop_counts,
                   "largest number of hops that the received message has crossed"),
             field("from", &R::from, "sender of the message, or robot whose link is lost"),
-            field("time", &R::time, non_negative, "time of the reaction"),
+            field("time", &R::time, non_negative, "time at which the robot reacts"),
             field("once", &R::once, "react only the first time"),
             field("send", &R::send, "text of a message to send"),
             field("to", &R::to, "receiver of the message to send: a robot, or \"sender\""),

@@ -72,7 +72,8 @@ void check_switching(TableReader& table, RobotTable& robot) {
             if (t >= Duration{0}) continue;
             throw InputError(
                 table.take(key)->where,
-                fmt::format("{}: found a time before 0 s; expected times of the run", key));
+                fmt::format("{}: found a time before 0 s; expected simulated times from 0 s on",
+                            key));
         }
     }
 }

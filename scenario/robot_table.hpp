@@ -116,9 +116,10 @@ struct RobotTable {
         using R = RobotTable;
         return describe(
             field("name", &R::name, "name of the robot"),
-            field("count", &R::count, counts, "robots name0, name1, ..."),
+            field("count", &R::count, counts,
+                  "number of robots with these keys, named name0, name1, ..."),
             field("at", &R::at, "place at which the robot starts"),
-            field("heading", &R::heading, "direction in which the robot looks at the start"),
+            field("heading", &R::heading, "heading of the robot at the start"),
             field("radius", &R::radius, non_negative, "radius of the robot's body"),
             field("top_speed", &R::top_speed, positive, "speed that the robot never exceeds"),
             field("turn_rate", &R::turn_rate, turn_rates, "turn rate on the spot"),

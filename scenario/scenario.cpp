@@ -310,12 +310,11 @@ void read_value(const Value& value, std::string_view key, EifsRule& out) {
         return;
     }
     const auto& words = EnumNames<EifsRule>::values;
-    const ChoiceHelp help{.meanings = {"after a frame that was begun and lost, as 802.11 has it",
-                                       "after each frame that was sensed and not decoded, as "
-                                       "ns-2.35 has it",
-                                       "never"},
-                          .yes = name_of(EifsRule::standard),
-                          .no = name_of(EifsRule::none)};
+    const ChoiceHelp help{
+        .meanings = {"after a frame whose reception began and failed, as in 802.11",
+                     "after each frame that was sensed but not decoded, as in ns-2.35", "never"},
+        .yes = name_of(EifsRule::standard),
+        .no = name_of(EifsRule::none)};
     out = static_cast<EifsRule>(read_choice(value, key, {words.begin(), words.end()}, help));
 }
 

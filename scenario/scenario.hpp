@@ -55,9 +55,9 @@ struct ScenarioTable {
             field("duration", &ScenarioTable::duration, positive, "simulated time"),
             field("seed", &ScenarioTable::seed, "seed of all random draws"),
             field("replication", &ScenarioTable::replication, thirty_two_bits,
-                  "number of the independent repetition, from 0"),
+                  "number of the replication (independent repetition), from 0"),
             field("event_limit", &ScenarioTable::event_limit, positive,
-                  "a run that needs more events fails"));
+                  "largest number of events; a run that needs more fails"));
     }
 };
 

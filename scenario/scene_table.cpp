@@ -49,7 +49,8 @@ void check_uses(const SceneTable& scene, const Value& materials) {
                           fmt::format("material \"{}\"", material.name));
         MaterialTable known;
         table.read_fields(known);
-        table.missing("grey", "grey = 100, greys = [90, 110], color = \"red\", or a door of it");
+        table.missing("grey",
+                      "grey = 100, greys = [90, 110], color = \"red\", or a door of this material");
     }
 }
 

@@ -58,7 +58,7 @@ struct MaterialTable {
         constexpr Range level{.low = 0, .high = 255, .text = "from 0 to 255"};
         return describe(
             field("grey", &MaterialTable::grey, level, "grey level of its walls in the map"),
-            field("greys", &MaterialTable::greys, "first and last of several grey levels"),
+            field("greys", &MaterialTable::greys, "first and last of a range of grey levels"),
             field("color", &MaterialTable::color, "colour of its walls in a Stage world"),
             field("per_crossing", &MaterialTable::per_crossing, non_negative,
                   "loss of each crossing of a wall"),

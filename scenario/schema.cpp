@@ -143,8 +143,9 @@ Table study_schema() {
     add_key(
         keys, "warmup",
         schema_of_either(schema_of_quantity(Dimension::time, false), schema_of_words({"mser5"})),
-        "beginning of a run that is not measured");
-    add_key(keys, "vary", vary_schema(), "values by path: vary.\"radio.power\" = [...]");
+        "first part of each run, which the metrics leave out");
+    add_key(keys, "vary", vary_schema(),
+            "lists of values, by the path of the key: vary.\"radio.power\" = [...]");
     add_key(keys, "zip", value_schema<decltype(StudyTable::zip)>(any), "paths that vary together");
     add_key(keys, "exclude", schema_of_list(schema_of_type("object")), "combinations left out");
     return schema_of_table(std::move(keys));

@@ -265,10 +265,11 @@ void TrafficReader::add_flow(const App& app, TrafficFile& file) {
     };
     if (!app.start || app.most < 1) return;
     const auto from = agents_.find(app.agent);
-    if (from == agents_.end()) fault("is on no agent, expected attach-agent");
+    if (from == agents_.end()) fault("is attached to no agent; expected attach-agent");
     const auto to = agents_.find(from->second.peer);
     if (!from->second.sends || to == agents_.end()) fault("has no destination; expected connect");
-    if (!from->second.node || !to->second.node) fault("is on no node, expected $ns_ attach-agent");
+    if (!from->second.node || !to->second.node)
+        fault("has an agent that is on no node; expected $ns_ attach-agent");
     constexpr double most = std::numeric_limits<int>::max();
     TrafficTable flow;
     flow.kind = TrafficKind::unicast;
@@ -281,7 +282,7 @@ void TrafficReader::add_flow(const App& app, TrafficFile& file) {
     flow.to_where = to->second.where;
     if (app.stop) flow.stop = *app.stop - start_of_run;
     if (flow.stop && *flow.stop <= *flow.start) fault("stops before it starts");
-    if (flow.from == flow.to) fault("sends to its own node, expected another");
+    if (flow.from == flow.to) fault("sends to its own node; expected a different one");
     if (app.most < most) flow.count = static_cast<int>(app.most);
     add_packets(flow, app.size, from->second.size, file);
 }

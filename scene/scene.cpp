@@ -38,7 +38,7 @@ void check(const OccupancyGrid& grid, std::size_t materials) {
         if (!(side > 0 && std::isfinite(side)))
             refuse(fmt::format("a cell's sides must be > 0 m, got {} m", side));
     if (!grid.cell_materials.empty() && grid.cell_materials.size() != grid.cells.size())
-        refuse("there must be a material for each cell, or none");
+        refuse("there must be one material for each cell, or no materials");
     for (std::size_t i = 0; i < grid.cells.size(); ++i)
         if (grid.material_of(i) >= materials)
             refuse(fmt::format("there is no material number {}", grid.material_of(i)));

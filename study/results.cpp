@@ -96,9 +96,9 @@ std::vector<StoredPoint> points_where(const Store& store, const std::vector<Cond
         }
         std::erase_if(points, [&](const StoredPoint& p) { return !meets(p, condition); });
         if (!points.empty()) continue;
-        throw std::invalid_argument(fmt::format("no point has {} = {}; there are {}",
-                                                condition.path, condition.value,
-                                                fmt::join(values, ", ")));
+        throw std::invalid_argument(
+            fmt::format("no point has {} = {}; the values in this study are {}", condition.path,
+                        condition.value, fmt::join(values, ", ")));
     }
     return points;
 }

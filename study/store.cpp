@@ -158,8 +158,8 @@ Store::Store(std::string path, std::unique_ptr<Database> database)
     if (made_by != application) throw InputError({path_}, "not a store of a study");
     if (version > format) {
         throw InputError({path_},
-                         fmt::format("a store of format {}, made by a newer rovernet; this "
-                                     "one knows up to {}: update it",
+                         fmt::format("a store of format {}, made by a newer rovernet; this version "
+                                     "knows formats up to {}; update rovernet",
                                      version, format));
     }
 }

@@ -204,8 +204,9 @@ void Study::check_points_differ() const {
         }
         const Location& where = differs->value.where;
         throw InputError(
-            where, fmt::format("vary: {} is the same scenario as {}; expected values that differ",
-                               settings_text(point.settings), settings_text(other)));
+            where,
+            fmt::format("vary: {} gives the same scenario as {}; expected values that differ",
+                        settings_text(point.settings), settings_text(other)));
     }
 }
 

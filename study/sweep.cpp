@@ -65,11 +65,12 @@ std::string difference(const Value& then, const Table& now) {
     flatten(now, "", new_keys);
     for (const auto& [path, text] : old_keys) {
         const auto found = new_keys.find(path);
-        const std::string other = found == new_keys.end() ? "nothing" : found->second;
-        if (other != text) return fmt::format("{} was {} and is {}", path, text, other);
+        const std::string other = found == new_keys.end() ? "not given" : found->second;
+        if (other != text) return fmt::format("{} was {} and is now {}", path, text, other);
     }
     for (const auto& [path, text] : new_keys) {
-        if (!old_keys.contains(path)) return fmt::format("{} was nothing and is {}", path, text);
+        if (!old_keys.contains(path))
+            return fmt::format("{} was not given and is now {}", path, text);
     }
     return "";
 }

@@ -35,8 +35,9 @@ struct RoutedMetrics {
             field("data_transmissions", &R::data,
                   "transmissions of messages to one robot; each hop counts"),
             field("path_stretch", &R::path_stretch, "hops divided by those of the shortest path"),
-            field("delay_waiting", &R::waiting, "mean time in routers"),
-            field("delay_travelling", &R::travelling, "mean time between routers"));
+            field("delay_waiting", &R::waiting, "mean time that a message waits in routers"),
+            field("delay_travelling", &R::travelling,
+                  "mean time that a message travels between routers"));
     }
     friend bool operator==(const RoutedMetrics&, const RoutedMetrics&) = default;
 };
@@ -69,7 +70,8 @@ struct RoutingValues {
                         field("routing_replies", &R::replies, "control packets: replies"),
                         field("routing_errors", &R::errors, "control packets: errors"),
                         field("routing_hellos", &R::hellos, "control packets: HELLOs"),
-                        field("routes_broken", &R::broken, "links that broke under a packet"));
+                        field("routes_broken", &R::broken,
+                              "links that broke while a packet was sent over them"));
     }
     friend bool operator==(const RoutingValues&, const RoutingValues&) = default;
 };

@@ -73,8 +73,10 @@ struct PartMetrics {
     static constexpr auto fields() {
         using P = PartMetrics;
         return describe(
-            field("messages", &P::messages, "messages sent in the flow, or to the robot"),
-            field("deliveries", &P::deliveries, "first copies of messages at robots"),
+            field("messages", &P::messages,
+                  "messages that were sent in this flow, or to this robot"),
+            field("deliveries", &P::deliveries,
+                  "messages that reached a robot; a message counts once for each robot"),
             field("delivery_ratio", &P::delivery_ratio,
                   "deliveries divided by expected deliveries"),
             field("throughput_bps", &P::throughput_bps, "delivered bits a second"),
@@ -170,16 +172,20 @@ struct MetricValues {
         using M = MetricValues;
         return describe(
             field("messages", &M::messages, "messages sent by applications"),
-            field("cut_off", &M::cut_off, "messages cut off by the end of the run"),
+            field("cut_off", &M::cut_off,
+                  "messages of which no frame had ended when the run ended; delivery_ratio does "
+                  "not count them"),
             field("transmissions", &M::transmissions, "frames transmitted"),
             field("receptions", &M::receptions, "copies that robots decoded"),
-            field("deliveries", &M::deliveries, "first copies of messages at robots"),
+            field("deliveries", &M::deliveries,
+                  "messages that reached a robot; a message counts once for each robot"),
             field("delivery_ratio", &M::delivery_ratio,
                   "deliveries divided by expected deliveries"),
-            field("reach", &M::reach,
-                  "deliveries divided by the robots that were connected with the sender"),
+            field(
+                "reach", &M::reach,
+                "deliveries, divided by the number of robots that were connected with the sender"),
             field("saved_rebroadcasts", &M::saved_rebroadcasts,
-                  "share of rebroadcasts that a flood saved"),
+                  "share of rebroadcasts that were saved, compared with a plain flood"),
             field("latency", &M::latency, "latency of the deliveries"),
             field("hops_mean", &M::mean_hops, "mean number of hops of a delivery"),
             field("hops_max", &M::max_hops, "most hops of a delivery"),

@@ -27,7 +27,7 @@ void open_in_browser(const std::string& address) {
         posix_spawn(&child, "/bin/sh", nullptr, &attributes, arguments, environ) == 0;
     posix_spawnattr_destroy(&attributes);
     if (is_started && waitpid(child, &status, 0) == child && status == 0) return;
-    notice("--open: there is no xdg-open; open " + address + " in a browser");
+    notice("--open: the program xdg-open is not installed; open " + address + " in a browser");
 }
 
 }  // namespace rovernet::cli

@@ -51,7 +51,7 @@ void add_results(Command app) {
     Option provenance =
         results
             .add_flag("--provenance", a.provenance,
-                      "with --csv: print a line for each run, with its times and host")
+                      "with --csv: print a line for each run, with its id, times and host")
             .needs(csv);
     Option failures =
         results.add_flag("--failures", a.failures, "list the failed runs with their errors")
@@ -90,8 +90,9 @@ void add_plot(Command app) {
                     "metric has a chart")
         .delimiter(',')
         .required();
-    plot.add_option("--by", p.by,
-                    "varied key; each of its values has a line, or a row of a heat map");
+    plot.add_option(
+        "--by", p.by,
+        "varied key; each of its values has a line of the chart, or a row of the heat map");
     plot.add_option("--where", p.where, only_points).one_word();
     plot.add_flag("--common", p.common, only_cells);
     plot.add_option(

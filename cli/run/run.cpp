@@ -52,7 +52,7 @@ void print_result(const Scenario& scenario, const RunResult& result) {
     fmt::print("delivery ratio     {}\n", percent(m.delivery_ratio));
     if (m.cut_off > 0) {
         fmt::print(
-            "left out of it     {} (messages still at their senders at the end of the run)\n",
+            "not counted        {} (messages still at their senders at the end of the run)\n",
             m.cut_off);
     }
     if (m.reach_known) {

@@ -68,7 +68,8 @@ void emulate(const EmulateArguments& a) {
     print_run(result.scenario, result.run, a.json);
     if (!a.json) {
         fmt::print(
-            "late               {:.3f} ms at most, {:.1f} % of the times by more than 1 ms\n",
+            "late               {:.3f} ms at most, by more than 1 ms at {:.1f} % of the event "
+            "times\n",
             1e3 * seconds(result.lateness->most), 100 * result.lateness->share());
     }
     if (!result.fault.empty()) throw CommandEnd(failed, result.fault);
@@ -120,7 +121,7 @@ void run_in(const InArguments& a) {
     const RobotNetwork network = find_network(a.robot, wanted_run(a));
     const ProgramEnd end = run_inside(network, a.program);
     if (!end.run_ended_it) end_like(end.status);
-    throw CommandEnd(failed, fmt::format("the run in {} has ended, and {} with it",
+    throw CommandEnd(failed, fmt::format("the run in {} has ended, so {} was stopped",
                                          folder_text(network.folder), a.program.front()));
 }
 

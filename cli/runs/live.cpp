@@ -138,10 +138,9 @@ void add_lockstep(Command live, LiveArguments& a) {
         "listen for controllers by WebSocket at 127.0.0.1:PORT; each message is one line");
     live.add_option("--unix", a.unix_path,
                     "listen for controllers at a Unix socket with this path");
-    live.add_option(
-        "--patience", a.patience,
-        "longest real time that a controller may take for a step, or a started program for its "
-        "hello, such as 30s (default: no limit)");
+    live.add_option("--patience", a.patience,
+                    "longest real time that a controller may take for a step, or a started program "
+                    "until its hello, such as 30s (default: no limit)");
     live.add_option("--on-loss", a.on_loss,
                     "what to do when a controller disconnects without `bye`: end the run, stop its "
                     "robots, or wait for it")

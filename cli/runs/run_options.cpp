@@ -68,11 +68,12 @@ void add_sweep(Command app, const std::string& typed) {
                                    "make only the runs that the store lacks (this is the default)");
     sweep.add_flag("--fresh", a.fresh, "delete the runs in the store first, after asking")
         .excludes(resume);
-    sweep.add_flag("--yes", a.yes, "with --fresh: do not ask");
-    const Option shard = sweep
-                             .add_option("--shard", a.shard,
-                                         "make only the runs of the chunk with this number, from 0")
-                             .check(whole_number());
+    sweep.add_flag("--yes", a.yes, "with --fresh: delete the runs without asking");
+    const Option shard =
+        sweep
+            .add_option("--shard", a.shard,
+                        "make only the runs of this chunk of the study; chunks are numbered from 0")
+            .check(whole_number());
     sweep.add_option("--chunk", a.chunk, "number of runs in each chunk of --shard")
         .check(above_zero())
         .shows_default();

@@ -25,8 +25,8 @@ void print_links(const LinkTable& table) {
             "  hears {:<12} ip {:<15} mac {}  essid \"{}\"  {:g} MHz  {}{}  quality {:3}  {}\n",
             n.robot, n.ip, n.mac, n.essid, n.frequency.value / 1e6, name_of(n.mode),
             n.encryption ? "  encrypted" : "", row.quality,
-            row.range ? fmt::format("{:.2f} m, within its range of {:.6g} m", row.distance->value,
-                                    row.range->value)
+            row.range ? fmt::format("{:.2f} m, within the sender's range of {:.6g} m",
+                                    row.distance->value, row.range->value)
                       : fmt::format("level {:.2f} dBm  noise {:.2f} dBm", row.level.value,
                                     row.noise.value));
     }

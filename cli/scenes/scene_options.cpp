@@ -71,19 +71,22 @@ void add_where(Command app) {
     add_file(where, a, any_file);
     Option at = where.add_option("--at", a.at, "simulated times, such as 10s,31.25s");
     at.delimiter(',');
-    Option robot = where.add_option(
-        "--robot", a.robot,
-        "print only this robot; without --at: at the begin of each leg of its path");
+    Option robot = where.add_option("--robot", a.robot,
+                                    "print only this robot; without --at: its position at the "
+                                    "beginning of each leg of its path");
     Option to = where.add_option("--to", a.to,
                                  "print where the robot has no link to any of these robots, such "
                                  "as ap1,ap2: times, places, and the share of the run");
     to.delimiter(',').needs(robot).excludes(at);
     where
-        .add_option("--over", a.over,
-                    "also count connections over these robots, such as the relays of a mesh")
+        .add_option(
+            "--over", a.over,
+            "also count indirect connections over these robots, such as the relays of a mesh")
         .delimiter(',')
         .needs(to);
-    Option csv = where.add_flag("--csv", a.csv, "print a line for each gap, as CSV").needs(to);
+    Option csv =
+        where.add_flag("--csv", a.csv, "print CSV, with a line for each time without a link")
+            .needs(to);
     add_json(where, a.json);
     where.option("--json").excludes(csv);
 }
@@ -113,16 +116,17 @@ void add_draw(Command app) {
                     "draw the route in use from robot A to robot B, given as A,B")
         .delimiter(',');
     draw.add_flag("--search", a.search,
-                  "draw the robots that sent or forwarded the last route request: the request of "
-                  "robot A of --routes, or of any robot");
+                  "draw the robots that sent or forwarded the last route request: with --routes "
+                  "A,B the last one of robot A, otherwise of any robot");
     Option trails = draw.add_flag("--trails", a.trails, "draw the paths of the robots so far");
     Option margin_to =
         draw.add_option("--margin-to", a.margin_to,
                         "colour the trails by the margin of the link to a robot (with A,B: the "
                         "larger of the two margins), and mark where there is no link");
     margin_to.delimiter(',').needs(trails);
-    draw.add_option("--over", a.over,
-                    "also count connections over these robots, such as the relays of a mesh")
+    draw.add_option(
+            "--over", a.over,
+            "also count indirect connections over these robots, such as the relays of a mesh")
         .delimiter(',')
         .needs(margin_to);
     draw.add_option("--storey", a.storey, "storey to draw; the lowest is 1").shows_default();

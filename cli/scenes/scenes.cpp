@@ -192,9 +192,9 @@ Time time_in(const Scenario& scenario, const std::string& text) {
     const Time at = start_of_run + option_time("--at", text);
     const Duration end = scenario.scenario.duration;
     if (at > start_of_run + end) {
-        notice(
-            fmt::format("--at {}: the run ends at {:.9g} s; it is continued until the given time",
-                        text, seconds(end)));
+        notice(fmt::format(
+            "--at {}: the run ends at {:.9g} s; the simulation continues until the given time",
+            text, seconds(end)));
     }
     return at;
 }

@@ -124,7 +124,8 @@ void where(const WhereArguments& a) {
     if (!a.to.empty()) return where_without_link(a);
     if (a.at.empty() && !a.robot) {
         throw std::invalid_argument(
-            "where: neither a time nor a robot; expected --at 10s,20s (all robots at these times), "
+            "where: found neither a time nor a robot; expected --at 10s,20s (all robots at these "
+            "times), "
             "--robot NAME (its path), or --robot NAME --to NAME (the gaps in its link)");
     }
     const Scenario scenario = scenario_of(a);

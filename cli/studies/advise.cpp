@@ -43,14 +43,14 @@ DecisionRule rule_for(const AdviseArguments& a, const StudyTable& study, std::si
     const Bounds range = difference_bounds(rule.bounds);
     if (!range.closed() && !a.tolerance) {
         throw InputError({"--metric " + a.metric, 0, 0, true},
-                         fmt::format("{} has no upper bound; expected a --tolerance in its unit, "
-                                     "too, such as --tolerance 0.1",
+                         fmt::format("{} has no upper bound; expected also a --tolerance, in the "
+                                     "unit of the metric, such as --tolerance 0.1",
                                      a.metric));
     }
     if (range.closed() && rule.tolerance >= *range.high) {
         throw InputError(
             {fmt::format("--tolerance {}", rule.tolerance), 0, 0, true},
-            fmt::format("expected a value below {}, because no two values of {} differ by more",
+            fmt::format("expected a value below {}, because two values of {} never differ by more",
                         *range.high, a.metric));
     }
     return rule;

@@ -111,8 +111,8 @@ void print_models(const Advice& advice) {
     for (const CandidateModel& model : advice.candidates.path_losses) {
         if (!model.fitted.empty()) fmt::print("{}: fitted {}\n", model.name, model.fitted);
         if (!model.note.empty()) {
-            fmt::print("{}: not fitted, with the parameters of the file: {}\n", model.name,
-                       model.note);
+            fmt::print("{}: not fitted, but judged with the parameters of the file: {}\n",
+                       model.name, model.note);
         }
     }
     for (const std::string& text : advice.candidates.left_out) {
@@ -123,8 +123,8 @@ void print_models(const Advice& advice) {
 void print_report(const Advice& advice) {
     const DecisionRule& rule = advice.rule;
     fmt::print(
-        "{} of {} replications against {}: tolerance {:.4g} {}, {:.4g} % sure for all {} "
-        "combinations\n\n",
+        "{} of {} replications against {}: tolerance {:.4g} {}, confidence {:.4g} % for all {} "
+        "combinations together\n\n",
         advice.metric, advice.replications, reference_of(advice), rule.tolerance,
         rule.criterion == ErrorCriterion::mean ? "in the mean" : "in a single run",
         100 * (1 - rule.alpha), rule.family);

@@ -155,7 +155,7 @@ void check_margin(const CompareArguments& a, const std::string& metric) {
     if (!a.margin || !range.closed() || *a.margin < *range.high) return;
     throw InputError(
         {fmt::format("--margin {}", *a.margin), 0, 0, true},
-        fmt::format("expected a value below {}, because no two values of {} differ by more",
+        fmt::format("expected a value below {}, because two values of {} never differ by more",
                     *range.high, metric));
 }
 

@@ -185,8 +185,10 @@ void print_coverage(const Comparison& c) {
         if (m.model == c.baseline) {
             fmt::print("{} lacks replications: {}\n", m.model, gaps);
         } else {
-            fmt::print("{} and {} lack pairs, because one of the two lacks the replication: {}\n",
-                       m.model, c.baseline, gaps);
+            fmt::print(
+                "{} and {} cannot be compared in some replications, because one of the two has no "
+                "value: {}\n",
+                m.model, c.baseline, gaps);
         }
     }
 }
@@ -218,8 +220,8 @@ void print_text(const std::vector<Comparison>& all) {
     if (is_brief) return;
     const Comparison& c = all.front();
     fmt::print(
-        "\ncommon random numbers: variance of unpaired differences, divided by that of paired "
-        "differences\n");
+        "\ncommon random numbers: variance of unpaired differences, divided by the variance of "
+        "paired differences\n");
     for (const PairedVariance& pair : c.pairs) {
         if (pair.ratio) fmt::print("  {:<32} {:.3g}\n", pair.a + ", " + pair.b, *pair.ratio);
     }

@@ -246,8 +246,8 @@ void print_known(const Fit& fit) {
                                    [](const KnownLink& link) { return link.unseen; });
     if (!known.measured && far > 0) {
         fmt::print(
-            "the loss of {} links exceeds their budget by more than {} dB; only this lower bound "
-            "of it is used\n",
+            "the loss of {} links exceeds their budget by more than {} dB; of their losses only "
+            "this lower bound is used\n",
             far, beyond_radio.value);
     }
     if (fit.repeatability && fit.repeatability->levels > 0) {
@@ -258,11 +258,11 @@ void print_known(const Fit& fit) {
     }
     if (!std::isfinite(c.loss_error)) {
         fmt::print(
-            "too few links: they do not determine the loss of log_distance at the link budget\n");
+            "too few links: they do not determine the loss of log_distance near the link budget\n");
     } else if (c.loss_error > Calibration::enough) {
         fmt::print(
-            "too few links: they determine the loss of log_distance at the link budget only to "
-            "{:.2g} dB, not to {} dB\n",
+            "too few links: near the link budget, they determine the loss of log_distance only to "
+            "within {:.2g} dB; expected {} dB\n",
             c.loss_error, Calibration::enough);
     }
 }
@@ -274,8 +274,9 @@ void print_fit(const Fit& fit, const Scenario& scenario) {
     print_calibrated(c);
     if (c.known.groups > 1) {
         fmt::print(
-            "\nerrors on each {}, by the fit to all others; wrong links: predicted up (up) or down "
-            "(down), but in fact are not;\nas given: rmse with the parameters of the file\n",
+            "\nerrors on each {}, by the fit to all others; wrong links: links that are predicted "
+            "up (up) or down (down), but are not;\nas given: rmse with the parameters of the "
+            "file\n",
             c.known.group_name);
     } else {
         fmt::print(

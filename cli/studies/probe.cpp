@@ -144,7 +144,8 @@ void print_effects(const Probe& probe, std::size_t most) {
     const auto cliffs = std::count_if(probe.effects.begin(), probe.effects.end(),
                                       [](const LinkEffect& e) { return e.is_cliff(); });
     fmt::print(
-        "\nlinks: first the {} cliffs (steeper than {:g} dB per mm), then the links that flip\n",
+        "\nlinks: first the {} cliffs (losses that change by more than {:g} dB per mm), then the "
+        "links that go up or down\n",
         cliffs, LinkEffect::cliff);
     fmt::print("{}{}", table.text(), more_text(probe.effects.size(), most));
 }
@@ -179,7 +180,7 @@ void probe(const ProbeArguments& a) {
         fmt::print("{}", to_json(as_table(found, a.top)));
         return;
     }
-    fmt::print("{} links at {} times, losses by {}", found.links, size.times, found.model);
+    fmt::print("{} links at {} times, losses computed by {}", found.links, size.times, found.model);
     if (!a.no_messages) {
         fmt::print("; {} receptions of messages until {:.6g} s{}", found.deliveries,
                    seconds(found.until), found.whole_run ? "" : " (the first million events)");

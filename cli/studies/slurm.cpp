@@ -74,8 +74,9 @@ SlurmSweep plan(const SweepArguments& a, Study& study, const std::string& store)
     std::istringstream words(a.sbatch);
     for (std::string word; words >> word;) slurm.sbatch.push_back(word);
     if (slurm.chunk > a.chunk) {
-        notice(fmt::format("chunks of {} runs: a job array has at most {} tasks", slurm.chunk,
-                           longest_array));
+        notice(fmt::format(
+            "chunks have {} runs, more than --chunk, because a job array has at most {} tasks",
+            slurm.chunk, longest_array));
     }
     return slurm;
 }
@@ -138,8 +139,8 @@ void print_jobs(const SweepArguments& a, const SlurmSweep& slurm, const std::str
         return;
     }
     fmt::print(
-        "job {}: {} tasks of up to {} runs; job {} then merges them into {}\ntheir output is in "
-        "{}/logs; when both have ended, missing runs are made by\n  {}\n",
+        "job {}: {} tasks of up to {} runs; job {} then merges them into {}\nthe output of the "
+        "tasks is in {}/logs; when both jobs have ended, missing runs are made by\n  {}\n",
         job, slurm.chunks.size(), slurm.chunk, merge_job, slurm.store, slurm.folder(), a.command);
 }
 

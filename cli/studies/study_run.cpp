@@ -48,11 +48,11 @@ WorkerLimits limits_of(const StudyArguments& a, std::size_t workers) {
     return limits;
 }
 
-/// "+- 0.034 of 100 values"
+/// "+- 0.034 from 100 values"
 std::string reached_text(const ImprecisePoint& point) {
     if (point.half_width)
-        return fmt::format("+- {:.2g} of {} values", *point.half_width, point.values);
-    if (point.values < 2) return fmt::format("no interval of {} values", point.values);
+        return fmt::format("+- {:.2g} from {} values", *point.half_width, point.values);
+    if (point.values < 2) return fmt::format("no interval from {} values", point.values);
     return fmt::format("no interval, because its {} values are all equal", point.values);
 }
 

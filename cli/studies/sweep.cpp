@@ -26,7 +26,8 @@ std::string store_path(const SweepArguments& a) {
     if (a.store) return *a.store;
     if (a.file == standard_input) {
         throw std::invalid_argument(
-            "sweep -: a scenario from standard input gives the store no name; expected --store "
+            "sweep -: a scenario from standard input has no file name after which to name the "
+            "store; expected --store "
             "FILE");
     }
     return std::filesystem::path(a.file).replace_extension(".db").string();

@@ -21,7 +21,8 @@ namespace {
 
 void tell_of(const Scenario& scenario) {
     const Table document = to_document(scenario);
-    detail(fmt::format("{} tables of robots, model {}, {:g} s", scenario.robots.size(),
+    detail(fmt::format("{} tables [[robot]], propagation model {}, {:g} s of simulated time",
+                       scenario.robots.size(),
                        *document.find("propagation")->table()->find("model")->string(),
                        seconds(scenario.scenario.duration)));
 }

@@ -103,7 +103,7 @@ void add_study_file(Command command, FileArguments& a, const char* what) {
         .one_word();
     command
         .add_option("--bitmap", a.options.bitmaps,
-                    "OLD=NEW: read bitmap NEW wherever a Stage world names OLD")
+                    "OLD=NEW: read the bitmap file NEW wherever a Stage world names OLD")
         .one_word();
     command.add_flag("--lenient", a.options.lenient,
                      "ignore missing includes and bitmaps of a Stage world");
@@ -112,9 +112,9 @@ void add_study_file(Command command, FileArguments& a, const char* what) {
 void add_file(Command command, FileArguments& a, const char* what) {
     add_study_file(command, a, what);
     command
-        .add_option(
-            "--replication", a.replication,
-            "number of the independent repetition, from 0 (default: [scenario] replication)")
+        .add_option("--replication", a.replication,
+                    "number of the replication (independent repetition), from 0 (default: "
+                    "[scenario] replication)")
         .check(whole_number());
 }
 

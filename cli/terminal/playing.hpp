@@ -14,7 +14,8 @@ namespace rovernet::cli {
 class Playing {
   public:
     Playing(const std::string& file, Time until)
-        : until_(until), waiting_(fmt::format("playing {} until {:g} s", file, seconds(until))) {}
+        : until_(until),
+          waiting_(fmt::format("simulating {} until {:g} s", file, seconds(until))) {}
 
     /// Callback that updates the display; valid as long as this object exists.
     TellTime tell() {

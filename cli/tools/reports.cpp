@@ -47,7 +47,7 @@ void print_budget(const LinkReport& r) {
     if (r.wall_m > 0) {
         const bool sees_walls = !r.wall_losses.empty() || r.rays;
         fmt::print("  {:.3f} m of wall in all{}\n\n", r.wall_m,
-                   sees_walls ? "" : "; model " + r.model + " does not see walls");
+                   sees_walls ? "" : "; model " + r.model + " ignores walls");
     }
     if (r.ceilings > 0 || r.floors > 0) {
         const std::size_t number = r.ceilings > 0 ? r.ceilings : r.floors;

@@ -47,7 +47,7 @@ void add_bench(Command app) {
     Command bench = app.add_command("bench", "Measure the speed of this build on this machine");
     bench.needs_command();
     const auto [flood, a] = add_command(
-        bench, "flood", "Measure the CPU time of floods, for each reception", cli::bench_flood);
+        bench, "flood", "Measure the CPU time per reception in floods", cli::bench_flood);
     flood.add_examples({"rovernet bench flood --nodes 1000 --cpu 0.1"});
     flood.add_option("--nodes", a.bench.nodes, "numbers of robots, such as 1000,10000")
         .delimiter(',')
@@ -59,9 +59,10 @@ void add_bench(Command app) {
     flood.add_option("--mobility", a.mobility, "movement of the robots: static or random_waypoint")
         .shows_default();
     flood
-        .add_option("--suppression", a.suppression,
-                    "rule by which robots do not forward a message: none, counter, probability, "
-                    "distance, location or cluster")
+        .add_option(
+            "--suppression", a.suppression,
+            "rule by which a robot decides not to forward a message: none, counter, probability, "
+            "distance, location or cluster")
         .shows_default();
     flood
         .add_option("--shadowing", a.bench.shadowing.value,
@@ -70,7 +71,9 @@ void add_bench(Command app) {
         .shows_default();
     flood.add_flag("--recorded", a.bench.recorded,
                    "also compute metrics, fingerprint and timeline, as rovernet run does");
-    flood.add_option("--cpu", a.bench.cpu_s, "least CPU time for each number of robots, in seconds")
+    flood
+        .add_option("--cpu", a.bench.cpu_s,
+                    "shortest CPU time to measure for each number of robots, in seconds")
         .check(above_zero())
         .shows_default();
     flood.add_option("--seed", a.bench.seed, "seed of all random draws").shows_default();

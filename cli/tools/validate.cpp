@@ -54,7 +54,8 @@ void validate(const ValidateArguments& a) {
     print_validation(validation);
     for (const std::string& text : validation.left_out) notice("left out: " + text);
     if (!validation.kept())
-        throw CommandEnd(failed, "an error exceeds its promised limit, see the table");
+        throw CommandEnd(failed,
+                         "an error exceeds the limit that the code promises; see the table");
 }
 
 }  // namespace rovernet::cli

@@ -36,18 +36,20 @@ void print_inputs(const ReplayArguments& a, const InputReplay& replay) {
 
 void tell_of_log(const InputReplay& replay) {
     if (replay.is_other_scenario) {
-        notice(fmt::format("{}: scenario.toml {}", replay.log,
-                           replay.has_own_scenario
-                               ? "in its folder differs from the scenario that was run; the "
-                                 "scenario in the log is used"
-                               : "in its folder differs from the scenario that was run"));
+        notice(fmt::format(
+            "{}: {}", replay.log,
+            replay.has_own_scenario
+                ? "scenario.toml in the folder of the log differs from the scenario that was run; "
+                  "the scenario in the log is used"
+                : "scenario.toml in the folder of the log differs from the scenario that was run"));
     }
     if (replay.torn) {
         notice(fmt::format("{}:{}: the last line is incomplete and is ignored", replay.log,
                            *replay.torn));
     }
     if (replay.recorded.empty()) {
-        notice(replay.log + ": its run did not end; it is replayed up to its last input");
+        notice(replay.log +
+               ": the run of this log did not end; it is replayed up to the last input");
     }
     for (const std::string& other : replay.others) {
         notice(other +

@@ -51,12 +51,12 @@ void check_is_recorded(const TraceConvertArguments& a, std::string_view why) {
     need_file(a.in);
     throw InputError({.source = a.in},
                      fmt::format("{} can be made only from a recorded trace (run --record), "
-                                 "because {} the scenario in it",
+                                 "because {} in the recorded trace",
                                  a.to, why));
 }
 
 void convert_to_capture(const TraceConvertArguments& a) {
-    check_is_recorded(a, "levels are computed from");
+    check_is_recorded(a, "levels are computed from the scenario");
     const Capture made = capture_recorded(a.in, a.out);
     tell_damage(a.in, made.damage);
     if (made.left_out > 0) {
@@ -71,7 +71,7 @@ void convert_to_capture(const TraceConvertArguments& a) {
 void trace_convert(const TraceConvertArguments& a) {
     if (a.to == "pcapng") return convert_to_capture(a);
     if (a.to == "foxglove") {
-        check_is_recorded(a, "the map and the bodies of robots are taken from");
+        check_is_recorded(a, "the map and the bodies of robots are those of the scenario");
         return tell_damage(a.in, convert_to_foxglove(a.in, a.out));
     }
     TraceInput::Lines lines;

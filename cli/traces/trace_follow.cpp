@@ -134,7 +134,7 @@ std::string others_text(const FrameAtRobot& frame, const MessageAtRobot& message
 
 void print_frames(const MessageAtRobot& message) {
     if (!message.frames.empty()) {
-        fmt::print("\nits frames, as they came to {}:\n", message.robot);
+        fmt::print("\nframes of this message at {}:\n", message.robot);
         const bool has_levels = std::any_of(message.frames.begin(), message.frames.end(),
                                             [](const FrameAtRobot& f) { return !f.range; });
         TextTable table({"after", "from", has_levels ? "level" : "distance",

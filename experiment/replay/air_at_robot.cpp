@@ -42,9 +42,10 @@ class Listening {
     Listening(RecordedReader& trace, const std::string& path, NodeId robot, Time at)
         : trace_(trace), air_(LoadedRun(trace.run(), path)), robot_(robot) {
         if (robot.index() >= air_.robots()) {
-            throw InputError({.source = path},
-                             fmt::format("found no robot {}; its robots are 0 to {}", robot.value,
-                                         static_cast<std::int64_t>(air_.robots()) - 1));
+            throw InputError(
+                {.source = path},
+                fmt::format("found no robot {}; the robots of this trace are 0 to {}", robot.value,
+                            static_cast<std::int64_t>(air_.robots()) - 1));
         }
         result_.begin = at - std::min(window, at - start_of_run);
         result_.end = at;

@@ -35,9 +35,10 @@ class Account {
             NodeId robot)
         : trace_(trace), air_(run), uid_(uid), robot_(robot) {
         if (robot.index() >= air_.robots()) {
-            throw InputError({.source = path},
-                             fmt::format("found no robot {}; its robots are 0 to {}", robot.value,
-                                         static_cast<std::int64_t>(air_.robots()) - 1));
+            throw InputError(
+                {.source = path},
+                fmt::format("found no robot {}; the robots of this trace are 0 to {}", robot.value,
+                            static_cast<std::int64_t>(air_.robots()) - 1));
         }
         message_.robot = air_.names()[robot.index()];
         message_.names = air_.names();
@@ -216,11 +217,12 @@ FrameList with_outcome(const MessageAtRobot& message, std::initializer_list<Outc
 }
 
 std::string received_in_words(const MessageAtRobot& message, const FrameAtRobot& first) {
-    const std::string how = first.range
-                                ? fmt::format("came over {:.6g} m, within its range of {:.6g} m",
-                                              first.distance_m, first.range->value)
-                                : fmt::format("came at {:.2f} dBm, {:.1f} dB above its sensitivity",
-                                              first.level.value, first.margin.value);
+    const std::string how =
+        first.range
+            ? fmt::format("came over {:.6g} m, within the sender's range of {:.6g} m",
+                          first.distance_m, first.range->value)
+            : fmt::format("came at {:.2f} dBm, {:.1f} dB above the sensitivity of the receiver",
+                          first.level.value, first.margin.value);
     return fmt::format("{} got the message from {}, {:.3f} ms after it was sent: that frame {}{}.",
                        message.robot, message.names[first.from.index()],
                        seconds(first.end - message.sent) * 1e3, how,
@@ -238,23 +240,24 @@ std::string weak_in_words(const MessageAtRobot& message, const FrameList& weak) 
     const bool is_one = weak.size() == 1;
     const std::size_t off = with_outcome(message, {Outcome::off}).size();
     return fmt::format(
-        "{} never was within reach: {} {}{}{}.", message.robot,
+        "{} was never in range: {} {}{}{}.", message.robot,
         is_one
             ? "the only frame"
             : fmt::format("the {} of {} frames", best.range ? "nearest" : "strongest", weak.size()),
-        best.range ? fmt::format("came from {:.6g} m, beyond its range of {:.6g} m",
+        best.range ? fmt::format("came from {:.6g} m, beyond the sender's range of {:.6g} m",
                                  best.distance_m, best.range->value)
-                   : fmt::format("came {:.1f} dB below its sensitivity", -best.margin.value),
+                   : fmt::format("came {:.1f} dB below the sensitivity of the receiver",
+                                 -best.margin.value),
         walls_in_words(message, best),
-        off > 0 ? fmt::format("; {} more came while it was off", off) : "");
+        off > 0 ? fmt::format("; {} more came while the robot was off", off) : "");
 }
 
 std::string lost_in_words(const MessageAtRobot& message, const FrameList& lost) {
     constexpr std::pair<Outcome, std::string_view> causes[] = {
         {Outcome::collided, "while other frames were on air"},
-        {Outcome::busy, "while it was sending itself"},
+        {Outcome::busy, "while the robot itself was sending"},
         {Outcome::garbled, "by wrong bits"},
-        {Outcome::not_told, "because the trace has no record of their end"}};
+        {Outcome::not_told, "for an unknown reason, because the trace has no record of the end"}};
     std::string list;
     for (const auto& [outcome, words] : causes) {
         const std::size_t count = with_outcome(message, {outcome}).size();
@@ -262,7 +265,7 @@ std::string lost_in_words(const MessageAtRobot& message, const FrameList& lost) 
         list += list.empty() ? ": " : ", ";
         list += lost.size() == 1 ? std::string(words) : fmt::format("{} {}", count, words);
     }
-    return fmt::format("{} was within reach of {} of {} and lost {}{}.", message.robot, lost.size(),
+    return fmt::format("{} was in range of {} of {}, but lost {}{}.", message.robot, lost.size(),
                        counted(message.frames.size(), "frame"), lost.size() == 1 ? "it" : "them",
                        list);
 }
@@ -271,7 +274,7 @@ std::string lost_in_words(const MessageAtRobot& message, const FrameList& lost) 
 
 std::string sentence(const MessageAtRobot& message) {
     if (message.is_origin) return message.robot + " sent it.";
-    if (message.frames.empty()) return "No other robot ever sent it.";
+    if (message.frames.empty()) return "No other robot ever sent the message.";
     const FrameList got = with_outcome(message, {Outcome::received, Outcome::duplicate});
     if (!got.empty()) return received_in_words(message, *got.front());
     const FrameList lost = with_outcome(
@@ -285,7 +288,7 @@ std::string sentence(const MessageAtRobot& message) {
     }
     if (!with_outcome(message, {Outcome::other_network}).empty()) {
         return fmt::format(
-            "{} is in another network than its senders: it could receive none "
+            "{} is in another network than the senders of the message: it could receive none "
             "of {}.",
             message.robot, all);
     }

@@ -96,8 +96,8 @@ MessageAtRobot message_at_robot(const std::string& path, const LoadedRun& run, s
 
 /// Sentence that explains why the robot received the message or did not receive it. Example:
 ///
-///   E never was within reach: the strongest of 7 frames came 12.3 dB below its sensitivity,
-///   through 2 walls.
+///   E was never in range: the strongest of 7 frames came 12.3 dB below the sensitivity of the
+///   receiver, through 2 walls.
 std::string sentence(const MessageAtRobot& message);
 
 /// Outcome of a frame in words: "collided"; "too far" if a range decided, not a level.

@@ -114,7 +114,8 @@ std::vector<std::string> record_ns2_trace(const std::string& path, const std::st
         "default radio on an open field.");
     sentences.emplace_back(
         "An ns-2 trace contains no lost frames: which robots could have heard a lost frame is not "
-        "shown. Frames last until their first reception, including the time in the queue.");
+        "shown. A frame is shown as lasting until its first reception, which includes its time in "
+        "the queue.");
     return sentences;
 }
 

@@ -195,17 +195,17 @@ std::string RecordedDay::hears_farther(const std::vector<std::string>& set) cons
     constexpr double rounding = 0.5;  // [dB] of places in the trace
     if (missing <= rounding) return "";
     const std::string found = fmt::format(
-        "{} received {} from {:.0f} m at {:.6f} s", run_.robots[farthest->to.index()],
+        "{} received a frame of {} over {:.0f} m at {:.6f} s", run_.robots[farthest->to.index()],
         run_.robots[farthest->from.index()], metres, seconds(farthest->time - start_of_run));
     if (disc)
         return fmt::format(
-            "{}, and the first radio played reaches {:g} m; --as "
+            "{}, but the first radio of the replay reaches only {:g} m; --as "
             "\"propagation.model=disc;propagation.range={:.0f} m\" reaches as far",
             found, disc->range.value, std::ceil(metres));
     const double power = scenario.radio.power.value + std::ceil(missing * 10) / 10;
     return fmt::format(
-        "{}, {:.1f} dB below the sensitivity of the first radio played; --as \"radio.power={:.1f} "
-        "dBm\" reaches as far",
+        "{}, {:.1f} dB below the sensitivity of the first radio of the replay; "
+        "--as \"radio.power={:.1f} dBm\" reaches as far",
         found, missing, power);
 }
 

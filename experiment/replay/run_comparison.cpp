@@ -26,7 +26,7 @@ void check_same_robots(const RecordedRun& a, const std::string& name_a, const Re
         std::mismatch(a.robots.begin(), a.robots.end(), b.robots.begin(), b.robots.end());
     const std::string found =
         a.robots.size() != b.robots.size()
-            ? fmt::format("found {} robots, and {} in {}", b.robots.size(), a.robots.size(), name_a)
+            ? fmt::format("found {} robots, but {} in {}", b.robots.size(), a.robots.size(), name_a)
             : fmt::format("found a robot \"{}\" where {} has \"{}\"", *other, name_a, *one);
     throw InputError({.source = name_b},
                      found +

@@ -134,8 +134,9 @@ std::vector<NodeId> partners_named(const Network& network, const std::vector<std
         if (is_twice || node == robot) {
             throw InputError(
                 Location{fmt::format("{} {}", option, fmt::join(names, ",")), 0, 0, true},
-                is_twice ? fmt::format("\"{}\" twice; expected each robot once", name)
-                         : fmt::format("\"{}\" itself; expected different robots", name));
+                is_twice
+                    ? fmt::format("found \"{}\" twice; expected each robot once", name)
+                    : fmt::format("found \"{}\", the robot itself; expected other robots", name));
         }
         partners.push_back(node);
     }

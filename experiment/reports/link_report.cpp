@@ -142,7 +142,7 @@ std::string why_down(const Network& network, NodeId from, NodeId to, const LinkR
     }
     if (!medium.stations().may_link(from, to)) {
         const Radio &a = link.sender, &b = link.receiver;
-        const std::string gate = "they are in different networks: ";
+        const std::string gate = "the robots are in different networks: ";
         if (a.frequency != b.frequency) {
             return gate + fmt::format("frequency {:g} MHz and {:g} MHz", a.frequency.value / 1e6,
                                       b.frequency.value / 1e6);
@@ -153,7 +153,7 @@ std::string why_down(const Network& network, NodeId from, NodeId to, const LinkR
         return gate + fmt::format("essid \"{}\" and \"{}\"", a.essid, b.essid);
     }
     if (link.range && link.distance_m > link.range->value) {
-        return fmt::format("{:.6g} m, beyond its range of {:.6g} m", link.distance_m,
+        return fmt::format("{:.6g} m, beyond the sender's range of {:.6g} m", link.distance_m,
                            link.range->value);
     }
     return "the received power is below the receiver's sensitivity";

@@ -45,7 +45,7 @@ Admission::Admission(Address address, std::string token)
 std::string Admission::refusal(const WebRequest& request) const {
     const bool knows = !token_.empty() && are_equal(token_in(request.target), token_);
     if (!address_.is_loopback()) {
-        return knows ? "" : "expected ?token=, as this server printed it at its start";
+        return knows ? "" : "expected ?token= with the token that this server printed at its start";
     }
     const std::array<std::string, 4> names = {
         address_.text(), fmt::format("127.0.0.1:{}", address_.port),

@@ -52,8 +52,8 @@ class Robots : public CommandReader {
     }
     NodeId own_robot(const JsonElement& at, NodeId robot) const {
         if (!std::binary_search(own.begin(), own.end(), robot)) {
-            at.fail("not_yours",
-                    fmt::format("robot {} is not among those of your hello", network.name(robot)));
+            at.fail("not_yours", fmt::format("robot {} is not among the robots in your hello",
+                                             network.name(robot)));
         }
         return robot;
     }

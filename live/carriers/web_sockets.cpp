@@ -359,7 +359,7 @@ std::string WebSockets::page_address(const Address& own) const {
 
 std::string WebSockets::token_notice(const Address& own) const {
     return fmt::format("for {}: ws://{}",
-                       own.is_loopback() ? "a page" : "each client, the token in the address",
+                       own.is_loopback() ? "a page" : "each client, with the token in the address",
                        address_with_token(own));
 }
 

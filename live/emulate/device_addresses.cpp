@@ -153,8 +153,8 @@ void DeviceAddresses::check_host(const Addressed& each, Network4 network) {
     if (has_told_made_) return;
     has_told_made_ = true;
     notices_.push_back(
-        fmt::format("robot {}: {}, so that programs cannot reach it; give [radio] a netmask with "
-                    "fewer ones, which is a larger network, such as netmask = \"255.255.0.0\"",
+        fmt::format("robot {}: {}, so programs cannot reach it; give [radio] a netmask with fewer "
+                    "ones (a larger network), such as netmask = \"255.255.0.0\"",
                     each.device.robot, what));
 }
 

@@ -158,7 +158,7 @@ class Keeper {
         const bool may_enter = user && (*user == geteuid() || *user == 0);
         const DescriptorMessage answer =
             may_enter ? DescriptorMessage{.descriptor = namespaces_[listener - 1], .text = folder_}
-                      : DescriptorMessage{.text = "it belongs to a different user"};
+                      : DescriptorMessage{.text = "the run belongs to a different user"};
         if (send_descriptor(client, answer) && may_enter) {
             polled_.push_back({client, POLLIN, 0});
         } else {

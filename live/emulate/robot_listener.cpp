@@ -100,7 +100,8 @@ int open_listener(pid_t run, const std::string& robot) {
         listener.mark = fmt::format(".{}", number);
     }
     throw RunError(
-        fmt::format("listener for the namespace of robot {}: {}", robot, std::strerror(errno)));
+        fmt::format("cannot listen for programs that enter the namespace of robot {}: {}", robot,
+                    std::strerror(errno)));
 }
 
 std::vector<RobotListener> all_listeners() {

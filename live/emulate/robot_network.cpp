@@ -156,7 +156,7 @@ std::string Search::other_users() const {
     const auto& [owner, run] = *others_.begin();
     const std::string words =
         fmt::format("; run {} of user {} has a robot {}", run, user_name(owner), robot_);
-    if (geteuid() != 0) return words + ": only that user and root may enter it";
+    if (geteuid() != 0) return words + ": only this user and root may enter the run";
     return fmt::format(
         "{}: with --user {}, that user can read and change all packets of the program", words,
         owner);
@@ -170,13 +170,14 @@ void Search::fail_of_folder(const Known& all, const std::string& going_on) const
     if (is_meant) return;  // it has no such robot
     if (!fs::is_directory(folder, ignored)) {
         throw std::invalid_argument(fmt::format(
-            "--run {}: there is no such folder; expected the process or the folder of a run{}",
+            "--run {}: there is no such folder; expected the process id or the folder of a run{}",
             folder, going_on));
     }
     const bool has_ended = fs::exists(fs::path(folder) / "summary.json", ignored);
     throw std::invalid_argument(fmt::format(
         "--run {}: {}{}", folder,
-        has_ended ? "this run has ended" : "you have no running emulation there", going_on));
+        has_ended ? "this run has ended" : "you have no running emulation with this folder",
+        going_on));
 }
 
 void Search::fail(bool was_there) const {
@@ -190,7 +191,7 @@ void Search::fail(bool was_there) const {
     }
     if (told > most_told) names += fmt::format(" and {} more", told - most_told);
     for (const Visit& each : all.runs) runs += (runs.empty() ? "" : " or ") + run_text(each);
-    const std::string going_on = runs.empty() ? "" : "; going on: " + runs;
+    const std::string going_on = runs.empty() ? "" : "; running now: " + runs;
     if (wanted_.folder) fail_of_folder(all, going_on);
     if (all.names.empty()) {
         const std::string which =
@@ -201,7 +202,7 @@ void Search::fail(bool was_there) const {
         throw std::invalid_argument(which + other_users());
     }
     throw std::invalid_argument(
-        fmt::format("no robot {}; there are {}{}", robot_, names, other_users()));
+        fmt::format("there is no robot {}; the robots are {}{}", robot_, names, other_users()));
 }
 
 }  // namespace
@@ -227,7 +228,8 @@ void enter_network(const RobotNetwork& network) {
         setns(space, CLONE_NEWNET) == 0) {
         return;
     }
-    throw RunError(fmt::format("namespace of robot {}: {}", network.robot, std::strerror(errno)));
+    throw RunError(fmt::format("cannot enter the namespace of robot {}: {}", network.robot,
+                               std::strerror(errno)));
 }
 
 std::string folder_text(const std::string& folder) {

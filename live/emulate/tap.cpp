@@ -58,8 +58,8 @@ class Devices {
   private:
     void set(unsigned long what, ifreq& device, const char* key) const {
         if (ioctl(socket_, what, &device) == 0) return;
-        throw RunError(fmt::format("robot {}: {} of {}: {}", robot_, key, device.ifr_name,
-                                   std::strerror(errno)));
+        throw RunError(fmt::format("robot {}: cannot set the {} of {}: {}", robot_, key,
+                                   device.ifr_name, std::strerror(errno)));
     }
 
     std::string robot_;

@@ -119,7 +119,7 @@ void Lockstep::check_claims(const HelloRequest& hello) {
                                       [](const auto& each) { return each.hello.seed; });
     if (hello.seed && *hello.seed != seed_ && !is_free) {
         throw RequestError("other_seed", "seed",
-                           fmt::format("found {}; the run has {}", *hello.seed, seed_));
+                           fmt::format("found {}; the seed of the run is {}", *hello.seed, seed_));
     }
 }
 

@@ -75,7 +75,9 @@ void SteppedRun::command(std::size_t row, RobotCommand command) {
     if (!why.empty()) throw std::invalid_argument(fmt::format("{}: {}", name_of(command), why));
     if (const auto* send = std::get_if<SendCommand>(&command)) {
         if (send->to == robots_[row]) {
-            throw std::invalid_argument("send: expected another robot, or none for everyone");
+            throw std::invalid_argument(
+                "send: a robot cannot send to itself; expected another robot, or none for "
+                "everyone");
         }
         messages_.emplace_back(robots_[row], std::move(command));
     } else {

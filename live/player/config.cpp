@@ -187,11 +187,11 @@ std::vector<std::string> mapping_notices(const PlayerConfig& config,
                             fmt::join(strangers, ", "))));
         }
         if (!missing.empty()) {
-            notices.push_back(
-                world_notice(robot.comdriver->where,
-                             fmt::format("mapping leaves out {}; but every robot in range receives "
-                                         "a radio message, so these robots also receive {}",
-                                         fmt::join(missing, ", "), robot.model)));
+            notices.push_back(world_notice(
+                robot.comdriver->where,
+                fmt::format("mapping leaves out {}; but every robot in range receives "
+                            "a radio message, so these robots also receive the messages of {}",
+                            fmt::join(missing, ", "), robot.model)));
         }
     }
     return notices;

@@ -54,8 +54,9 @@ std::pair<RobotCommand, std::string> read_velocity(const JsonElement& message) {
         members(twist, std::array<std::string_view, 2>{"linear", "angular"});
     const Vec3 v = vector_in(linear, drive_speeds), w = vector_in(angular, drive_turns);
     const bool is_plain = v.y == 0 && v.z == 0 && w.x == 0 && w.y == 0;
-    return {DriveCommand{{v.x}, {w.z}},
-            is_plain ? "" : "only linear.x and angular.z count: it drives ahead and turns"};
+    return {DriveCommand{{v.x}, {w.z}}, is_plain ? ""
+                                                 : "only linear.x and angular.z are used, because "
+                                                   "the robot can only drive ahead and turn"};
 }
 
 /// Checks that a pose is told in the world's frame.

@@ -60,7 +60,7 @@ std::string ViewerAnswers::answer(std::string_view question, const Others& other
     Value id;
     try {
         if (question.size() > longest_question)
-            throw RequestError("too_long", "", "a question has at most 64 KiB");
+            throw RequestError("too_long", "", "expected a question of at most 64 KiB");
         const JsonElement asked{parser_->parse(question), {}};
         id = Value(member(asked, "id").whole_number(0, 1U << 31U));
         const std::string_view op = member(asked, "op").text();

@@ -172,11 +172,11 @@ void FcdReader::refuse_degrees() const {
     if (!is_told && !is_so) return;
     throw InputError(
         {.source = tags_.source()},
-        fmt::format("the places are in degrees: {}; expected metres, as SUMO writes them without "
-                    "--fcd-output.geo",
-                    is_told ? "the head of the file states that fcd-output.geo is on"
-                            : "by their speeds the robots move over a thousand times as far as by "
-                              "their positions"));
+        fmt::format(
+            "the positions are in degrees: {}; expected metres, as SUMO writes them without "
+            "--fcd-output.geo",
+            is_told ? "the head of the file states that fcd-output.geo is on"
+                    : "the speeds give paths over a thousand times as long as the positions do"));
 }
 
 /// Adds the path from the previous position to both sums, if the speed is given.
@@ -256,7 +256,7 @@ void FcdReader::read_robot() {
     const Word id = needed("id");
     sighting.robot = robot_of(id);
     State& state = states_[sighting.robot];
-    if (state.step == step_) fail_at(tags_.where(), id, "each id once in a timestep");
+    if (state.step == step_) fail_at(tags_.where(), id, "each id only once in a timestep");
     if (!scanned_ && state.step == 0) {
         robots[sighting.robot].start = sighting.at;
         robots[sighting.robot].appears = time_;

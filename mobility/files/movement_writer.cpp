@@ -104,7 +104,8 @@ void append_field(std::string& text, const Box& box) {
            std::floor(std::max(box.high.x, 0.0)) + 1, std::floor(std::max(box.high.y, 0.0)) + 1);
     if (box.low.x <= 0 || box.low.y <= 0) {
         append(text,
-               "# and at one with x or y not above 0; here the least are x {:.2f}, y {:.2f}\n",
+               "# and at a target with x or y not above 0; the least x here is {:.2f}, the least y "
+               "{:.2f}\n",
                box.low.x, box.low.y);
     }
 }

@@ -42,7 +42,8 @@ struct Aloha {
     static constexpr auto fields() {
         constexpr Range counts{.low = 1, .high = 1000000, .text = "from 1 to 1000000"};
         return describe(
-            field("slot", &Aloha::slot, non_negative, "frames start at multiples of this time"),
+            field("slot", &Aloha::slot, non_negative,
+                  "frames start only at multiples of this time"),
             field("queue", &Aloha::queue, counts, "largest number of frames that wait at a robot"),
             field("priority", &Aloha::priority, "packets of the routing protocol go first"));
     }

@@ -19,7 +19,7 @@ Shadowed::Shadowed(Propagation base, const Shadowing& shadowing, std::uint64_t s
     check_fields(shadowing, "shadowing");
     if (base_.is_random()) {
         throw std::invalid_argument("shadowing: " + std::string(base_.name()) +
-                                    " has a random part of its own; expected sigma = 0 dB");
+                                    " draws random losses of its own; expected its sigma = 0 dB");
     }
     if (shadowing.model == ShadowingModel::field) {
         field_.emplace(shadowing.decorrelation_distance, seed, replication);

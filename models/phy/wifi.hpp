@@ -108,7 +108,8 @@ struct Wifi {
     static constexpr auto fields() {
         return describe(field("framing", &Wifi::framing,
                               "standard by whose symbols and fields the duration of a frame is "
-                              "computed; without a standard, a frame lasts as long as its bits"));
+                              "computed; without a standard, the duration is the number of bits "
+                              "divided by the bit rate"));
     }
 
     /// Functions of a physical layer, see PhysicalLayer.

@@ -109,7 +109,7 @@ void ItuIndoor::check_frequency(Hertz f) const {
     if (!environment) {
         if (floors.value_or(0) > 0) {
             throw std::invalid_argument(
-                "itu_indoor: floors needs an environment, which gives the loss of a floor");
+                "itu_indoor: the key floors needs an environment, which gives the loss of a floor");
         }
         return;
     }
@@ -127,7 +127,7 @@ void ItuIndoor::check_frequency(Hertz f) const {
             "itu_indoor: no loss of {} floors for environment \"{}\" at {} MHz; the table has "
             "floor losses at {}{}",
             *floors, env, mhz, frequencies(floor_losses, *environment),
-            row ? fmt::format(", there of at most {}", row->most_floors) : ""));
+            row ? fmt::format(", for up to {} floors", row->most_floors) : ""));
     }
 }
 

@@ -42,7 +42,7 @@ struct LogDistance {
                   "standard deviation of the link's shadowing; 0 for the median")
                 .spread(),
             field("reference_distance", &LogDistance::reference_distance, positive,
-                  "d0; at shorter distances the median loss is that at d0"),
+                  "d0; the median loss at shorter distances equals the loss at d0"),
             field("excess", &LogDistance::excess,
                   "loss at d0 in addition to that of free space; a fit determines it")
                 .constant(far_from_zero));

@@ -68,7 +68,8 @@ struct MultiWall {
             field("floor_loss", &MultiWall::floor_loss, non_negative, "loss of one floor"),
             field("floor_saving", &MultiWall::floor_saving,
                   Range{.low = 0, .high = 1, .text = "from 0 to 1"},
-                  "b: further floors have less loss than the first one; 0: the same loss"));
+                  "b: how much less loss each further floor has than the first one; 0: the same "
+                  "loss"));
     }
 
     LossShape shape() const { return LossShape::by_walls; }

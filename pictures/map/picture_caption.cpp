@@ -56,9 +56,9 @@ std::string storey_text(const Scene& scene, std::size_t storey) {
 std::string presence_text(Presence presence) {
     switch (presence) {
         case Presence::on: return "";
-        case Presence::off: return ", which is switched off, as if it were on";
-        case Presence::not_departed: return ", which has not departed, as if it had";
-        case Presence::left: return ", which has left, as if it were there";
+        case Presence::off: return " (switched off, drawn as if it were on)";
+        case Presence::not_departed: return " (not departed yet, drawn as if it had departed)";
+        case Presence::left: return " (has left, drawn as if it were present)";
     }
     return "";
 }

@@ -43,7 +43,7 @@ std::string LastSearch::text(const Network& network) const {
                        : "no request so far";
     }
     if (senders_.size() == 1) {
-        return fmt::format("last request of {}: sent by nobody else, at {:.2f} s",
+        return fmt::format("last request of {}: forwarded by no robot, sent at {:.2f} s",
                            network.name(from_), seconds(begin_));
     }
     return fmt::format("last request of {}: sent by {} robots from {:.2f} s to {:.2f} s",

@@ -129,7 +129,7 @@ std::string simulator_name_hint(std::string_view word, const std::vector<std::st
     for (const auto& [among, names] : missing)
         if (contains(names, name) && contains(choices, among))
             return fmt::format(
-                "{} is not there: \"rovernet help not-there\" lists what to use instead", word);
+                "{} is not available: \"rovernet help not-there\" lists what to use instead", word);
     return "";
 }
 

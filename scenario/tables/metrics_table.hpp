@@ -34,7 +34,7 @@ struct MetricsTable {
         return describe(
             field("reach", &MetricsTable::reach,
                   "compute the metric reach; if not given, it is computed as long as this takes no "
-                  "longer than the frames themselves"),
+                  "longer than the simulation of the frames"),
             field("flows", &MetricsTable::flows,
                   "compute delivery, throughput and latency of each flow"),
             field("robots", &MetricsTable::robots,

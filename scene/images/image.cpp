@@ -168,7 +168,7 @@ Image read_image(const std::string& path) {
     if (start.starts_with("GIF8")) return read_by_library(path, file.get(), "GIF");
     image_error(path,
                 fmt::format("{}; expected {}; convert it to PNG",
-                            count == 0 ? "an empty file" : "no picture of a kind that is read",
+                            count == 0 ? "an empty file" : "not a picture in a supported format",
                             expected_kinds));
 }
 

@@ -165,8 +165,11 @@ void Builder::add_bitmap(const WorldProperty& bitmap, const Body& body) {
     if (!path) return;
     OccupancyGrid grid = drawing(*path, bitmap.where);
     if (grid.cells.empty()) {
-        return note(bitmap.where,
-                    fmt::format("bitmap \"{}\" has no pixel at or below 127; no walls", *path));
+        return note(
+            bitmap.where,
+            fmt::format(
+                "bitmap \"{}\" has no pixel with a grey level of at most 127, so it has no walls",
+                *path));
     }
     grid.cell_width = body.size.x / grid.columns;
     grid.cell_height = body.size.y / grid.rows;
@@ -226,7 +229,7 @@ std::optional<std::string> Builder::picture(const WorldProperty& bitmap) {
 void Builder::add_outlines(std::vector<WallPolygon> outlines, const Body& body) {
     const Location where = outlines.front().where;
     if (!fit(outlines, body.size)) {
-        return note(where, "the outlines of a model have no area; no walls");
+        return note(where, "the outlines of a model have no area, so it has no walls");
     }
     for (const auto& outline : outlines) {
         const Extent extent = extent_of(outline.points);

@@ -213,7 +213,7 @@ void WorldScanner::reject_character() const {
         case '<':
             fail(at_,
                  "found \"<\"; expected a world of Stage; is this XML, such as a world of "
-                 "Gazebo? rovernet reads none");
+                 "Gazebo? rovernet cannot read XML worlds");
         case '/': fail(at_, "found \"/\"; expected a key or a value; a comment begins with #");
         default: break;
     }

@@ -94,7 +94,7 @@ void Loader::enter(const std::string& path, const Location& where) {
     }
     if (open_.size() > deepest_include) {
         throw InputError(where, fmt::format("includes are more than {} deep; expected fewer; "
-                                            "include the file from the top one",
+                                            "include the file directly in the top file",
                                             deepest_include));
     }
     if (out_.files.size() >= most_files) {

@@ -154,8 +154,8 @@ void add_costs(Advice& advice, Study& study, const std::function<bool()>& stoppe
     if (!costs.models.empty()) {
         advice.cost_text = fmt::format(
             "CPU/transmission: time that the medium takes to find the receivers of a transmission; "
-            "median of {} turns of {:.2g} s over the same {} frames\nof run: its share of CPU/run, "
-            "which is the median of {} replications, without path planning",
+            "median of {} turns of {:.2g} s over the same {} frames\nof run: share of the medium "
+            "in CPU/run; CPU/run is the median of {} replications, without path planning",
             costs.turns, costs.turn_s, costs.frames, runs.replications);
     }
 }

@@ -229,7 +229,8 @@ Chart study_chart(const Store& store, const ChartQuestion& question) {
     }
     if (q.beside.empty()) return chart;
     if (chart.kind != ChartKind::lines || !numbers) {
-        throw std::invalid_argument("--beside: expected a chart of lines, with numbers on x");
+        throw std::invalid_argument(
+            "--beside: expected a chart of lines, with numbers along the x axis");
     }
     add_marks(chart, q.beside,
               {.x = question.x, .unit = numbers->unit, .by = question.by, .y = q.y});

@@ -38,7 +38,9 @@ Chart table_chart(const std::string& path, const ChartQuestion& q) {
     if (kind != ChartKind::bars && (kind != ChartKind::lines || !numbers)) {
         throw std::invalid_argument(
             kind == ChartKind::lines
-                ? fmt::format("--kind: the column {} has words, so lines have no x values", q.x)
+                ? fmt::format(
+                      "--kind: the column {} contains words, so it gives no x values for lines",
+                      q.x)
                 : "--kind: a table can only be drawn as lines or bars");
     }
     Chart chart{.kind = kind,

@@ -231,7 +231,7 @@ void refuse_absurd(std::vector<CalibratedModel>& models, Dbm given_power) {
                     most_db, given_power.value);
             } else if (p.is_constant && p.determined && std::abs(p.value) > most_db) {
                 model.refusal = fmt::format(
-                    "its {} of {} dB is more than {} dB: is the power of [radio] right?", p.key,
+                    "its {} of {} dB is more than {} dB; is the power in [radio] right?", p.key,
                     told_apart(p.value, p.value > 0 ? most_db : -most_db, 1), most_db);
             }
         }
@@ -240,8 +240,7 @@ void refuse_absurd(std::vector<CalibratedModel>& models, Dbm given_power) {
         if (!model.refusal.empty()) continue;
         if (error > much * friis && error > friis + more_db) {
             model.refusal = fmt::format(
-                "its error of {:.1f} dB is far above the {:.1f} dB of free space with its own "
-                "constant",
+                "its error of {:.1f} dB is far above the {:.1f} dB of friis with a fitted constant",
                 error, friis);
         } else if (error > nothing_db) {
             model.refusal = fmt::format(
@@ -323,9 +322,10 @@ void check_transmitters(const KnownLinks& known, const std::string& path) {
     if (places.size() >= fewest && places.size() <= most) return;
     throw InputError(
         {path, 0, 0},
-        fmt::format("found {} transmitter position{}; expected {} to {} for gains that differ{}",
-                    places.size(), places.size() == 1 ? "" : "s", fewest, most,
-                    places.size() > most ? "; are from and to exchanged?" : ""));
+        fmt::format(
+            "found {} transmitter position{}; expected {} to {} of them to fit a gain for each{}",
+            places.size(), places.size() == 1 ? "" : "s", fewest, most,
+            places.size() > most ? "; are from and to exchanged?" : ""));
 }
 
 }  // namespace

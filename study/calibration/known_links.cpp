@@ -206,7 +206,7 @@ LinkSample::LinkSample(const Scenario& scenario, Propagation reference, const Sa
                        .losses = {},
                        .network = {}}) {
     state_->size.replications = 0;
-    refuse_doors(scenario.scene, "a sample (of fit, probe or advise)");
+    refuse_doors(scenario.scene, "a sample of links (for fit, probe or advise)");
 }
 
 LinkSample::~LinkSample() = default;
@@ -219,10 +219,10 @@ KnownLinks LinkSample::grow(std::uint32_t replications, const std::function<void
     }
     const std::vector<RobotPair>& pairs = s.pairs.kept();
     if (pairs.empty()) {
-        throw InputError(
-            {s.played.file, 0, 0},
-            fmt::format("no two robots come within the range of {}, so there are no links",
-                        s.reference.name()));
+        throw InputError({s.played.file, 0, 0},
+                         fmt::format("by the model {}, no two robots come within range of each "
+                                     "other, so there are no links",
+                                     s.reference.name()));
     }
     KnownLinks out;
     out.seed = s.played.scenario.seed;

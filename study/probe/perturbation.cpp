@@ -55,8 +55,8 @@ void add_redrawings(const Scenario& scenario, std::vector<Perturbation>& out) {
         Redrawing redraw;
     };
     constexpr Kind kinds[] = {
-        {"resolution x2", "there is no cell to split", split_cells},
-        {"resolution x0.5", "there are no cells to join", join_cells},
+        {"resolution x2", "the map has no cell to split", split_cells},
+        {"resolution x0.5", "the map has no cells to join", join_cells},
         {"walls outlined", "no wall is three cells thick", outline_walls},
         {"walls filled", "no wall is hollow", fill_usual_walls},
     };

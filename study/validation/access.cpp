@@ -125,8 +125,8 @@ void check_access(Promises& promises) {
         "throughput of 1 to 20 saturated stations, against Bianchi's model, relative error", "",
         0.012, 0, 0};
     Promise collisions{
-        "share of the frames of these stations that collide, against Bianchi's model", "", 0.012, 0,
-        0};
+        "share of the frames of 1 to 20 saturated stations that collide, against Bianchi's model",
+        "", 0.012, 0, 0};
     for (const int n : {1, 5, 20}) {
         const CellErrors errors = cell_errors(n);
         throughput.add(errors.throughput);

@@ -152,7 +152,8 @@ Promise seen_levels() {
 
 /// Wrong decisions of the disc that was found, beyond those of the best of all.
 Promise discs() {
-    Promise out{"wrong decisions of the fitted disc, beyond those of the best disc", "", 0, 0, 0};
+    Promise out{"wrong decisions of the fitted disc, in excess of those of the best disc", "", 0, 0,
+                0};
     for (std::uint64_t set = 0; set < 20; ++set) {
         std::vector<DiscLink> links;
         for (std::uint64_t i = 0; i < 40; ++i) {

@@ -27,7 +27,8 @@ Validation validate(const ValidationSize& size, const std::optional<std::string>
         begin("measured buildings");
         out.charts.push_back(measured_chart(*field, size, out.promises));
     } else {
-        out.left_out.push_back("measured buildings are read from the folder that --field names");
+        out.left_out.push_back(
+            "models in measured buildings, because --field names no folder of measured levels");
     }
     begin("path loss models on three scenes");
     for (ValidationChart& chart : path_loss_charts(size, field))

@@ -100,7 +100,9 @@ TEST_CASE(
     CHECK(summary["scenario"]["radio"]["sensitivity"] == "-75 dBm");
 }
 
-TEST_CASE("run: files of the user in an existing results folder stay, and our files are replaced") {
+TEST_CASE(
+    "run: in an existing results folder, files of the user stay, and files of rovernet are "
+    "replaced") {
     const TemporaryFolder folder;
     const std::string out = folder.path("out");
     fs::create_directory(out);
@@ -130,7 +132,9 @@ TEST_CASE("run: a different --set gives a results folder with a name of its own"
     }
 }
 
-TEST_CASE("run: the printed scenario and scenario.toml in the folder give the same fingerprint") {
+TEST_CASE(
+    "run: runs of the printed scenario and of scenario.toml in the folder have the same "
+    "fingerprint") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", relay), out = folder.path("out");
     const auto fingerprint = [&](const std::string& scenario) {
@@ -259,7 +263,7 @@ TEST_CASE("loss --heights: the loss between antennas 1.5 m high equals the test 
     CHECK(command(folder, {"loss", "friis", "--distance", "1", "--heights", "1,2,3"}).exit == 2);
 }
 
-TEST_CASE("loss: several models have a column each, and curves in a picture") {
+TEST_CASE("loss: several models are printed in a column each, and drawn as a curve each") {
     const TemporaryFolder folder;
     const std::vector<std::string> models = {"loss", "friis", "log_distance", "exponent=4", "disc"};
     const auto with = [&](std::vector<std::string> words, std::size_t number) {
@@ -295,7 +299,7 @@ TEST_CASE("loss: several models have a column each, and curves in a picture") {
     }
 }
 
-TEST_CASE("link --json prints the budget of a link and the walls on it") {
+TEST_CASE("link --json prints the budget of a link and the walls that the link crosses") {
     const TemporaryFolder folder;
     const png_byte w = 255;
     folder.write(
@@ -373,8 +377,9 @@ radio = { sensitivity = "0 dBm" }
         return json_of(folder, {"link", file, "A", to, "--set", set})["why_down"];
     };
     CHECK(why("B", "robot.B.radio.frequency=5.2 GHz") ==
-          "they are in different networks: frequency 2450 MHz and 5200 MHz");
-    CHECK(why("B", "robot.B.radio.channel=7") == "they are in different networks: channel 0 and 7");
+          "the robots are in different networks: frequency 2450 MHz and 5200 MHz");
+    CHECK(why("B", "robot.B.radio.channel=7") ==
+          "the robots are in different networks: channel 0 and 7");
     CHECK(why("deaf", "scenario.seed=2") ==
           "the received power is below the receiver's sensitivity");
 }
@@ -475,7 +480,9 @@ TEST_CASE("a run that needs more events than allowed exits with 1 and leaves no 
     CHECK(names_in(folder.path("out")).empty());
 }
 
-TEST_CASE("a message storm ends with an error that explains it; results of an earlier run stay") {
+TEST_CASE(
+    "a run with a message storm ends with an error that explains the storm; results of an earlier "
+    "run stay") {
     const TemporaryFolder folder;
     const std::string out = folder.path("out");
     const std::string calm = folder.write("s.toml", R"([scenario]
@@ -514,7 +521,9 @@ ns2 = "new"
     }
 }
 
-TEST_CASE("run: with range 0 no message arrives; a negative range is an error with its position") {
+TEST_CASE(
+    "run: with range 0 no message arrives; a negative range is refused, and the error has its "
+    "line") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", relay), out = folder.path("out");
     const Json run = json_of(folder, {"run", file, "--out", out, "--set", "propagation.range=0 m"});
@@ -540,8 +549,8 @@ TEST_CASE("a run whose results cannot be written exits with 1, and the message n
 }
 
 TEST_CASE(
-    "trace: by diff a converted trace has no difference and a cut one has; follow describes a "
-    "message") {
+    "trace: diff finds no difference in a converted trace, but one in a cut trace; follow "
+    "describes a message") {
     const TemporaryFolder folder;
     const std::string out = folder.path("out"), trace = out + "/trace.tr";
     json_of(folder, {"run", folder.write("s.toml", relay), "--out", out, "--set", "trace.ns2=old",

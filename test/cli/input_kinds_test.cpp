@@ -67,7 +67,8 @@ const std::string loop = "a loop of symbolic links", device = "a device, not a r
 }  // namespace
 
 TEST_CASE(
-    "input kinds: a symlink loop or an endless device is refused as scenario, trace or levels") {
+    "input kinds: a symlink loop or an endless device is refused as a scenario, trace or file of "
+    "levels") {
     const Inputs in;
     const std::string one_toml = in.path("one.toml");
     for (const Kind& kind : {Kind{"loop.tr", loop}, Kind{"/dev/zero", device}}) {
@@ -100,7 +101,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("input kinds: wrong kinds of files named in a scenario are refused") {
+TEST_CASE("input kinds: a scenario that names a file of a wrong kind is refused") {
     const Inputs in;
     for (const auto& each : std::vector<std::pair<std::string, std::string>>{
              {"[scene]\nmap = \"loop.png\"\n", loop},
@@ -117,7 +118,8 @@ TEST_CASE("input kinds: wrong kinds of files named in a scenario are refused") {
     }
 }
 
-TEST_CASE("input kinds: a FIFO without a writer ends with an error, and a FIFO is not a store") {
+TEST_CASE(
+    "input kinds: reading a FIFO without a writer is an error, and a FIFO is refused as a store") {
     const Inputs in;
     REQUIRE(mkfifo(in.path("fifo").c_str(), 0600) == 0);
     const std::string fifo = in.path("fifo"), one_toml = in.path("one.toml");
@@ -142,7 +144,9 @@ TEST_CASE("input kinds: levels are read from a pipe like from a file") {
     CHECK(by_pipe.out == in.run({"fit", in.path("one.toml"), "--links", levels}).out);
 }
 
-TEST_CASE("input kinds: movements beyond the longest run are an error with its position") {
+TEST_CASE(
+    "input kinds: movements that end after the longest possible run are refused, with line and "
+    "column") {
     const Inputs in;
     const std::string tcl = in.folder.write(
                           "late.tcl",

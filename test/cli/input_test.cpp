@@ -35,7 +35,7 @@ bool contains(const std::string& text, const std::string& words) {
 
 }  // namespace
 
-TEST_CASE("input: - reads the scenario from standard input, in every command with a FILE") {
+TEST_CASE("input: every command with a FILE reads the scenario from standard input if FILE is -") {
     const TemporaryFolder folder;
     folder.write("s.toml", two);
     const Ended piped = with_input(folder, two, "run - --out out");
@@ -59,7 +59,8 @@ TEST_CASE("input: paths in a scenario from standard input are relative to the cu
     CHECK(contains(ended.out, "n0"));
 }
 
-TEST_CASE("input: an error in standard input has its line; a store needs a name") {
+TEST_CASE(
+    "input: an error in a scenario from standard input has a line; sweep then needs --store") {
     const TemporaryFolder folder;
     const Ended wrong = with_input(folder, "[radio]\npower = 15\n", "run -");
     CHECK(wrong.exit == 3);
@@ -125,7 +126,7 @@ TEST_CASE("input: an impossible number in an option is an error in plain words")
     CHECK(memory.exit == 0);
 }
 
-TEST_CASE("input: compare names the robots that have their own propagation model") {
+TEST_CASE("input: compare prints the names of the robots that have their own propagation model") {
     const TemporaryFolder folder;
     const std::string own =
         "[[robot]]\nname = \"C\"\nat = [\"5 m\", \"0 m\"]\npropagation = { model = \"two_ray\" }\n";

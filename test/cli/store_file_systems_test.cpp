@@ -199,7 +199,9 @@ TEST_CASE("store: files left by a killed sweep are read and taken over on any fi
     }
 }
 
-TEST_CASE("store: a lock of another machine blocks the store until it is removed, and is named") {
+TEST_CASE(
+    "store: a lock of another machine blocks the store until removed, and the error names the "
+    "lock") {
     const Place place;
     const std::string lock = place.folder.write("s.db.lock", "12 34 elsewhere\n");
     for (const char* lacks : {"nothing", "whole"}) {

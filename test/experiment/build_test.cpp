@@ -34,7 +34,8 @@ const std::string three =
 
 }  // namespace
 
-TEST_CASE("build: a random waypoint that does not start in its steady state gives a notice") {
+TEST_CASE(
+    "build: a random_waypoint movement that does not start in its steady state gives a notice") {
     const std::string model =
         "move = { model = \"random_waypoint\", min_speed = \"1 m/s\", max_speed "
         "= \"20 m/s\", area = [[\"0 m\", \"0 m\"], [\"9 m\", \"9 m\"]]";
@@ -68,7 +69,7 @@ TEST_CASE("build: a different replication draws different positions") {
     CHECK(built.at("r0") != other.at("r0"));
 }
 
-TEST_CASE("build: the placement model `choice` puts a robot at one of its points") {
+TEST_CASE("build: the placement model `choice` puts a robot at one of the listed points") {
     Built built(
         "[[robot]]\nname = \"A\"\nplace = { model = \"choice\", points = [[\"1 m\", "
         "\"2 m\"], [\"3 m\", \"4 m\"]] }\n");

@@ -69,7 +69,7 @@ TEST_CASE(
     CHECK_FALSE(far.up);
     REQUIRE(far.range);
     CHECK(far.range->value == 100);
-    CHECK(far.why_down == "150 m, beyond its range of 100 m");
+    CHECK(far.why_down == "150 m, beyond the sender's range of 100 m");
     const LinkReport near = report_link(scenario, "A", "D", start_of_run);
     CHECK(near.up);
     CHECK(near.range);
@@ -99,15 +99,17 @@ TEST_CASE("disc: the link table of a robot has distances and no levels") {
     });
 }
 
-TEST_CASE("disc: the reason for a missed message is a distance, and a capture has no levels") {
+TEST_CASE("disc: a missed message is explained by the distance, and a capture has no levels") {
     const TempFolder folder;
     run_scenario(line(disc), {.folder = folder / "run", .speed = {}});
     const std::string trace = folder / "run/trace.mcap";
     const MessageAtRobot far = message_at_robot(trace, 0, NodeId{1});
     CHECK(sentence(far) ==
-          "B never was within reach: the only frame came from 150 m, beyond its range of 100 m.");
+          "B was never in range: the only frame came from 150 m, beyond the sender's range of 100 "
+          "m.");
     const MessageAtRobot near = message_at_robot(trace, 0, NodeId{2});
-    CHECK(sentence(near).find("came over 60 m, within its range of 100 m") != std::string::npos);
+    CHECK(sentence(near).find("came over 60 m, within the sender's range of 100 m") !=
+          std::string::npos);
     CHECK(sentence(near).find("dB") == std::string::npos);
     REQUIRE(near.frames.size() == 1);
     CHECK(near.frames[0].distance_m == 60);

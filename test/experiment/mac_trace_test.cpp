@@ -147,7 +147,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "MAC trace: MAC lines only add to the trace, and the metrics read from it equal those of the "
+    "MAC trace: MAC lines change no other line, and metrics read from the trace equal those of the "
     "run") {
     for (const Ns2Format format : {Ns2Format::old_format, Ns2Format::new_format}) {
         for (const AccessModel& access : accesses) {
@@ -260,7 +260,8 @@ TEST_CASE("MAC trace: a broadcast has a line at its sender and at each robot tha
     CHECK(count(text, " MAC ") == 3);
 }
 
-TEST_CASE("MAC trace: with an access model without a header, a frame is as large as its message") {
+TEST_CASE(
+    "MAC trace: with an access model that adds no header, a frame is as large as its message") {
     const auto unicast = [](Network& net) { net.send({1}, {2}, "", {.size = 64}); };
     for (const AccessModel& access : {AccessModel{NoAccess{}}, AccessModel{Aloha{}}}) {
         const std::string text = row(access, unicast);

@@ -20,7 +20,8 @@ namespace many_robots_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 
-TEST_CASE("many robots: in the flood bench, a robot at rest takes less than 164 bytes") {
+TEST_CASE(
+    "many robots: in the flood benchmark, a robot at rest takes less than 164 bytes of memory") {
     // Nearly a power of two: most lists grow to the next.
     const auto row = flood_bench({.cpu_s = 1e-9}, 32'000);
     CHECK(row.receptions > 32'000);
@@ -28,8 +29,8 @@ TEST_CASE("many robots: in the flood bench, a robot at rest takes less than 164 
 }
 
 TEST_CASE(
-    "many robots: in the flood bench, a robot that moves by random waypoint takes less than 350 "
-    "bytes") {
+    "many robots: in the flood benchmark, a random waypoint robot takes less than 350 bytes of "
+    "memory") {
     // The queue's buckets that are not full take 16 bytes a robot here; of a million robots one
     // takes 312 bytes in all.
     const auto row =
@@ -38,7 +39,8 @@ TEST_CASE(
     CHECK(row.bytes_per_node < 350);
 }
 
-TEST_CASE("many robots: a callback may add robots, and other callbacks of its robot still run") {
+TEST_CASE(
+    "many robots: a callback may add robots, and other callbacks of the same robot still run") {
     Network net({.propagation = Disc{.range = {100}}});
     net.route(Flood{});
     net.add({.name = "base", .at = {}});
@@ -78,7 +80,7 @@ TEST_CASE("many robots: reserving memory does not change the run") {
     CHECK(places[0] == places[1]);
 }
 
-TEST_CASE("many robots: each robot keeps its own body") {
+TEST_CASE("many robots: each robot moves at its own top speed") {
     Network net;
     for (int i = 0; i < 9; ++i) {
         net.add({.name = {},

@@ -60,7 +60,8 @@ struct Played {
 
 }  // namespace
 
-TEST_CASE("movement file: it is played as written, whatever the robot's top speed and turn rate") {
+TEST_CASE(
+    "movement file: robots move exactly as in the file, whatever their top speed and turn rate") {
     for (const Format& format : formats) {
         for (const std::string keys :
              {"", "top_speed = \"1 m/s\"\n", "turn_rate = \"10 deg/s\"\n",
@@ -94,7 +95,9 @@ TEST_CASE("movement file: a [[robot]] with a count may describe robots that the 
     CHECK(network->robot(*network->find("n1")).radius == 3_m);
 }
 
-TEST_CASE("movement file: the robots that it moves may have another place in a Stage world") {
+TEST_CASE(
+    "movement file: a robot moves as in the file, even if a Stage world gives it another "
+    "position") {
     const TemporaryFolder folder;
     folder.write("m.movements", "0 0 0 10 20 0\n");
     folder.write("w.world", "position ( name \"n0\" pose [5 6 0] )\n");
@@ -113,7 +116,8 @@ TEST_CASE("movement file: the robots that it moves may have another place in a S
     CHECK(idle(load_scenario(own, {})) == 1);
 }
 
-TEST_CASE("movement file: a robot that a program commands has left the file for good") {
+TEST_CASE(
+    "movement file: after a motion command of a program, a robot no longer follows the file") {
     const Format walk{"m.movements", "n0", "0 0 0 4 4 0 6 4 0 10 4 4\n"};
     const Played played(walk, "");
     const auto x_after_12_s = [&](const RobotCommand& command) {
@@ -133,7 +137,8 @@ TEST_CASE("movement file: a robot that a program commands has left the file for 
     CHECK(std::abs(x_after_12_s(SendCommand{.payload = "x", .one_hop = true}) - 4) < rounding);
 }
 
-TEST_CASE("movement file: a reaction takes a robot out of the file, as it replaces any movement") {
+TEST_CASE(
+    "movement file: after a reaction that stops or moves a robot, it no longer follows the file") {
     const Format walk{"m.movements", "n0", "0 0 0 4 4 0 6 4 0 10 4 4\n"};
     for (const auto& [reaction, x] :
          {std::pair<std::string, double>{"stop = true", 1},
@@ -144,7 +149,7 @@ TEST_CASE("movement file: a reaction takes a robot out of the file, as it replac
     }
 }
 
-TEST_CASE("movement file: a commanded robot stays on when the file ends its presence") {
+TEST_CASE("movement file: a robot under command stays present when the file removes it") {
     const Format bus{"m.xml", "bus",
                      "<fcd-export><timestep time=\"1\"><vehicle id=\"bus\" x=\"5\" y=\"0\"/>"
                      "</timestep><timestep time=\"4\"><vehicle id=\"bus\" x=\"8\" y=\"0\"/>"

@@ -52,7 +52,7 @@ std::pair<std::uint64_t, std::uint64_t> through(double success_rate, bool crowd,
 
 }  // namespace
 
-TEST_CASE("gate: links need the same essid, and \"any\" joins all") {
+TEST_CASE("gate: two radios are linked only if their essids are equal or one essid is \"any\"") {
     CHECK(links_between({.essid = "x"}, {.essid = "x"}) == 2);
     CHECK(links_between({.essid = "x"}, {.essid = "y"}) == 0);
     CHECK(links_between({.essid = "x"}, {.essid = "any"}) == 2);
@@ -78,7 +78,7 @@ TEST_CASE("success rate: the same frames are received under every reception mode
 }
 
 TEST_CASE(
-    "success rate: the given share of frames is received, and the other frames are dropped as "
+    "success rate: the given share of frames is received, and other frames are dropped with reason "
     "ERR") {
     for (const double rate : {0.3, 0.9}) {
         const auto [delivered, errors] = through(rate, false);

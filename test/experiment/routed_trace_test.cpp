@@ -60,8 +60,8 @@ std::string from_size(const std::string& line) {
 
 // The lines of ns-2.35 for its DSR are "r RTR cbr 108" and "r AGT cbr 64".
 TEST_CASE(
-    "ns-2 trace of DSR: the destination's router receives, its application gets the message "
-    "alone") {
+    "ns-2 trace of DSR: the destination has two lines, of the packet at the router and the message "
+    "at the agent") {
     const std::string text = trace_of("protocol = \"dsr\"\n", 4);
     const auto router = lines_with(text, "^r .* _3_ RTR .* cbr "),
                agent = lines_with(text, "^r .* _3_ AGT ");
@@ -71,7 +71,9 @@ TEST_CASE(
     CHECK(from_size(agent[9]) == "64 [d5 3 2 800] ------- [0:0 3:0 30 3] [9] 3 0");
 }
 
-TEST_CASE("ns-2 trace of AODV: the destination has one line, with the header, as in ns-2") {
+TEST_CASE(
+    "ns-2 trace of AODV: the destination has one line, of the agent, whose size includes the "
+    "header, as in ns-2") {
     const std::string text = trace_of("protocol = \"aodv\"\n", 4);
     CHECK(lines_with(text, "^r .* _3_ RTR .* cbr ").empty());
     const auto agent = lines_with(text, "^r .* _3_ AGT ");
@@ -80,7 +82,8 @@ TEST_CASE("ns-2 trace of AODV: the destination has one line, with the header, as
 }
 
 // ns-2.35 has the same fields in both lines; its duration is 13a, as it acknowledges at 1 Mbit/s.
-TEST_CASE("ns-2 trace: a message whose next hop is gone is dropped with the frame of the attempt") {
+TEST_CASE(
+    "ns-2 trace: if the next hop is gone, the drop lines have the MAC header of the failed frame") {
     const std::string text = trace_of("protocol = \"aodv\"\n", 5, "off = [\"4.9 s\"]\n");
     const auto lost = lines_with(text, "^D .* _2_ (MAC  RET|RTR  CBK) .* cbr ");
     REQUIRE(lost.size() == 2);
@@ -89,7 +92,8 @@ TEST_CASE("ns-2 trace: a message whose next hop is gone is dropped with the fram
     }
 }
 
-TEST_CASE("ns-2 trace: a reply that is forwarded has the MAC header with which it came") {
+TEST_CASE(
+    "ns-2 trace: the line of a forwarded reply has the MAC header with which the reply arrived") {
     for (const char* protocol : {"protocol = \"aodv\"\n", "protocol = \"dsr\"\n"}) {
         CAPTURE(protocol);
         const std::string text = trace_of(protocol, 4);
@@ -102,7 +106,7 @@ TEST_CASE("ns-2 trace: a reply that is forwarded has the MAC header with which i
 }
 
 TEST_CASE(
-    "ns-2 trace: a message that waits at the end has the TTL with which it was sent, and no next "
+    "ns-2 trace: the drop line of a message that waits at the end has its original TTL and no next "
     "hop") {
     const std::string text = trace_of("protocol = \"dsr\"\n", 5, "off = [\"4.9 s\"]\n");
     const auto held = lines_with(text, "^D .* RTR  END ");
@@ -110,7 +114,9 @@ TEST_CASE(
     for (const std::string& line : held) CHECK(line.find(" [0:0 4:0 32 0] ") != line.npos);
 }
 
-TEST_CASE("ns-2 trace: a line of ARP in the old format ends with the bracket, as in ns-2") {
+TEST_CASE(
+    "ns-2 trace: in the old format, the line of an ARP packet ends with a closing bracket, as in "
+    "ns-2") {
     const std::string text = trace_of("protocol = \"aodv\"\n", 3, "", "arp = true\n");
     const auto arp = lines_with(text, " ARP ");
     REQUIRE_FALSE(arp.empty());

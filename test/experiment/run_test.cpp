@@ -88,7 +88,7 @@ TEST_CASE("run: a stopped run leaves no files") {
     CHECK(std::filesystem::is_empty(folder.path("out")));
 }
 
-TEST_CASE("run: the next run removes parts of traces that a killed run left") {
+TEST_CASE("run: the next run removes unfinished files of a killed run, except its log of inputs") {
     for (const bool is_recorded : {false, true}) {
         CAPTURE(is_recorded);
         const TemporaryFolder folder;
@@ -125,7 +125,9 @@ TEST_CASE("run: a run beyond the event limit fails and leaves no files") {
     CHECK(std::filesystem::is_empty(folder.path("out")));
 }
 
-TEST_CASE("link report: over 10 m the loss is that of free space, and the margin follows from it") {
+TEST_CASE(
+    "link report: over 16 m the loss is that of free space, and the margin is level minus "
+    "sensitivity") {
     Scenario scenario = three_robots("none");
     scenario.propagation.model = 1;
     const auto report = report_link(scenario, "A", "C", start_of_run);

@@ -65,7 +65,7 @@ std::string fingerprint_of(Act act) {
 
 }  // namespace
 
-TEST_CASE("session: a run in one piece, in steps or paced has the same fingerprint") {
+TEST_CASE("session: a run in one piece, in steps, or paced by the clock has the same fingerprint") {
     const std::string whole = fingerprint_of([](Session&) {});
     CHECK(fingerprint_of([](Session& s) {
               for (Time t = start_of_run; t < s.end(); t += 170ms) s.step(t);
@@ -194,7 +194,7 @@ TEST_CASE("session: a network that outlives its session continues without client
     CHECK(network->metrics().deliveries == 4);  // two ticks, heard by two
 }
 
-TEST_CASE("session: a robot that cannot follow its command is stalled") {
+TEST_CASE("session: a robot that cannot follow its command is reported as stalled") {
     const TemporaryFolder folder;
     folder.write("m.pgm", "P2 4 1 255 255 255 255 0");
     Session session(load_scenario(folder.write("s.toml", R"([scenario]
@@ -282,7 +282,7 @@ at = ["300 m", "0 m"]
     CHECK(last[0].payload == "heard again");
 }
 
-TEST_CASE("session: listeners get every command, also the stop of a client that leaves") {
+TEST_CASE("session: listeners get every command, also the stop command made when a client leaves") {
     const auto driven = [](Session& s, std::vector<Input>& inputs) {
         s.on_input([&](const Input& input) { inputs.push_back(input); });
         const ClientId client = s.attach({NodeId{1}, NodeId{2}}, "pilot");
@@ -346,7 +346,9 @@ TEST_CASE(
     CHECK(session.twist({1}).speed == 0);
 }
 
-TEST_CASE("session: what a command causes at the same instant happens before the next command") {
+TEST_CASE(
+    "session: events that a command causes at the same instant are processed before the next "
+    "command") {
     struct Order {
         std::string& text;
         KindMask kinds() const { return kind_of<Sent>() | kind_of<Transmitted>(); }

@@ -75,7 +75,8 @@ TEST_CASE("world: a robot drives anywhere around the walls, and stops only at a 
     CHECK_FALSE(clients.session.is_stalled(clients.b));
 }
 
-TEST_CASE("world: a program sends robots to places around the walls, and puts them there") {
+TEST_CASE(
+    "world: a program may send robots to, and place them at, positions far outside the walls") {
     Clients clients;
     const auto why_not = [&](const RobotCommand& command) {
         return clients.session.why_not(clients.a, command);
@@ -113,7 +114,7 @@ TEST_CASE("world: every movement of a scenario leads around the walls, also far 
     }
 }
 
-TEST_CASE("world: a place inside a wall is no goal, and the message mentions no map") {
+TEST_CASE("world: a goal inside a wall is refused, with a message that mentions no map") {
     const Scenario s =
         scenario("[[robot]]\nname = \"a\"\nmove = { model = \"goal\", to = [\"2 m\", \"0 m\"] }\n");
     std::string why;

@@ -9,7 +9,7 @@
 namespace base64_test {
 using namespace rovernet;
 
-TEST_CASE("base64: encodes and decodes the vectors of RFC 4648, section 10") {
+TEST_CASE("base64: encodes and decodes the test vectors of RFC 4648, section 10") {
     const std::pair<const char*, const char*> vectors[] = {{"", ""},
                                                            {"f", "Zg=="},
                                                            {"fo", "Zm8="},

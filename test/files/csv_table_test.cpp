@@ -27,7 +27,7 @@ std::string error_of(const std::string& text, const char* column = "b") {
 
 }  // namespace
 
-TEST_CASE("csv table: fields are found by column name, with their positions") {
+TEST_CASE("csv table: fields are found by column name, with their line and column in the file") {
     const test::TemporaryFolder folder;
     const CsvTable table(
         folder.write("t.csv", "# measured\n\na, b ,c\r\n1,,3\r\n\n# more\n  4 , 5,\n"));
@@ -44,7 +44,8 @@ TEST_CASE("csv table: fields are found by column name, with their positions") {
 }
 
 TEST_CASE(
-    "csv table: errors name the position, and for an unknown column they suggest a known one") {
+    "csv table: errors have line and column, and for an unknown column name they suggest a known "
+    "one") {
     CHECK(error_of("a,b\n1,2\n") == "t.csv:2:3: b: found \"2\", expected another");
     CHECK(error_of("a,b\n1\n").find("t.csv:2") == 0);
     CHECK(error_of("a,b\n1\n").find("found 1 fields, expected 2") != std::string::npos);

@@ -78,7 +78,8 @@ TEST_CASE("input file: a pipe is refused where a regular file is needed") {
 }
 
 TEST_CASE(
-    "input file: for a path of another machine, a file of that name beside the input is found") {
+    "input file: for a path of another machine, a file of the same name beside the input is "
+    "found") {
     const test::TemporaryFolder folder;
     const std::string here = folder.path("");
     folder.write("room.pgm", "");

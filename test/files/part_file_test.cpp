@@ -65,7 +65,8 @@ TEST_CASE("part file: the file gets its final name only when it is complete") {
 }
 
 TEST_CASE(
-    "part file: if no name was given, the old file stays unchanged, and no partial file remains") {
+    "part file: if the new file is not completed, the old file stays unchanged, and no partial "
+    "file remains") {
     const TemporaryFolder folder;
     const std::string path = folder.write("f", "yesterday's");
     { PartFile(path).write("half"); }
@@ -73,7 +74,9 @@ TEST_CASE(
     CHECK(names_in(folder) == std::vector<std::string>{"f"});
 }
 
-TEST_CASE("part file: of two files written at once, the one that gets its name last remains") {
+TEST_CASE(
+    "part file: of two files written under one name at once, the one that is completed last "
+    "remains") {
     const TemporaryFolder folder;
     PartFile first(folder.path("f")), second(folder.path("f"));
     first.write("first");

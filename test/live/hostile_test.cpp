@@ -118,7 +118,9 @@ TEST_CASE("hostile: connections beyond the limit are closed until another connec
     served.end();
 }
 
-TEST_CASE("hostile: silent connections are replaced by clients that send, on each listener") {
+TEST_CASE(
+    "hostile: at the limit of connections, each listener closes its oldest silent one for a new "
+    "client") {
     const Served served;
     const Live controlled({"--listen-json", "127.0.0.1:0", "--unix", "SOCKET"}, long_live_row());
     const int port = controlled.port();
@@ -248,7 +250,7 @@ TEST_CASE("hostile: wrong sizes and counts from a Player client do no harm") {
     served.end();
 }
 
-TEST_CASE("hostile: ROS messages that are too long, too deep or not JSON are refused") {
+TEST_CASE("hostile: ROS messages that are too long, nested too deeply or not JSON are refused") {
     const Served served;
     Good good(served);
     WebClient endless(served.rosbridge), odd(served.rosbridge);
@@ -263,7 +265,7 @@ TEST_CASE("hostile: ROS messages that are too long, too deep or not JSON are ref
     served.end();
 }
 
-TEST_CASE("hostile: lines of controllers that are too deep or not text are refused") {
+TEST_CASE("hostile: lines of controllers that are nested too deeply or not text are refused") {
     const Live live({"--listen-json", "127.0.0.1:0"});
     LineClient odd(live.port());
     CHECK(Json::parse(odd.ask("{}")).at("code") == "missing_key");
@@ -388,7 +390,7 @@ TEST_CASE("hostile: killed clients leave nothing behind, and their robots stop")
     served.end();
 }
 
-TEST_CASE("hostile: robots of killed controllers stop and can be driven by others") {
+TEST_CASE("hostile: robots of killed controllers stop, and can be driven by other controllers") {
     const Live live({"--listen-json", "127.0.0.1:0", "--on-loss", "stop", "--wait-for", "2"},
                     long_live_row());
     const int port = live.port();

@@ -64,8 +64,8 @@ std::string run_and_kill(const TemporaryFolder& words, const std::string& folder
 }  // namespace
 
 TEST_CASE(
-    "killed run: its folder or its unfinished input log can be replayed, with the scenario that "
-    "was run") {
+    "killed run: the folder or the unfinished input log of a killed run can be replayed, with its "
+    "scenario") {
     const TemporaryFolder folder;
     const std::string out = folder.path("out");
     const std::string part = run_and_kill(folder, out, "5", 9);
@@ -110,7 +110,7 @@ TEST_CASE("killed run: an incomplete last line is ignored, with a notice") {
 }
 
 TEST_CASE(
-    "killed run: later runs into the same folder keep its unfinished input log, which replays as "
+    "killed run: later runs into its folder keep the killed run's input log, which is replayed as "
     "before") {
     const TemporaryFolder folder, words;
     const std::string out = folder.path("out");

@@ -92,7 +92,9 @@ LiveResult run(const Given& given) {
 
 }  // namespace
 
-TEST_CASE("lateness: a run whose process was stopped while idle was late by the time of the stop") {
+TEST_CASE(
+    "lateness: if the idle process of a run was stopped for a while, the run is late by this "
+    "duration") {
     for (const double speed : {1.0, 2.0, 0.5}) {
         CAPTURE(speed);
         const LiveResult result = run({.speed = speed});
@@ -134,8 +136,8 @@ TEST_CASE("lateness: messages that arrive while output is written slowly are lat
 }
 
 TEST_CASE(
-    "lateness: in the share of late events, a check of the clock counts only if late, an event "
-    "always") {
+    "lateness: the share of late events counts every event, but a check of the clock only if it is "
+    "late") {
     Lateness lateness;
     lateness.add_look(999us);
     CHECK(lateness.most == 999us);

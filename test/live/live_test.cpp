@@ -151,7 +151,9 @@ TEST_CASE("live: Ctrl-C ends the run within a second, with results and end messa
     CHECK(Json::parse(content(live.folder.path("out/summary.json"))).at("sim_s") == 0.1);
 }
 
-TEST_CASE("live: a lost controller, a slow one and a failed program end the run with code 1") {
+TEST_CASE(
+    "live: a lost controller, a slow controller or a failed controller program ends the run with "
+    "code 1") {
     const Live lost({"--listen-json", "127.0.0.1:0"});
     {
         LineClient client(lost.port());
@@ -184,7 +186,9 @@ TEST_CASE("live: a lost controller, a slow one and a failed program end the run 
     CHECK(failed.err.find("exit 7 ended with 7") != std::string::npos);
 }
 
-TEST_CASE("live: lines may be sent in advance, and a client that stops sending gets all answers") {
+TEST_CASE(
+    "live: a client may send lines before it gets answers, and gets all answers after it stops "
+    "sending") {
     const Live live({"--listen-json", "127.0.0.1:0"});
     LineClient client(live.port());
     client.send_bytes(hello("\"A\"") + "\n" + R"({"type":"step","n":1})" + "\r\n" +

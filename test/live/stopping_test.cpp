@@ -144,7 +144,7 @@ TEST_CASE("stopping: a run that ends also ends programs that its controllers hav
     CHECK(ends(program));
 }
 
-TEST_CASE("stopping: a hangup ends a run like SIGTERM, unless it is ignored") {
+TEST_CASE("stopping: SIGHUP ends a run as SIGTERM does, unless SIGHUP is ignored") {
     for (const int signal : {SIGTERM, SIGHUP}) {
         CAPTURE(signal);
         const Live live({"--listen-json", "127.0.0.1:0"}, long_live_row());

@@ -39,7 +39,8 @@ TEST_CASE("area: an area is clipped to the map, and refused if it does not overl
 }
 
 TEST_CASE(
-    "area: around walls on open ground an area is not clipped, and its free places are off walls") {
+    "area: on open ground around walls, an area is not clipped, and its free positions are off the "
+    "walls") {
     OccupancyGrid grid = test::drawn_map({"#"});
     grid.open_ground = true;
     const Scene scene(grid);

@@ -137,7 +137,8 @@ TEST_CASE("driven: a robot stops at a wall, turns there, and drives on as soon a
 }
 
 TEST_CASE(
-    "driven: after a thousand commands the position is no further off the arc than after one") {
+    "driven: after a thousand commands the position is no further off the arc than after one "
+    "command") {
     Drive drive;
     const auto arc = std::make_shared<DrivenArc>();
     double worst = 0;

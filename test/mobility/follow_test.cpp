@@ -42,7 +42,8 @@ TEST_CASE("follow: a follower reaches its distance from a resting leader, and st
 }
 
 TEST_CASE(
-    "follow: behind a steady leader, the gap is the distance plus its motion in one interval") {
+    "follow: behind a leader of constant speed, the gap is the distance plus the leader's path in "
+    "one interval") {
     Network net;
     net.add({.name = "A", .at = {10, 0}, .move = ToGoal{.to = {1e4, 0}, .speed = {1.5}}});
     net.add(

@@ -75,7 +75,8 @@ TEST_CASE("free space: a robot fits into a corridor of exactly its own width, at
 }
 
 TEST_CASE(
-    "free space: cells joined by steps form a part, and parts are numbered by their first cells") {
+    "free space: free cells that steps connect form a part; parts are numbered in the order of "
+    "their first cells") {
     test::Draw draw(23);
     for (int trial = 0; trial < 30; ++trial) {
         const int columns = 1 + draw.below(40), rows = 1 + draw.below(30);
@@ -103,7 +104,9 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("free space: on open ground the outermost cells are free, and the others are the same") {
+TEST_CASE(
+    "free space: on open ground a cell is free exactly if the robot fits there, so the outermost "
+    "cells are free") {
     for (const double radius : {0.0, 0.2, 0.5, 3.3}) {
         OccupancyGrid grid = test::drawn_map({"#..#", ".#..", "##.#"}, 0.5);
         const FreeSpace bordered(Scene(grid), Meters{radius});

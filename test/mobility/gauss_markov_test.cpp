@@ -66,7 +66,9 @@ double standard_error(double sigma, double a, double n) {
 
 }  // namespace
 
-TEST_CASE("gauss_markov: speed and direction have normal distributions, correlated by the memory") {
+TEST_CASE(
+    "gauss_markov: speed and direction are normally distributed, with the memory as correlation of "
+    "legs") {
     constexpr int legs = 40'000;
     for (const double a : {0.0, 0.5, 0.9}) {
         CAPTURE(a);

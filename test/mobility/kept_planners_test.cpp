@@ -41,7 +41,8 @@ TEST_CASE("kept planners: a new scene at the address of a freed one gets its own
 }
 
 TEST_CASE(
-    "kept planners: scenes that were not used recently are removed, and a scene in use stays") {
+    "kept planners: planners of scenes that were not used recently are removed, those of a scene "
+    "in use stay") {
     KeptPlanners kept(35);  // three maps of 10 cells, not four
     std::vector<std::weak_ptr<const Scene>> seen;
     const auto in_use = empty_map(5, 2);

@@ -119,7 +119,8 @@ int robots_with_too_many_legs(const Scene& scene, int robots, double* worst = nu
 
 }  // namespace
 
-TEST_CASE("liveness: an arc into walls has at most 4 legs for each contact more than its chords") {
+TEST_CASE(
+    "liveness: an arc that meets walls has at most 4 legs more than its chords for each contact") {
     for (const double yaw : {0.0, 0.4, std::numbers::pi}) {
         CAPTURE(yaw);
         const Scene scene(rooms(0.5, yaw));
@@ -182,7 +183,9 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("liveness: with a range below the kept distance, each stride makes at most one leg") {
+TEST_CASE(
+    "liveness: in follow_wall and wander a stride makes at most one leg, also with a range below "
+    "the distance kept") {
     const Scene scene(rooms(0.5, 0.0));
     Planners planners(scene);
     test::Draw draw(11);
@@ -206,7 +209,7 @@ TEST_CASE("liveness: with a range below the kept distance, each stride makes at 
 }
 
 TEST_CASE(
-    "liveness: a path to a goal that begins at a wall arrives, with no more legs than cells") {
+    "liveness: a robot that starts at a wall arrives at its goal, with no more legs than cells") {
     const Scene scene(rooms(0.5, 0.4));
     Planners planners(scene);
     for (std::uint64_t i = 0; i < 100; ++i) {

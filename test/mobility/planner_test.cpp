@@ -114,7 +114,9 @@ TEST_CASE("planner: there is no path into a wall, off the map or into a closed r
     CHECK(planner.shortest_path({2.5, 2.5}, {4.5, 4.5}));
 }
 
-TEST_CASE("planner: around walls on open ground a path may start, lead and end off their grid") {
+TEST_CASE(
+    "planner: if walls stand on open ground, a path may start, lead and end outside the walls' "
+    "grid") {
     // A pillar of one cell, and a corridor that is open on the right only.
     for (const auto& rows :
          {std::vector<std::string>{"#"}, std::vector<std::string>{"######", "......", "######"}}) {
@@ -241,7 +243,7 @@ TEST_CASE(
     CHECK(longest < 1.01);
 }
 
-TEST_CASE("planner: in a narrow corridor, ends between cell centres are reached") {
+TEST_CASE("planner: in a narrow corridor, a path reaches ends that lie between cell centres") {
     // The corridor is 2 m wide and its middle is a grid line: no cell centre in it is free.
     const Scene scene(drawn_map({
         "......",
@@ -298,7 +300,7 @@ TEST_CASE("planner: has_way() is true exactly where a path is found") {
     }
 }
 
-TEST_CASE("planner: a path that is requested again, also after many others, is the same") {
+TEST_CASE("planner: a path that is requested again, also after many other paths, is the same") {
     test::Draw draw(33);
     const Scene scene(test::random_map(draw, 40, 30, 9));
     Planner planner(scene, 0.3_m);

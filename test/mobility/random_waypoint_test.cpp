@@ -131,7 +131,8 @@ TEST_CASE(
     CHECK(rests == 1000);
 }
 
-TEST_CASE("random_waypoint: the mean speed equals the stationary one in the table, at any time") {
+TEST_CASE(
+    "random_waypoint: at any time the mean speed equals the stationary mean of the test vectors") {
     const test::Vectors vectors("rwp_speed_decay.csv");
     int checked = 0;
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -152,7 +153,8 @@ TEST_CASE("random_waypoint: the mean speed equals the stationary one in the tabl
 }
 
 TEST_CASE(
-    "random_waypoint: the mean speed at the start is right also for speeds down to 1e-6 m/s") {
+    "random_waypoint: also for speeds down to 1e-6 m/s, the mean speed at the start equals the "
+    "test vectors") {
     const double low = 1e-6, high = 20, mean = 1.1896799778838094;  // rwp_speed_decay.csv
     const double square = (high * high - low * low) / (2 * std::log(high / low));
     const RandomWaypoint model{.area = box(50, 50), .min_speed = {low}, .max_speed = {high}};
@@ -160,7 +162,7 @@ TEST_CASE(
     CHECK(speeds.errors_off(mean, std::sqrt(square - mean * mean)) < most_errors);
 }
 
-TEST_CASE("random_waypoint: after a classic start, the mean speed falls to the stationary one") {
+TEST_CASE("random_waypoint: after a classic start, the mean speed falls to the stationary mean") {
     const double low = 0.1, high = 20, nominal = 10.05, stationary = 3.755909399773321;
     for (const StartState start : {StartState::uniform, StartState::here}) {
         const RandomWaypoint model{
@@ -239,7 +241,7 @@ TEST_CASE("random_waypoint: the share of robots at rest is E[P] / (E[P] + E[T]) 
     }
 }
 
-TEST_CASE("random_waypoint: `start` selects where a robot begins") {
+TEST_CASE("random_waypoint: the key `start` selects where a robot begins") {
     const Scene field;
     Planners planners(field);
     RandomWaypoint here{.area = box(10, 10), .start = StartState::here};
@@ -254,7 +256,7 @@ TEST_CASE("random_waypoint: `start` selects where a robot begins") {
     CHECK(x.errors_off(5, 10 / std::sqrt(12.0)) < most_errors);
 }
 
-TEST_CASE("random_waypoint: if it is set during the run, it begins at the robot's position") {
+TEST_CASE("random_waypoint: a movement that is set during the run begins at the robot's position") {
     Network net;
     const NodeId robot = net.add({.name = "A", .at = {77, 88}});
     net.run_until(start_of_run + 5s);
@@ -266,7 +268,7 @@ TEST_CASE("random_waypoint: if it is set during the run, it begins at the robot'
     CHECK(gone < 1.1);
 }
 
-TEST_CASE("random_waypoint: another robot does not change a robot's motion") {
+TEST_CASE("random_waypoint: adding a robot does not change the motion of other robots") {
     const auto places = [](bool more) {
         Network net({.seed = 9});
         if (more) net.add({.name = "B", .at = {}, .move = RandomWaypoint{.area = box(30, 30)}});

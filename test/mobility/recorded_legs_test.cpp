@@ -55,7 +55,9 @@ TEST_CASE(
                     std::invalid_argument);
 }
 
-TEST_CASE("recorded legs: a robot with a turn rate and a top speed follows them at their times") {
+TEST_CASE(
+    "recorded legs: a robot follows the legs at their times, whatever its turn rate and top "
+    "speed") {
     Network net;
     const NodeId robot =
         net.add({.name = "r",

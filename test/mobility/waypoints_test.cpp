@@ -92,7 +92,9 @@ TEST_CASE("waypoints: with times, a robot is at each position at the given time"
     CHECK(walk.diary->arrivals[0].time == table.back().time);
 }
 
-TEST_CASE("waypoints: if a position follows itself with a later time, the robot rests there") {
+TEST_CASE(
+    "waypoints: if a position is given twice in a row, the robot rests there until the later "
+    "time") {
     Walk walk(Waypoints{.timed = {{2s, {2, 0, 0}}, {5s, {2, 0, 0}}, {6s, {3, 0, 0}}}});
     CHECK(walk.at(2s) == Vec3{2, 0, 0});
     CHECK(walk.at(4s) == Vec3{2, 0, 0});

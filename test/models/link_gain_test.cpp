@@ -108,7 +108,8 @@ TEST_CASE(
     CHECK(pattern_gain(radio, {}, {0, 0, 9}).value == 0);  // straight above
 }
 
-TEST_CASE("antennas: a sector antenna loses 3 dB at half its beamwidth, and front_to_back behind") {
+TEST_CASE(
+    "antennas: a sector antenna loses 3 dB at half its beamwidth, and front_to_back dB behind") {
     for (const double width : {20.0, 60.0, 120.0, 300.0}) {
         const Radio radio{.antenna = AntennaShape::cosine,
                           .antenna_beamwidth = Radians{width * degree},
@@ -142,7 +143,7 @@ TEST_CASE("antennas: poses are used only for directional antennas, whose gain de
     CHECK(near(LinkGain::of(plain, sector, poses).receiver.value, 1 - 20, pattern_tolerance));
 }
 
-TEST_CASE("antennas: a table without points, above 0 dB or out of order is refused") {
+TEST_CASE("antennas: a pattern table without points, above 0 dB or out of order is refused") {
     const auto check = [](std::vector<PatternPoint> points) {
         check_antenna({.antenna = AntennaShape::table, .antenna_pattern = std::move(points)});
     };

@@ -16,7 +16,7 @@ TEST_CASE("radio: the default power is 45 mW") {
     CHECK(near(Radio{}.power.value, to_dbm({45}).value, 1e-4));  // [dB]: 1 uW of 45 mW
 }
 
-TEST_CASE("radio: noise floors equal the vectors") {
+TEST_CASE("radio: noise floors equal the test vectors") {
     const test::Vectors vectors("noise_floor.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         const Hertz bandwidth{vectors.number(i, "bandwidth_Hz")};

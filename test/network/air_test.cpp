@@ -346,7 +346,9 @@ TEST_CASE("air: a frame from far away that has ended at its sender interferes wh
     }
 }
 
-TEST_CASE("air: with collision, an ignored frame affects no later frame, as in ns-2") {
+TEST_CASE(
+    "air: with the reception model collision, an ignored frame affects no later frame, as in "
+    "ns-2") {
     // ns-2.35: a strong frame, a weak one under it that lasts longer, and one while that is on air.
     for (const bool strong : {true, false}) {
         Network net({.propagation = LogDistance{.exponent = 4, .sigma = Db{0}},

@@ -126,7 +126,8 @@ void check_ends(const Run& run, int delivered, int lost) {
 }  // namespace
 
 TEST_CASE(
-    "aodv over radio: packet counts equal those on graphs with an ideal MAC, also after a break") {
+    "aodv over radio: packet counts equal those on graphs with an ideal MAC, also after a node "
+    "vanishes") {
     struct Case {
         const char* name;
         const std::vector<Vec3>& places;

@@ -73,7 +73,8 @@ struct Row {
 }  // namespace
 
 TEST_CASE(
-    "arp: a robot requests a neighbour's address only once, and the neighbour learns the robot's") {
+    "arp: a robot requests a neighbour's address only once, and the neighbour learns the robot's "
+    "address") {
     Row row(3);
     row.say(1, 0);
     row.net.run_for(1s);
@@ -86,14 +87,15 @@ TEST_CASE(
     CHECK(row.words->delivered == 4);
 }
 
-TEST_CASE("arp: without ARP no address is requested") {
+TEST_CASE("arp: if ARP is off, no address is requested") {
     Row row(2, {});
     row.say(0, 1);
     row.net.run_for(1s);
     CHECK(row.heard() == "data 0>1");
 }
 
-TEST_CASE("arp: one frame waits for an address, and a later one replaces it") {
+TEST_CASE(
+    "arp: only one frame waits for an address, and a later frame replaces the waiting frame") {
     Row row(2);
     row.say(0, 1);
     row.say(0, 1);

@@ -188,7 +188,7 @@ TEST_CASE("doors: receptions and levels change at the nanosecond at which a door
     CHECK(with(ItuSiteGeneral{}) > 20);
 }
 
-TEST_CASE("doors: have no effect on models that ignore walls") {
+TEST_CASE("doors: a closed door has no effect on models that ignore walls") {
     const auto with = [](const Propagation& model) {
         return compare([&](NetworkSettings& settings) { settings.propagation = model; });
     };
@@ -317,7 +317,9 @@ TEST_CASE("doors: links change at the nanosecond at which a door closes or opens
     }
 }
 
-TEST_CASE("doors: the links of a moving robot at each time are those of the doors at that time") {
+TEST_CASE(
+    "doors: at each time, the links of a moving robot equal those computed with the doors as they "
+    "are then") {
     // The door fills the gap, or a part of it: then its ends are where links change.
     for (const auto& [bottom, top] : {std::pair{3.0, 5.0}, {3.0, 4.0}, {3.75, 3.9}}) {
         Door half = door();
@@ -349,7 +351,8 @@ TEST_CASE("doors: the links of a moving robot at each time are those of the door
 }
 
 TEST_CASE(
-    "doors: a door may be closed at the start, and the number of reachable robots follows it") {
+    "doors: a door may be closed at the start, and opening it changes the number of reachable "
+    "robots") {
     Door early = door();
     early.closes = {0s};
     early.opens = {1s};

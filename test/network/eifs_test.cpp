@@ -109,7 +109,8 @@ TEST_CASE("eifs: a frame whose reception was begun and failed requires an EIFS a
 }
 
 TEST_CASE(
-    "eifs: a frame that began while the receiver was locked requires an EIFS only as in ns-2") {
+    "eifs: a frame that began while the receiver was locked requires an EIFS only with the rule of "
+    "ns-2") {
     for (const auto& [rule, expected] : {std::pair{EifsRule::standard, difs},
                                          {EifsRule::ns2, eifs + difs},
                                          {EifsRule::none, difs}}) {
@@ -119,7 +120,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("eifs: an undetected preamble requires an EIFS only as in ns-2") {
+TEST_CASE("eifs: an undetected preamble requires an EIFS only with the rule of ns-2") {
     for (const auto& [rule, expected] : {std::pair{EifsRule::standard, difs},
                                          {EifsRule::ns2, eifs + difs},
                                          {EifsRule::none, difs}}) {
@@ -132,7 +133,8 @@ TEST_CASE("eifs: an undetected preamble requires an EIFS only as in ns-2") {
     }
 }
 
-TEST_CASE("eifs: a frame that began while the station sent requires an EIFS only as in ns-2") {
+TEST_CASE(
+    "eifs: a frame that began while the station sent requires an EIFS only with the rule of ns-2") {
     for (const auto& [rule, expected] : {std::pair{EifsRule::standard, difs},
                                          {EifsRule::ns2, eifs + difs},
                                          {EifsRule::none, difs}}) {
@@ -145,7 +147,9 @@ TEST_CASE("eifs: a frame that began while the station sent requires an EIFS only
     }
 }
 
-TEST_CASE("eifs: a frame abandoned to send an acknowledgement requires an EIFS only as in ns-2") {
+TEST_CASE(
+    "eifs: a frame abandoned to send an acknowledgement requires an EIFS only with the rule of "
+    "ns-2") {
     for (const auto& [rule, expected] : {std::pair{EifsRule::standard, difs},
                                          {EifsRule::ns2, eifs + difs},
                                          {EifsRule::none, difs}}) {
@@ -171,7 +175,7 @@ TEST_CASE("eifs: a frame that ends while the station sends requires only a DIFS"
     }
 }
 
-TEST_CASE("eifs: a frame too weak to decode requires an EIFS only as in ns-2") {
+TEST_CASE("eifs: a frame too weak to decode requires an EIFS only with the rule of ns-2") {
     for (const auto& [rule, expected] : {std::pair{EifsRule::standard, difs},
                                          {EifsRule::ns2, eifs + difs},
                                          {EifsRule::none, difs}}) {

@@ -89,7 +89,8 @@ constexpr double share = 0.03;
 
 }  // namespace
 
-TEST_CASE("flows: a near sender and a far hidden one have the throughput of ns-2 and ns-3") {
+TEST_CASE(
+    "flows: a near sender and a far, hidden sender have the same throughput as in ns-2 and ns-3") {
     const Csma as_ns2{.basic_rates = {{{1e6}}}, .header = 34};
     const double collision = near_and_far.frames_per_second(Collision{}, as_ns2);
     CHECK(collision == doctest::Approx(106.3).epsilon(share));  // ns-2
@@ -97,7 +98,7 @@ TEST_CASE("flows: a near sender and a far hidden one have the throughput of ns-2
     CHECK(sinr == doctest::Approx(105.1).epsilon(share));  // ns-3
 }
 
-TEST_CASE("flows: a chain of five stations has the throughput of ns-2 and ns-3") {
+TEST_CASE("flows: a chain of five stations has the same throughput as in ns-2 and ns-3") {
     const Csma as_ns2{.basic_rates = {{{1e6}}}, .header = 34};
     CHECK(chain.frames_per_second(Collision{}, as_ns2) ==
           doctest::Approx(216.2).epsilon(share));  // ns-2

@@ -100,7 +100,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "link watch: as a robot passes, each direction goes up and down by the model of its sender") {
+    "link watch: as a robot passes, the link in each direction goes up and down by the sender's "
+    "model") {
     const Scene field;
     Harness network{&field};
     network.add(Disc{.range = 10_m}, resting({}));
@@ -152,7 +153,9 @@ TEST_CASE("link watch: one call reports all changes that are due, and none that 
                                                     {begin + 30s, a, b, true}});
 }
 
-TEST_CASE("link watch: a change at the end of a leg is reported once, whichever leg is current") {
+TEST_CASE(
+    "link watch: a change at the end of a leg is reported once, before or after the leg is "
+    "replaced") {
     const Scene field;
     for (const bool served_first : {false, true}) {
         Harness network{&field};
@@ -266,7 +269,8 @@ TEST_CASE("link watch: changes do not depend on the order in which robots are ad
     CHECK(found == expected);
 }
 
-TEST_CASE("link watch: a model of unknown shape is sampled as long as robots move") {
+TEST_CASE(
+    "link watch: if the loss is an arbitrary function, it is sampled as long as robots move") {
     const Scene field;
     Harness network{&field, {.tolerance = 1ns, .min_dwell = 10us}};
     network.add(Rings{}, resting({}));
@@ -282,7 +286,9 @@ TEST_CASE("link watch: a model of unknown shape is sampled as long as robots mov
                                                     {begin + 20s, b, a, true}});
 }
 
-TEST_CASE("link watch: a model of unknown shape is sampled only as far as the run has come") {
+TEST_CASE(
+    "link watch: if the loss is an arbitrary function, it is not sampled far beyond the current "
+    "time") {
     const Scene field;
     Harness network{&field, {.tolerance = 1ms, .min_dwell = 100ms}};
     int looks = 0;

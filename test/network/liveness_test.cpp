@@ -36,7 +36,9 @@ std::string stall(Network& net, Duration span) {
 
 }  // namespace
 
-TEST_CASE("liveness: a robot with a leg each nanosecond ends the run with its name and position") {
+TEST_CASE(
+    "liveness: if a robot starts a leg each nanosecond, the run ends with an error with its name "
+    "and position") {
     for (const Duration step : {0ns, 1ns, 9ns}) {
         CAPTURE(step.count());
         Network net;

@@ -171,7 +171,7 @@ TEST_CASE(
     CHECK(crowd.net.events() < static_cast<std::uint64_t>(robots * (robots - 1)));
 }
 
-TEST_CASE("load: a crowd that keeps sending takes no more memory") {
+TEST_CASE("load: a crowd of robots that keeps sending does not take more and more memory") {
     for (const AccessModel& access : {AccessModel{NoAccess{}}, AccessModel{Csma{}}}) {
         for (const ReceptionModel& model :
              {ReceptionModel{Threshold{}}, ReceptionModel{Collision{}}}) {
@@ -353,7 +353,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("load: csma is committed to a frame exactly 18 us before it is sent") {
+TEST_CASE(
+    "load: with csma, two frames collide if the second is due at most 18 us after the first") {
     // 802.11b decides a turnaround of 5 us before it sends, by what arrived 13 us before that.
     for (const Duration later : {Duration{0}, Duration{18us}, Duration{18'001}}) {
         CAPTURE(later.count());
@@ -442,7 +443,7 @@ TEST_CASE("load: events before a storm reached the limit are not lost") {
     CHECK(metrics.deliveries == 9);
 }
 
-TEST_CASE("load: robots that move all the time without traffic take no more memory") {
+TEST_CASE("load: robots that move all the time without traffic do not take more and more memory") {
     Watched watched(disc(10, Collision{}));
     watched.add({0, 1});
     watched.send(0, 1ms);

@@ -197,13 +197,13 @@ TEST_CASE(
 
 TEST_CASE("network: a run in parts of any size gives the same result as one run") {
     const Run whole = Busy(5).run();
-    SUBCASE("event by event") {
+    SUBCASE("the run is made one event at a time") {
         Busy pieces(5);
         while (!pieces.net.advance(Busy::end, 1)) {
         }
         CHECK(pieces.result() == whole);
     }
-    SUBCASE("in steps that end between receptions of a frame") {
+    SUBCASE("the run is made in steps that end between receptions of a frame") {
         Busy pieces(5);
         while (pieces.net.now() < Busy::end) {
             pieces.net.run_until(std::min(Busy::end, pieces.net.now() + 333'333ns));
@@ -214,7 +214,8 @@ TEST_CASE("network: a run in parts of any size gives the same result as one run"
 }
 
 TEST_CASE(
-    "network: advance() serves at most the given number of events, and returns whether it ended") {
+    "network: advance() serves at most the given number of events, and returns whether it reached "
+    "its end time") {
     Busy busy(5);
     CHECK_FALSE(busy.net.advance(Busy::end, 10));
     CHECK(busy.net.events() == 10);
@@ -343,7 +344,7 @@ TEST_CASE("network: callbacks for a message are called once, 1 us after its rece
     CHECK(times[0] == start_of_run + airtime_64_bytes + 1001ns + 1us);
 }
 
-TEST_CASE("network: robots can answer each other") {
+TEST_CASE("network: robots can answer each other's messages from their callbacks") {
     Network net(disc(1000));
     for (int i = 0; i < 2; ++i) net.add(robot_at(0));
     net.route(Flood{.ttl = 1});
@@ -379,7 +380,7 @@ TEST_CASE("network: a robot switched off during a frame does not receive it") {
     CHECK(reactions == 0);
 }
 
-TEST_CASE("network: a robot switched on during a frame has missed it") {
+TEST_CASE("network: a robot switched on during a frame does not receive this frame") {
     Network net(disc(1000));
     for (int i = 0; i < 2; ++i) net.add(robot_at(0));
     net.route(OneHop{});
@@ -489,7 +490,7 @@ TEST_CASE("network: a periodic action is called every period, first after one pe
 }
 
 TEST_CASE("network: at the event limit a run fails, however little time passes") {
-    SUBCASE("a flood in which every copy is forwarded") {
+    SUBCASE("a flood in which every copy is forwarded ends at the event limit") {
         NetworkSettings settings = disc(10);
         settings.event_limit = 20'000;
         Network net(settings);
@@ -499,13 +500,13 @@ TEST_CASE("network: at the event limit a run fails, however little time passes")
         CHECK_THROWS_AS(net.run_for(1h), RunError);
         CHECK(net.events() <= 20'000);
     }
-    SUBCASE("an action that schedules itself at the current time") {
+    SUBCASE("an action that schedules itself at the current time ends the run at the event limit") {
         Network net({.event_limit = 1000});
         std::function<void()> again = [&] { net.at(net.now(), again); };
         net.at(start_of_run, again);
         CHECK_THROWS_AS(net.run_for(1s), RunError);
     }
-    SUBCASE("a movement whose legs lead nowhere") {
+    SUBCASE("a movement with endless legs of 1 ns in place ends the run at the event limit") {
         struct Fidget {
             Step next_leg(Mover& mover) {
                 return straight_leg(mover, mover.position, mover.now + 1ns);
@@ -562,7 +563,8 @@ TEST_CASE("network: invalid robots and settings are refused") {
     CHECK_THROWS_AS(Network({.floor_height = {no_number}}), std::invalid_argument);
 }
 
-TEST_CASE("network: a refused robot leaves nothing behind") {
+TEST_CASE(
+    "network: after an invalid robot is refused, its name and number are free for the next robot") {
     Network net(disc(10));
     net.add(robot_at(0));
     CHECK_THROWS(net.add({.name = "bad", .at = {}, .radio = {.frequency = {-1}}}));

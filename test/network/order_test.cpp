@@ -94,7 +94,8 @@ std::shared_ptr<ReceptionLog> run(const Setting& setting, std::uint32_t seed) {
 }  // namespace
 
 TEST_CASE(
-    "order: one event for several receptions gives the records of an event for each of them") {
+    "order: one event for several receptions gives the same records as one event for each "
+    "reception") {
     for (Setting setting : settings()) {
         for (std::uint32_t seed = 1; seed <= 4; ++seed) {
             CAPTURE(seed);
@@ -110,7 +111,9 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("order: a router gets receptions in the order of time, at the time of the last one") {
+TEST_CASE(
+    "order: a routing protocol gets receptions in the order of time, at the time of the last "
+    "reception") {
     const auto always_in_order = std::make_shared<bool>(true);
     Playground({}, 1).run(WatchedFlood{.always_in_order = always_in_order});
     CHECK(*always_in_order);

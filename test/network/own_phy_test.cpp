@@ -115,7 +115,7 @@ struct Line {
 
 }  // namespace
 
-TEST_CASE("own phy: who receives a frame depends on its coding, with every search method") {
+TEST_CASE("own phy: which robots receive a frame depends on its coding, with every search method") {
     for (const bool reference : {false, true}) {
         for (const auto& model :
              {Propagation{Friis{}}, Propagation{LogDistance{.exponent = 2, .sigma = Db{0}}}}) {

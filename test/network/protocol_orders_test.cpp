@@ -100,7 +100,9 @@ TEST_CASE("protocol comparison: DSR delivers more than AODV, with less control t
     CHECK_FALSE(above(deaf, dsr));
 }
 
-TEST_CASE("protocol comparison: resting robots cause a fraction of the control traffic") {
+TEST_CASE(
+    "protocol comparison: robots at rest cause less than half the control traffic of moving "
+    "robots") {
     // On Broch's field the factor is 7 (AODV) and 8 (DSR) in ns-2.35. Here it is less: a run of
     // 45 s has as many first searches, which standing robots need, too, and fewer repairs.
     constexpr double factor = 2;

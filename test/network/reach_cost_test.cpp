@@ -37,7 +37,7 @@ MetricValues after_messages(int messages, std::optional<bool> reach) {
 
 }  // namespace
 
-TEST_CASE("reach: for few messages, reach is measured without a request") {
+TEST_CASE("reach: in a run with few messages, reach is measured even if it is not requested") {
     const MetricValues values = after_messages(100, {});
     CHECK(values.reach_known);
     CHECK(values.reach == 1.0 / 19);

@@ -115,7 +115,7 @@ using Lines = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("router port: only the next hop of a unicast passes it to the protocol") {
+TEST_CASE("router port: only the next hop of a unicast passes the frame to the routing protocol") {
     Row row;
     row.net.route(Scripted{.diary = row.diary});
     row.net.send({1}, {2}, "hello");
@@ -126,7 +126,9 @@ TEST_CASE("router port: only the next hop of a unicast passes it to the protocol
     CHECK(metrics.delivery_ratio == 1.0);
 }
 
-TEST_CASE("router port: a unicast that the protocol did not send is not passed to the protocol") {
+TEST_CASE(
+    "router port: a unicast that the routing protocol did not send is not passed to this "
+    "protocol") {
     Row row;
     row.net.route(Scripted{.diary = row.diary});
     row.net.send({1}, {2}, "hello", {.one_hop = true});
@@ -134,7 +136,9 @@ TEST_CASE("router port: a unicast that the protocol did not send is not passed t
     CHECK(row.net.metrics().deliveries == 1);
 }
 
-TEST_CASE("router port: a protocol that overhears gets unicasts for others, with levels") {
+TEST_CASE(
+    "router port: a routing protocol that overhears gets unicasts for other nodes, with their "
+    "levels") {
     Network net({.propagation = Friis{}, .access = Csma{}});
     for (const double x : {0.0, 30.0, 70.0}) {
         net.add({.name = {}, .at = {x, 0, 0}, .radio = {.rate = {1e6}}});
@@ -181,31 +185,31 @@ TEST_CASE(
 
 TEST_CASE("router port: csma reports if a frame was acknowledged, sent, given up or never sent") {
     const Csma one_place{.queue = 1};
-    SUBCASE("acknowledged") {
+    SUBCASE("csma reports a frame that was acknowledged") {
         Row row(Csma{});
         row.net.route(Scripted{.diary = row.diary});
         row.net.send({0}, {1}, "hello");
         CHECK(row.run() == Lines{"1 hears hello", "acked"});
     }
-    SUBCASE("given up") {
+    SUBCASE("csma reports a frame that was given up after all retries") {
         Row row(Csma{});
         row.net.route(Scripted{.diary = row.diary});
         row.net.send({0}, {2}, "hello");
         CHECK(row.run() == Lines{"retries"});
     }
-    SUBCASE("a broadcast is sent") {
+    SUBCASE("csma reports a broadcast that was sent") {
         Row row(Csma{});
         row.net.route(Scripted{.diary = row.diary});
         row.net.send({0}, everyone, "hello");
         CHECK(row.run() == Lines{"sent", "1 hears hello"});
     }
-    SUBCASE("the queue is full") {
+    SUBCASE("csma reports a frame that found the queue full") {
         Row row(one_place);
         row.net.route(Scripted{.diary = row.diary});
         for (const char* word : {"a", "b"}) row.net.send({0}, {1}, word);
         CHECK(row.run() == Lines{"queue_full", "1 hears a", "acked"});
     }
-    SUBCASE("switched off while it waits for access") {
+    SUBCASE("csma reports a frame whose station was switched off while it waited for access") {
         Row row(Csma{});
         row.net.route(Scripted{.diary = row.diary});
         row.net.at(start_of_run, [&] {
@@ -217,7 +221,8 @@ TEST_CASE("router port: csma reports if a frame was acknowledged, sent, given up
 }
 
 TEST_CASE(
-    "router port: results are reported after the call to the link layer, and may cause sending") {
+    "router port: the result of a frame is reported after the call that sent it, and may cause the "
+    "next sending") {
     Row row(Csma{.queue = 1});
     int more = 3;
     row.diary->send = [](LinkLayer& link, NodeId node, MessageId message) {
@@ -323,7 +328,8 @@ TEST_CASE("router port: take_queued returns the frames for one next hop, except 
 }
 
 TEST_CASE(
-    "router port: nodes start in the order of their keys, and later ones when they are added") {
+    "router port: nodes start in the order of their keys, and nodes added later start when they "
+    "are added") {
     Row row(NoAccess{}, 5);
     row.net.route(Scripted{.diary = row.diary});
     CHECK(row.diary->lines.empty());

@@ -173,7 +173,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "salvage: a packet that the protocol sends again after a failure does not count as lost") {
+    "salvage: a packet that the routing protocol sends again after a failure does not count as "
+    "lost") {
     Row row(Csma{}, 4);
     row.net.switch_off({1});
     row.script->sent = [](LinkLayer& link, const QueuedFrame& f, SendResult result) {
@@ -242,7 +243,8 @@ TEST_CASE("take_queued: a station whose queue was emptied can send later frames"
     CHECK(row.script->results == std::vector{SendResult::retries, SendResult::acked});
 }
 
-TEST_CASE("drops: a drop inside on_receive is recorded after the node's reception, at its time") {
+TEST_CASE(
+    "drops: a drop inside on_receive is recorded after the node's reception, at the same time") {
     Row row(NoAccess{}, 4);
     row.net.add({.name = {}, .at = {80, 20, 0}, .radio = {.rate = {1e6}}});
     row.script->send = [](LinkLayer& link, NodeId node, MessageId m) {
@@ -269,7 +271,8 @@ TEST_CASE("drops: a drop inside on_receive is recorded after the node's receptio
 }
 
 TEST_CASE(
-    "end of the run: a message that the protocol still holds counts as sent and not delivered") {
+    "end of the run: a message that the routing protocol still holds counts as sent and not "
+    "delivered") {
     Row row;
     row.script->keeps = true;
     row.script->send = [](LinkLayer& link, NodeId, MessageId m) { link.hold(m); };
@@ -355,7 +358,8 @@ TEST_CASE("headers: a header is freed after its last frame, and new headers need
     CHECK(test::allocations() == before);
 }
 
-TEST_CASE("priority: control packets overtake messages, but not the frame already in contention") {
+TEST_CASE(
+    "priority: control packets overtake queued messages, but not the frame already in contention") {
     for (const bool priority : {false, true}) {
         CAPTURE(priority);
         Row row(Csma{.priority = priority});
@@ -397,7 +401,7 @@ TEST_CASE("priority: a control packet displaces the last message of a full queue
 }
 
 TEST_CASE(
-    "traces: the protocol's description is written for control packets, and for no other packets") {
+    "traces: the routing protocol's description of a packet is written only for control packets") {
     Row row;
     std::string lines;
     const auto trace = std::make_shared<Ns2Trace>([&](std::string_view text) { lines += text; });
@@ -448,7 +452,7 @@ TEST_CASE("snr: the SNR of a reception is its level over the receiver's noise fl
 
 #ifndef NDEBUG
 TEST_CASE("references: a debug build reports a message that is released too often, or never") {
-    SUBCASE("released too often") {
+    SUBCASE("a message that the routing protocol released too often is reported") {
         Row row;
         row.script->send = [](LinkLayer& link, NodeId, MessageId m) { link.release(m); };
         CHECK_THROWS_WITH(
@@ -456,14 +460,14 @@ TEST_CASE("references: a debug build reports a message that is released too ofte
             "the routing protocol released message 0 (of an application), to which it "
             "holds no reference");
     }
-    SUBCASE("never released") {
+    SUBCASE("a message that the routing protocol never released is reported") {
         Row row;
         row.script->send = [](LinkLayer& link, NodeId, MessageId m) { link.hold(m); };
         row.net.send({0}, {1}, "x");
         row.net.run_for(1s);
         CHECK_THROWS_WITH(row.net.finish(),
                           "the routing protocol still holds 1 reference(s) to message 0 (of an "
-                          "application), and does not keep it");
+                          "application), but its keeps() returns false for this message");
     }
 }
 #endif

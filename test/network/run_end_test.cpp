@@ -55,7 +55,8 @@ struct Losers {
 }  // namespace
 
 TEST_CASE(
-    "end of the run: a message that nobody has received yet is not in delivery ratio and reach") {
+    "end of the run: a message that nobody has received yet does not count in delivery ratio and "
+    "reach") {
     Line net(2);
     net.send(a, everyone, "first");
     net.run_for(1s);
@@ -71,7 +72,9 @@ TEST_CASE(
     CHECK(values.reach == 1.0);
 }
 
-TEST_CASE("end of the run: a message that a robot has, or that none could hear, is not cut off") {
+TEST_CASE(
+    "end of the run: a message that a robot has received, or that no robot could hear, is not "
+    "counted as cut off") {
     Line net(3);
     net.run_for(1s);
     net.send(a, everyone, "on its way");

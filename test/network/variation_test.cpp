@@ -98,7 +98,7 @@ const std::vector<Variation>& variations() {
 
 }  // namespace
 
-TEST_CASE("variation: the fast mode and the reference mode agree to the last level") {
+TEST_CASE("variation: the fast mode and the reference mode give the same receptions and levels") {
     const std::vector<ReceptionModel> receptions = {Sinr{}, Collision{.capture_ratio = Db{6}},
                                                     Threshold{}, Collision{.capture_ratio = Db{6}}};
     for (std::size_t i = 0; i < variations().size(); ++i) {
@@ -109,13 +109,15 @@ TEST_CASE("variation: the fast mode and the reference mode agree to the last lev
     }
 }
 
-TEST_CASE("variation: the fast mode and the reference mode agree also with csma") {
+TEST_CASE(
+    "variation: also with csma, the fast mode and the reference mode give the same receptions and "
+    "levels") {
     const auto fast = play(variations()[3], Sinr{}, Csma{}, false);
     CHECK(fast->all.size() > 200);
     CHECK(fast->all == play(variations()[3], Sinr{}, Csma{}, true)->all);
 }
 
-TEST_CASE("variation: a run in a thousand steps has the same levels as one run") {
+TEST_CASE("variation: a run in a thousand steps has the same levels as a run in one piece") {
     for (const Variation& v : {variations()[2], variations()[3]}) {
         CHECK(play(v, Threshold{}, NoAccess{}, false)->all ==
               play(v, Threshold{}, NoAccess{}, false, 1000)->all);

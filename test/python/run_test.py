@@ -138,7 +138,7 @@ class Records(unittest.TestCase):
         self.assertEqual(len(run.records("sent")), run.metrics["messages"])
         self.assertEqual({run.names[i] for i in received["robot"]}, set("ABCDE"))
 
-    def test_kept_records_equal_those_found_by_a_second_run(self):
+    def test_records_kept_in_a_run_equal_those_that_a_repeated_run_returns(self):
         kept = rn.run(RESCUE, records=["received", "moved"])
         for kind in "received", "moved":
             np.testing.assert_array_equal(kept.records(kind), rn.run(RESCUE).records(kind))

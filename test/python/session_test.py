@@ -159,7 +159,7 @@ class Steps(unittest.TestCase):
         open_field = rn.Session(still(1), step=1)
         open_field.go_to("r0", (1e6, -1e6))
 
-    def test_a_position_without_room_is_an_error_and_a_goal_without_a_path_sets_no_way(self):
+    def test_a_position_without_room_is_an_error_and_a_goal_without_a_path_sets_session_no_way(self):
         session = rn.Session(RESCUE, robots=["A", "B"], step=1)
         for x, y, why in ((-5, 3, r"off the map, which goes from \(0, 0\) to \(48, 24\) m"),
                           (2, 6, "in a wall, or nearer to one than the radius of robot A")):

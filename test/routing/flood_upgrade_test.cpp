@@ -39,7 +39,7 @@ TEST_CASE("flood: with upgrade, a waiting copy takes the highest TTL that the no
     }
 }
 
-TEST_CASE("flood: of copies with the same TTL the first is forwarded") {
+TEST_CASE("flood: with upgrade, the first of several copies with the same TTL is forwarded") {
     Hearer node(true);
     node.hear(4);
     node.hear(4, NodeId{7});

@@ -49,14 +49,18 @@ TEST_CASE(
     CHECK(n.route(7)->is_valid);
 }
 
-TEST_CASE("without the fault of ns-3: a neighbour's route does not get the originator's number") {
+TEST_CASE(
+    "without the fault of ns-3: the route to a neighbour does not get the originator's sequence "
+    "number") {
     AodvNode n;
     n.hear(2, request(7, 5, 1, 20), 3);
     REQUIRE(n.route(2));
     CHECK(n.route(2)->number != n.route(7)->number);
 }
 
-TEST_CASE("without the fault of ns-3: a lost destination's number is incremented before the RERR") {
+TEST_CASE(
+    "without the fault of ns-3: a lost destination's sequence number is incremented before the "
+    "RERR is sent") {
     AodvNode n;
     n.pass_reply(7, 2, 5, 1, 9);
     n.forward(7, 2, 5);

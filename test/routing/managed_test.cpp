@@ -196,7 +196,9 @@ TEST_CASE("managed, M4: copies after the send time cancel nothing") {
     }
 }
 
-TEST_CASE("managed, M4: if the copy's handle has passed to another frame, that frame stays") {
+TEST_CASE(
+    "managed, M4: if the handle of a sent copy is reused for another frame, a duplicate does not "
+    "cancel the frame") {
     Relay node;
     node.hear(3);
     node.link.sent[0].queued.frame.sender = NodeId{3};

@@ -85,8 +85,7 @@ TEST_CASE("door: a closed door has the loss of its material, by default the mode
 }
 
 TEST_CASE(
-    "door: the material of a door is looked up in the scenario's materials, even if it is named "
-    "like the walls") {
+    "door: the material of a door is one of the scenario's materials, even if its name is wall") {
     const House house;
     const Scenario s =
         house.scenario(map + "[scene.materials]\nwall = { per_crossing = \"9 dB\" }\n" + door +
@@ -120,7 +119,7 @@ TEST_CASE("door: a printed door is read back unchanged") {
     CHECK(first.notices.empty());
 }
 
-TEST_CASE("door: an error in a door has its position in the file, and what was expected") {
+TEST_CASE("door: an error in a door has line, column and what was expected") {
     const House house;
     struct Mistake {
         std::string text, where;
@@ -159,7 +158,8 @@ TEST_CASE("door: an error in a door has its position in the file, and what was e
     }
 }
 
-TEST_CASE("door: a robot in a door that is closed at the start is reported like one in a wall") {
+TEST_CASE(
+    "door: a robot in a door that is closed at the start is refused, like a robot in a wall") {
     const House house;
     const std::string text =
         map + door + "closes = [\"0 s\"]\n[[robot]]\nname = \"a\"\nat = [\"4.5 m\", \"2.5 m\"]\n";

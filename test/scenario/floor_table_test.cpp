@@ -210,7 +210,7 @@ TEST_CASE(
     CHECK(low.walls->crossings({0, 0.5, 3.6}, {9, 0.5, 3.6}).empty());
 }
 
-TEST_CASE("floors: printed storeys are read back unchanged, and --set changes a single one") {
+TEST_CASE("floors: printed storeys are read back unchanged, and --set can change a single storey") {
     const Building building;
     const std::string text =
         ground("ceiling = { per_crossing = \"15 dB\" }\n") +
@@ -227,7 +227,7 @@ TEST_CASE("floors: printed storeys are read back unchanged, and --set changes a 
     CHECK(higher.walls->storeys().floor(2) == 7);
 }
 
-TEST_CASE("floors: an error in a storey has its position in the file, and what was expected") {
+TEST_CASE("floors: an error in a storey has line, column and what was expected") {
     const Building building;
     const std::string map_and = "[scene]\nmap = \"ground.png\"\nsize = [\"10 m\", \"1 m\"]\n";
     const std::vector<Mistake> mistakes{

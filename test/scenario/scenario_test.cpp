@@ -437,7 +437,7 @@ TEST_CASE("scenario: traffic can name a single robot of those created with `coun
     CHECK_THROWS_AS(read(robots + "[[traffic]]\nfrom = \"r\"\npayload = \"x\"\n"), InputError);
 }
 
-TEST_CASE("--set reaches any key") {
+TEST_CASE("--set can change any key of a scenario") {
     const std::string text = robot_a + "[[traffic]]\nfrom = \"A\"\npayload = \"F\"\n";
     const Scenario s =
         with(text, {"radio.power=15 dBm", "robot.A.radio.power=\"1 dBm\"", "traffic.0.start=2.5",

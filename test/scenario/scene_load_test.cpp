@@ -134,7 +134,8 @@ TEST_CASE("scene: a slab of P.2040 has the same loss for any drawn thickness") {
     CHECK(near(wall_db(file).first, 2 * brick));
 }
 
-TEST_CASE("scene: a file beside the map names materials; those of the scenario take precedence") {
+TEST_CASE(
+    "scene: a file beside the map defines materials; materials of the scenario take precedence") {
     const TemporaryFolder folder;
     folder.write("m.png", picture());
     folder.write("m.materials.toml",
@@ -148,7 +149,7 @@ TEST_CASE("scene: a file beside the map names materials; those of the scenario t
     CHECK_THROWS_AS(wall_db(folder.write("s.toml", pair)), InputError);
 }
 
-TEST_CASE("scene: a link between antennas above the walls is clear") {
+TEST_CASE("scene: a link between antennas above the walls crosses no wall") {
     const TemporaryFolder folder;
     folder.write("m.png", picture());
     const std::string file = folder.write("s.toml", pair);

@@ -184,7 +184,7 @@ TEST_CASE("schema: values have the type, the unit and the limits that the reader
         CHECK_FALSE(agree(robot_a + "[study]\nvary." + vary));
 }
 
-TEST_CASE("schema: a key of several models accepts every value that one of them accepts") {
+TEST_CASE("schema: a key of several models accepts every value that one of these models accepts") {
     Table keys;
     add_key(keys, "size", schema_of_type("integer"), "first", "a");
     add_key(keys, "size", schema_of_type("integer"), "second", "b");

@@ -70,7 +70,7 @@ TEST_CASE("traffic file: flows of cbrgen are unicasts with their size, interval,
     CHECK(file.notices[0].find("random_ of 2 flows is ignored") != std::string::npos);
 }
 
-TEST_CASE("traffic file: a rate gives the interval, and defaults are those of ns-2") {
+TEST_CASE("traffic file: the interval follows from the rate, and the defaults are those of ns-2") {
     const TemporaryFolder folder;
     const auto every = [&](const std::string& key) {
         const std::string text = with(flow(0, 1, 2, "1.0"), "$cbr_(0) set interval_ 0.25\n", key);
@@ -81,7 +81,8 @@ TEST_CASE("traffic file: a rate gives the interval, and defaults are those of ns
     CHECK(every("") == from_seconds(512 * 8 / 448e3));
 }
 
-TEST_CASE("traffic file: messages above the agent's packet size leave as several packets") {
+TEST_CASE(
+    "traffic file: messages larger than the agent's packet size are sent as several packets") {
     const TemporaryFolder folder;
     std::vector<std::string> notices;
     const auto sizes = [&](const std::string& size, const std::string& agent) {
@@ -114,7 +115,7 @@ TEST_CASE("traffic file: messages above the agent's packet size leave as several
                          doctest::Contains("a size in bytes from 1 to 65507"), InputError);
 }
 
-TEST_CASE("traffic file: content other than CBR over UDP is an error with its position") {
+TEST_CASE("traffic file: content other than CBR over UDP is refused, with line and column") {
     const std::string good = flow(0, 1, 2, "1.0");
     CHECK(error_of(good) == "");
     CHECK(

@@ -277,8 +277,8 @@ TEST_CASE("unlikely: a robot in a wall of a Stage world gives a notice, because 
 }
 
 TEST_CASE(
-    "unlikely: a clearance slightly smaller than the radius is printed with enough digits to see "
-    "it") {
+    "unlikely: a clearance slightly below the radius is printed with enough digits to show the "
+    "difference") {
     const TemporaryFolder folder;
     folder.write("wall.png",
                  test::png_bytes({.width = 4, .height = 1, .rows = {{0, 255, 255, 255}}}));
@@ -366,7 +366,9 @@ TEST_CASE(
     CHECK(notices("power", room(0.4)).empty());
 }
 
-TEST_CASE("unlikely: [access] eifs still accepts true for standard and false for none") {
+TEST_CASE(
+    "unlikely: the key eifs of [access] still accepts true for \"standard\" and false for "
+    "\"none\"") {
     const TemporaryFolder folder;
     const auto csma = [&](const std::string& keys) {
         return *loaded(folder, "[access]\nmodel = \"csma\"\n" + keys + robot_a).access.as<Csma>();
@@ -389,8 +391,9 @@ TEST_CASE("unlikely: [access] eifs still accepts true for standard and false for
     for (const char* other : {"\"ns3\"", "\"ns-3\"", "\"NS3\""}) {
         CAPTURE(other);
         CHECK(error(other).find("did you mean") == std::string::npos);
-        CHECK(error(other).find("\"ns2\" (after each frame that was sensed and not decoded, as "
-                                "ns-2.35 has it)") != std::string::npos);
+        CHECK(error(other).find(
+                  "\"ns2\" (after each frame that was sensed but not decoded, as in ns-2.35)") !=
+              std::string::npos);
     }
     CHECK(error("\"NS2\"").find("did you mean \"ns2\"?") != std::string::npos);
     CHECK(error("\"ns-2\"").find("did you mean \"ns2\"?") != std::string::npos);
@@ -456,8 +459,8 @@ TEST_CASE("traffic: robots that send simultaneously give a notice if their frame
 }
 
 TEST_CASE(
-    "words: an error suggests a value of the right type, and none if two values differ only in a "
-    "number") {
+    "words: an error suggests a value of the right type, but not one with another number "
+    "(raytrace_2008)") {
     const TemporaryFolder folder;
     const auto error = [&](const std::string& text) {
         return error_of([&] { loaded(folder, text + robot_a); });

@@ -45,7 +45,9 @@ const Material wood{.name = "wood", .per_metre = DbPerMeter{10}};
 
 }  // namespace
 
-TEST_CASE("layers: adjacent walls are one crossing if their material is equal, otherwise two") {
+TEST_CASE(
+    "layers: a ray through adjacent walls has one crossing if their material is equal, otherwise "
+    "two") {
     OccupancyGrid grid = drawn_map({".####."});
     grid.cell_materials = {0, 1, 1, 2, 2, 0};
     const Scene scene(grid, {Material{}, brick, wood});

@@ -250,7 +250,9 @@ TEST_CASE("ROS map: resolution and origin are checked") {
     CHECK(contains(origin("{x: 0}"), "origin is a map"));
 }
 
-TEST_CASE("ROS map: a missing file, or one that is not YAML, is refused with its position") {
+TEST_CASE(
+    "ROS map: a missing file, and a file that is not YAML or describes no map, are refused with "
+    "the reason") {
     CHECK(contains(error_of("image: [map.pgm\nresolution: 1\n"), "not valid YAML"));
     CHECK_FALSE(error_of("image: [map.pgm\nresolution: 1\n").starts_with("0:0"));
     CHECK(contains(error_of(""), "no \"key: value\" lines"));

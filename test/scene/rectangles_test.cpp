@@ -26,7 +26,8 @@ std::vector<int> cover_count(const OccupancyGrid& grid,
 
 }  // namespace
 
-TEST_CASE("rectangles: cover exactly the occupied cells and never overlap") {
+TEST_CASE(
+    "rectangles: the rectangles of a map cover exactly the occupied cells and never overlap") {
     test::Draw draw(1);
     for (int trial = 0; trial < 60; ++trial) {
         const OccupancyGrid grid =
@@ -37,7 +38,7 @@ TEST_CASE("rectangles: cover exactly the occupied cells and never overlap") {
     }
 }
 
-TEST_CASE("rectangles: a full map is one rectangle, an empty map none") {
+TEST_CASE("rectangles: a full map becomes one rectangle, an empty map none") {
     CHECK(solid_rectangles(drawn_map({"###", "###"}), Solid::walls) ==
           std::vector<CellRectangle>{{0, 0, 3, 2}});
     CHECK(solid_rectangles(drawn_map({"...", "..."}), Solid::walls).empty());

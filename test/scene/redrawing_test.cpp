@@ -69,7 +69,8 @@ TEST_CASE("redrawing: a map whose cells are split has the same walls, to the las
 }
 
 TEST_CASE(
-    "redrawing: four cells join to a wall if any of them is one, with the first wall's material") {
+    "redrawing: four cells join to a wall cell if any is a wall, with the material of the first "
+    "wall") {
     const OccupancyGrid joined = join_cells(two_materials({"....?",  //
                                                            ".....",  //
                                                            "..#..",  //
@@ -149,7 +150,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "scene: if radio uses the walls of another scene, robots keep the obstacles of their own") {
+    "scene: if radio uses the walls of another scene, robots still avoid the obstacles of their "
+    "own scene") {
     const Scene own(drawn_map({"...", ".#.", "..."}));
     const Scene other = with_metal(drawn_map({"#..", "#..", "#.."}));
     const Scene both = own.with_walls_of(other);

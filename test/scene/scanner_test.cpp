@@ -100,7 +100,8 @@ TEST_CASE("scanner: each beam of a ring detects robots from the origin of the be
 }
 
 TEST_CASE(
-    "scanner: an unnamed scanner is called by its kind, and an output of a wrong size is refused") {
+    "scanner: a scanner without a name has the name of its kind, and an output of a wrong size is "
+    "refused") {
     Scanner scanner{.finder = {.kind = RangeFinderKind::ranger}};
     CHECK(scanner.label() == "ranger");
     scanner.name = "rear";

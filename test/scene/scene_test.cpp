@@ -169,7 +169,7 @@ TEST_CASE("crossings: a ray through the corner where two wall cells touch stays 
     }
 }
 
-TEST_CASE("crossings: adjacent walls are one crossing") {
+TEST_CASE("crossings: a ray through adjacent walls has one crossing") {
     const Scene scene(drawn_map({"#.##", "####", "..#."}));
     const auto found = scene.crossings({-1, 1.2}, {5, 1.7});
     REQUIRE(found.size() == 1);
@@ -177,7 +177,8 @@ TEST_CASE("crossings: adjacent walls are one crossing") {
 }
 
 TEST_CASE(
-    "crossings: a ray along a face is outside, also if rounding would put it into the next cell") {
+    "crossings: a ray along a face is outside the wall, also if rounding would put it into the "
+    "next cell") {
     // 0.15 / 0.05 is just below 3, so a point at 0.15 m would lie in the wall of the first map.
     const Scene before(drawn_map({"..#....", "..#...."}, 0.05));
     const Scene behind(drawn_map({"...#...", "...#..."}, 0.05));
@@ -249,7 +250,8 @@ TEST_CASE("wall length: if a limit is given, a result above it is only a lower b
     CHECK(scene.wall_length({0, 0.5}, {8, 0.5}, 0) > 0);
 }
 
-TEST_CASE("unknown cells: are not walls for radio, but obstacles for robots") {
+TEST_CASE(
+    "unknown cells: unknown cells of a map are not walls for radio, but obstacles for robots") {
     const Scene scene(drawn_map({".....", "..?..", "....."}));
     CHECK(scene.wall_length({0, 1.5}, {5, 1.5}) == 0);
     CHECK_FALSE(scene.occupied({2.5, 1.5}));

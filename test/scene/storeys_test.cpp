@@ -200,7 +200,8 @@ TEST_CASE("storeys: a range finder sees the walls of its storey") {
 }
 
 TEST_CASE(
-    "storeys: each storey is a scene of its map, and a scene's maps build the same scene again") {
+    "storeys: a scene has a smaller scene for each storey, and its maps build the same scene "
+    "again") {
     const Scene scene = two_storeys();
     CHECK(scene.storey_at(3).crossings({0, 1.5, 4}, {6, 1.5, 4})[0].entry == doctest::Approx(3));
     CHECK(scene.storey(0).storeys().size() == 1);

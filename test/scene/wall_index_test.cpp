@@ -231,7 +231,9 @@ TEST_CASE(
     });
 }
 
-TEST_CASE("wall index: lengths up to a given limit are exact, and longer ones are only above it") {
+TEST_CASE(
+    "wall index: lengths up to a given limit are exact; for longer lengths, some value above the "
+    "limit is returned") {
     for_random_rays(15, [](const World& world, const Ray& ray, test::Draw& draw) {
         const double all = std::numeric_limits<double>::infinity();
         const double exact = world.index.solid_length(ray.a, ray.b, length_of(ray), all);

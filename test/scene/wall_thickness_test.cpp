@@ -88,7 +88,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "wall thickness: outside walls it is 0; where two walls cross, it is that of the thinner one") {
+    "wall thickness: the thickness outside walls is 0, and where two walls cross that of the "
+    "thinner wall") {
     OccupancyGrid grid = with_wall(0.1, 0);
     for (std::size_t i = 0; i < grid.cells.size(); ++i) {
         if (i % side >= 90 && i % side < 110) grid.cells[i] = Cell::occupied;  // 40 cm, upright
@@ -101,7 +102,9 @@ TEST_CASE(
     CHECK(Scene{}.wall_thickness({0, 0}).value == 0);
 }
 
-TEST_CASE("wall thickness: threads that request it first, at the same time, get the same result") {
+TEST_CASE(
+    "wall thickness: threads that request the thickness first, at the same time, get the same "
+    "result") {
     const Scene scene(with_wall(0.3, 0.5));
     std::vector<double> found(4);
     std::vector<std::thread> threads;

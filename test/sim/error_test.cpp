@@ -23,7 +23,7 @@ TEST_CASE("location: text() prints file:line:column, the file alone, or the opti
           "--set radio.power=3");
 }
 
-TEST_CASE("input error: what() returns the position, then the message") {
+TEST_CASE("input error: what() returns file, line and column, then the message") {
     const InputError error({"rescue.toml", 9, 4}, "unknown model \"log_distnace\"");
     CHECK(std::string(error.what()) == "rescue.toml:9:4: unknown model \"log_distnace\"");
     CHECK(error.message() == "unknown model \"log_distnace\"");

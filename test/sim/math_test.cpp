@@ -140,7 +140,9 @@ TEST_CASE("powers: powers of 2 and 10 are exact wherever a double can represent 
     for (int n = 0; n <= 22; ++n) CHECK(math::exp10(n) == std::stod("1e" + std::to_string(n)));
 }
 
-TEST_CASE("logarithms: zero, infinity, negative arguments and NaN are handled") {
+TEST_CASE(
+    "logarithms: zero, infinity, negative arguments and NaN give the limits of the function, or "
+    "NaN") {
     for (const auto f : {math::log, math::log2, math::log10}) {
         CHECK(f(0.0) == -Limits::infinity());
         CHECK(f(-0.0) == -Limits::infinity());
@@ -152,7 +154,7 @@ TEST_CASE("logarithms: zero, infinity, negative arguments and NaN are handled") 
     }
 }
 
-TEST_CASE("powers: overflow, underflow, infinity and NaN are handled") {
+TEST_CASE("powers: overflow, underflow, infinity and NaN give infinity, 0 or NaN") {
     for (const auto f : {math::exp, math::exp2, math::exp10}) {
         CHECK(f(0.0) == 1);
         CHECK(f(-0.0) == 1);
@@ -267,7 +269,9 @@ TEST_CASE("sine and cosine: errors are at most one ulp at the doubles nearest to
     }
 }
 
-TEST_CASE("sine and cosine: are odd and even to the last bit, and exact at 0") {
+TEST_CASE(
+    "sine and cosine: the sine is odd and the cosine even to the last bit, and both are exact at "
+    "0") {
     CHECK(same_bits(sine(0.0), 0.0));
     CHECK(same_bits(sine(-0.0), -0.0));
     CHECK(same_bits(cosine(0.0), 1.0));

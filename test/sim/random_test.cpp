@@ -154,7 +154,7 @@ TEST_CASE(
     CHECK(combine(combine(1, 2), 3) != combine(1, combine(2, 3)));
 }
 
-TEST_CASE("name key: equals the published values of XXH64") {
+TEST_CASE("name key: the key of a name equals the published values of XXH64") {
     CHECK(name_key("") == 0xef46db3751d8e999);
     CHECK(name_key("a") == 0xd24ec4f1a98c6e5b);
     CHECK(name_key("abc") == 0x44bc2cf5ad770999);
@@ -181,14 +181,14 @@ TEST_CASE("random: equal keys give equal bits with every compiler") {
     CHECK(sum == 0x26bf317e6803070b);
 }
 
-TEST_CASE("random: the number of each purpose stays as it was first assigned") {
+TEST_CASE("random: each purpose of random numbers keeps the number that it was first assigned") {
     CHECK(static_cast<int>(Purpose::flood_jitter) == 1);
     CHECK(static_cast<int>(Purpose::link_shadowing) == 2);
     CHECK(static_cast<int>(Purpose::placement) == 3);
     CHECK(static_cast<int>(Purpose::order) == 4);
 }
 
-TEST_CASE("uniform: moments and distribution are right") {
+TEST_CASE("uniform: moments and distribution of the random draws agree with theory") {
     const auto u = draws(uniform);
     CHECK(mean_is(moment(u, 0, 1), 0.5, std::sqrt(1 / 12.0)));
     CHECK(mean_is(moment(u, 0.5, 2), 1 / 12.0, std::sqrt(1 / 180.0)));
@@ -205,7 +205,7 @@ TEST_CASE("uniform: draws are midpoints of the cells of a grid, so they are neve
     }
 }
 
-TEST_CASE("normal: moments and distribution are right") {
+TEST_CASE("normal: moments and distribution of the random draws agree with theory") {
     const auto x = draws(normal);
     CHECK(mean_is(moment(x, 0, 1), 0, 1));
     CHECK(mean_is(moment(x, 0, 2), 1, std::sqrt(2.0)));
@@ -215,7 +215,7 @@ TEST_CASE("normal: moments and distribution are right") {
     CHECK(kolmogorov_smirnov(x, [&](double v) { return cdf(standard, v); }) < ks_bound);
 }
 
-TEST_CASE("exponential: moments and distribution are right") {
+TEST_CASE("exponential: moments and distribution of the random draws agree with theory") {
     const auto x = draws(exponential);
     CHECK(mean_is(moment(x, 0, 1), 1, 1));
     CHECK(mean_is(moment(x, 0, 2), 2, std::sqrt(20.0)));
@@ -224,7 +224,7 @@ TEST_CASE("exponential: moments and distribution are right") {
     CHECK(*std::min_element(x.begin(), x.end()) > 0);
 }
 
-TEST_CASE("normal quantile: agrees with Boost.Math from tail to tail") {
+TEST_CASE("normal quantile: the quantile agrees with Boost.Math from tail to tail") {
     for (double p = 0x1p-53; p < 0.5; p *= 1.01) {
         CAPTURE(p);
         REQUIRE(std::abs(normal_quantile(p) / exact_quantile(p) - 1) < quantile_bound);
@@ -296,7 +296,8 @@ TEST_CASE("random: keys with small numbers never collide") {
     CHECK(std::adjacent_find(all.begin(), all.end()) == all.end());
 }
 
-TEST_CASE("pair draws: have the same bits in both directions, with every compiler") {
+TEST_CASE(
+    "pair draws: the draw of a pair has the same bits in both directions, with every compiler") {
     const PairDraws draws(7, 3, Purpose::link_shadowing);
     const std::uint64_t a = name_key("r0"), b = name_key("base");
     const std::uint64_t stream = combine(7, 3 << 16 | 2);
@@ -307,7 +308,7 @@ TEST_CASE("pair draws: have the same bits in both directions, with every compile
     CHECK(draws.normal(a, b) == normal_quantile(draws.uniform(a, b)));
 }
 
-TEST_CASE("pair draws: moments and distribution over all pairs of some robots are right") {
+TEST_CASE("pair draws: moments and distribution over all pairs of some robots agree with theory") {
     constexpr std::size_t robots = 633;  // 200,028 pairs
     const PairDraws draws(1, 0, Purpose::link_shadowing);
     for (const bool named : {false, true}) {
@@ -369,7 +370,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("pair draws: no two pairs share a draw, of any replication") {
+TEST_CASE("pair draws: no two pairs share a draw, in the same or in different replications") {
     std::vector<std::uint64_t> all;
     for (std::uint32_t replication = 0; replication < 5; ++replication) {
         const PairDraws draws(1, replication, Purpose::link_shadowing);

@@ -12,7 +12,7 @@ namespace time_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 
-TEST_CASE("time: seconds become the nearest nanosecond") {
+TEST_CASE("time: seconds are converted to the nearest nanosecond") {
     CHECK(from_seconds(0) == 0ns);
     CHECK(from_seconds(0.1) == 100ms);
     CHECK(from_seconds(1.4e-9) == 1ns);

@@ -85,7 +85,8 @@ constexpr double rounding = 1e-12;  // of a mean of a few numbers below 1
 }  // namespace
 
 TEST_CASE(
-    "balance: rows with different cells are not averaged, and the error lists missing cells") {
+    "balance: rows that lack different runs are not averaged, and the error lists the missing "
+    "cells (value, replication)") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), biased);
     const std::string text = refusal(store, {.group_by = by_ttl});
@@ -99,8 +100,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "balance: means over common cells are right even if failed runs would reverse the order of "
-    "plain means") {
+    "balance: means over the cells that all rows have are right, even if failed runs reverse the "
+    "order of plain means") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), biased);
     const Answers all = answers(store, {.group_by = by_ttl, .common = true});
@@ -127,7 +128,9 @@ TEST_CASE(
     CHECK(coverage_text(held) == "7 runs failed");
 }
 
-TEST_CASE("balance: a run without a value and a run that was not made are missing cells") {
+TEST_CASE(
+    "balance: a run without a value, and a run that was not made, count as missing cells of a "
+    "row") {
     const TemporaryFolder folder;
     for (const Ending fate : {Ending::undefined, Ending::missing}) {
         const std::string name = fate == Ending::undefined ? "undefined" : "missing";
@@ -141,14 +144,16 @@ TEST_CASE("balance: a run without a value and a run that was not made are missin
     }
 }
 
-TEST_CASE("balance: a single row averages only complete replications") {
+TEST_CASE("balance: a single row is not averaged either if it lacks cells") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), biased);
     CHECK(has(refusal(store, {.group_by = by_ttl, .where = {{"routing.ttl", "8"}}}),
               "lacks 4 of 8 cells"));
 }
 
-TEST_CASE("balance: replications missing in all rows keep rows comparable, and are reported") {
+TEST_CASE(
+    "balance: replications that are missing in all rows leave the rows comparable, and are "
+    "reported") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), [](int, int, int r) {
         return r == 3 ? Ending::missing : Ending::finished;
@@ -161,7 +166,7 @@ TEST_CASE("balance: replications missing in all rows keep rows comparable, and a
     CHECK(coverage_text(all) == "averaged over traffic.0.every; unfinished: 6 runs are missing");
 }
 
-TEST_CASE("balance: keys that vary together are not averaged") {
+TEST_CASE("balance: a key that varies together with the key of the rows is not averaged over") {
     const TemporaryFolder folder;
     Store store = Store::open_to_write(folder.path("s.db"));
     std::vector<StoredPoint> points;
@@ -178,7 +183,9 @@ TEST_CASE("balance: keys that vary together are not averaged") {
     CHECK(has(coverage_text(all), "radio.power goes with each row"));
 }
 
-TEST_CASE("balance: a combination excluded from one row is a missing cell") {
+TEST_CASE(
+    "balance: a combination of values that the study excludes in one row counts as missing cells "
+    "of the row") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), [](int, int, int) { return Ending::finished; });
     std::vector<StoredPoint> points = store.points();

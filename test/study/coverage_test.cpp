@@ -171,7 +171,9 @@ TEST_CASE(
     CHECK(betting <= most * studies);
 }
 
-TEST_CASE("coverage: Student's t covers the truth too seldom, so the test can detect a failure") {
+TEST_CASE(
+    "coverage: intervals by Student's t cover the truth too seldom, and the coverage test detects "
+    "this") {
     CHECK(coverage(density(250), 30, 200, IntervalMethod::t) < 0.6);
     CHECK(coverage(density(300), 100, 200, IntervalMethod::t) < 0.5);
 }

@@ -162,7 +162,7 @@ TEST_CASE("least squares: invalid input is refused") {
     CHECK_THROWS_AS(least_squares(data, {true, false}), std::invalid_argument);
 }
 
-TEST_CASE("tobit: a fit with unseen far links, and one without, equal those of another program") {
+TEST_CASE("tobit: fits with and without unseen far links equal those of another program") {
     const Vectors links("fit_censored_links.csv"), expected("fit_censored.csv");
     constexpr double floor = -88;  // [dBm]
     Observations data{.columns = 2}, seen{.columns = 2};

@@ -53,7 +53,7 @@ TEST_CASE("precision: with fewer than two values, twice as many runs are request
 }
 
 TEST_CASE(
-    "precision: two equal ratios do not reach a precision by betting, although they would by "
+    "precision: two equal ratios do not reach a precision by betting, but would reach it by "
     "Student's t") {
     const std::vector<double> two = {0.9759, 0.9759};
     const StudyTable study = wanting(0.01, 1000, "delivery_ratio");
@@ -76,8 +76,8 @@ TEST_CASE("precision: by Student's t at least ten values are needed, and not all
 }
 
 TEST_CASE(
-    "precision: the metric is the first one of the study, or the delivery ratio if the study lists "
-    "none") {
+    "precision: the tested metric is the first of the study, or the delivery ratio if the study "
+    "lists none") {
     StudyTable study;
     CHECK(first_metric(study) == "delivery_ratio");
     study.metrics = {"reach", "events"};

@@ -202,7 +202,7 @@ TEST_CASE("a flipped bit in the names of a recorded trace is reported by every r
     CHECK(tally.refused + 2 >= static_cast<int>(s.names.size()));
 }
 
-TEST_CASE("a flipped bit in the scenario of a recorded trace changes it or is reported") {
+TEST_CASE("a flipped bit in the scenario of a recorded trace changes the scenario or is reported") {
     const Sample s;
     const Tally tally = flip(s, s.head, s.metadata, s.names + s.chunk, places_in(s.metadata, 6));
     CHECK(said(tally.faults) == "");
@@ -238,8 +238,8 @@ TEST_CASE("missing, short, doubled or wrong names in a recorded trace are report
     CHECK(refusal(right) == "");
     CHECK(refusal(right + right) == "");
     const std::string missing =
-        "its scenario has a robot \"A\", number 0; the trace names 0: the file robots.txt inside "
-        "is missing";
+        "its scenario has a robot \"A\", number 0; the trace names 0, because the file robots.txt "
+        "in the trace is missing";
     CHECK(refusal("") == missing);
     CHECK(refusal(attachment("robot.txt", "A\nB\n")) == missing);
     CHECK(refusal(attachment("robots.txt", "A\n")) ==

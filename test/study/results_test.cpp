@@ -74,11 +74,13 @@ TEST_CASE(
         }
     }
     store.set_points(points);
-    CHECK_THROWS_WITH_AS(points_where(store, {{"robot.r.count", "3"}}),
-                         "no point has robot.r.count = 3; there are 2, 10, 100, 30",
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(
+        points_where(store, {{"robot.r.count", "3"}}),
+        "no point has robot.r.count = 3; the values in this study are 2, 10, 100, 30",
+        std::invalid_argument);
     CHECK_THROWS_WITH_AS(points_where(store, {{"robot.r.count", "2"}, {"speed", "1"}}),
-                         "no point has speed = 1; there are 9 m/s, 10 m/s", std::invalid_argument);
+                         "no point has speed = 1; the values in this study are 9 m/s, 10 m/s",
+                         std::invalid_argument);
 }
 
 TEST_CASE("results: a ratio has an interval by STaR-Bets within its bounds, or t on request") {
@@ -124,7 +126,8 @@ TEST_CASE("results: conditions select points, and a condition without a point is
     REQUIRE(list.size() == 1);
     CHECK(list[0].values.at(0) == 10);
     CHECK_THROWS_WITH_AS(answers(store, {.where = {{"radio.power", "2"}}}),
-                         doctest::Contains("there are 0, 1"), std::invalid_argument);
+                         doctest::Contains("the values in this study are 0, 1"),
+                         std::invalid_argument);
     CHECK_THROWS_AS(answers(store, {.where = {{"radio.pwr", "1"}}}), std::invalid_argument);
 }
 
@@ -136,7 +139,7 @@ TEST_CASE("results: a metric that no run defines has no mean, and its undefined 
     CHECK_FALSE(list[0].summary);
 }
 
-TEST_CASE("results: a quantile replaces the mean on request") {
+TEST_CASE("results: if a quantile is requested, it replaces the mean") {
     const TemporaryFolder folder;
     const auto list = answers(made(folder.path("s.db")), {.quantile = 0.5}).list;
     CHECK(*list[0].value == 1);

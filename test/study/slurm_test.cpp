@@ -56,7 +56,7 @@ TEST_CASE("slurm: a chunk has the requested size, or larger to fit an array of 1
     CHECK(chunk_for_array(50'001, 50) == 51);
 }
 
-TEST_CASE("slurm: the open chunks are those with unfinished runs") {
+TEST_CASE("slurm: the open chunks of a study are the chunks with unfinished runs") {
     for (unsigned open = 0; open < 1U << 10; ++open) {
         std::vector<RunState> runs;
         for (unsigned i = 0; i < 10; ++i) {

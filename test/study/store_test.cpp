@@ -119,7 +119,7 @@ TEST_CASE("store: recorded runs are read back, to the last digit and in order") 
           1);  // one plain file is left
 }
 
-TEST_CASE("store: a run that failed may be replaced, one that finished may not") {
+TEST_CASE("store: a failed run may be replaced, a finished run may not") {
     const TemporaryFolder folder;
     Store store = two_points(folder.path("s.db"));
     store.record(failed_run("r0", 0, 0));

@@ -84,8 +84,9 @@ TEST_CASE("study: a point is skipped if each key of an exclusion has one of the 
           Texts{"a=2, b=7"});
     CHECK_THROWS_WITH_AS(
         points_of("vary.a = [\"disc\", \"friis\"]\nexclude = [{ a = [\"disc\", \"fris\"] }]"),
-        doctest::Contains("exclude: found a = \"fris\", which vary does not have; expected one of "
-                          "\"disc\", \"friis\"; did you mean \"friis\"?"),
+        doctest::Contains(
+            "exclude: found a = \"fris\", which is not among the values of vary; expected one of "
+            "\"disc\", \"friis\"; did you mean \"friis\"?"),
         InputError);
     CHECK_THROWS_WITH_AS(points_of("vary.a = [1]\nexclude = [{ a = 1 }]"),
                          doctest::Contains("excludes every point"), InputError);
@@ -130,7 +131,7 @@ TEST_CASE("study: the scenario of a point has the point's values and the request
     CHECK(study.scenario(0, 0).robots[1].count == 3);
 }
 
-TEST_CASE("study: an error in a varied value is reported before any run, with its position") {
+TEST_CASE("study: an error in a varied value is reported before any run, with line and column") {
     const auto wrong = [](const std::string& keys) {
         return error_of(two_robots + "[study]\n" + keys);
     };
@@ -147,18 +148,18 @@ TEST_CASE("study: an error in a varied value is reported before any run, with it
         std::string::npos);
 }
 
-TEST_CASE("study: a value listed twice is an error with its position") {
+TEST_CASE("study: a value listed twice is refused, with line and column") {
     const auto wrong = [](const std::string& keys) {
         return error_of(two_robots + "[study]\n" + keys);
     };
     CHECK(wrong("vary.radio.power = [\"5 dBm\", \"6 dBm\", \"5 dBm\"]")
               .ends_with("s.toml:17:39: vary: radio.power=5 dBm is listed twice; expected values "
                          "that differ"));
-    CHECK(
-        wrong("vary.robot.r.count = [2, 3]\nvary.radio.power = [\"0 dBm\", \"1 mW\"]")
-            .ends_with("s.toml:18:30: vary: robot.r.count=2, radio.power=1 mW is the same scenario "
-                       "as robot.r.count=2, radio.power=0 dBm; expected values that differ"));
-    CHECK(wrong("vary.scenario.name = [\"a\", \"b\"]").find("is the same scenario as") !=
+    CHECK(wrong("vary.robot.r.count = [2, 3]\nvary.radio.power = [\"0 dBm\", \"1 mW\"]")
+              .ends_with(
+                  "s.toml:18:30: vary: robot.r.count=2, radio.power=1 mW gives the same scenario "
+                  "as robot.r.count=2, radio.power=0 dBm; expected values that differ"));
+    CHECK(wrong("vary.scenario.name = [\"a\", \"b\"]").find("gives the same scenario as") !=
           std::string::npos);
     // In a zip a value may come again, as long as the others differ.
     const std::string twice = "vary.radio.power = [\"5 dBm\", \"5 dBm\"]\nvary.robot.r.count = ";
@@ -167,14 +168,15 @@ TEST_CASE("study: a value listed twice is an error with its position") {
     CHECK(wrong(twice + "[2, 2]\n" + zip).find("s.toml:17:30: ") != std::string::npos);
 }
 
-TEST_CASE("study: an unknown metric is an error with its position and a suggestion") {
+TEST_CASE("study: an unknown metric is refused, with line, column and a suggestion") {
     const std::string text =
         error_of(two_robots + "[study]\nmetrics = [\"reach\", \"delivery_ration\"]");
     CHECK(text.find("s.toml:17:21: there is no metric \"delivery_ration\"") != std::string::npos);
     CHECK(text.ends_with("did you mean \"delivery_ratio\"?"));
 }
 
-TEST_CASE("study: a metric that has to be asked for is an error that names its key of [metrics]") {
+TEST_CASE(
+    "study: for a metric that [metrics] does not enable, the error names the key that enables it") {
     const auto error = [&](const std::string& metric, const std::string& more = "") {
         return error_of(two_robots + "[study]\nmetrics = [\"" + metric + "\"]\n" + more);
     };

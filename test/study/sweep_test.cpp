@@ -104,7 +104,8 @@ TEST_CASE("sweep: a run of a sweep equals the run of a separate network") {
     }
 }
 
-TEST_CASE("sweep: a run excludes its warm-up, and stores its length") {
+TEST_CASE(
+    "sweep: the metrics of a run exclude its warm-up, and the length of the warm-up is stored") {
     const Bench bench(scattered + "every = \"500 ms\"\n");
     KeptPlanners kept;
     const auto value = [&](const std::vector<std::string>& set, const std::string& name) {
@@ -203,7 +204,7 @@ TEST_CASE("sweep: a different scenario or version is not mixed with existing run
     bench.sweep();
     const std::string csv = bench.csv();
     const std::string text = message_of(bench, {"scenario.seed=2"});
-    CHECK(text.find("scenario.seed was 1 and is 2") != std::string::npos);
+    CHECK(text.find("scenario.seed was 1 and is now 2") != std::string::npos);
     CHECK(text.find("--fresh") != std::string::npos);
     // A value that is varied no more is the reason, whatever else is the same.
     const std::string fewer =
@@ -284,7 +285,7 @@ TEST_CASE("sweep: all shards together give the whole study") {
     CHECK(bench.csv() == whole.csv());
 }
 
-TEST_CASE("sweep: states of runs are listed in the order in which shards divide the runs") {
+TEST_CASE("sweep: states of runs are listed in the order in which runs are divided among shards") {
     const Bench bench(scattered + study_keys);
     bench.sweep({.workers = 1, .shard = Shard{1, 2}});
     Study study = bench.study();
@@ -300,7 +301,7 @@ TEST_CASE("sweep: states of runs are listed in the order in which shards divide 
     CHECK(finished_runs(store).size() == 2);
 }
 
-TEST_CASE("sweep: runs in another store are not repeated") {
+TEST_CASE("sweep: runs that another given store already has are not repeated") {
     const Bench bench(scattered + study_keys), other(scattered + study_keys);
     other.sweep({.workers = 1, .shard = Shard{0, 4}});
     const SweepResult rest = bench.sweep({.elsewhere = finished_runs(Store::open(other.store()))});

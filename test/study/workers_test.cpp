@@ -185,7 +185,7 @@ TEST_CASE("workers: worker processes do not outlive their parent process") {
     CHECK(gone);
 }
 
-TEST_CASE("workers: a task is executed by the given worker") {
+TEST_CASE("workers: each task is executed by the worker process that the caller names") {
     Workers workers(3, [](std::uint64_t) { return std::to_string(getpid()); }, {});
     std::map<std::size_t, std::set<std::string>> processes;
     for (int i = 0; i < 9; ++i) {

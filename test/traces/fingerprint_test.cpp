@@ -58,7 +58,7 @@ TEST_CASE("fingerprint: the value for one record of each kind is the expected co
     CHECK(Run{}.text() == "d05f6eb83126bfae");
 }
 
-TEST_CASE("fingerprint: every field that it covers changes it") {
+TEST_CASE("fingerprint: a change of any covered field of a record changes the fingerprint") {
     const std::function<void(Run&)> changes[] = {
         [](Run&) {},
         [](Run& r) { r.message.origin = {3}; },
@@ -129,7 +129,8 @@ TEST_CASE("fingerprint: receptions in one record give the same fingerprint as in
     CHECK(one->value() == two->value());
 }
 
-TEST_CASE("fingerprint: positions as far away as 1e300 m have different fingerprints") {
+TEST_CASE(
+    "fingerprint: two positions 1e300 m away in opposite directions have different fingerprints") {
     Run a, b;
     a.moved.leg.to.x = 1e300;
     b.moved.leg.to.x = -1e300;

@@ -48,7 +48,8 @@ TEST_CASE("metrics: without messages, metrics that would divide by 0 have no val
 }
 
 TEST_CASE(
-    "metrics: for a flood with TTL 2 along a line of four robots, they equal a count by hand") {
+    "metrics: for a flood with TTL 2 along a line of four robots, the metrics equal a count by "
+    "hand") {
     const auto v = LineOfFour{}.values();
     CHECK(v.messages == 1);
     CHECK(v.transmissions == 2);
@@ -66,7 +67,9 @@ TEST_CASE(
     CHECK(v.hops == std::vector<std::uint64_t>{0, 1, 1});
 }
 
-TEST_CASE("metrics: transmissions of the origin, and repeated ones, do not count as saved") {
+TEST_CASE(
+    "metrics: only a robot's first transmission of another robot's message lowers "
+    "saved_rebroadcasts") {
     LineOfFour run;  // the thesis's rule: everybody forwards every copy
     const MessageId m{0};
     run.transmit(at(4'000), frame(m, a, 0, 3), b);
@@ -150,7 +153,8 @@ TEST_CASE("metrics: percentiles are found by the nearest-rank method, in any ord
 }
 
 TEST_CASE(
-    "metrics: the number of reachable robots is requested from the network only if it is wanted") {
+    "metrics: the number of reachable robots is requested from the network only if a metric needs "
+    "it") {
     constexpr KindMask both = kind_reachable | kind_cheap_reachable;
     const auto asks = [](std::optional<bool> reach) {
         return Metrics(start_of_run, {.reach = reach}).kinds() & both;

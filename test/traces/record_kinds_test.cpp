@@ -174,7 +174,9 @@ TEST_CASE("kinds of records: fields() describes every member") {
     for_each_kind(check, RecordList<Frame, AirFrame, Leg, Reception>{});
 }
 
-TEST_CASE("kinds of records: changing a field changes bytes, text and fingerprint as described") {
+TEST_CASE(
+    "kinds of records: a change of a field changes bytes, text and fingerprint as its description "
+    "says") {
     const World world;
     for_each_kind(
         [&]<class R>() {
@@ -206,7 +208,9 @@ TEST_CASE("kinds of records: a record is equal after it was written to bytes and
         RecordKinds{});
 }
 
-TEST_CASE("kinds of records: each kind has its rows in tables, its name and its channel") {
+TEST_CASE(
+    "kinds of records: each kind of record has a row in a table, a name and a channel in the "
+    "trace") {
     const World world;
     const std::vector<RecordedKind> kinds = recorded_kinds();
     const std::vector<std::string> names = record_names();

@@ -47,7 +47,8 @@ constexpr NodeId a{0}, b{1}, c{2};
 
 }  // namespace
 
-TEST_CASE("rows: each record gives a row, and a record of receptions one row per reception") {
+TEST_CASE(
+    "rows: each record gives one row, but a record of receptions gives one row per reception") {
     const auto rows = std::make_shared<RowSink>(kind_all);
     Stream stream;
     stream.sinks = {rows};
@@ -112,7 +113,8 @@ TEST_CASE("rows: each kind has the expected columns and cell formats") {
 }
 
 TEST_CASE(
-    "rows: a link is a row of its receiver, and a leg is evaluated at the time of its record") {
+    "rows: the row of a link is of its receiver, and the row of a leg has the position at the "
+    "record's time") {
     const auto rows = std::make_shared<RowSink>(kind_all);
     Stream stream;
     stream.sinks = {rows};

@@ -9,7 +9,7 @@ import { colors, drawn, folder, launched, most_apart, printed, scenario, told, w
 import { html, sections, view_file } from "./run_file.mjs";
 
 for (const [name, robots] of [["stage", 3], ["movement", 50], ["doors", 2]]) {
-    test(`V22: the page of ${name} loads no other file, and its robots are where rovernet where prints them`, () => with_page(name, {}, async page => {
+    test(`V22: the page of ${name} loads no other file, and shows robots at the positions that the command where prints`, () => with_page(name, {}, async page => {
         const { head } = sections(view_file(name));
         assert.equal(head.robots.length, robots);
         assert.ok(await colors(page) >= 5);

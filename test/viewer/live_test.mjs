@@ -15,7 +15,7 @@ const state = page => page.evaluate(() => rovernet.parts.live.state());
 function until(page, passes, argument) { return page.waitForFunction(passes, argument); }
 const exact = text => Number(text.replace(/\s/g, ""));
 
-test("V10: a page pauses and steps its run, sets its speed, and shows its past and its present", () =>
+test("V10: a page pauses and steps a run, sets the speed of the run, and shows its past and its present", () =>
     with_command(run(scenario("rescue")), address => with_served(address, {}, async page => {
         await until(page, () => rovernet.parts.live.state().now_ns > 5e8);
         assert.equal(await page.textContent("#present"), "live");

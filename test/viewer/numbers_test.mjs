@@ -22,7 +22,7 @@ function pixels_of(page, color) {
     }, color);
 }
 
-test("V8: at the pointer the page shows the level of the coverage cell, or of two models with their difference", () => of_run("rescue", "#t=10&robots=1&panel=robot", async page => {
+test("V8: at the pointer the page shows the level of the coverage cell; for two models, both levels and their difference", () => of_run("rescue", "#t=10&robots=1&panel=robot", async page => {
     await page.keyboard.press("c");
     await page.waitForFunction(() => document.getElementById("legend").textContent.includes("coverage of B"));
     const box = await page.locator("#map").boundingBox();
@@ -76,7 +76,7 @@ test("links: a page without a server shows the links recorded in the trace, and 
     assert.match(await page.locator("#legend").textContent(), /link up by the trace/);
 }));
 
-test("charts: the delivery ratio ends at the metric; the cursor is at the current time, a click seeks, a drag zooms", () => with_page("linked", { hash: "#panel=charts" }, async page => {
+test("charts: the curve of the delivery ratio ends at the run's metric; a cursor marks the current time, a click seeks, a drag zooms", () => with_page("linked", { hash: "#panel=charts" }, async page => {
     const { metrics, duration_ns } = sections(view_file("linked")).head;
     const at = t => page.evaluate(ns => window.rovernet.charts(ns), t), value = (all, chart) => all.find(c => c.chart === chart).values[0].value;
     assert.equal(value(await at(duration_ns), "Delivery ratio"), metrics.delivery_ratio);

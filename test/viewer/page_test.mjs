@@ -17,7 +17,7 @@ for (const name of all) {
 }
 
 for (const name of ["rescue", "storeys", "patrol"]) {
-    test(`V2: robots of ${name} are where rovernet where prints them`, () => with_page(name, {}, async page => {
+    test(`V2: the page of ${name} shows robots at the positions that the command where prints`, () => with_page(name, {}, async page => {
         const most = await most_apart(page, name, sections(view_file(name)).head.duration_ns, 200);
         assert.ok(most < 1e-3, `${most} m apart`);
     }));
@@ -108,7 +108,7 @@ test("V5: a seek takes at most 15 ms of CPU time in scripts, and the page at mos
     assert.ok(usedSize + backingStorageSize <= 150e6, `${usedSize} + ${backingStorageSize} bytes`);
 }));
 
-test("V6: while a run plays, the list of events follows the time from one block of data into the next", () => with_page("many", {}, async page => {
+test("V6: while a run plays, the list of events follows the time, also from one block of data to the next", () => with_page("many", {}, async page => {
     const { blocks } = sections(view_file("many")).head, begin = blocks[1].begin_ns;
     await page.evaluate(t => window.rovernet.select({ t, playing: false }), begin - 0.2e9);
     await page.waitForFunction(() => window.rovernet.whole && window.rovernet.list());

@@ -32,7 +32,7 @@ async function queue_of(page, robot, t) {
     });
 }
 
-test("queue: its length is the number of messages made, minus those sent and those dropped by the full queue", () => with_page("queue", {}, async page => {
+test("queue: the length of a robot's queue is the messages made, minus those sent and those dropped by the full queue", () => with_page("queue", {}, async page => {
     const frames = sent_frames("queue"), longest = Math.max(...frames.map(frame => frame.queue));
     assert.equal(longest, 20);  // it was full
     for (const { time_s, robot, queue } of frames) {

@@ -41,11 +41,11 @@ async function opened(programs) {
     return text;
 }
 
-test("view --open: xdg-open opens the address; if xdg-open is missing, a message prints the address", async () => {
+test("view --open: xdg-open opens the address; if xdg-open is missing, the command prints the address", async () => {
     const [with_it, without] = ["with-browser", "without-browser"].map(name => path.join(folder, name));
     for (const each of [with_it, without]) fs.mkdirSync(each);
     fs.writeFileSync(path.join(with_it, "xdg-open"), `#!/bin/sh\necho "$1" > ${with_it}/part && /bin/mv ${with_it}/part ${with_it}/opened\n`, { mode: 0o755 });
     const address = /http:\S+/.exec(await opened(with_it))[0];
     assert.equal(fs.readFileSync(path.join(with_it, "opened"), "utf8").trim(), address);
-    assert.match(await opened(without), /there is no xdg-open; open http:\S+ in a browser/);
+    assert.match(await opened(without), /xdg-open is not installed; open http:\S+ in a browser/);
 });

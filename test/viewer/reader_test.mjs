@@ -33,7 +33,7 @@ test("types: the TypeScript compiler accepts the page's JavaScript files", () =>
         "--target", "es2022", "--lib", "es2022,dom,dom.iterable", ...files], { stdio: "inherit" });
 });
 
-test("files: order.txt lists each script once, and no script has more than 300 lines or writes markup", () => {
+test("files: order.txt lists each script once, and no script has more than 300 lines or writes HTML markup", () => {
     const files = fs.readdirSync(page).filter(file => file.endsWith(".js"));
     const order = fs.readFileSync(path.join(page, "order.txt"), "utf8").trim().split("\n");
     assert.deepEqual([...order].sort(), files.sort());

@@ -27,7 +27,7 @@ function colors_at(page, places) {
     }, places);
 }
 
-test("V7: the link budget of two robots equals rovernet link, and each wall between them is highlighted", () => with_server(path.join(folder, "rescue"), address => with_served(address, {}, async page => {
+test("V7: the link budget of two robots equals the output of the command link, and each wall between them is highlighted", () => with_server(path.join(folder, "rescue"), address => with_served(address, {}, async page => {
     const links = [["A", "E"], ["E", "A"]].map(pair => told("link", scenario("rescue"), ...pair, "--at", "10s", "--json"));
     await page.evaluate(state => window.rovernet.select({ ...state, t: 10e9, robots: [0, 4], trails: false, panel: "pair" }), shown);
     await drawn(page);

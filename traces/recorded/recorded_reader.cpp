@@ -60,7 +60,7 @@ std::string RecordedRun::names_in_words() const {
     const bool is_broken = std::find(broken.begin(), broken.end(), names_file) != broken.end();
     const std::string_view why = is_broken ? "is broken" : "is missing";
     return fmt::format("the trace names {}", robots.size()) +
-           (has_names ? "" : fmt::format(": the file {} inside {}", names_file, why));
+           (has_names ? "" : fmt::format(", because the file {} in the trace {}", names_file, why));
 }
 
 RecordedReader::RecordedReader(const std::string& path) : path_(path), file_(path) {
@@ -128,7 +128,7 @@ void RecordedReader::read_attachment(std::string_view content) {
     const auto crc = from.fixed<std::uint32_t>();
     if (!from.is_done() ||
         (crc != 0 && mcap_crc(content.substr(0, content.size() - sizeof crc)) != crc)) {
-        file_.tell(fmt::format("the file {} inside is broken", file.name));
+        file_.tell(fmt::format("the attached file {} is broken", file.name));
         run_.broken.push_back(std::move(file.name));
         return;
     }

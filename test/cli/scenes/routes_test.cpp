@@ -117,7 +117,7 @@ TEST_CASE("routes: the CSV has a line for each route, and agrees with the text")
     CHECK(begin.out == "n2 has no routes at 0 s\n");
 }
 
-TEST_CASE("routes: an impossible request is an error that says what is possible") {
+TEST_CASE("routes: the error for an impossible request states what is possible") {
     const TemporaryFolder folder;
     const std::string file = folder.write("row.toml", row);
     const auto refusal = [&](std::vector<std::string> more, int exit) {
@@ -141,7 +141,8 @@ TEST_CASE("routes: an impossible request is an error that says what is possible"
 }
 
 TEST_CASE(
-    "draw --routes, --search: the picture shows the route and the search; errors are reported") {
+    "draw --routes, --search: the picture shows the route and the last request; invalid options "
+    "are refused") {
     const TemporaryFolder folder;
     const std::string file = folder.write("row.toml", row);
     const auto draw = [&](std::vector<std::string> more) {

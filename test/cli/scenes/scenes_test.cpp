@@ -101,7 +101,9 @@ TEST_CASE("links: the table of a robot lists the robots that it hears, with leve
     CHECK(a["links"].empty());      // B's -20 dBm arrive at -80.2 dBm; A needs -75
 }
 
-TEST_CASE("links: text and JSON agree, and --robot selects one table") {
+TEST_CASE(
+    "links: --robot prints the link table of one robot, with addresses and levels; an unknown "
+    "robot is refused") {
     const TemporaryFolder folder;
     folder.write("pair.toml", pair);
     const Ended ended = command(folder, {"links", folder.path("pair.toml"), "--robot", "B"});
@@ -214,7 +216,8 @@ range = "10 m"
     CHECK(scene["robots"][3]["x_m"] == 99.0);
 }
 
-TEST_CASE("scene: the diameter is that of the widest connected part, in any order of robots") {
+TEST_CASE(
+    "scene: the printed diameter is the largest of all connected parts, in any order of robots") {
     const TemporaryFolder folder;
     folder.write("parts.toml", R"(robot = [{ name = "lone", at = ["500 m", "0 m"] },
         { name = "c", at = ["18 m", "0 m"] }, { name = "x", at = ["99 m", "0 m"] },
@@ -294,7 +297,7 @@ payload = "F"
     CHECK(again.out == printed.out);
 }
 
-TEST_CASE("scene: a robot of a flow of SUMO, whose name has a dot, has its own radio") {
+TEST_CASE("scene: a robot whose name has a dot, as in flows of SUMO, may have its own radio") {
     const TemporaryFolder folder;
     folder.write("v.xml",
                  "<fcd-export>\n<timestep time=\"0\">"

@@ -135,7 +135,8 @@ TEST_CASE(
     CHECK(command(advised.folder, strict({"--budget", "soon"})).exit == 2);
 }
 
-TEST_CASE("advise: with costs, prints the CPU time of each model and draws error against cost") {
+TEST_CASE(
+    "advise: without --no-cost, prints the CPU time of each model and draws error against cost") {
     const Advised advised;
     auto words = advised.words({"-o", advised.folder.path("advice.svg")});
     std::erase(words, "--no-cost");
@@ -154,8 +155,8 @@ TEST_CASE("advise: a metric without bounds needs --tolerance, and is tested by S
                                              "transmissions"};
     const Ended ended = command(advised.folder, metric);
     CHECK(ended.exit == 2);
-    CHECK(ended.err.find("--metric transmissions: transmissions has no upper bound; expected a "
-                         "--tolerance") != std::string::npos);
+    CHECK(ended.err.find("--metric transmissions: transmissions has no upper bound; expected also "
+                         "a --tolerance") != std::string::npos);
     const Json json = json_of(
         advised.folder, {"advise", advised.file, "--no-cost", "--metric", "transmissions",
                          "--tolerance", "30", "--models", "two_ray", "--max-replications", "40"});

@@ -126,7 +126,8 @@ TEST_CASE(
     CHECK(csv.out.find("\nrouting_load,flood,,,,0,0,0,3,,") != std::string::npos);
 }
 
-TEST_CASE("compare --protocols: reads a printed scenario of aodv, whose hello is 0 s by default") {
+TEST_CASE(
+    "compare --protocols: reads a printed scenario of aodv, whose key hello is 0 s by default") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", three);
     const Ended printed = command(folder, {"run", file, "--set", "routing.protocol=aodv", "--set",
@@ -138,7 +139,9 @@ TEST_CASE("compare --protocols: reads a printed scenario of aodv, whose hello is
     CHECK(ended.err.find("hello") == std::string::npos);
 }
 
-TEST_CASE("compare --protocols: unicasts that the end cuts off under one protocol give a notice") {
+TEST_CASE(
+    "compare --protocols: unicasts that the end of the run cuts off under one protocol give a "
+    "notice") {
     const TemporaryFolder folder;
     const std::string notice =
         "unicasts on their way at the end of a run are left out of delivery_ratio under flood (3 "

@@ -68,7 +68,9 @@ std::string levels_by(const std::vector<std::string>& receivers) {
 
 }  // namespace
 
-TEST_CASE("fit: groups have the name of their column, and a single group is called in-sample") {
+TEST_CASE(
+    "fit: groups are printed with the name of their column; the error of a single group is "
+    "in-sample") {
     const TemporaryFolder folder;
     const std::string file = folder.write("talkers.toml", talkers);
     const auto fitted = [&](const std::vector<std::string>& receivers) {

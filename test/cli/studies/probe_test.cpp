@@ -44,12 +44,15 @@ at = ["14 m", "4.5 m"]
 
 }  // namespace
 
-TEST_CASE("probe: the text names the cliff, the link that flips and the lost message") {
+TEST_CASE(
+    "probe: the text lists links with a steep loss (cliffs), the link that flips and the lost "
+    "message") {
     const TemporaryFolder folder;
     const Ended ended = command(folder, {"probe", folder.write("rim.toml", rim)});
     CHECK(ended.exit == 0);
     CHECK(ended.err.empty());
-    CHECK(ended.out.starts_with("1 links at 20 times, losses by disc; 4 receptions of messages"));
+    CHECK(ended.out.starts_with(
+        "1 links at 20 times, losses computed by disc; 4 receptions of messages"));
     CHECK(ended.out.find("up -> down") != std::string::npos);
     CHECK(ended.out.find("2 cliffs") != std::string::npos);
     CHECK(ended.out.find("1 um north of the sender") != std::string::npos);
@@ -62,7 +65,7 @@ TEST_CASE("probe: the text names the cliff, the link that flips and the lost mes
     CHECK(all["effects"][0]["distance_m"] == 10);
 }
 
-TEST_CASE("probe: the JSON lists the perturbations of a map, and at most --top effects") {
+TEST_CASE("probe: the JSON output lists the perturbations of a map, and at most --top effects") {
     const TemporaryFolder folder;
     const Json all = json_of(folder, {"probe", with_map(folder)});
     CHECK(all["model"] == "raytrace_2007");
@@ -79,12 +82,13 @@ TEST_CASE("probe: the JSON lists the perturbations of a map, and at most --top e
     CHECK(one["messages"].empty());
 }
 
-TEST_CASE("probe: robots out of range and invalid counts are errors in words") {
+TEST_CASE("probe: robots that never come into range, and a number of 0 links, are refused") {
     const TemporaryFolder folder;
     const std::string file = folder.write("rim.toml", rim);
     const Ended alone = command(folder, {"probe", file, "--set", "propagation.range=\"1 m\""});
     CHECK(alone.exit == 3);
-    CHECK(alone.err.find("no two robots come within the range of disc") != std::string::npos);
+    CHECK(alone.err.find("by the model disc, no two robots come within range of each other") !=
+          std::string::npos);
     CHECK(command(folder, {"probe", file, "--links", "0"}).exit == 2);
 }
 

@@ -109,7 +109,7 @@ bool has(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("sweep on Slurm: tasks and merge give the results of a local sweep") {
+TEST_CASE("sweep on Slurm: the tasks and their merge give the same results as a local sweep") {
     const Cluster cluster;
     const Ended ended = cluster.submit({"--workers", "2", "--sbatch", "--partition=x --time=1:00"});
     CAPTURE(ended.err);
@@ -125,7 +125,9 @@ TEST_CASE("sweep on Slurm: tasks and merge give the results of a local sweep") {
     CHECK(has(cluster.submit().err, "nothing to submit"));
 }
 
-TEST_CASE("sweep on Slurm: a lost task is named, and the same command repeats its runs") {
+TEST_CASE(
+    "sweep on Slurm: the missing shard of a lost task is reported, and the same command repeats "
+    "its runs") {
     const Cluster cluster;
     cluster.folder.write("bin/lost", "1");
     CHECK(cluster.submit().exit == 0);
@@ -177,7 +179,7 @@ TEST_CASE("sweep on Slurm: a dry run prints scripts and commands, and submits no
     }
 }
 
-TEST_CASE("sweep on Slurm: with --json every result is one document") {
+TEST_CASE("sweep on Slurm: with --json the output of each call is one JSON document") {
     const Cluster cluster;
     const Json shown = Json::parse(cluster.submit({"--dry-run", "--json"}).out);
     CHECK(shown["merge_script"] == content(cluster.store() + ".slurm/merge.sh"));
@@ -241,7 +243,9 @@ TEST_CASE("sweep on Slurm: options that exclude each other are refused") {
     CHECK_FALSE(fs::exists(cluster.store()));
 }
 
-TEST_CASE("sweep --merge: prints the state of the store as JSON, and exits with 4 until complete") {
+TEST_CASE(
+    "sweep --merge: prints the state of the store as JSON, and exits with 4 as long as runs are "
+    "missing") {
     const Cluster cluster;
     for (const char* shard : {"0", "1"}) {
         const std::string store = std::string(shard) + ".db";

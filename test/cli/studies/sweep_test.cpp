@@ -115,7 +115,7 @@ TEST_CASE(
     CHECK(ended.exit == 4);
     CHECK(ended.err.find("5 of 5 points did not reach the precision 0.01 of delivery_ratio within "
                          "4 replications:\n  propagation.range=10 m: +- 0.") != std::string::npos);
-    CHECK(ended.err.find(" of 4 values\n") != std::string::npos);
+    CHECK(ended.err.find(" from 4 values\n") != std::string::npos);
     auto as_json = wanted;
     as_json.push_back("--json");
     const Ended again = command(place.folder, as_json);
@@ -175,7 +175,8 @@ TEST_CASE("sweep: the runs of a study appear in results, in CSV and in explain")
     CHECK(again["delivery_ratio"] == run["metrics"]["delivery_ratio"]);
 }
 
-TEST_CASE("sweep: few replications give a warning") {
+TEST_CASE(
+    "sweep: after a sweep with fewer than 5 replications, the command results prints a warning") {
     const Place place;
     command(place.folder, {"sweep", place.file, "--replications", "2"});
     CHECK(command(place.folder, {"results", place.store()}).err.find("fewer than 5 replications") !=
@@ -250,7 +251,7 @@ TEST_CASE(
     CHECK(place.csv() == undisturbed.csv());
 }
 
-TEST_CASE("sweep: a run whose worker is killed is made once more") {
+TEST_CASE("sweep: a run whose worker process is killed is repeated once") {
     const Place place;
     const Process sweep(place.folder, {"sweep", place.file, "--workers", "1", "--set",
                                        "scenario.duration=300", "--replications", "3"});
@@ -301,7 +302,7 @@ replications = 5
     }
 }
 
-TEST_CASE("sweep: of two sweeps on one store, the second gets an error") {
+TEST_CASE("sweep: while a sweep writes to a store, a second sweep on this store is refused") {
     const Place place;
     const Process first(place.folder, {"sweep", place.file, "--set", "scenario.duration=1e8",
                                        "--set", "scenario.event_limit=1000000000000"});
@@ -314,7 +315,7 @@ TEST_CASE("sweep: of two sweeps on one store, the second gets an error") {
 }
 
 TEST_CASE(
-    "sweep: a full disk ends the sweep and keeps finished runs; with free space the sweep "
+    "sweep: a full disk ends the sweep and keeps finished runs; once there is space, the sweep "
     "continues") {
     const Place place;
     const std::string limited =
@@ -427,7 +428,7 @@ TEST_CASE("results: options that exclude each other are refused") {
 }
 
 TEST_CASE(
-    "compare: other keys that the study varies keep the file's value; an impossible comparison "
+    "compare: other keys that the study varies have the scenario's value; an impossible comparison "
     "ends at once") {
     const Place place(chatter + "vary.routing.ttl = [1, 2]\n");
     const std::vector<std::string> models = {"compare", place.file, "--replications", "5"};
@@ -539,7 +540,9 @@ TEST_CASE("compare: uses only the requested replications of a store that has mor
     CHECK(finished(place.store()).size() == 30);
 }
 
-TEST_CASE("compare: assumptions are printed, and can be changed by options") {
+TEST_CASE(
+    "compare: the first value is the baseline; options set the confidence and the method of the "
+    "intervals") {
     const Place place;
     const auto with = [&](const std::string& vary, std::vector<std::string> more) {
         std::vector<std::string> words = {"compare", place.file, "--replications",
@@ -595,8 +598,8 @@ TEST_CASE("compare: with failed runs, compares the finished ones and exits with 
     CAPTURE(ended.out);
     CAPTURE(ended.err);
     CHECK(ended.exit == 4);
-    CHECK(ended.out.find("lack pairs, because one of the two lacks the replication: 6 failed") !=
-          std::string::npos);
+    CHECK(ended.out.find("cannot be compared in some replications, because one of the two has no "
+                         "value: 6 failed") != std::string::npos);
     CHECK(ended.err.find("compare.db") == std::string::npos);  // it is gone
 }
 

@@ -177,7 +177,8 @@ at = ["0 m", "0 m"]
     CHECK(command(folder, {"results", folder.path("s.db"), "--sql", "SELECT 1"}).exit == 0);
 }
 
-TEST_CASE("two simultaneous runs into one folder: all files are of one run or all of the other") {
+TEST_CASE(
+    "two simultaneous runs into one folder: all files left in the folder belong to the same run") {
     const TemporaryFolder folder;
     const std::string out = folder.path("out");
     const std::string file = folder.write("s.toml", R"([scenario]

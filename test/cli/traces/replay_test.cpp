@@ -158,7 +158,7 @@ TEST_CASE("replay --verify of an ns-2 trace finds additional and missing lines a
     CHECK(shorter.out.find("recorded  nothing more\n") != std::string::npos);
 }
 
-TEST_CASE("replay --speed prints the events of both kinds of trace in order") {
+TEST_CASE("replay --speed prints the events of an ns-2 trace or a recorded trace in order") {
     const TemporaryFolder folder;
     const Ended ns2 = command(folder, {"replay", sample, "--speed", "x1000"});
     CHECK(ns2.exit == 0);

@@ -61,8 +61,9 @@ TEST_CASE("trace follow --json agrees with the text, and has the frames of a rec
     REQUIRE(there["frames"].size() == 1);
     CHECK(there["frames"][0]["outcome"] == "too weak");
     CHECK(there["frames"][0]["walls"] == 0);
-    CHECK(there["answer"] ==
-          "B never was within reach: the only frame came 2.7 dB below its sensitivity.");
+    CHECK(
+        there["answer"] ==
+        "B was never in range: the only frame came 2.7 dB below the sensitivity of the receiver.");
 }
 
 TEST_CASE("trace follow needs no scenario to print what an ns-2 trace has about a robot") {
@@ -71,11 +72,11 @@ TEST_CASE("trace follow needs no scenario to print what an ns-2 trace has about 
         command(run.folder, {"trace", "follow", run.text, "--message", "0", "--robot", "B"});
     CHECK(ended.exit == 0);
     CHECK(ended.out.find("B received no copy") != std::string::npos);
-    CHECK(ended.out.find("within reach") == std::string::npos);
+    CHECK(ended.out.find("was never in range") == std::string::npos);
 }
 
 TEST_CASE(
-    "trace: the folder of a run stands for the trace in it, the recorded one if there are two") {
+    "trace: if the folder of a run is given, its trace is read; of two traces, the recorded one") {
     const Run run;
     const std::string folder = run.folder.path("run");
     const auto stats = [&](const std::string& trace) {
@@ -91,7 +92,7 @@ TEST_CASE(
     CHECK(none.err.find("trace.mcap") != std::string::npos);
 }
 
-TEST_CASE("trace stats names the kind of a recorded trace") {
+TEST_CASE("trace stats prints whether a trace is recorded or in a format of ns-2") {
     const Run run;
     CHECK(json_of(run.folder, {"trace", "stats", run.recorded})["format"] == "recorded");
     CHECK(json_of(run.folder, {"trace", "stats", run.text})["format"] == "old");
@@ -128,7 +129,9 @@ TEST_CASE("trace stats of a recorded trace has the metrics of the summary, also 
     }
 }
 
-TEST_CASE("trace convert --to pcapng needs a recorded trace, and says why") {
+TEST_CASE(
+    "trace convert --to pcapng of an ns-2 trace is refused with the reason, and of a recorded "
+    "trace works") {
     const Run run;
     const std::string out = run.folder.path("x.pcapng");
     const Ended ended = command(run.folder, {"trace", "convert", run.text, out, "--to", "pcapng"});
@@ -145,7 +148,9 @@ TEST_CASE("trace convert --to pcapng needs a recorded trace, and says why") {
     CHECK(content(out).size() > 100);
 }
 
-TEST_CASE("trace: an empty file, or a file of an unknown packer, is refused with the reason") {
+TEST_CASE(
+    "trace: an empty file, or a file compressed by an unknown program, is refused with the "
+    "reason") {
     const TemporaryFolder folder;
     const std::vector<std::pair<std::string, std::string>> files = {
         {"", "the file is empty"},
@@ -173,7 +178,8 @@ TEST_CASE("trace: an empty file, or a file of an unknown packer, is refused with
     }
 }
 
-TEST_CASE("an ns-2 movement file is recognised, also if it is compressed or begins with set") {
+TEST_CASE(
+    "an ns-2 movement file is recognised, also if it is compressed or begins with the word set") {
     const TemporaryFolder folder;
     const std::string moves =
         "set opt(nn) 3\n$node_(0) set X_ 5.0\n$ns_ at 1.0 \"$node_(0) setdest 10.0 0.0 1.0\"\n";
@@ -192,7 +198,7 @@ TEST_CASE("an ns-2 movement file is recognised, also if it is compressed or begi
     CHECK(toml.err.find("unknown key \"set\"") != toml.err.npos);
 }
 
-TEST_CASE("disc: no command prints a level, a loss or a margin of a link") {
+TEST_CASE("disc: with the model disc, no command prints a level, a loss or a margin of a link") {
     const TemporaryFolder folder;
     const std::string file = folder.write(
         "d.toml",
@@ -217,7 +223,7 @@ TEST_CASE("disc: no command prints a level, a loss or a margin of a link") {
     }
     const auto link = json_of(folder, {"link", file, "A", "B"});
     CHECK(link["margin_db"].is_null());
-    CHECK(link["why_down"] == "150 m, beyond its range of 100 m");
+    CHECK(link["why_down"] == "150 m, beyond the sender's range of 100 m");
 }
 
 }  // namespace trace_test

@@ -88,7 +88,7 @@ TEST_CASE("view: an invalid input or option is an error that says what to do") {
     has(error_of(folder, {rescue, "-o", page, "--from", "80 s"}, 0), "51 of 51 frames");
     CHECK_FALSE(std::filesystem::exists(folder.path("no")));
     const std::string patrol = std::string(ROVERNET_EXAMPLES) + "/patrol/patrol.toml";
-    has(error_of(folder, {rescue, patrol, "-o", page}, 3), "patrol.toml: found 9 robots, and 5 in");
+    has(error_of(folder, {rescue, patrol, "-o", page}, 3), "patrol.toml: found 9 robots, but 5 in");
     has(error_of(folder, {rescue, "no.toml", "-o", page}, 3), "no.toml: no such file");
     has(error_of(folder, {rescue, rescue, "--with", "radio.power=1 dBm", "-o", page}, 2),
         "expected one of them");

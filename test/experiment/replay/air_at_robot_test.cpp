@@ -88,7 +88,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "air at a robot: the result is the same with an index, and an unknown robot is an error") {
+    "air at a robot: an index of the trace does not change the result; an unknown robot is "
+    "refused") {
     const Run run(traffic("A", "50 ms") + traffic("B", "33 ms"));
     RecordedReader reader(run.path);
     RecordedIndex index;

@@ -298,7 +298,9 @@ std::string arp_line(const SentFrame& of) {
 
 }  // namespace
 
-TEST_CASE("tshark reads AODV packets: all fields of RREQ, RREP, RERR and HELLO are right") {
+TEST_CASE(
+    "tshark reads AODV packets: all fields of RREQ, RREP, RERR and HELLO equal those in the "
+    "trace") {
     if (!has_tshark()) return;
     // Place of a field in the lines, its value, and the run in which a packet has it.
     struct Case {
@@ -333,7 +335,9 @@ TEST_CASE("tshark reads AODV packets: all fields of RREQ, RREP, RERR and HELLO a
     }
 }
 
-TEST_CASE("tshark reads DSR packets: requests, replies, errors and source routes are right") {
+TEST_CASE(
+    "tshark reads DSR packets: requests, replies, errors and source routes equal those in the "
+    "trace") {
     if (!has_tshark()) return;
     const CapturedRun run(two_ways, {"routing.protocol=dsr"});
     capture_recorded(run.trace, run.capture);
@@ -350,7 +354,8 @@ TEST_CASE("tshark reads DSR packets: requests, replies, errors and source routes
     CHECK(run.tshark("-Y 'udp.port == 49600 and not dsr'").empty());
 }
 
-TEST_CASE("dsr 6.7, 8.3.6: segments left decrease along a route, and along a salvaged route") {
+TEST_CASE(
+    "dsr 6.7, 8.3.6: the field segments left decreases along a route, and along a salvaged route") {
     const CapturedRun run(two_ways, {"routing.protocol=dsr"});
     std::map<std::string, int> found;
     lines_of(run.trace, [&](const SentFrame& of) -> std::string {
@@ -368,7 +373,8 @@ TEST_CASE("dsr 6.7, 8.3.6: segments left decrease along a route, and along a sal
     CHECK(found["0\t0\t0x01\t4\t10.0.0.2,10.0.0.5,10.0.0.6,10.0.0.7"] == 0);
 }
 
-TEST_CASE("tshark reads ARP: operation and addresses are right, in 28 bytes after SNAP") {
+TEST_CASE(
+    "tshark reads ARP: operation and addresses equal those in the trace, in 28 bytes after SNAP") {
     if (!has_tshark()) return;
     const CapturedRun run(two_ways, {"routing.protocol=aodv", "access.arp=true"});
     capture_recorded(run.trace, run.capture);

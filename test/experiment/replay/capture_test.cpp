@@ -203,7 +203,8 @@ TEST_CASE("capture: every frame is recorded at its sender and at all its receive
     CHECK(with_retry > 0);
 }
 
-TEST_CASE("capture: each message follows a header of rovernet with origin, size, TTL and hops") {
+TEST_CASE(
+    "capture: before each message there is a header of rovernet with origin, size, TTL and hops") {
     const CapturedRun run(busy);
     capture_recorded(run.trace, run.capture);
     const std::size_t header = 16 + 24 + 8 + 20 + 8;

@@ -76,17 +76,17 @@ TEST_CASE(
     CHECK(std::abs(frame.margin.value - (frame.level.value + 75)) < 1e-9);
     CHECK(frame.outcome == Outcome::too_weak);
     CHECK(frame.others.empty());
-    CHECK(sentence(there) ==
-          "B never was within reach: the only frame came 8.7 dB below its sensitivity.");
+    CHECK(
+        sentence(there) ==
+        "B was never in range: the only frame came 8.7 dB below the sensitivity of the receiver.");
 }
 
 TEST_CASE("message at a robot: a received message is described by sender, time and level") {
     const Run run({0, 100, 400}, one_message);
     CHECK(run.says(0, 0) == "A sent it.");
-    CHECK(
-        run.says(0, 1).starts_with("B got the message from A, 0.193 ms after it was sent: that "
-                                   "frame came at -63.70 dBm, 11.3 dB "
-                                   "above its sensitivity."));
+    CHECK(run.says(0, 1).starts_with(
+        "B got the message from A, 0.193 ms after it was sent: that "
+        "frame came at -63.70 dBm, 11.3 dB above the sensitivity of the receiver."));
     const MessageAtRobot there = run.look(0, 2);
     REQUIRE(there.frames.size() >= 2);
     CHECK(there.frames[0].outcome == Outcome::too_weak);  // A's, over 400 m
@@ -124,7 +124,7 @@ TEST_CASE("message at a robot: a collision names the other frames on air and the
     CHECK(frame.others[0].from == NodeId{2});
     CHECK(std::abs((frame.others[0].level - frame.level).value) < 1e-9);
     CHECK(sentence(there) ==
-          "B was within reach of 1 of 1 frame and lost it: while other frames were on air.");
+          "B was in range of 1 of 1 frame, but lost it: while other frames were on air.");
     CHECK(run.says(1, 1) == sentence(there));
 }
 
@@ -138,12 +138,12 @@ TEST_CASE("message at a robot: a message is lost because the receiver was sendin
     CHECK(there.frames[0].others[0].from == NodeId{1});
     CHECK(there.frames[0].others[0].level.value == std::numeric_limits<double>::infinity());
     CHECK(sentence(there) ==
-          "B was within reach of 1 of 1 frame and lost it: while it was sending itself.");
+          "B was in range of 1 of 1 frame, but lost it: while the robot itself was sending.");
 }
 
 TEST_CASE(
-    "message at a robot: each attempt of a unicast is a frame; at other robots it is for another "
-    "robot") {
+    "message at a robot: each attempt of a unicast is a frame; other robots report a frame for "
+    "another robot") {
     const Run run({0, 100, 200},
                   "[access]\nmodel = \"csma\"\n[[traffic]]\nkind = \"unicast\"\nfrom = \"A\"\nto = "
                   "\"B\"\npayload = \"x\"\nstart = \"1 s\"\n"
@@ -155,7 +155,7 @@ TEST_CASE(
     CHECK(run.says(0, 2) == "1 frame was sent, for another robot.");
     const MessageAtRobot far = run.look(1, 3);
     CHECK(far.frames.size() == 7);  // the attempts at a short frame
-    CHECK(run.says(1, 3).starts_with("D never was within reach: the strongest of 7 frames"));
+    CHECK(run.says(1, 3).starts_with("D was never in range: the strongest of 7 frames"));
 }
 
 TEST_CASE(
@@ -235,7 +235,8 @@ every = "25 ms"
     CHECK(read / (messages / step) < records / 10);
 }
 
-TEST_CASE("message at a robot: a trace of a network built in code has no levels") {
+TEST_CASE(
+    "message at a robot: a trace of a network built in code, and an unknown robot, are refused") {
     const TempFolder folder;
     RecordedTrace trace(folder / "t.mcap", {.version = "1"});
     trace.begin({.scenario = {},

@@ -173,8 +173,8 @@ TEST_CASE("replay of an ns-2 trace: lines that are not in ns-2 format are counte
 }
 
 TEST_CASE(
-    "replay of an ns-2 trace: receptions beyond the radio's range give a notice with a sufficient "
-    "power") {
+    "replay of an ns-2 trace: receptions beyond the radio's range give a notice with a power that "
+    "suffices") {
     const TemporaryFolder folder;
     const auto day_of = [&](double metres) {
         const std::string heard =
@@ -193,12 +193,13 @@ TEST_CASE(
     const std::string told = far.hears_farther({});
     CAPTURE(told);
     // 40 log10(397 / 250) = 8.03 dB over flat ground.
-    CHECK(told.find("n1 received n0 from 397 m at 1.005000 s, 8.0 dB below") != std::string::npos);
+    CHECK(told.find("n1 received a frame of n0 over 397 m at 1.005000 s, 8.0 dB below") !=
+          std::string::npos);
     CHECK(told.find("--as \"radio.power=32.6 dBm\"") != std::string::npos);
     CHECK(deliveries(far, {"radio.power=32.6 dBm"}) == 1);
     CHECK(far.hears_farther({"radio.power=32.6 dBm"}).empty());
     const std::vector<std::string> disc = {"propagation.model=disc", "propagation.range=100 m"};
-    CHECK(far.hears_farther(disc).find("reaches 100 m; --as \"propagation.model=disc;"
+    CHECK(far.hears_farther(disc).find("reaches only 100 m; --as \"propagation.model=disc;"
                                        "propagation.range=397 m\"") != std::string::npos);
     CHECK(far.hears_farther({"propagation.model=disc", "propagation.range=397 m"}).empty());
 }
@@ -220,7 +221,9 @@ TEST_CASE("replay of an ns-2 trace: the range of the default radio is 250 m") {
     }
 }
 
-TEST_CASE("replay of an ns-2 trace: a robot without a position in the trace is named") {
+TEST_CASE(
+    "replay of an ns-2 trace: the error for a robot without a position names it; a movement file "
+    "may give the position") {
     const TemporaryFolder folder;
     const std::string trace = folder.write("lost.tr", move_line(0, 0) + said(1, 0, 0, "1"));
     CHECK_THROWS_WITH_AS(
@@ -236,7 +239,7 @@ TEST_CASE("replay of an ns-2 trace: a robot without a position in the trace is n
     const std::string short_file =
         folder.write("one.tcl", "$node_(0) set X_ 0\n$node_(0) set Y_ 0\n");
     CHECK_THROWS_WITH_AS(read_ns2_day(trace, {.routing = {}, .movements = short_file}),
-                         doctest::Contains("one.tcl: no position of robot 1"), InputError);
+                         doctest::Contains("one.tcl: found no position of robot 1"), InputError);
 }
 
 TEST_CASE(
@@ -248,8 +251,8 @@ TEST_CASE(
                                    said(2, 1, 0, "4194305") + said(3, 2, 0, "1"));
     const RecordedDay day = read_ns2_day(trace, {});
     CHECK(day.notices() ==
-          std::vector<std::string>{
-              "2 messages are left out, because their destination is no other robot of the trace"});
+          std::vector<std::string>{"2 messages are left out, because their destination is not a "
+                                   "different robot of the trace"});
     CHECK(day.play({}).metrics.messages == 1);
 }
 

@@ -281,7 +281,9 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("recorded trace: a message that is sent twice is refused, as in a trace in text") {
+TEST_CASE(
+    "recorded trace: a second record that sends the same message is refused, as in a trace in "
+    "text") {
     const TempFolder folder;
     record(folder / "trace.mcap", [](Stream& stream) {
         const NodeId a = stream.place(Vec3{}), b = stream.place(Vec3{1, 0, 0});

@@ -96,12 +96,12 @@ TEST_CASE(
     CHECK(collided < found.lost);
 }
 
-TEST_CASE("run comparison: traces of different robots are an error that names one of the robots") {
+TEST_CASE("run comparison: traces of runs with different robots are refused") {
     const test::TemporaryFolder folder;
     const std::string rescue = record(folder, "rescue/rescue.toml", "rescue");
     const std::string patrol = record(folder, "patrol/patrol.toml", "patrol");
     CHECK_THROWS_WITH_AS(compare(rescue, patrol),
-                         "other: found 9 robots, and 5 in one; two runs are compared robot by "
+                         "other: found 9 robots, but 5 in one; two runs are compared robot by "
                          "robot: expected the same names in the same order",
                          InputError);
 }

@@ -125,8 +125,7 @@ TEST_CASE("link gaps: a gap continues while the robot is off, and ends when the 
     CHECK(near(vehicle.lost_share(), 1));
 }
 
-TEST_CASE(
-    "link gaps: a gap begins and ends at the times and positions that the history of links has") {
+TEST_CASE("link gaps: a gap begins and ends at the times and positions in the history of links") {
     const test::TemporaryFolder folder;
     const Scenario s = read(folder, corridor);
     const LinkGaps gaps = link_gaps(s, {.robot = "rover", .partners = {"west"}});

@@ -12,7 +12,8 @@
 namespace link_table_test {
 using namespace rovernet;
 
-TEST_CASE("links: each robot's table is handed over before the next table is computed") {
+TEST_CASE(
+    "links: the link table of each robot is passed to the caller before the next one is computed") {
     const test::TemporaryFolder folder;
     const Scenario scenario = load_scenario(folder.write("s.toml", R"([[robot]]
 name = "r"
@@ -31,7 +32,7 @@ place = { area = [["0 m", "0 m"], ["1 m", "1 m"]] }
     CHECK(told == 2);
 }
 
-TEST_CASE("where: traffic is simulated only if it can move robots") {
+TEST_CASE("where: traffic is simulated only if a message can make a robot move") {
     const test::TemporaryFolder folder;
     const std::string text = R"([[robot]]
 name = "a"

@@ -86,8 +86,8 @@ TEST_CASE("route path: the path ends at a robot without a route, or with a broke
 }
 
 TEST_CASE(
-    "route path: the first hop that is not heard breaks the path; later hops still come from the "
-    "tables") {
+    "route path: the path is broken at the first hop that is not heard; later hops still come from "
+    "routing tables") {
     const Row far({{0, {route(4, 2, 2)}}, {2, {route(4, 3, 2)}}, {3, {route(4, 4, 1)}}});
     const RouteWay way = far.way(4);
     REQUIRE(way.hops.size() == 3);
@@ -100,7 +100,7 @@ TEST_CASE(
     CHECK(off.way(2).broken_at == NodeId{0});
 }
 
-TEST_CASE("route path: a loop ends the path") {
+TEST_CASE("route path: a path in a routing loop ends where the loop closes") {
     const Row loop({{0, {route(4, 1, 3)}}, {1, {route(4, 2, 2)}}, {2, {route(4, 1, 3)}}});
     const RouteWay way = loop.way(4);
     CHECK(way.hops.size() == 3);

@@ -37,7 +37,7 @@ using Presences = std::vector<Presence>;
 
 }  // namespace
 
-TEST_CASE("whereabouts: a vehicle is first not departed, then on, and at last gone") {
+TEST_CASE("whereabouts: a vehicle is reported as not departed, then as on, and at last as gone") {
     test::TemporaryFolder folder;
     const Scenario s = load_scenario(folder.write("fcd.xml", two_vehicles), {});
     const auto all =
@@ -48,7 +48,9 @@ TEST_CASE("whereabouts: a vehicle is first not departed, then on, and at last go
     CHECK(all[0].robots[1].position == Vec3{0, 40, 0});  // where it will appear
 }
 
-TEST_CASE("whereabouts: a robot is reported as off from its switching off to its switching on") {
+TEST_CASE(
+    "whereabouts: a robot is reported as off from when it is switched off until it is switched "
+    "on") {
     test::TemporaryFolder folder;
     const Scenario s = load_scenario(
         folder.write("s.toml",
@@ -71,7 +73,7 @@ TEST_CASE("whereabouts: the answers are in the order of the requested times") {
     CHECK(all[2].robots[0].position == Vec3{10, 0, 0});
 }
 
-TEST_CASE("network: take_away switches a robot's radio off until switch_on") {
+TEST_CASE("network: take_away() switches a robot's radio off until switch_on() is called") {
     Network net;
     const NodeId a = net.add({.name = "a", .at = {}, .radius = {0.7}});
     CHECK(net.robot(a).presence == Presence::on);

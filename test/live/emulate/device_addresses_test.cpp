@@ -54,7 +54,9 @@ std::string fault(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("device addresses: an address that no device can have is an error with its position") {
+TEST_CASE(
+    "device addresses: an address that no network device can have is refused, with line and "
+    "column") {
     const std::vector<std::string> macs = {"hello",
                                            "",
                                            "02:00:00:00:00",
@@ -119,7 +121,7 @@ TEST_CASE("device addresses: equal addresses of two robots are refused, in any n
     CHECK(fault(many).empty());
 }
 
-TEST_CASE("device addresses: robots in different networks give a notice") {
+TEST_CASE("device addresses: robots in different IP networks give a notice") {
     CHECK(notices(two("", "")).empty());
     CHECK(notices(two("ip = \"10.0.0.77\"", "")).empty());
     CHECK(notices(two("ip = \"192.168.1.1\"", "ip = \"192.168.1.2\"")).empty());

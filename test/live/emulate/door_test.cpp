@@ -17,7 +17,9 @@ using namespace rovernet::test;
 using namespace std::chrono_literals;
 using namespace std::string_literals;
 
-TEST_CASE("emulate: a ping stops while the door between two robots is closed, and works again") {
+TEST_CASE(
+    "emulate: pings get no answer while the door between two robots is closed, and answers after "
+    "it opens") {
     const std::string path = std::string(ROVERNET_EXAMPLES) + "/emulate/door.toml";
     Programs programs(std::make_unique<RelayFormat>(), load_scenario(path, {}));
     std::string answered;  // second by second

@@ -46,7 +46,9 @@ TEST_CASE("ethernet: a frame is passed unchanged, and is on air without its head
     CHECK(took <= on_air + 2us);
 }
 
-TEST_CASE("ethernet: a robot's address gives a unicast, a group address a broadcast") {
+TEST_CASE(
+    "ethernet: a frame to a robot's MAC address is sent as a unicast, to a group address as a "
+    "broadcast") {
     Programs programs = programs_of();
     programs.send(1, frame(c, b, 100));
     programs.run_to(start_of_run + 10ms);

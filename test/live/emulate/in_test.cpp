@@ -117,7 +117,7 @@ const std::vector<std::string> stubborn = {"sh", "-c",
 
 }  // namespace
 
-TEST_CASE("in: root enters the network of another user's run only with --user") {
+TEST_CASE("in: with rovernet in, root enters the network of another user's run only with --user") {
     if (!is_root()) return;
     const std::string robot = "Q" + std::to_string(getpid());
     const Stranger squatter([&] { return hand_out_own_network(robot); });
@@ -142,7 +142,7 @@ TEST_CASE("in: root enters the network of another user's run only with --user") 
     CHECK(try_in({"--user", "no such user"}).exit == 2);
 }
 
-TEST_CASE("in: a user cannot enter another user's run by any option") {
+TEST_CASE("in: with rovernet in, a user cannot enter another user's run by any option") {
     if (!is_root()) return;
     const std::string robot = "Q" + std::to_string(getpid());
     const int listener = open_listener(getpid(), robot);
@@ -159,7 +159,7 @@ TEST_CASE("in: a user cannot enter another user's run by any option") {
     close(listener);
 }
 
-TEST_CASE("emulate: only the user of a run gets its namespaces") {
+TEST_CASE("emulate: only the user who started a run gets the network namespaces of its robots") {
     const auto run = is_root() ? emulated_by_tap() : nullptr;
     if (!run) return;
     const auto gets_it = [&] {
@@ -178,7 +178,9 @@ TEST_CASE("emulate: only the user of a run gets its namespaces") {
     CHECK(gets_it() == 1);
 }
 
-TEST_CASE("robot listener: a second listener for one robot gets another name, and both are found") {
+TEST_CASE(
+    "robot listener: a second listener for the same robot gets another name, and both listeners "
+    "are found") {
     const std::string robot = "R/.." + std::to_string(getpid());
     const int first = open_listener(getpid(), robot), second = open_listener(getpid(), robot);
     std::set<std::string> marks;
@@ -198,7 +200,9 @@ TEST_CASE("robot listener: a second listener for one robot gets another name, an
     CHECK_FALSE(RobotListener{getpid(), "", robot}.connect_to());
 }
 
-TEST_CASE("in: several runs are distinguished by their folders") {
+TEST_CASE(
+    "in: if several runs have the robot, rovernet in needs --run with the folder or process of one "
+    "run") {
     const auto one = emulated_by_tap();
     const auto other = one ? emulated_by_tap() : nullptr;
     if (!other) return;
@@ -221,7 +225,8 @@ TEST_CASE("in: several runs are distinguished by their folders") {
         CHECK(by_folder.out == try_in({"--run", out + "/../out/"}, "A").out);
         CHECK(by_folder.out == try_in({"--run", pid}, "A").out);
         networks.insert(by_folder.out);
-        CHECK(try_in({"--run", out}, "X").err.find("no robot X; there are ") != std::string::npos);
+        CHECK(try_in({"--run", out}, "X").err.find("there is no robot X; the robots are ") !=
+              std::string::npos);
     }
     CHECK(networks.size() == 2);
     const std::string out = one->folder.path("out");
@@ -241,7 +246,7 @@ TEST_CASE("in: several runs are distinguished by their folders") {
     }
 }
 
-TEST_CASE("in: programs end with the run, with a message") {
+TEST_CASE("in: when the run ends, programs started by rovernet in are ended too, with a message") {
     for (const std::string how : {"interrupted", "killed", "killed with its keeper"}) {
         CAPTURE(how);
         const auto run = emulated_by_tap();
@@ -259,13 +264,13 @@ TEST_CASE("in: programs end with the run, with a message") {
         const Ended ended = program.wait();
         CHECK(ended.exit == 1);
         CHECK(ended.err.find("the run in " + run->folder.path("out") +
-                             " has ended, and sh with it") != std::string::npos);
+                             " has ended, so sh was stopped") != std::string::npos);
         CHECK(all_end(all));
         if (how == "killed with its keeper") kill(numbers(left_behind, 1)[0], SIGKILL);
     }
 }
 
-TEST_CASE("in: a program has time to clean up when the run ends") {
+TEST_CASE("in: a program started by rovernet in has time to clean up when the run ends") {
     const auto run = emulated_by_tap();
     if (!run) return;
     const TemporaryFolder folder;
@@ -280,7 +285,7 @@ TEST_CASE("in: a program has time to clean up when the run ends") {
     CHECK(ended.exit == 1);
 }
 
-TEST_CASE("in: the exit code of the program is that of the command, and signals reach it") {
+TEST_CASE("in: rovernet in exits with the code of the program, and passes signals to the program") {
     const auto run = emulated_by_tap();
     if (!run) return;
     const TemporaryFolder folder;

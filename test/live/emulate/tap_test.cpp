@@ -46,7 +46,7 @@ bool has_ping() {
 }  // namespace
 
 TEST_CASE(
-    "emulate: pings of the kernel pass over the radio, and the run is replayed without them") {
+    "emulate: pings of the kernel pass over the simulated radio, and the replay needs no pings") {
     const auto run = has_ping() ? emulated_by_tap() : nullptr;
     if (!run) return;
     const std::vector<double> times = ping(*run, "A", "10.0.0.2", 20);
@@ -116,7 +116,7 @@ print(got == f"{len(sent)} {hashlib.sha256(sent).hexdigest()}", len(sent))
     CHECK(run->replay().exit == 0);
 }
 
-TEST_CASE("emulate: a killed run leaves nothing behind") {
+TEST_CASE("emulate: a killed run leaves no listener of a robot behind") {
     const auto run = emulated_by_tap();
     if (!run) return;
     CHECK(has_listeners(run->pid()));
@@ -126,7 +126,7 @@ TEST_CASE("emulate: a killed run leaves nothing behind") {
     CHECK_FALSE(has_listeners(run->pid()));
 }
 
-TEST_CASE("in: a missing run, robot or program is an error") {
+TEST_CASE("in: rovernet in refuses a run, a robot or a program that does not exist") {
     const TemporaryFolder folder;
     const auto try_in = [&](std::vector<std::string> words) {
         words.insert(words.begin(), "in");
@@ -139,7 +139,7 @@ TEST_CASE("in: a missing run, robot or program is an error") {
     const std::string pid = std::to_string(run->pid());
     const Ended unknown = try_in({"X", "--run", pid, "--", "true"});
     CHECK(unknown.exit != 0);
-    CHECK(unknown.err.find("no robot X; there are ") != std::string::npos);
+    CHECK(unknown.err.find("there is no robot X; the robots are ") != std::string::npos);
     CHECK(try_in({"A", "--run", pid, "--", "/no/such/program"}).err.find("/no/such/program: No ") !=
           std::string::npos);
     CHECK(try_in({"A", "--run", pid, "--", "sh", "-c", "exit 7"}).exit == 7);

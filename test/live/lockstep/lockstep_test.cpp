@@ -73,7 +73,9 @@ TEST_CASE("lockstep: the transcript in the documentation is reproduced byte for 
     }
 }
 
-TEST_CASE("lockstep: each malformed line gets its code and position, and changes nothing") {
+TEST_CASE(
+    "lockstep: each malformed line is answered with an error code and the wrong key, and changes "
+    "nothing") {
     Talk talk(three_in_a_row());
     const auto check = [&](const std::vector<std::pair<std::string, std::string>>& table) {
         for (const auto& row : table) {
@@ -342,7 +344,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("lockstep: scans are sent on request, in the frame stated in the welcome") {
+TEST_CASE(
+    "lockstep: scans are sent on request, in the coordinate frame stated in the message welcome") {
     const std::string hello =
         R"({"type":"hello","protocol":1,"robots":["A","B"],"step":"100 ms","observe":["scan"]})";
     Talk without(three_in_a_row());
@@ -379,7 +382,9 @@ at = ["2 m", "0 m"]
     CHECK(scan.at("A")[0][0] == 6);
 }
 
-TEST_CASE("lockstep: welcome describes the placement of the map and both sides of its cells") {
+TEST_CASE(
+    "lockstep: the message welcome has the placement of the map, and the width and height of its "
+    "cells") {
     const TemporaryFolder folder;
     folder.write("m.pgm", "P2 4 3 255\n255 255 255 0\n255 255 255 255\n0 255 255 255\n");
     const auto map = [&](const std::string& scene) {
@@ -605,7 +610,9 @@ TEST_CASE(
     CHECK(gone.lockstep.fault() == "a controller has ended before its hello");
 }
 
-TEST_CASE("lockstep: the patience holds for a started program that says no hello") {
+TEST_CASE(
+    "lockstep: if a started program sends no hello within the patience, the run ends with an "
+    "error") {
     using namespace std::chrono_literals;
     const auto run_of_three = [](std::optional<std::chrono::nanoseconds> patience) {
         auto talk = std::make_unique<Talk>(three_in_a_row(),

@@ -84,7 +84,8 @@ std::string refusal(Act act) {
 
 }  // namespace
 
-TEST_CASE("stepped run: the same commands give the same run as the lock-step protocol") {
+TEST_CASE(
+    "stepped run: commands give the same run as the same commands over the lock-step protocol") {
     const Scenario scenario = three_in_a_row();
     for (const auto seed : {std::optional<std::uint64_t>(), std::optional<std::uint64_t>(7)}) {
         CHECK(by_steps(scenario, seed) == by_lines(scenario, seed));
@@ -117,7 +118,7 @@ TEST_CASE("stepped run: an interrupted step continues, and the log reproduces th
 }
 
 TEST_CASE(
-    "stepped run: poses follow the arc, in an array with one row per robot that stays at its "
+    "stepped run: the array of poses has one row per robot, follows the arc and stays at one "
     "address") {
     SteppedRun run(three_in_a_row(), {.robots = std::vector<std::string>{"C", "A"}});
     const double* pose = run.poses().data();

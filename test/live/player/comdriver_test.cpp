@@ -73,8 +73,8 @@ std::vector<std::string> heard_of(const std::string& message) {
 }  // namespace
 
 TEST_CASE(
-    "comdriver: each hop decrements the first byte of a message, and forwards it while the byte is "
-    "above 0") {
+    "comdriver: each robot decrements the first byte of a message, and forwards the message while "
+    "it is above 0") {
     using Heard = std::vector<std::string>;
     CHECK(heard_of("\x01"
                    "F") == Heard{"", "0046", "", ""});

@@ -112,7 +112,8 @@ driver ( name "comdriver" provides [ "6667:opaque:1" ] )
     CHECK(!read(head + robots).has_comdriver());
 }
 
-TEST_CASE("player configuration: errors have a position") {
+TEST_CASE(
+    "player configuration: the error for an invalid address or driver has the file and the line") {
     const auto fault = [](const std::string& text) -> std::string {
         try {
             read(text);
@@ -171,7 +172,9 @@ TEST_CASE(
     CHECK_THROWS_AS(player_ports({"127.0.0.1", 65535}, {"a", "b"}, {}), std::invalid_argument);
 }
 
-TEST_CASE("player listeners: robots of tables, of a `count` and of a movement file are served") {
+TEST_CASE(
+    "player listeners: robots of [[robot]] tables, also with `count`, and of movement files are "
+    "served") {
     const TemporaryFolder folder;
     folder.write("m.tcl", R"($node_(0) set X_ 1
 $node_(0) set Y_ 2

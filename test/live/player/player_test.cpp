@@ -220,12 +220,12 @@ TEST_CASE(
     check_same(answers(talk, capture));
 }
 
-TEST_CASE("player: the banner is sent as one piece of 32 bytes") {
+TEST_CASE("player: the banner has 32 bytes, and begins with \"Player v.\"") {
     CHECK(player_banner().size() == 32);
     CHECK(player_banner().starts_with("Player v."));
 }
 
-TEST_CASE("player: the data of position2d equal a sample, byte for byte") {
+TEST_CASE("player: the data messages of position2d equal a sample, byte for byte") {
     PlayerTalk talk(player_scenario(pair));
     const auto client = talk.come();
     const std::string sample =
@@ -262,7 +262,7 @@ TEST_CASE("player: the link table of wifi equals a sample, byte for byte") {
     CHECK(types(talk.ask(client, request(23, 0, 2))) == "N");
 }
 
-TEST_CASE("player: a driven robot follows the arc, in its odometry and in the world") {
+TEST_CASE("player: a driven robot follows the commanded arc, in its odometry and in the world") {
     PlayerTalk talk(player_scenario(pair));
     const auto client = talk.come();
     talk.say(client, mode(pull) + device(4, 0) + device(31, 0) + drive(0.3, 0.1));
@@ -308,7 +308,7 @@ TEST_CASE("player: odometry is set and reset, and a robot is placed elsewhere") 
     }
 }
 
-TEST_CASE("player: an unknown device is refused, and there is no SYNCH without data") {
+TEST_CASE("player: an unknown device is refused, and no message SYNCH is sent without data") {
     PlayerTalk talk(player_scenario(pair));
     const auto client = talk.come();
     const auto refused = talk.ask(client, mode(pull) + device(23, 9));
@@ -369,7 +369,8 @@ TEST_CASE("player: radio messages are received by the other robots in range") {
     CHECK(talk.session.network().metrics().messages == 1);
 }
 
-TEST_CASE("player: two clients of a robot both get data, and one that leaves stops nothing") {
+TEST_CASE(
+    "player: two clients of a robot both get data, and the robot stops only when both have left") {
     PlayerTalk talk(player_scenario(pair));
     const auto first = talk.come(), second = talk.come();
     talk.say(first, device(4, 0) + drive(1, 0));
@@ -427,7 +428,7 @@ TEST_CASE("player: a client in PULL mode gets the newest data once, and all mess
     CHECK(told.back().time == 0);
 }
 
-TEST_CASE("player: range finders are measured only for subscribers, and are never negative") {
+TEST_CASE("player: range finders measure only for subscribers, and no distance is negative") {
     const std::string in_a_wall = R"([scenario]
 duration = "60 s"
 [[robot]]

@@ -80,7 +80,9 @@ TEST_CASE("player: the lasers of a robot are laser:0 and laser:1; sonar and rang
     CHECK(told(talk, ranger, 0).empty());
 }
 
-TEST_CASE("player: geometry gives the position of a range finder and the origin of its beams") {
+TEST_CASE(
+    "player: a request for the geometry returns the position of a range finder and the origins of "
+    "its beams") {
     PlayerTalk talk(player_scenario(
         with_scans("[" + ahead + ", " + rear + ", " + ring + ", " + eyes + "]", "{}")));
     CHECK(answer(talk, laser, 0, 1) == std::string(72, '\0'));
@@ -104,8 +106,8 @@ TEST_CASE("player: geometry gives the position of a range finder and the origin 
 }
 
 TEST_CASE(
-    "player: robots at one port have equally many device indices of a kind, even if they use "
-    "fewer") {
+    "player: robots at one port have equally many device indices of a kind, even if some have "
+    "fewer devices") {
     const std::vector<PlayerPlace> places = {{"robot1", 0, 0}, {"robot2", 0, 1}};
     PlayerTalk alike(player_scenario(with_scans("{ range = \"1 m\" }", "{ range = \"2 m\" }")),
                      {.places = places});

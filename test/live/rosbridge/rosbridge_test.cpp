@@ -97,7 +97,9 @@ TEST_CASE("rosbridge: a robot turns in place at the commanded rate") {
     CHECK(std::abs(pose["twist"]["twist"]["angular"]["z"].get<double>() + 0.25) < exact);
 }
 
-TEST_CASE("rosbridge: topics arrive at their rates in simulated time, under the client's names") {
+TEST_CASE(
+    "rosbridge: topics arrive at their rates in simulated time, under the names in the "
+    "subscriptions") {
     RosTalk talk(three_in_a_row());
     for (const char* topic : {"/clock", "clock", "/tf", "/A/odom", "C/radio/neighbors"}) {
         talk.subscribe(topic);
@@ -110,7 +112,9 @@ TEST_CASE("rosbridge: topics arrive at their rates in simulated time, under the 
     CHECK(count == expected);
 }
 
-TEST_CASE("rosbridge: a throttled stream has exactly 10 messages a second, the newest ones") {
+TEST_CASE(
+    "rosbridge: with throttle_rate 100 a stream has exactly 10 messages a second, the newest "
+    "ones") {
     for (const int queue_length : {0, 1}) {
         RosTalk talk(three_in_a_row());
         talk.subscribe("/clock", {{"throttle_rate", 100}, {"queue_length", queue_length}});
@@ -125,7 +129,8 @@ TEST_CASE("rosbridge: a throttled stream has exactly 10 messages a second, the n
 }
 
 TEST_CASE(
-    "rosbridge: a queue keeps the newest messages; without a queue early messages are dropped") {
+    "rosbridge: with a queue a throttled topic keeps the newest messages, without one it drops "
+    "early messages") {
     RosTalk talk(three_in_a_row());
     talk.subscribe("/B/radio/received", {{"throttle_rate", 500}, {"queue_length", 2}});
     talk.come(1);

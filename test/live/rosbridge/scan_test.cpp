@@ -45,7 +45,9 @@ std::vector<std::string> scans(RosTalk& talk) {
 
 }  // namespace
 
-TEST_CASE("rosbridge: the first laser is /A/scan, others have their names, a ring has no topic") {
+TEST_CASE(
+    "rosbridge: the first laser has the topic /A/scan, others have /A/NAME/scan, and a ring has "
+    "none") {
     RosTalk talk(
         with_scan("[" + ring + ", { kind = \"ranger\", beams = 3 }, " + front + ", " + rear + "]"));
     CHECK(scans(talk) == std::vector<std::string>{"/A/ranger/scan", "/A/scan", "/A/rear/scan"});
@@ -74,14 +76,16 @@ TEST_CASE("rosbridge: the first laser is /A/scan, others have their names, a rin
     }
 }
 
-TEST_CASE("rosbridge: without a laser the first fan is /A/scan; a robot with only rings has none") {
+TEST_CASE(
+    "rosbridge: without a laser the first fan has the topic /A/scan; a robot with only rings has "
+    "no topic") {
     RosTalk talk(with_scan("[" + ring + ", { kind = \"ranger\", beams = 3 }]"));
     CHECK(scans(talk) == std::vector<std::string>{"/A/scan"});
     RosTalk rings(with_scan(ring));
     CHECK(scans(rings).empty());
 }
 
-TEST_CASE("rosbridge: a range finder beside the robot's centre has its own frame") {
+TEST_CASE("rosbridge: a range finder beside the robot's centre has its own coordinate frame") {
     RosTalk talk(with_scan("[" + front + ", " + rear + "]"));
     talk.subscribe("/tf_static");
     const Json transforms = talk.messages("/tf_static").at(0)["transforms"];

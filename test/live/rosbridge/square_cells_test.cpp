@@ -32,7 +32,9 @@ std::vector<std::string> drawing(const OccupancyGrid& map) {
 
 }  // namespace
 
-TEST_CASE("square cells: they cover each wall and the exact extent of the map") {
+TEST_CASE(
+    "square cells: a map with oblong cells is redrawn in square cells, with the same walls and "
+    "extent") {
     OccupancyGrid wide = drawn_map({"#.", "?."});
     wide.cell_width = 0.2;
     wide.cell_height = 0.1;
@@ -59,7 +61,8 @@ TEST_CASE("square cells: they cover each wall and the exact extent of the map") 
     CHECK(section.cell_height == section.cell_width);
 }
 
-TEST_CASE("square cells: no wall is lost or moved, at any sides of the old cells") {
+TEST_CASE(
+    "square cells: no wall is lost or moved, whatever the width and height of the old cells") {
     Draw draw(11);
     for (int i = 0; i < 50; ++i) {
         OccupancyGrid map = test::random_map(draw, 23, 17, 10);

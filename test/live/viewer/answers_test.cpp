@@ -160,7 +160,9 @@ TEST_CASE("viewer answers: the run number 1 selects the second run") {
     CHECK(error_of(both, pair + R"(, "run": 2})") != "");
 }
 
-TEST_CASE("viewer answers: coverage, contours and the difference of two models are right") {
+TEST_CASE(
+    "viewer answers: coverage, contours and the difference of two models equal those computed "
+    "directly") {
     const Recorded run;
     ViewerAnswers answers({run.path()});
     const auto levels_under = [&](std::vector<std::string> set) {

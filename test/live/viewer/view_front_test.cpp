@@ -308,7 +308,9 @@ TEST_CASE("view front: chart values of completed intervals equal those of the re
     CHECK(compared > 50);
 }
 
-TEST_CASE("view front: a slow page gets the rest later, and a late page gets everything") {
+TEST_CASE(
+    "view front: a page that reads slowly gets the rest later; a page opened late gets the whole "
+    "run") {
     Viewed viewed(rescue());
     viewed.front.opened(1, {});
     viewed.front.opened(2, {});

@@ -194,7 +194,7 @@ TEST_CASE(
     CHECK(still.file.notices().empty());
 }
 
-TEST_CASE("bonnmotion: an invalid list of waypoints is an error with its position") {
+TEST_CASE("bonnmotion: an invalid list of waypoints is refused, with line and column") {
     CHECK(error_of("0 1 1 2 x 1\n") == "scen.movements:1:9: found \"x\", expected a number");
     CHECK(error_of("0 1 1\n0 2 nan\n") == "scen.movements:2:5: found \"nan\", expected a number");
     CHECK(error_of("0 1 1\n\n0 2 2\n") ==
@@ -276,7 +276,8 @@ TEST_CASE("bonnmotion: an endless line is refused, compressed or not") {
 }
 
 TEST_CASE(
-    "bonnmotion: a track with one line for each time is refused; resting robots are accepted") {
+    "bonnmotion: a file with one line for each time, not each node, is refused; nodes at rest are "
+    "accepted") {
     for (const char* track : {"0 0.5 1.5\n1 1.5 1.5\n2 2.5 1.5\n", "0.0 1 2 0\n0.1 1 3 0\n",
                               "0 1 1\n0 5 5\n1 1 2\n1 5 6\n", "3 1 1\n4 1 1\n"}) {
         CAPTURE(track);

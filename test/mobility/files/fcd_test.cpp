@@ -100,7 +100,7 @@ TEST_CASE("fcd: a robot in a first timestep after the start appears at that time
 }
 
 TEST_CASE(
-    "fcd: persons and containers are robots, z is read, and a parked vehicle stays in place") {
+    "fcd: persons and containers become robots, z is read, and a parked vehicle stays in place") {
     const auto p = played(
         fcd(step("0",
                  "<person id='p' y='1' x='2' z='3.5' edge='e'/><container id='c' x='0' "
@@ -132,10 +132,10 @@ TEST_CASE("fcd: names of robots are the ids, with character references and non-A
     CHECK(error_of(fcd(step("0", at("a&amp", "0", "0")))) != "");
 }
 
-TEST_CASE("fcd: content that is invalid in an FCD file is refused with its position") {
+TEST_CASE("fcd: content that is invalid in an FCD file is refused, with line and column") {
     const auto body = [](const std::string& text) { return error_of(fcd(text)); };
     CHECK(body(step("0", at("a", "0", "0")) + step("1", at("a", "0", "0") + at("a", "1", "0"))) ==
-          "fcd.xml:5:76: found \"a\", expected each id once in a timestep");
+          "fcd.xml:5:76: found \"a\", expected each id only once in a timestep");
     CHECK(body(step("2", "") + step("2", "")) ==
           "fcd.xml:5:17: found \"2\", expected a later time than that of the timestep before");
     CHECK(body(step("-1", "")) == "fcd.xml:4:17: found \"-1\", expected a time from 0 to 9e9 [s]");
@@ -155,7 +155,7 @@ TEST_CASE("fcd: content that is invalid in an FCD file is refused with its posit
           "movements that can be read");
 }
 
-TEST_CASE("fcd: XML that is not well-formed is an error with its position") {
+TEST_CASE("fcd: XML that is not well-formed is refused, with line and column") {
     const auto body = [](const std::string& text) { return error_of(fcd(text)); };
     CHECK(body("<timestep time=\"0\">") ==
           "fcd.xml:4:20: found \"</fcd-export>\", expected </timestep>");
@@ -292,7 +292,8 @@ TEST_CASE("fcd: a damaged file is read or refused, without a crash") {
     CHECK(refused < 400);
 }
 
-TEST_CASE("fcd: a simple line-based reader finds the same content in a file of SUMO") {
+TEST_CASE(
+    "fcd: in a file of SUMO, the reader finds the same content as a simple line-based reader") {
     const char* folder = std::getenv("ROVERNET_MOVEMENTS");
     if (!folder) {
         MESSAGE("ROVERNET_MOVEMENTS is not set: skipped");

@@ -60,7 +60,9 @@ TEST_CASE("movement file: a file of another kind is refused, and the error lists
     CHECK_THROWS_AS(MovementFile("/dev/null"), InputError);
 }
 
-TEST_CASE("movement file: a reader that is moved to another object continues where it was") {
+TEST_CASE(
+    "movement file: a reader that is moved to another object (std::move) continues at its place in "
+    "the file") {
     const TemporaryFolder folder;
     const auto path = folder.write(
         "a", "$ns_ at 1 \"$node_(0) setdest 1 0 1\"\n$ns_ at 2 \"$node_(0) setdest 2 0 1\"\n");

@@ -156,8 +156,8 @@ TEST_CASE(
     "writer: positions with x or y not above 0, which ns-2 cannot use, are noted in the file") {
     const std::vector<Track> tracks = {{"a", {leg(0, 10, {0, 2, 0}, {-3.5, 2, 0})}}};
     CHECK(setdest_text(tracks, at(100))
-              .find("# and at one with x or y not above 0; here the least are x -3.50, y 2.00\n") !=
-          std::string::npos);
+              .find("# and at a target with x or y not above 0; the least x here is -3.50, the "
+                    "least y 2.00\n") != std::string::npos);
 }
 
 TEST_CASE("writer: nodes of an ns-2 file keep their numbers, and other names are in comments") {

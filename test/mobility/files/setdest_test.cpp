@@ -133,7 +133,7 @@ TEST_CASE("setdest: a timed set of X_, Y_ or Z_ makes the robot jump in this coo
     CHECK(p.file.end() == start_of_run + from_seconds(6));
 }
 
-TEST_CASE("setdest: an invalid line is refused with its number, or in tolerant mode skipped") {
+TEST_CASE("setdest: an invalid line is refused with its line number, or in tolerant mode skipped") {
     const std::vector<std::pair<std::string, std::string>> lines = {
         {"$node_() set X_ 1",
          "1: found \"$node_()\", expected a node as in $node_(0), its number "
@@ -352,7 +352,7 @@ TEST_CASE("setdest: after six motions, end position and height are right (ns-3 b
     CHECK(p.file.end() == start_of_run + from_seconds(920));
 }
 
-TEST_CASE("setdest: commands to ns-2's god are ignored") {
+TEST_CASE("setdest: commands to ns-2's object god are ignored") {
     const auto p = played(place_0 +
                           "$god_ set-dist 0 1 16777215\n"
                           "$ns_ at 3.9 \"$god_ set-dist 0 1 1\"\n");

@@ -106,7 +106,8 @@ TEST_CASE("backoff: the medium stays busy to the end of a frame that was given u
     CHECK(!s.backoff.is_busy(at(61)));
 }
 
-TEST_CASE("backoff: a reservation counts as busy, and a shorter one does not end it") {
+TEST_CASE(
+    "backoff: the medium counts as busy during a reservation, which a shorter frame does not end") {
     Station s;
     s.backoff.energy(at(20), at(60));
     s.ask_while_busy(30, 2);
@@ -131,7 +132,7 @@ TEST_CASE("backoff: a longer DIFS delays the slots") {
     CHECK(busy.backoff.grant() == at(108));
 }
 
-TEST_CASE("backoff: slots counted before each of several frames add up") {
+TEST_CASE("backoff: slots that are counted between several frames add up") {
     Station s;
     s.good_frame(20, 60);
     s.ask_while_busy(60, 6);
@@ -167,7 +168,7 @@ TEST_CASE("backoff: energy that arrives late in a slot is sensed in the next slo
     }
 }
 
-TEST_CASE("backoff: slots of 1 us are counted correctly") {
+TEST_CASE("backoff: with slots of 1 us, access is granted at the exact end of the last slot") {
     Station s;
     s.timing.slot = 1us, s.timing.sifs = 3us, s.timing.difs = 4us;
     s.ask_while_idle(1);

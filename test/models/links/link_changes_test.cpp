@@ -84,7 +84,9 @@ TEST_CASE("link changes: with models that use only the distance, times are exact
     CHECK(seen > 100);
 }
 
-TEST_CASE("link changes: a path that touches the range gives no change, 1 nm further inside two") {
+TEST_CASE(
+    "link changes: a path that only touches the range gives no change, a path 1 nm further inside "
+    "gives two") {
     const Scene field;
     for (const double miss : {10.0, 10.0 - 1e-9}) {
         MovingPair pair{&field};
@@ -98,7 +100,8 @@ TEST_CASE("link changes: a path that touches the range gives no change, 1 nm fur
 }
 
 TEST_CASE(
-    "link changes: fixed steps miss as many passes as in the table, and the search misses none") {
+    "link changes: fixed time steps miss as many passes as in the test vectors; the search misses "
+    "none") {
     constexpr double sigmas = 5;
     constexpr std::uint64_t passes = 4000;
     const test::Vectors vectors("contact_miss_fixed_step.csv");
@@ -149,7 +152,8 @@ TEST_CASE("link changes: for a pair that stays out of range, the loss is compute
 }
 
 TEST_CASE(
-    "link changes: legs that end in rest, endless legs and resting robots have the right changes") {
+    "link changes: the changes are right for legs that end in rest, endless legs and resting "
+    "robots") {
     const Scene field;
     const Propagation disc = Disc{.range = 10_m};
     MovingPair pair{&field};
@@ -198,7 +202,8 @@ TEST_CASE("link changes: for two_ray with constant heights the time is exact to 
 }
 
 TEST_CASE(
-    "link changes: a robot on stairs gets its link at the storey, after its closest approach") {
+    "link changes: a robot on stairs gets a link when its antenna reaches the storey of the other "
+    "robot") {
     const Scene field;
     MovingPair pair{.scene = &field, .floor_height = Meters{3}};
     const ItuIndoor office{.environment = Environment::office};
@@ -215,7 +220,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "link changes: with a model of unknown shape, changes that last for min_dwell are found") {
+    "link changes: if the loss is an arbitrary function, changes that last for min_dwell are "
+    "found") {
     const Scene field;
     MovingPair pair{&field};
     pair.add(Rings{}, resting({}));
@@ -235,7 +241,8 @@ TEST_CASE(
     CHECK(endless.changes(b, a, start_of_run, never).empty());
 }
 
-TEST_CASE("link changes: a search in parts finds the same as one search, with as many samples") {
+TEST_CASE(
+    "link changes: a search in parts finds the same change as one search, with as many samples") {
     const Scene field;
     MovingPair pair{&field};
     pair.add(Rings{}, resting({}));

@@ -57,7 +57,9 @@ TEST_CASE("link changes: a link through a narrow door is up while no corner is i
     }
 }
 
-TEST_CASE("link changes: over a wall of finite height, a link changes as it passes the top edge") {
+TEST_CASE(
+    "link changes: over a wall of finite height, a link changes as the line of sight passes the "
+    "top edge") {
     constexpr Duration within = 3ns;
     const Scene scene(OccupancyGrid{.columns = 1,
                                     .rows = 1,

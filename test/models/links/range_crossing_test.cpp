@@ -14,7 +14,7 @@
 namespace range_crossing_test {
 using namespace rovernet;
 
-TEST_CASE("range crossing: times of entering and leaving equal the vectors") {
+TEST_CASE("range crossing: the times of entering and leaving the range equal the test vectors") {
     constexpr double tolerance = 1e-13;          // a few roundings, see the vectors' description
     constexpr double tangent_tolerance = 1e-12;  // where the discriminant nearly vanishes
     const test::Vectors vectors("range_crossing.csv");
@@ -37,7 +37,8 @@ TEST_CASE("range crossing: times of entering and leaving equal the vectors") {
     }
 }
 
-TEST_CASE("range crossing: a motion in space has the same times as this motion in its plane") {
+TEST_CASE(
+    "range crossing: for a motion in any direction of space, the times equal the closed form") {
     constexpr double tolerance = 1e-12;  // of the rotation
     test::Draw draw(7);
     for (int i = 0; i < 1000; ++i) {

@@ -35,7 +35,9 @@ bool passes_at(const Scene& scene, const StraightMotion& a, const StraightMotion
 
 }  // namespace
 
-TEST_CASE("wall passages: a line that turns about one end has a passage at each visible corner") {
+TEST_CASE(
+    "wall passages: for a line that turns about one end, the time of passing each visible corner "
+    "is found") {
     const Scene scene(box(4, 2, 2, 1));
     const StraightMotion eye{{0, 0, 0}}, far{{10, 0, 0}, {0, 1, 0}};
     // The corner (x, y) is in line with (10, t) at t = 10 y / x.
@@ -48,7 +50,9 @@ TEST_CASE("wall passages: a line that turns about one end has a passage at each 
     CHECK(times.empty());
 }
 
-TEST_CASE("wall passages: an end that moves through a wall has a passage at the wall's edges") {
+TEST_CASE(
+    "wall passages: if an end of the line moves through a wall, the times at the wall's edges are "
+    "found") {
     const Scene scene(box(4, -1, 2, 2));
     for (const double speed : {1.0, 0.625})
         for (const double x : {4.0, 6.0}) {
@@ -58,7 +62,9 @@ TEST_CASE("wall passages: an end that moves through a wall has a passage at the 
         }
 }
 
-TEST_CASE("wall passages: a line that touches a corner and turns back has a passage there") {
+TEST_CASE(
+    "wall passages: for a line that touches a corner and turns back, the time of the touch is "
+    "found") {
     // The line from (t, 0) to (0, 10 - t) touches the parabola of the points
     // (t^2, (10 - t)^2) / 10 from below; both roots are one.
     constexpr double parted = 1e-6;  // [s] two equal roots, by the rounding of what parts them
@@ -83,7 +89,9 @@ TEST_CASE(
     CHECK_FALSE(passes_at(Scene({tip, post}, {Material{}, Material{}}), a, b, 5));
 }
 
-TEST_CASE("wall passages: an end that rises has a passage at the height of the wall's top") {
+TEST_CASE(
+    "wall passages: if an end of the line rises, the time at which it is as high as the wall is "
+    "found") {
     const Scene scene(box(4, -1, 2, 2), {{.height = Meters{2}}});
     const StraightMotion lift{{5, 0, 0}, {0, 0, 0.5}}, post{{9, 0, 3}};
     CHECK(passes_at(scene, lift, post, 4));
@@ -95,7 +103,8 @@ TEST_CASE("wall passages: an end that rises has a passage at the height of the w
 }
 
 TEST_CASE(
-    "wall passages: a line between storeys has passages at ceilings and feet of upper walls") {
+    "wall passages: for a line between storeys, the times at ceilings and at feet of upper walls "
+    "are found") {
     OccupancyGrid ground = box(-50, -50, 1, 1), upper = box(4, -1, 2, 2);
     ground.cells = {Cell::free};
     upper.origin.z = 3;

@@ -37,7 +37,7 @@ TEST_CASE("loss bounds: the loss lies between the bounds, which are close togeth
     }
 }
 
-TEST_CASE("loss bounds: very short and very long distances have no bounds") {
+TEST_CASE("loss bounds: for very short and very long distances the bounds are infinite") {
     LossBounds bounds;
     const auto never_asked = [](double) -> double {
         FAIL("asked");

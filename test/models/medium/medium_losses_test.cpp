@@ -208,7 +208,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "recent losses: a stored loss above its cut-off is used only for cut-offs up to its own") {
+    "recent losses: a stored loss that exceeds its cut-off is not used for a larger cut-off") {
     RecentLosses losses;
     const RecentLosses::Link link{NodeId{1}, NodeId{2}, {0, 0, 1}, {5, 0, 1}};
     CHECK(!losses.find(link, 90_dB));

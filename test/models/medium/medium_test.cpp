@@ -265,7 +265,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "medium: a radio that is off is no receiver and not reachable; switched on again, it is both") {
+    "medium: a radio that is off neither receives nor is reachable, until it is switched on "
+    "again") {
     const Scene field;
     Medium medium({.scene = &field});
     Legs legs;
@@ -297,7 +298,8 @@ TEST_CASE("medium: with every third radio switched off, receivers equal a search
 }
 
 TEST_CASE(
-    "medium: reachable robots are the others of the sender's component, as Boost.Graph finds it") {
+    "medium: reachable robots are the others of the sender's connected component, as Boost.Graph "
+    "finds it") {
     for (std::uint32_t seed = 1; seed <= 20; ++seed) {
         Crowd crowd(seed);
         const Propagation disc = Disc{.range = 7_m};

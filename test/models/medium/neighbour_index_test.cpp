@@ -125,7 +125,9 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("neighbour index: for resting nodes, the first test knows nearly the squared distance") {
+TEST_CASE(
+    "neighbour index: for nodes at rest, the first test gets a bound close to the squared "
+    "distance") {
     Swarm swarm(7);
     const auto place = [&] {
         return Vec3{swarm.draw.uniform(0, 1e4), swarm.draw.uniform(0, 1e4), 0};
@@ -164,7 +166,8 @@ TEST_CASE("neighbour index: a node on an endless leg is found") {
 }
 
 TEST_CASE(
-    "neighbour index: a node at 1e9 m, coincident nodes, nodes on a line and radius 0 are right") {
+    "neighbour index: searches find a node at 1e9 m, coincident nodes and nodes on a line, also at "
+    "radius 0") {
     Swarm swarm(3);
     for (int i = 0; i < 300; ++i) swarm.add({5, 5, 0}, 0);
     for (int i = 0; i < 300; ++i) swarm.add({10.0 * i, -70, 0}, 1);

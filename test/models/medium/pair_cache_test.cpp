@@ -77,7 +77,8 @@ TEST_CASE("pair cache: each pair gets its own loss, in whatever order losses are
     }
 }
 
-TEST_CASE("pair cache: losses computed with a smaller cut-off than the requested one are invalid") {
+TEST_CASE(
+    "pair cache: a loss that exceeds its cut-off is invalid for a request with a larger cut-off") {
     PairCache cache;
     keep(cache, a, b, 95);  // more than the budget of 90 dB: who knows how much
     CHECK(kept(cache, a, b, Db{80}) == 95);
@@ -85,7 +86,7 @@ TEST_CASE("pair cache: losses computed with a smaller cut-off than the requested
     CHECK(kept(cache, a, b, Db{91}) == std::nullopt);
 }
 
-TEST_CASE("pair cache: a loss added later uses the cut-off of the sender's other losses") {
+TEST_CASE("pair cache: a new loss gets at least the cut-off of the sender's stored losses") {
     PairCache cache;
     keep(cache, a, b, 95);
     CHECK(cache.open(a, Db{80}) == budget);

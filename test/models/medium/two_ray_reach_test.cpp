@@ -88,7 +88,8 @@ TEST_CASE(
     CHECK(links > 3000);
 }
 
-TEST_CASE("two-ray: distance decides exactly, until an antenna leaves the common height") {
+TEST_CASE(
+    "two-ray: as long as all antennas have one height, distance alone decides links, and exactly") {
     Ground ground(1);
     const Radio radio{.power = {10}, .antenna_height = {1.5}};
     const auto add = [&](double x) {

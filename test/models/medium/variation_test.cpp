@@ -204,7 +204,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "variation: a shadowed model is symmetric, within its reach, and applies cut-offs correctly") {
+    "variation: losses of a shadowed model are symmetric, consistent with its reach, and right "
+    "with a cut-off") {
     for (const Shadowing& shadowing : {link_shadowing, field_shadowing}) {
         const Propagation model = Shadowed(Friis{}, shadowing, 3, 5);
         CHECK(model.as<Shadowed>()->base().name() == Friis::name);
@@ -268,7 +269,8 @@ TEST_CASE("variation: fading has no effect on the levels of links, which are loc
 }
 
 TEST_CASE(
-    "variation: Rayleigh frames reach a robot with probability e^(-1 / margin), near and far") {
+    "variation: with Rayleigh fading, frames reach a robot with probability e^(-1 / margin), near "
+    "and far") {
     Medium medium({.scene = &open_field, .fading = {.model = FadingModel::rayleigh}});
     Legs legs;
     const std::vector<double> places{0, 100, 300, 420, 700, 1000};
@@ -340,7 +342,8 @@ TEST_CASE("antennas: a sector antenna has its gain ahead, not behind, for sendin
                      medium.links().level(a, {2}, start_of_run, legs).value, tolerance));
 }
 
-TEST_CASE("antennas: a robot that turns in place gains and loses links at the right times") {
+TEST_CASE(
+    "antennas: a robot that turns in place gains and loses links at the times of the closed form") {
     const Scene field;
     test::MovingPair pair{&field};
     Radio sector{.antenna = AntennaShape::cosine, .antenna_beamwidth = Radians{60 * degree}};

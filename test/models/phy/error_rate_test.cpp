@@ -42,7 +42,8 @@ bool close(double a, double b, double relative) {
 
 }  // namespace
 
-TEST_CASE("error rate: losses of frames of 1000 bytes equal the vectors") {
+TEST_CASE(
+    "error rate: the error rates of frames of 1000 bytes, and of bits, equal the test vectors") {
     const test::Vectors vectors("per_1000B.csv");
     int compared = 0;
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -236,7 +237,7 @@ double drawn_symbol_error(const std::vector<Word>& words, double Es_over_N0, int
 }  // namespace
 
 TEST_CASE(
-    "cck: 5.5 Mb/s equals the integral of Pursley and Royster, for error rates down to 1e-220") {
+    "cck: the error rate at 5.5 Mb/s equals the integral of Pursley and Royster, down to 1e-220") {
     for (const double b : {0.01, 0.5, 1.0, 2.0, 3.0, 4.5, 5.9, 6.1, 8.0, 10.0, 11.9, 12.1, 15.0,
                            18.0, 20.9, 21.1, 30.0, 45.0}) {
         const double S = b * b / 16;

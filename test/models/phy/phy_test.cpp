@@ -34,7 +34,9 @@ void for_each_phy(Visit visit) {
 
 }  // namespace
 
-TEST_CASE("every phy: an empty frame takes its preamble; more bytes never take less time") {
+TEST_CASE(
+    "every phy: an empty frame takes the time of its preamble; a longer frame never takes less "
+    "time") {
     for_each_phy([](const Phy& phy) {
         for (const BitRate rate : phy.rates()) {
             CHECK(airtime(phy, Duration{5'000}, rate, 0) == Duration{5'000});
@@ -95,7 +97,9 @@ TEST_CASE("wifi: 64 bytes at 11 Mb/s after a long preamble take 238,545 ns") {
           Duration{192'000 + 46'545});  // 512 / 11 us = 46.5454 us
 }
 
-TEST_CASE("wifi: airtime is rounded to the nearest nanosecond; an empty frame takes the preamble") {
+TEST_CASE(
+    "wifi: airtime is rounded to the nearest nanosecond; an empty frame takes the time of the "
+    "preamble") {
     CHECK(airtime(Wifi{}, Duration{192'000}, 11_Mbps, 0) == Duration{192'000});
     CHECK(airtime(Wifi{}, Duration{0}, 11_Mbps, 1) == Duration{727});
     CHECK(airtime(Wifi{}, Duration{0}, 3_Mbps, 1) == Duration{2667});

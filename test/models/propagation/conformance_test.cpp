@@ -244,7 +244,9 @@ TEST_CASE("every model: beyond the reach for a budget, the loss exceeds the budg
     });
 }
 
-TEST_CASE("every model: with a cut-off, losses within it are exact and others are above it") {
+TEST_CASE(
+    "every model: losses up to the cut-off are exact, and for other links a loss above the cut-off "
+    "is returned") {
     World world;
     for_each_variant([&](const auto& model) {
         const auto exact = losses(model, world.batch());

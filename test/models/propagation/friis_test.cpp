@@ -19,7 +19,7 @@ constexpr double tolerance = 1e-12;  // [dB]
 
 }  // namespace
 
-TEST_CASE("friis: free-space losses equal the vectors, and are never below 0 dB") {
+TEST_CASE("friis: free-space losses equal the test vectors, and are never below 0 dB") {
     const test::Vectors vectors("friis.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         const double d = vectors.number(i, "d_m");

@@ -48,7 +48,8 @@ double between(const ItuIndoor& model, double z1, double z2) {
 }  // namespace
 
 TEST_CASE(
-    "itu_indoor: for each environment, frequency and number of floors, losses equal the vectors") {
+    "itu_indoor: for each environment, frequency and number of floors, losses equal the test "
+    "vectors") {
     const test::Vectors vectors("p1238_classic.csv");
     int used = 0;
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -68,7 +69,7 @@ TEST_CASE(
     CHECK(used > 60);
 }
 
-TEST_CASE("itu_indoor: with a given coefficient, losses equal the vectors without floors") {
+TEST_CASE("itu_indoor: with a given coefficient, losses equal the test vectors without floors") {
     const test::Vectors vectors("p1238_classic.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         const double d = vectors.number(i, "d_m");

@@ -22,7 +22,8 @@ Site site_named(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("itu_site_general: medians equal the vectors, with and without line of sight") {
+TEST_CASE(
+    "itu_site_general: median losses equal the test vectors, with and without line of sight") {
     const test::Vectors vectors("p1238_sitegeneral.csv");
     int compared = 0;
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -41,7 +42,8 @@ TEST_CASE("itu_site_general: medians equal the vectors, with and without line of
 }
 
 TEST_CASE(
-    "itu_site_general: the map decides whether there is line of sight; on an open field there is") {
+    "itu_site_general: the map decides whether there is line of sight; on an open field there "
+    "always is") {
     OccupancyGrid grid;
     grid.columns = 20;
     grid.rows = 10;
@@ -65,7 +67,7 @@ TEST_CASE("itu_site_general: frequencies outside a site's range are refused with
     const ItuSiteGeneral corridor{.site = Site::corridor};
     CHECK_THROWS_WITH_AS(corridor.check_frequency(433_MHz),
                          "itu_site_general: found 0.433 GHz; site \"corridor\" without line of "
-                         "sight holds from 0.625 to 83.5 GHz",
+                         "sight is valid from 0.625 to 83.5 GHz",
                          std::invalid_argument);
     CHECK_NOTHROW(
         ItuSiteGeneral{.site = Site::corridor, .los = LineOfSight::yes}.check_frequency(433_MHz));

@@ -32,7 +32,9 @@ double shadowing(const OneLink& link, Db sigma = 5_dB) {
 
 }  // namespace
 
-TEST_CASE("log_distance: medians equal those of measured buildings") {
+TEST_CASE(
+    "log_distance: with the exponents of measured buildings, median losses equal the test "
+    "vectors") {
     const test::Vectors vectors("log_distance_buildings.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         CAPTURE(vectors.text(i, "building"));

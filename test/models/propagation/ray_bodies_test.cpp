@@ -84,7 +84,7 @@ constexpr std::array both{RayDiffraction::knife_edge, RayDiffraction::utd};
 
 }  // namespace
 
-TEST_CASE("edge pair: if both edges touch the line, the field is asin(rho) / pi") {
+TEST_CASE("edge pair: if both edges touch the line of sight, the field is asin(rho) / pi") {
     for (const double along : {0.01, 0.5, 1.0, 4.0, 50.0}) {
         const double rho = std::sqrt(7.0 * 9 / ((7 + along) * (9 + along)));
         const math::Complex field = pair_field({7, along, 9, 0, 0}, wavelength);
@@ -102,7 +102,7 @@ double row_loss(std::vector<RowCorner> corners, double length) {
 
 }  // namespace
 
-TEST_CASE("edge row: n screens that touch the line leave 1 / (n + 1) of the field") {
+TEST_CASE("edge row: n screens that touch the line of sight leave 1 / (n + 1) of the field") {
     const std::array limits{0.001, 0.05, 0.3, 0.7, 1.2, 1.75};
     std::vector<RowCorner> corners;
     for (std::size_t n = 1; n <= limits.size(); ++n) {
@@ -125,7 +125,9 @@ TEST_CASE("edge row: in deep shadow the field is the product of the diffracted r
     CHECK(near(row_loss(corners, 20), -20 * std::log10(field), 1));
 }
 
-TEST_CASE("edge row: the loss is symmetric and continuous; a corner far below hardly changes it") {
+TEST_CASE(
+    "edge row: the loss is symmetric and continuous; a corner far below the line of sight hardly "
+    "matters") {
     const std::vector<RowCorner> there{{3, 0, 0.2, 0}, {6, 0.1, 0, 1}, {8, 0, 0.05, 2}};
     const std::vector<RowCorner> back{{2, 0, 0.05, 2}, {4, 0.1, 0, 1}, {7, 0, 0.2, 0}};
     CHECK(near(row_loss(there, 10), row_loss(back, 10), 1e-9));
@@ -137,7 +139,8 @@ TEST_CASE("edge row: the loss is symmetric and continuous; a corner far below ha
 }
 
 TEST_CASE(
-    "edge pair: a face of length 0 acts as one edge; an edge far below the line has no effect") {
+    "edge pair: a face of length 0 acts as one edge; an edge far below the line of sight has no "
+    "effect") {
     for (const double bend : {1e-4, 0.01, 0.1}) {
         const double along = 1e-9;
         // A turn by an angle w is shared: bends at both edges by w / 2 over the short face.
@@ -203,7 +206,8 @@ TEST_CASE("rays: deep behind a shelf the error is at most 2.5 dB") {
 }
 
 TEST_CASE(
-    "rays: a path around is found beside a shelf, round and square pillars, and a container") {
+    "rays: a path around the obstacle is found for a shelf, round and square pillars, and a "
+    "container") {
     int number = 0;  // of the body; the seventh is a container
     const auto round = [](double x, double y) { return x * x + y * y < 0.09; };
     const auto slanting = [](double x, double y) {

@@ -87,7 +87,7 @@ double reflections(const RayPaths& paths, const RayPath& path) {
 
 }  // namespace
 
-TEST_CASE("ray tracer: the images of a room have the number and strength in the table") {
+TEST_CASE("ray tracer: number and strength of the images of a room equal the test vectors") {
     // The tracer plans in plan: floor and ceiling enter as receivers mirrored in them.
     const test::Vectors vectors("room_images.csv");
     int compared = 0;

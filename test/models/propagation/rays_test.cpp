@@ -93,7 +93,9 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("rays: a material with losses in dB costs them, and reflects with the model's loss") {
+TEST_CASE(
+    "rays: a material with losses in dB attenuates by these losses, and reflects with the model's "
+    "loss") {
     const Material board{.per_crossing = 7_dB, .per_metre = DbPerMeter{30}};
     const Scene scene = drawn(20, 6, 0.1, bar(-10, 10, 0.1), board);
     CHECK(near(loss(straight_only, scene, {0, -2}, {0, 2}), free_space_db(4, f) + 10, 1e-9));

@@ -28,7 +28,7 @@ Scene wall(double at, double thickness) {
 
 }  // namespace
 
-TEST_CASE("raytrace_2007: losses equal the vectors, with and without a wall in between") {
+TEST_CASE("raytrace_2007: losses equal the test vectors, with and without a wall in between") {
     const test::Vectors vectors("thesis_raytrace.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         const double d = vectors.number(i, "d_m");

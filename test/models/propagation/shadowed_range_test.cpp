@@ -182,7 +182,9 @@ TEST_CASE("shadowed range: for a million links, the decision equals that by the 
     CHECK(in_range < 800'000);
 }
 
-TEST_CASE("shadowed range: the limit in distance equals that of the loss, to the last bit") {
+TEST_CASE(
+    "shadowed range: the distance at which a link goes down equals that by the loss, to the last "
+    "bit") {
     Numbers draw(2);
     int wrong = 0;
     for (int network = 0; network < 500; ++network) {
@@ -204,7 +206,9 @@ TEST_CASE("shadowed range: the limit in distance equals that of the loss, to the
     CHECK(wrong == 0);
 }
 
-TEST_CASE("shadowed range: the limit in the random draw equals that of the loss, to the last bit") {
+TEST_CASE(
+    "shadowed range: the random draw at which a link goes down equals that by the loss, to the "
+    "last bit") {
     Numbers draw(3);
     int wrong = 0;
     for (int network = 0; network < 500; ++network) {
@@ -244,7 +248,9 @@ TEST_CASE("shadowed range: with sigma 0, the range is the model's largest distan
     }
 }
 
-TEST_CASE("shadowed range: budgets that every link or no link meets are decided correctly") {
+TEST_CASE(
+    "shadowed range: with a budget that every link or no link meets, all links are up or all are "
+    "down") {
     for (const double d2 : {0.0, 1e-300, 1.0, 1e4, 1e300, infinity}) {
         CAPTURE(d2);
         for (std::uint64_t key = 0; key < 50; ++key) {
@@ -258,7 +264,7 @@ TEST_CASE("shadowed range: budgets that every link or no link meets are decided 
     CHECK_FALSE(wide.in_range(infinity, 1, 2));
 }
 
-TEST_CASE("shadowed range: the share of links that are up is that of the normal distribution") {
+TEST_CASE("shadowed range: the share of links that are up equals that by the normal distribution") {
     constexpr int pairs = 20'000;
     constexpr double k = 4;  // standard errors
     const Setting setting{.model = {.exponent = 3, .sigma = 8_dB}};
@@ -291,7 +297,7 @@ TEST_CASE("shadowed range: the loss is computed for less than one link in a hund
     CHECK(sum / looks < 0.002);
 }
 
-TEST_CASE("first look: all pairs that are in range pass, and few others") {
+TEST_CASE("first look: all pairs in range pass this fast test, and few other pairs pass") {
     Numbers draw(77);
     for (int network = 0; network < 40; ++network) {
         const ShadowedLoss loss{.at_reference = draw.uniform(20, 60),
@@ -323,7 +329,8 @@ TEST_CASE("first look: all pairs that are in range pass, and few others") {
     }
 }
 
-TEST_CASE("first look: pairs in range pass also with a reach of 0 and an infinite reach") {
+TEST_CASE(
+    "first look: pairs in range also pass this fast test with a reach of 0 and an infinite reach") {
     const ShadowedLoss loss{
         .at_reference = 40, .per_decade = 30, .reference_distance = 1, .sigma = 4};
     const std::uint64_t bits = shadowing_draws(3, 1).bits(1, 2);
@@ -338,7 +345,8 @@ TEST_CASE("first look: pairs in range pass also with a reach of 0 and an infinit
 }
 
 TEST_CASE(
-    "shadowed range: only log_distance offers it, and its links are then decided as by the loss") {
+    "shadowed range: only the model log_distance has a shadowed range, which decides links as the "
+    "loss does") {
     for_each_model([]<class Model>() {
         const Propagation model{[] {
             if constexpr (std::same_as<Model, Disc>)

@@ -37,7 +37,7 @@ double parameter(const std::string& text, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("two-ray: losses equal the vectors") {
+TEST_CASE("two-ray: losses equal the test vectors") {
     const test::Vectors vectors("two_ray.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         const double d = vectors.number(i, "d_ground_m");
@@ -50,7 +50,7 @@ TEST_CASE("two-ray: losses equal the vectors") {
     }
 }
 
-TEST_CASE("two-ray, exact: losses equal the vectors, for three kinds of ground reflection") {
+TEST_CASE("two-ray, exact: losses equal the test vectors, for three kinds of ground reflection") {
     const test::Vectors vectors("two_ray.csv");
     const TwoRay horizontal{.form = TwoRayForm::exact, .polarization = Polarization::horizontal};
     const TwoRay vertical{.form = TwoRayForm::exact};
@@ -72,7 +72,7 @@ TEST_CASE("two-ray, exact: losses equal the vectors, for three kinds of ground r
     }
 }
 
-TEST_CASE("two-ray, exact: far away the loss is the fourth power of the distance") {
+TEST_CASE("two-ray, exact: far away the loss grows with the fourth power of the distance") {
     TwoRay mirror{.form = TwoRayForm::exact, .polarization = Polarization::horizontal};
     mirror.ground_permittivity = 1e300;
     // (d^2 / (ht hr))^2; what is left out falls with (ht / d)^2 and (k ht hr / d)^2.
@@ -227,7 +227,7 @@ TEST_CASE("two-ray, exact: at the last null before the far field, the loss is 11
     CHECK(near(loss_over_ground(1.5, 1.5, 36, Hertz{2398339664.0}, mirror), 110.04, half_a_digit));
 }
 
-TEST_CASE("two-ray, exact: antennas vertically above one another are handled (S39)") {
+TEST_CASE("two-ray, exact: for antennas vertically above one another the loss is finite (S39)") {
     const TwoRay exact{.form = TwoRayForm::exact};
     for (const double rise : {0.1, 1.0, 50.0}) {
         const double above = loss_over_ground(1, 1 + rise, 0, 2450_MHz, exact);

@@ -132,7 +132,8 @@ TEST_CASE("sinr: a frame too weak to decode interferes, and does not lock the re
     CHECK(r.judge(drowned) == Fate::collided);
 }
 
-TEST_CASE("sinr: a transmitting node receives nothing, and releases its lock") {
+TEST_CASE(
+    "sinr: a transmitting node receives nothing, and gives up the frame that it was receiving") {
     Receiver r;
     const auto before = r.hear(NodeId{1}, at(0), at(100), -50);
     constexpr double own = std::numeric_limits<double>::infinity();  // as own_frame() has it

@@ -54,7 +54,7 @@ void check_distribution(const Fading& settings, const std::vector<double>& power
 
 }  // namespace
 
-TEST_CASE("fading: quantiles of the power equal the vectors") {
+TEST_CASE("fading: quantiles of the power equal the test vectors") {
     const test::Vectors vectors("fading_power_quantiles.csv");
     constexpr double tolerance = 1e-9;  // relative
     for (std::size_t row = 0; row < vectors.size(); ++row) {
@@ -85,7 +85,7 @@ TEST_CASE("fading: with a strong line of sight the power stays within 1.5 dB of 
     }
 }
 
-TEST_CASE("fading: by frame, powers have the right distribution, with mean 1") {
+TEST_CASE("fading: by frame, powers have the theoretical distribution, with mean 1") {
     for (const Fading& settings : all_settings(Coherence::frame)) {
         const Fades fades(settings, 5, 2);
         std::vector<double> powers;
@@ -121,7 +121,8 @@ TEST_CASE(
     CHECK(fades.gain(frame).value == fades.gain(other).value);
 }
 
-TEST_CASE("fading: by place, powers have the right distribution, with mean 1 over the seeds") {
+TEST_CASE(
+    "fading: by place, powers have the theoretical distribution, with mean 1 over the seeds") {
     for (const Fading& settings : all_settings(Coherence::place)) {
         std::vector<double> powers;
         for (std::uint64_t seed = 0; seed < 40; ++seed) {
@@ -137,7 +138,8 @@ TEST_CASE("fading: by place, powers have the right distribution, with mean 1 ove
 }
 
 TEST_CASE(
-    "fading: by place, a robot that returns finds the same gain, both ways and for any frame") {
+    "fading: by place, a robot that returns to a place has the same gain there, in both "
+    "directions, for any frame") {
     for (const Fading& settings : all_settings(Coherence::place)) {
         const Fades fades(settings, 5, 2);
         for (int i = 0; i < 50; ++i) {

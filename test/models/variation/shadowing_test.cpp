@@ -105,7 +105,8 @@ TEST_CASE("shadowing field: values have mean 0 and variance 1, at any distance b
 }
 
 TEST_CASE(
-    "shadowing field: as either end moves, the correlation is e^(-D / d_cor), as in the table") {
+    "shadowing field: as either end moves, the correlation is e^(-D / d_cor), as in the test "
+    "vectors") {
     const test::Vectors vectors("field_correlation.csv");
     int rows = 0;
     for (std::size_t row = 0; row < vectors.size(); ++row) {

@@ -77,7 +77,9 @@ TEST_CASE(
     CHECK(texts(whole).size() == 6);
 }
 
-TEST_CASE("chart axis: limits never exceed the largest number") {
+TEST_CASE(
+    "chart axis: if a quantity has natural limits, as 0 and 1, the axis stays within these "
+    "limits") {
     const ChartLimits share{.low = 0, .high = 1}, positive{.low = 0};
     for (const auto& each : {range({0.93, 0.999}), range({0.99, 1}), range({1, 1}), range({0, 0}),
                              range({0, 0.01}), range({0.0001, 0.13}), range({0.9999, 1})}) {
@@ -94,7 +96,7 @@ TEST_CASE("chart axis: limits never exceed the largest number") {
     CHECK(number_axis(range({0.1, 0.9}), true, 6, share).high == 1);
 }
 
-TEST_CASE("chart axis: a value beyond the natural limits is shown nevertheless") {
+TEST_CASE("chart axis: an axis is extended to values beyond the natural limits of the quantity") {
     const ChartAxis axis = number_axis(range({-0.3, 1.2}), false, 6, {.low = 0, .high = 1});
     CHECK((axis.low <= -0.3 && axis.high >= 1.2));
 }
@@ -111,8 +113,8 @@ TEST_CASE("chart axis: a value is placed linearly between the ends") {
 }
 
 TEST_CASE(
-    "chart axis: a logarithmic axis has labels at powers of ten; a short one also at their double "
-    "and fivefold") {
+    "chart axis: a logarithmic axis has labels at powers of ten, a short axis also at 2 and 5 "
+    "times these powers") {
     CHECK(texts(number_axis(range({0.001, 1e4}), true, 8)) == Texts{"0.001", "0.01", "0.1", "1",
                                                                     "10", "100", "1000",
                                                                     "10\xc2\xa0"
@@ -134,7 +136,7 @@ TEST_CASE("chart axis: small ticks of a logarithmic axis are at 2 to 9 times a p
     for (int i = 0; i < 9; ++i) CHECK(axis.ticks[static_cast<std::size_t>(i)].value == i + 1);
 }
 
-TEST_CASE("chart axis: equal values, no values and the largest numbers give an axis") {
+TEST_CASE("chart axis: equal values, no values and the largest numbers give a valid axis") {
     const double least = std::numeric_limits<double>::denorm_min();
     for (const auto& each : {range({}), range({0}), range({5}), range({-5, -5}), range({1e100}),
                              range({-1e100, 1e100}), range({1, 1 + 1e-16}),
@@ -207,7 +209,8 @@ TEST_CASE("chart axis: whole numbers have no ticks with fractions") {
     CHECK_FALSE(few.whole());
 }
 
-TEST_CASE("chart axis: on an axis of words, each word is in the middle of one of the equal parts") {
+TEST_CASE(
+    "chart axis: an axis of words has equal parts, and each word is in the middle of its part") {
     const ChartAxis axis = word_axis({"a", "b", "c", "d"});
     CHECK(std::abs(axis.share(0) - 0.125) < rounding);
     CHECK(std::abs(axis.share(3) - 0.875) < rounding);

@@ -342,7 +342,7 @@ TEST_CASE(
     CHECK(has(text, "no value"));
 }
 
-TEST_CASE("chart: a heat map without missing cells does not mention them") {
+TEST_CASE("chart: a heat map in which every cell has a value draws and mentions no missing cell") {
     const std::string text =
         drawn(one_series(ChartKind::heat_map, {{.x = 1, .y = 0}, {.x = 2, .y = 1}}));
     CHECK_FALSE(has(text, "no value"));

@@ -52,8 +52,8 @@ TEST_CASE("chart view: values and ends of intervals that are not finite are left
 }
 
 TEST_CASE(
-    "chart view: a logarithmic axis omits values that are not above 0, but keeps such ends of "
-    "whiskers") {
+    "chart view: a logarithmic axis omits points that are not above 0, but keeps whiskers whose "
+    "low end is not") {
     Chart scatter =
         chart(ChartKind::scatter,
               {{.x = 0, .y = 1}, {.x = 1, .y = -1}, {.x = 2, .y = 2, .low = -1, .high = 3}});
@@ -83,7 +83,7 @@ TEST_CASE(
     CHECK(view.series[0][2].y == 1);
 }
 
-TEST_CASE("chart view: if one point has a word as x, the axis is one of words") {
+TEST_CASE("chart view: if a point has a word as x, the x axis is an axis of words") {
     CHECK_FALSE(view_of(chart(ChartKind::lines, {{.x = 1, .y = 1}})).has_words);
     CHECK(view_of(chart(ChartKind::lines, {{.category = "w", .y = 1}})).has_words);
     CHECK(view_of(chart(ChartKind::heat_map, {{.x = 1, .y = 1}})).has_words);

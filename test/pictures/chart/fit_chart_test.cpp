@@ -57,7 +57,9 @@ TEST_CASE(
     CHECK(cost_text(10) == "10 times");
 }
 
-TEST_CASE("fit chart: the least error of a row is the smaller of its two errors, or its only one") {
+TEST_CASE(
+    "fit chart: the least error of a row is the smaller of its two errors, or the only error that "
+    "it has") {
     CHECK(FitRow{"a", 0.4, {}}.least_error() == 0.4);
     CHECK(FitRow{"a", {}, 0.3}.least_error() == 0.3);
     CHECK(FitRow{"a", 0.1, 0.3}.least_error() == 0.1);

@@ -83,7 +83,7 @@ TEST_CASE(
     CHECK(lagoon.at(1) == Color{0xff, 0xf3, 0x77});
 }
 
-TEST_CASE("color: hexadecimal text and blending are right") {
+TEST_CASE("color: a color is printed as hexadecimal text, and two colors are blended linearly") {
     CHECK(hex({30, 144, 255}) == "#1e90ff");
     CHECK(blend({200, 0, 10}, {100, 100, 10}, 0.25) == Color{125, 75, 10});
 }

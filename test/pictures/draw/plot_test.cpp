@@ -62,7 +62,7 @@ TEST_CASE("plot: a narrow or low extent is centred, with space around it") {
     CHECK((near(narrow.width, 400) && near(narrow.at({0.5, 50}).x, 200)));
 }
 
-TEST_CASE("plot: a single point gives a plot") {
+TEST_CASE("plot: an extent of a single point gives a plot with the point in the middle") {
     Extent e;
     e.include({3, 4});
     const Plot plot(e, {0, 0}, {.width = 1000, .height = 800});
@@ -108,7 +108,8 @@ TEST_CASE("legend: the scale bar has the length that it states") {
     CHECK(near(bar.width, 20 * 1000 / 130.0));
 }
 
-TEST_CASE("legend: its height is that of its rows, and there is a single row if it fits") {
+TEST_CASE(
+    "legend: a legend is as high as its rows, and has a single row if all entries fit into it") {
     Legend legend;
     CHECK(legend.height(500) == 0);
     for (int i = 0; i < 6; ++i) legend.add({.text = "about 60 px", .draw = {}});
@@ -125,7 +126,9 @@ TEST_CASE("legend: captions are broken between parts, and a long part between wo
     CHECK(wrapped({"indivisible"}, 30, 12) == std::vector<std::string>{"indivisible"});
 }
 
-TEST_CASE("label: positions are tried right, left, above, below, and labels never overlap") {
+TEST_CASE(
+    "label: the positions right, left, above and below are tried in this order, and labels never "
+    "overlap") {
     LabelPlaces places({0, 0, 200, 200});
     std::vector<Box> taken;
     for (int i = 0; i < 20; ++i) {
@@ -143,7 +146,7 @@ TEST_CASE("label: positions are tried right, left, above, below, and labels neve
     CHECK(taken.size() < 20);
 }
 
-TEST_CASE("label: avoids the border, obstacles and, if possible, lines") {
+TEST_CASE("label: a label is placed off the border, off obstacles and, if possible, off lines") {
     LabelPlaces places({0, 0, 400, 100});
     CHECK(places.place({395, 50}, 5, 30, 12)->right < 395);
     places.keep_free({104, 40, 140, 60});

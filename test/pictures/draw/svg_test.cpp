@@ -49,7 +49,9 @@ TEST_CASE("svg: a text is shortened by characters, not by bytes") {
     CHECK(shortened("\xc3\xa4\xc3\xb6\xc3\xbc", 2) == "\xc3\xa4\xe2\x80\xa6");
 }
 
-TEST_CASE("svg: a longer text is wider, and an unknown character has the usual width") {
+TEST_CASE(
+    "svg: the width of a text depends on its letters and font size; an unknown character counts as "
+    "wide") {
     CHECK(text_width("ii", 10) < text_width("mm", 10));
     CHECK(text_width("abc", 20) == 2 * text_width("abc", 10));
     CHECK(text_width("\xe6\x9c\xba", 10) >= 10);

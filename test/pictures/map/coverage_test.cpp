@@ -136,7 +136,9 @@ TEST_CASE("coverage: sigma of a model that is not chosen has no effect") {
     CHECK_FALSE(built.network.medium().stations().model(first).is_random());
 }
 
-TEST_CASE("coverage: the model and the radio are those of the robot itself") {
+TEST_CASE(
+    "coverage: the coverage of a robot is computed with the robot's own propagation model and "
+    "radio") {
     const Scenario s = field(
         "[[robot]]\nname = \"a\"\ncount = 3\nplace = { area = [[\"0 m\", \"0 m\"], [\"9 m\", \"9 "
         "m\"]] }\n[[robot]]\nname = \"d\"\ncount = 2\nradio = { power = \"1 mW\" }\n"

@@ -129,7 +129,7 @@ TEST_CASE(
     CHECK(has(svg, "and 2 robots more"));
 }
 
-TEST_CASE("margins: partners and relays that are unknown or named twice are errors") {
+TEST_CASE("margins: partners and relays that are unknown or named twice are refused") {
     const PictureOptions unknown{.trails = true, .margin_to = {"wst"}};
     CHECK_THROWS_WITH_AS(draw_svg(read(road), unknown), doctest::Contains("\"west\""),
                          std::invalid_argument);

@@ -117,17 +117,17 @@ TEST_CASE("picture: the coverage of a robot that is absent or off is labelled wi
     Files files;
     const Scenario vehicles = load_scenario(files.vehicles, {});
     const PictureOptions late{.at = start_of_run + 1s, .coverage = {"late"}, .cells = 400};
-    CHECK(has(draw_svg(vehicles, late), "coverage of late, which has not departed"));
+    CHECK(has(draw_svg(vehicles, late), "coverage of late (not departed yet"));
     const PictureOptions early{.at = start_of_run + 3s, .coverage = {"early"}, .cells = 400};
-    CHECK(has(draw_svg(vehicles, early), "coverage of early, which has left"));
+    CHECK(has(draw_svg(vehicles, early), "coverage of early (has left"));
     const std::string off = robots(1) + "off = [\"1 s\"]\n";
     const Scenario s = load_scenario(files.folder.write("off.toml", off), {});
     const PictureOptions options{.at = start_of_run + 2s, .coverage = {"own0"}, .cells = 400};
-    CHECK(has(draw_svg(s, options), "coverage of own0, which is switched off"));
+    CHECK(has(draw_svg(s, options), "coverage of own0 (switched off"));
     CHECK(has(draw_svg(s, {.coverage = {"own0"}, .cells = 400}), "coverage of own0: level"));
 }
 
-TEST_CASE("picture: a time after the end of the run is marked as such") {
+TEST_CASE("picture: if the time is after the end of the run, the caption says so") {
     Files files;
     const Scenario s = load_scenario(
         files.folder.write("e.toml", "[scenario]\nduration = \"5 s\"\n" + robots(1)), {});

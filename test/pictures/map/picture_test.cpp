@@ -313,7 +313,7 @@ TEST_CASE("picture: the coverage of a shadowed model is labelled as the median")
     CHECK_FALSE(has(draw_svg(scenario(text("0 dB")), options), "median"));
 }
 
-TEST_CASE("picture: shadowing is named with its sigma beside the model, except for sigma 0") {
+TEST_CASE("picture: the caption has shadowing and its sigma beside the model, except for sigma 0") {
     const auto svg = [](const char* model, const char* sigma) {
         return draw_svg(scenario(fmt::format("[propagation]\nmodel = \"friis\"\n[shadowing]\n"
                                              "model = \"{}\"\nsigma = \"{}\"\n",
@@ -383,7 +383,7 @@ TEST_CASE("picture: several materials have different patterns, with a line in th
     CHECK_FALSE(has(drawn(one), "walls1"));
 }
 
-TEST_CASE("picture: walls are one path, and unknown cells are light grey") {
+TEST_CASE("picture: all walls are drawn as one SVG path, and unknown cells in light grey") {
     test::TemporaryFolder folder;
     folder.write("m.pgm", "P2 4 2 255\n0 0 150 150\n255 255 255 255\n");
     folder.write("m.yaml", "image: m.pgm\nresolution: 1\norigin: [0, 0, 0]\n");
@@ -424,7 +424,9 @@ TEST_CASE(
     CHECK(size(0, 0).first <= 1200);
 }
 
-TEST_CASE("picture: of several storeys one is drawn, with its walls, robots, links and trails") {
+TEST_CASE(
+    "picture: of a building with several storeys, one storey is drawn, with its walls, robots, "
+    "links and trails") {
     Scenario s = scenario(robot("low", 1.5, 0.5) + robot("stays", 2.5, 0.5) +
                           "[[robot]]\nname = \"high\"\nat = [\"1.5 m\", \"0.5 m\", \"3 m\"]\n"
                           "move = { model = \"goal\", to = [\"4.5 m\", \"0.5 m\", \"3 m\"] }\n" +
@@ -563,7 +565,7 @@ TEST_CASE("picture: a larger font leaves less room for the rest at the same widt
     CHECK_THROWS_AS(draw_svg(rescue(), {.font_size = 100}), std::invalid_argument);
 }
 
-TEST_CASE("picture: ticks of the axes are at their coordinates") {
+TEST_CASE("picture: ticks of the axes are at the coordinates of their labels") {
     const std::string svg =
         draw_svg(scenario(robot("a", 10, 0) + robot("b", 40, 20)), {.axes = true});
     CHECK(has(svg, "x [m]"));
@@ -590,7 +592,7 @@ TEST_CASE("picture: names without room are counted in the legend") {
     CHECK_FALSE(has(draw_svg(rescue(), {}), "no room for"));
 }
 
-TEST_CASE("picture: a PDF has the same bytes each time, and a pixel becomes a point") {
+TEST_CASE("picture: a PDF has the same bytes each time, and a pixel becomes a point of 1/72 inch") {
     const std::string svg = draw_svg(rescue(), {.width = 600});
     std::string pdf;
     try {

@@ -105,7 +105,7 @@ TEST_CASE("route lines: a search is a ring around each robot that sent the last 
     CHECK(has(svg, "sent the last request"));
 }
 
-TEST_CASE("route lines: an unknown end of a route is an error") {
+TEST_CASE("route lines: a route to an unknown robot is refused") {
     PictureOptions options{.route = PictureOptions::Route{"n0", "n9"}};
     CHECK_THROWS_AS(draw_svg(row(), options), std::invalid_argument);
 }

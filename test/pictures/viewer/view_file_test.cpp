@@ -38,7 +38,7 @@ TEST_CASE("view file: columns of each type are read back unchanged") {
     CHECK(test::ViewReader::integer(read.head(), "rvw") == 1);
 }
 
-TEST_CASE("view page: the data is in base64, and no placeholder is left") {
+TEST_CASE("view page: the data is in base64, and no placeholder of the page's template is left") {
     const std::string one = page_with("a"), two = page_with("ab"), three = page_with("abc");
     CHECK(one.find("id=\"run\">YQ==</script>") != one.npos);
     CHECK(two.find("id=\"run\">YWI=</script>") != two.npos);

@@ -335,7 +335,7 @@ TEST_CASE("view of a run: the file has a map with storeys, doors and stairs") {
     CHECK(view.numbers("walls.x").size() == 4 * storeys.size());
 }
 
-TEST_CASE("view of a run: an unsuitable input is an error that says why") {
+TEST_CASE("view of a run: the error for an unsuitable input names the file") {
     const test::TemporaryFolder folder;
     CHECK(error_of(folder.write("a.mcap", "no trace")).find("a.mcap") != std::string::npos);
     CHECK(error_of(folder.path("missing.mcap")).find("missing.mcap") != std::string::npos);

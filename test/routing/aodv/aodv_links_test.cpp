@@ -67,13 +67,17 @@ TEST_CASE(
     learn_for_long(n, 5, 1);
     learn_for_long(n, 6, 2);
     n.link.time = start + 18500ms;  // the entries of 1 and 2 were broken at 3 s
-    SUBCASE("own") { n.send(5); }
-    SUBCASE("forwarded") { CHECK(n.forward(7, 3, 5) == Fate::waiting); }
+    SUBCASE("the node sends its own message by the route") { n.send(5); }
+    SUBCASE("the node forwards a message of another node by the route") {
+        CHECK(n.forward(7, 3, 5) == Fate::waiting);
+    }
     REQUIRE(n.data().size() == 1);
     CHECK(n.data()[0].next_hop == NodeId{1});
 }
 
-TEST_CASE("aodv 6.2: with profile ns2, a message extends only the route to its destination") {
+TEST_CASE(
+    "aodv 6.2: with profile ns2, a message extends only the lifetime of the route to its "
+    "destination") {
     AodvNode n({.profile = AodvProfile::ns2});
     n.learn(1, 1, 4, 0);
     n.learn(5, 1, 10, 3);
@@ -106,7 +110,7 @@ TEST_CASE("aodv 6.2: a message does not shorten the lifetime of its route") {
     CHECK(n.route(5)->until == start + 60s);
 }
 
-TEST_CASE("aodv 6.2: messages that waited for a route also extend its lifetime") {
+TEST_CASE("aodv 6.2: messages that waited for a route also extend the lifetime of the route") {
     AodvNode n;
     n.send(5);
     n.hear(1, aodv::Reply{.hops = 1,
@@ -189,7 +193,7 @@ TEST_CASE(
     CHECK(hellos(n).size() == 1);
 }
 
-TEST_CASE("aodv 6.9: a HELLO makes a route to its sender, for at least two intervals") {
+TEST_CASE("aodv 6.9: a HELLO makes a route to its sender that lasts at least two HELLO intervals") {
     Hellos n({.active_route_timeout = 1s});
     hear_hello(n, 4, 77);
     REQUIRE(n.route(4));
@@ -208,7 +212,7 @@ TEST_CASE("aodv 6.9: a neighbour that sent a HELLO and then nothing for two inte
     n.run(start + 8s);
     CHECK(n.route(5)->is_valid);  // no HELLO from 1: it is not expected to send any
     hear_hello(n, 1);             // at 8 s
-    SUBCASE("silence") {
+    SUBCASE("a neighbour that is silent is lost") {
         n.send(5);  // waits in the queue
         n.run(start + 10s);
         CHECK(n.route(5)->is_valid);
@@ -219,7 +223,7 @@ TEST_CASE("aodv 6.9: a neighbour that sent a HELLO and then nothing for two inte
         CHECK(n.link.drops[0].reason == DropReason::broken);
         CHECK(n.link.messages.size() == hellos(n).size());  // the message is let go
     }
-    SUBCASE("any packet is a sign of life") {
+    SUBCASE("a neighbour that sends any packet is not lost") {
         for (Time t = start + 9s; t < start + 14s; t += 1s) {
             n.run(t);
             switch ((t - start) / 1s % 3) {
@@ -252,7 +256,8 @@ TEST_CASE("aodv 6.9, 6.13: a node that is off, or silent after a restart, sends 
 }
 
 TEST_CASE(
-    "aodv 6.11: a message without a route prolongs the time for which the route's number is kept") {
+    "aodv 6.11: a message without a route prolongs the time for which the route's sequence number "
+    "is kept") {
     AodvNode n;
     n.learn(5, 1, 20);
     n.link.time = start + 17s;  // broken at 3 s with number 21, to be deleted at 18 s
@@ -334,7 +339,8 @@ TEST_CASE("aodv 6.11: a broken link ends each valid route over it once, and no o
     CHECK(n.route(6)->is_valid);
 }
 
-TEST_CASE("aodv A14: a RERR with the known number ends the route and increments the number") {
+TEST_CASE(
+    "aodv A14: a RERR with the known sequence number ends the route and increments the number") {
     AodvNode n;
     n.learn(5, 1, 20);
     n.hear(1, aodv::Error{.lost = {{NodeId{5}, 20}}});
@@ -371,7 +377,8 @@ TEST_CASE("aodv 6.11: a RERR lists at most 255 destinations, in the order of the
 }
 
 TEST_CASE(
-    "aodv 6.12: a second message waits for the repair, own messages for a search of their own") {
+    "aodv 6.12: a second forwarded message waits for the repair, a message of the node itself for "
+    "its own search") {
     AodvNode n({.local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     n.forward(7, 2, 5);
@@ -390,7 +397,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "aodv 6.12: repairs begin in the order of messages; unused lost routes are not reported") {
+    "aodv 6.12: repairs begin in the order of messages; lost routes that nobody uses are not "
+    "reported") {
     AodvNode n({.local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     n.pass_reply(7, 2, 6, 1);
@@ -423,7 +431,9 @@ TEST_CASE(
     CHECK(n.sent<aodv::Request>().back().first.ttl == 12 / 2 + 2);
 }
 
-TEST_CASE("aodv 6.12: the wait for a repair follows from its TTL, also at the network's diameter") {
+TEST_CASE(
+    "aodv 6.12: the wait for a repair follows from the TTL of its request, also at the network's "
+    "diameter") {
     AodvNode n({.net_diameter = 10, .local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     const MessageId id = n.link.message_from(NodeId{7}, NodeId{5});
@@ -509,7 +519,8 @@ TEST_CASE("aodv 6.12: a RERR of a repaired route is forwarded, and changes no ro
 }
 
 TEST_CASE(
-    "aodv 6.8: a blacklisted neighbour stays so for all network-wide searches; ns2 has no list") {
+    "aodv 6.8: a neighbour is blacklisted for RREQ_RETRIES * NET_TRAVERSAL_TIME; profile ns2 has "
+    "no blacklist") {
     const auto answers = [](Aodv aodv, Duration later) {
         AodvNode n(aodv);
         n.hear(2, request(7, 0), 3);
@@ -527,7 +538,7 @@ TEST_CASE(
     CHECK(answers({.profile = AodvProfile::ns2}, 0ms));
 }
 
-TEST_CASE("aodv 6.13: numbers of broken routes are kept as long as any route may last") {
+TEST_CASE("aodv 6.13: sequence numbers of broken routes are kept as long as any route may last") {
     const auto delete_period = [](Aodv aodv) { return AodvRules::of(aodv).delete_period; };
     CHECK(delete_period({}) == 15s);
     CHECK(delete_period({.profile = AodvProfile::ns2}) == 50s);
@@ -593,7 +604,8 @@ TEST_CASE("aodv: a broadcast goes one hop; if it cannot be sent, it is dropped w
 }
 
 TEST_CASE(
-    "aodv: a message that cannot be sent is dropped with a reason, a control packet without one") {
+    "aodv: the drop of a message that cannot be sent is recorded with a reason, that of a control "
+    "packet is not") {
     for (const SendResult result : {SendResult::queue_full, SendResult::off}) {
         AodvNode n;
         n.learn(5, 1, 4);

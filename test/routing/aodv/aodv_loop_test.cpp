@@ -205,7 +205,8 @@ TEST_CASE("aodv: in 2,000 random graphs, routes have no loop after any event") {
 
 // A frame that arrived without its sender's notice is repaired though it travels on, so that its
 // two copies have two ways: here there are none.
-TEST_CASE("aodv: with local repair, and with profile ns2, routes have no loops either") {
+TEST_CASE(
+    "aodv: also with local repair, and with profile ns2, routes have no loop after any event") {
     const std::vector<Aodv> variants{{.local_repair = true},
                                      {.profile = AodvProfile::ns2},
                                      {.gratuitous = true},
@@ -219,7 +220,8 @@ TEST_CASE("aodv: with local repair, and with profile ns2, routes have no loops e
     check(findings(100, {.rules = short_lived({.local_repair = true})}, 1 << 30), false);
 }
 
-TEST_CASE("aodv: long-lived routes have no loops, but only if numbers are kept as long as routes") {
+TEST_CASE(
+    "aodv: long-lived routes have no loops only if sequence numbers are kept as long as routes") {
     Aodv aodv{.active_route_timeout = 500ms, .my_route_timeout = 20s, .node_traversal_time = 20ms};
     AodvRules rules = AodvRules::of(aodv);
     check(findings(250, {.rules = rules}));

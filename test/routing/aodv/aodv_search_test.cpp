@@ -100,7 +100,8 @@ TEST_CASE("aodv 6.3: a search ends if no message waits for it") {
     CHECK(n.link.timers.empty());
 }
 
-TEST_CASE("aodv 6.3: requests above ten a second are sent later, and their messages wait on") {
+TEST_CASE(
+    "aodv 6.3: requests above ten a second are sent later, and their messages wait until then") {
     AodvNode n({.rings = false}, 40);
     for (std::uint32_t to = 10; to < 35; ++to) n.send(to);
     n.run(start + 999ms);
@@ -117,7 +118,8 @@ TEST_CASE("aodv 6.3: requests above ten a second are sent later, and their messa
 }
 
 TEST_CASE(
-    "aodv 6.3, ns2: a reply that arrives before the first request of its search is not measured") {
+    "aodv 6.3, ns2: a reply that arrives before the first request of its search does not change "
+    "the time per hop") {
     AodvNode n({.profile = AodvProfile::ns2}, 40);
     n.link.time += 100s;
     for (std::uint32_t to = 10; to < 21; ++to) n.send(to);
@@ -131,7 +133,7 @@ TEST_CASE(
     CHECK(asked_for(n, 20) == 2);
 }
 
-TEST_CASE("aodv 6.3, ns2: a search that took no time is not measured") {
+TEST_CASE("aodv 6.3, ns2: a search that took no time does not change the measured time per hop") {
     AodvNode n({.profile = AodvProfile::ns2});
     n.send(5);
     n.hear(1, reply(5, 4, 0));
@@ -170,7 +172,7 @@ TEST_CASE(
     CHECK(asked_for(n, 5) == before + 1);
 }
 
-TEST_CASE("aodv 6.1: a node's own number and the numbers of destinations wrap around") {
+TEST_CASE("aodv 6.1: a node's own sequence number and those of destinations wrap around") {
     AodvRules rules = AodvRules::of({});
     rules.first_number = 0xffffffff;
     AodvNode n;
@@ -225,7 +227,7 @@ TEST_CASE(
     CHECK(n.route(2)->since == start + 10s);
 }
 
-TEST_CASE("aodv 6.2: the route of a neighbour whose number is unknown accepts any number") {
+TEST_CASE("aodv 6.2: a route to a neighbour whose sequence number is unknown accepts any number") {
     AodvNode n;
     n.forward(7, 2, 9);
     n.hear(2, request(7, 9), 3);
@@ -251,7 +253,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "aodv 6.5: a forwarded request keeps its number if it is newer than the node's own knowledge") {
+    "aodv 6.5: a forwarded request keeps its destination number if the node knows only an older "
+    "one") {
     AodvNode n;
     n.learn(5, 1, 20);
     aodv::Request asked = request(7, 5);
@@ -275,19 +278,21 @@ TEST_CASE("aodv 6.6.2: a node that answered for the destination reports breaks t
     AodvNode n;
     n.learn(5, 1, 20, 3);
     CHECK(n.hear(2, request(7, 5), 3) == Fate::arrived);
-    SUBCASE("towards the destination") {
+    SUBCASE("a break towards the destination is reported towards the originator") {
         n.forward(7, 2, 5);
         n.fail_last();
         CHECK(n.sent<aodv::Error>().back().first.next_hop == NodeId{2});
     }
-    SUBCASE("towards the originator") {
+    SUBCASE("a break towards the originator is reported towards the destination") {
         n.forward(5, 1, 7);
         n.fail_last();
         CHECK(n.sent<aodv::Error>().back().first.next_hop == NodeId{1});
     }
 }
 
-TEST_CASE("aodv 6.6.2: a node that does not know the destination's number does not reply for it") {
+TEST_CASE(
+    "aodv 6.6.2: a node that does not know the destination's sequence number does not reply for "
+    "the destination") {
     AodvNode n;
     n.hear(5, request(8, 9));  // 5 is a neighbour of unknown number
     CHECK(n.route(5)->is_valid);
@@ -319,7 +324,8 @@ TEST_CASE("aodv 6.7: a reply does not travel beyond its TTL") {
     CHECK(n.sent<aodv::Reply>().empty());
 }
 
-TEST_CASE("aodv 6.3: a search that is due earlier than those begun before is continued in time") {
+TEST_CASE(
+    "aodv 6.3: a search that is due earlier than searches begun before it is continued in time") {
     AodvNode n;
     n.send(5);
     n.run(start + 2s);  // waits until 4.72 s
@@ -328,7 +334,9 @@ TEST_CASE("aodv 6.3: a search that is due earlier than those begun before is con
     CHECK(asked_for(n, 6) == 2);
 }
 
-TEST_CASE("aodv 6.6.3: with flag G, the answering node sends the destination the route back") {
+TEST_CASE(
+    "aodv 6.6.3: with flag G (gratuitous), the answering node sends the destination the route "
+    "back") {
     AodvNode n;
     n.learn(5, 1, 20, 3);
     aodv::Request asked = request(7, 5);
@@ -362,13 +370,13 @@ TEST_CASE(
     const Frame sent = n.sent<aodv::Reply>().back().first;
     CHECK(sent.hops == 3);
     CHECK(n.link.sent.back().queued.heard_from == NodeId{1});
-    SUBCASE("link to the destination breaks") {
+    SUBCASE("a break of the link to the destination is reported towards the originator") {
         n.forward(7, 2, 5);
         n.fail_last();
         CHECK(n.sent<aodv::Error>().back().first.next_hop == NodeId{2});
         CHECK(n.sent<aodv::Error>().back().second.lost.size() == 2);
     }
-    SUBCASE("link to the originator breaks") {
+    SUBCASE("a break of the link to the originator is reported towards the destination") {
         n.hear(2, request(2, 9, 2000), 1);
         n.forward(5, 1, 7);
         n.fail_last();
@@ -397,7 +405,7 @@ TEST_CASE("aodv A16: a request forwarded by a neighbour ends the search for this
     CHECK(n.data().size() == 1);
 }
 
-TEST_CASE("aodv A16: a route also ends a search that has not yet sent its first request") {
+TEST_CASE("aodv A16: a learnt route also ends a search that has not yet sent its first request") {
     AodvNode n({}, 40);
     for (std::uint32_t to = 10; to < 21; ++to) n.send(to);
     n.learn(20, 1, 4);
@@ -406,7 +414,9 @@ TEST_CASE("aodv A16: a route also ends a search that has not yet sent its first 
     CHECK(asked_for(n, 20) == 0);
 }
 
-TEST_CASE("aodv: with profile ns2, messages that waited are sent 10 ms apart, with rfc at once") {
+TEST_CASE(
+    "aodv: messages that waited for a route are sent 10 ms apart with profile ns2, at once with "
+    "profile rfc") {
     for (const Duration apart : {0ms, 10ms}) {
         AodvNode n({.profile = apart > 0ms ? AodvProfile::ns2 : AodvProfile::rfc});
         for (int i = 0; i < 3; ++i) n.send(5);

@@ -42,7 +42,8 @@ TEST_CASE("aodv 5: packets have the bytes of the RFC, and are read back") {
 }
 
 TEST_CASE(
-    "aodv 6.1: a node's number grows for a request; in a reply it is at least the requested one") {
+    "aodv 6.1: a node's sequence number grows with its request; its reply has at least the "
+    "requested number") {
     AodvNode n;
     n.send(5);
     CHECK(n.sent<aodv::Request>().back().second.originator_number == 1);
@@ -57,7 +58,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "aodv 6.2: a route is accepted if it is newer, or as new and shorter, or if none is valid") {
+    "aodv 6.2: a route is accepted if it is newer, or equally new and shorter, or if no valid "
+    "route exists") {
     AodvNode n;
     n.learn(5, 1, 10, 3);
     CHECK(n.route(5)->hops == 4);
@@ -111,7 +113,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "aodv 6.4: the search for a lost destination begins with the TTL of the last route, plus 2") {
+    "aodv 6.4: the search for a lost destination begins with a TTL of the last route's hops plus "
+    "2") {
     AodvNode n;
     n.learn(5, 1, 10, 2);
     n.link.time += 4s;
@@ -133,7 +136,9 @@ TEST_CASE("aodv 6.3: a node sends at most ten requests a second") {
     CHECK(n.sent<aodv::Request>().size() > 10);
 }
 
-TEST_CASE("aodv 6.5: a request is forwarded once, within its TTL, with the larger of two numbers") {
+TEST_CASE(
+    "aodv 6.5: a request is forwarded once, within its TTL, with the node's destination number if "
+    "it is larger") {
     AodvNode n;
     n.learn(5, 1, 20, 3);
     n.link.time += 4s;  // broken: number 21
@@ -152,7 +157,8 @@ TEST_CASE("aodv 6.5: a request is forwarded once, within its TTL, with the large
 }
 
 TEST_CASE(
-    "aodv 6.1: a request is discarded if its originator's number is older than the known one") {
+    "aodv 6.1: a request is discarded if its originator's sequence number is older than the known "
+    "one") {
     AodvNode n;
     n.learn(7, 1, 20, 3);
     n.link.time += 4s;
@@ -161,7 +167,9 @@ TEST_CASE(
     CHECK(n.sent<aodv::Request>().empty());
 }
 
-TEST_CASE("aodv 6.6.2: a node with a valid and new enough route replies, unless flag D is set") {
+TEST_CASE(
+    "aodv 6.6.2: a node with a valid and new enough route replies, unless flag D (destination "
+    "only) is set") {
     AodvNode n;
     n.learn(5, 1, 20, 3);
     aodv::Request asked = request(7, 5);
@@ -246,7 +254,8 @@ TEST_CASE("aodv 6.11: a message without a route is reported to the neighbour tha
 }
 
 TEST_CASE(
-    "aodv A14: a RERR never decreases a number, and is ignored unless it comes from the next hop") {
+    "aodv A14: a RERR never decreases a sequence number, and is ignored unless it comes from the "
+    "next hop") {
     AodvNode n;
     n.learn(5, 1, 20, 3);
     const auto report = [&](std::uint32_t from, std::uint32_t number) {
@@ -308,14 +317,14 @@ TEST_CASE(
     const auto [frame, asked] = n.sent<aodv::Request>().back();
     CHECK(asked.number == std::optional<std::uint32_t>(10));  // raised first
     CHECK(frame.ttl == 5);                                    // 3 hops + 2
-    SUBCASE("found") {
+    SUBCASE("a repair that finds a longer route is reported as repaired") {
         n.learn(5, 3, 11, 4);
         REQUIRE(n.data().size() == 2);
         CHECK(n.data()[1].next_hop == NodeId{3});
         REQUIRE(n.sent<aodv::Error>().size() == 1);
         CHECK(n.sent<aodv::Error>()[0].second.is_repaired);  // it is longer
     }
-    SUBCASE("not found") {
+    SUBCASE("a repair that finds no route drops the message, and the break is reported") {
         n.wait();
         REQUIRE(n.link.drops.size() == 1);
         CHECK(n.link.drops[0].reason == DropReason::no_route);

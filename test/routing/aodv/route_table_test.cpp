@@ -31,7 +31,8 @@ void make_valid(Route& route, Time until, std::uint32_t number = 7) {
 
 }  // namespace
 
-TEST_CASE("route table: an expired route gets the next number, and is deleted some time later") {
+TEST_CASE(
+    "route table: an expired route gets the next sequence number, and is deleted some time later") {
     RouteTable table;
     make_valid(table.add(a, start, 10s), start + 5s);
     CHECK(table.find(a, start + 4999ms, 10s)->is_valid);
@@ -72,7 +73,8 @@ TEST_CASE("route table: expired routes are removed, so the table does not grow")
     CHECK(table.precursors(NodeId{0}).empty());
 }
 
-TEST_CASE("seen ids: each number is new once, in any order within 64 numbers, also around 2^32") {
+TEST_CASE(
+    "seen ids: each request id counts as new once, in any order within 64 ids, also around 2^32") {
     for (const std::uint32_t first : {0U, 0xffffffe0U, 0x7fffffe0U}) {
         SeenIds seen;
         std::set<std::uint32_t> noted;
@@ -86,7 +88,8 @@ TEST_CASE("seen ids: each number is new once, in any order within 64 numbers, al
     }
 }
 
-TEST_CASE("seen ids: after a step of up to 64, the numbers still in the window are remembered") {
+TEST_CASE(
+    "seen ids: after an id up to 64 higher, the ids still in the window of 64 are remembered") {
     for (const std::uint32_t step : {1U, 63U, 64U, 65U, 1000U}) {
         SeenIds seen;
         CHECK(seen.note(a, 100, start, 5s));
@@ -111,7 +114,8 @@ TEST_CASE("seen ids: ids are stored for each originator, and forgotten after a s
 }
 
 TEST_CASE(
-    "send buffer: if it is full, the oldest packet is dropped; others go by destination or time") {
+    "send buffer: a full buffer drops its oldest packet; packets are taken by destination or "
+    "expiry time") {
     SendBuffer buffer;
     const auto packet = [](NodeId to, std::uint32_t id, Duration until) {
         return SendBuffer::Packet{

@@ -84,7 +84,9 @@ struct Run {
 
 }  // namespace
 
-TEST_CASE("dsr on graphs: counts of requests, replies and errors are right, also after a break") {
+TEST_CASE(
+    "dsr on graphs: counts of requests, replies and errors equal those by hand, also after a node "
+    "vanishes") {
     struct Case {
         const char* name;
         std::size_t nodes;
@@ -207,7 +209,8 @@ void run_graph(std::uint32_t seed, const Dsr& dsr, double unnoticed, Findings& f
 }  // namespace
 
 TEST_CASE(
-    "dsr on random graphs: routes visit no node twice, and every message has exactly one end") {
+    "dsr on random graphs: routes visit no node twice, and every message is delivered or recorded "
+    "as dropped") {
     for (const DsrProfile profile : {DsrProfile::rfc, DsrProfile::ns2}) {
         CAPTURE(static_cast<int>(profile));
         Findings exact, found;

@@ -29,7 +29,7 @@ TEST_CASE(
         n.arrive();
         n.arrive();
     };
-    SUBCASE("salvaged") {
+    SUBCASE("the node has another route, and salvages the message") {
         n.learn(path({0, 1, 2, 5}));
         forward();
         n.fail();
@@ -54,7 +54,7 @@ TEST_CASE(
         CHECK(n.sent(dsr::error_kind).back().second.error.value().to == NodeId{0});
         CHECK(n.sent(dsr::error_kind).back().second.error.value().salvage == 1);
     }
-    SUBCASE("no other route") {
+    SUBCASE("the node has no other route, and drops the message") {
         forward();
         n.fail();
         REQUIRE(n.link.drops.size() == 1);
@@ -64,7 +64,7 @@ TEST_CASE(
         CHECK(n.route(4).empty());
         CHECK(n.sent(dsr::request_kind).empty());
     }
-    SUBCASE("queued messages are dropped, too") {
+    SUBCASE("messages queued for the broken link are dropped, too") {
         forward();
         const std::size_t first = n.link.sent.size() - 1;
         n.link.go();
@@ -161,7 +161,9 @@ TEST_CASE("dsr 3.4.4: for 1 s, the last error is repeated in the next network-wi
     CHECK(n.sent(dsr::request_kind).back().second.error.value().unreachable == NodeId{5});
 }
 
-TEST_CASE("dsr 3.4.3: a node that overhears a message on a detour to it sends a shorter route") {
+TEST_CASE(
+    "dsr 3.4.3: a node that overhears a message on a detour to this node sends the source a "
+    "shorter route") {
     DsrNode n;
     n.learn(path({7, 3, 2, 0, 5}));
     for (int i = 0; i < 2; ++i) {
@@ -209,7 +211,8 @@ TEST_CASE("dsr: a reply whose next hop is gone is not sent over the broken link 
 }
 
 TEST_CASE(
-    "dsr, profile ns2: a message without a next hop waits at the node, which asks neighbours") {
+    "dsr, profile ns2: a message without a next hop waits at the node, which sends neighbours a "
+    "request") {
     DsrNode n({.profile = DsrProfile::ns2});
     n.learn(path({7, 3, 0, 4, 5}));
     n.send(5, 7);

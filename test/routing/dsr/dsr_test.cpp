@@ -220,7 +220,8 @@ TEST_CASE(
     CHECK(n.sent(dsr::request_kind).size() == 4);
 }
 
-TEST_CASE("dsr 8.2.3: a node replies with a known route, unless a node would occur in it twice") {
+TEST_CASE(
+    "dsr 8.2.3: a node replies with a known route, unless a node would occur in the route twice") {
     DsrNode n;
     n.learn(path({0, 1, 2, 5}));
     CHECK(n.request(path({7, 2}), 5) == Fate::waiting);  // 2 would come twice

@@ -180,7 +180,8 @@ TEST_CASE("cluster: a threshold and a period of 0 are refused") {
                     std::invalid_argument);
 }
 
-TEST_CASE("cluster on graphs: heads follow the definition, and all connected nodes are reached") {
+TEST_CASE(
+    "cluster on graphs: cluster heads follow the definition, and all connected nodes are reached") {
     for (const int k : {1, 3, 5, 7, 9}) {
         double saved = 0;
         constexpr int maps = 5;
@@ -206,7 +207,7 @@ TEST_CASE("cluster on graphs: heads follow the definition, and all connected nod
     }
 }
 
-TEST_CASE("cluster on graphs: if all nodes are neighbours, only the head forwards") {
+TEST_CASE("cluster on graphs: if all nodes are neighbours, only the cluster head forwards") {
     std::vector<Graph::Edge> edges;
     for (std::uint32_t i = 0; i < 8; ++i) {
         for (std::uint32_t j = 0; j < i; ++j) edges.emplace_back(i, j);
@@ -218,7 +219,7 @@ TEST_CASE("cluster on graphs: if all nodes are neighbours, only the head forward
     CHECK(graph.frames[""] == 2);
 }
 
-TEST_CASE("cluster on graphs: a head that leaves is replaced") {
+TEST_CASE("cluster on graphs: a cluster head that leaves is replaced") {
     // 1-0-2: node 0 is the head. Without it nodes 1 and 2 meet over node 3.
     Graph graph(4, {{0, 1}, {0, 2}}, cluster);
     graph.at(start_of_run + 20s, [&] {

@@ -54,7 +54,8 @@ double counted(const std::vector<Vec3>& centres) {
 }  // namespace
 
 TEST_CASE(
-    "disc cover: no neighbours leave the disc uncovered, a disc at the same position covers it") {
+    "disc cover: without neighbours the whole disc is uncovered; a disc at the same position "
+    "covers all of it") {
     CHECK(uncovered({}) == 1);
     CHECK(uncovered({{2, 0, 0}, {0, -3, 0}}) == 1);
     CHECK(uncovered({{0.5, 0, 0}, {0, 0, 0}}) == 0);
@@ -84,7 +85,7 @@ TEST_CASE("disc cover: three discs at distance r, a third of a turn apart, cover
     CHECK(std::abs(uncovered({a, b}) - (1 - 2 * lens + shared)) < rounding);
 }
 
-TEST_CASE("disc cover: equal discs count once, and unit and heights have no effect") {
+TEST_CASE("disc cover: equal discs count once, and the unit of length and heights have no effect") {
     const std::vector<Vec3> two{{0.6, 0.2, 0}, {-0.3, 0.9, 0}};
     CHECK(uncovered({two[0], two[1], two[0]}) == uncovered(two));
     CHECK(std::abs(uncovered({{300, 100, 7}, {-150, 450, -9}}, 500) - uncovered(two)) < rounding);

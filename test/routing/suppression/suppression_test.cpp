@@ -90,7 +90,9 @@ TEST_CASE("suppression: copies after the send time have no effect, and are not d
     }
 }
 
-TEST_CASE("suppression: if the copy's handle has passed to another frame, that frame stays") {
+TEST_CASE(
+    "suppression: if the handle of a sent copy is reused for another frame, a later copy does not "
+    "cancel it") {
     Hearer node({.threshold = 2});
     node.hear();
     node.link.sent[0].queued.frame.sender = NodeId{7};  // sent, and the slot is another frame's
@@ -266,7 +268,9 @@ struct Expected {
 
 }  // namespace
 
-TEST_CASE("suppression on graphs: P = 1, D = 0, A = 0 or a C above all degrees + 1 is flooding") {
+TEST_CASE(
+    "suppression on graphs: P = 1, D = 0, A = 0 or a C above all node degrees + 1 is plain "
+    "flooding") {
     for (const int k : {3, 5, 8}) {
         const UnitDisc net = map_of(k, 5);
         REQUIRE(net.reachable() > 5);

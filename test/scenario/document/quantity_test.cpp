@@ -35,7 +35,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("quantity: every unit has the right factor to its base unit") {
+TEST_CASE("quantity: a value in any unit is converted to its base unit") {
     struct Case {
         const char* text;
         Dimension dimension;

@@ -77,7 +77,7 @@ TEST_CASE(
     "for a known model that rovernet lacks, the hint names it and the page that lists "
     "replacements") {
     const std::string there =
-        " is not there: \"rovernet help not-there\" lists what to use instead";
+        " is not available: \"rovernet help not-there\" lists what to use instead";
     for (const char* protocol : {"OLSR", "DSDV", "Olsr", "TORA"})
         CHECK(hint("routing", protocol) == protocol + there);
     CHECK(hint("propagation", "OkumuraHata") == "OkumuraHata" + there);
@@ -100,7 +100,8 @@ TEST_CASE("the error for a name of another simulator in a scenario file ends wit
               .ends_with("\"rays\"; " + meant("two_ray")));
     CHECK(error_of("[routing]\nprotocol = \"OLSR\"\n") ==
           "s.toml:3:12: unknown protocol \"OLSR\"; expected one of \"flood\", \"aodv\", \"dsr\", "
-          "\"suppression\", \"managed\"; OLSR is not there: \"rovernet help not-there\" lists what "
+          "\"suppression\", \"managed\"; OLSR is not available: \"rovernet help not-there\" lists "
+          "what "
           "to use instead");
     CHECK(error_of("[access]\nmodel = \"Mac/802_11\"\n").ends_with(meant("csma")));
 }

@@ -80,7 +80,7 @@ TEST_CASE("toml: an error has the line and column of the mistake") {
     CHECK(place_of_error("a = 1\nb = \"\xff\"") == "f.toml:2:5");
 }
 
-TEST_CASE("toml: a missing file or a directory is an error that says what to do") {
+TEST_CASE("toml: the error for a missing file or a directory states the reason") {
     const TemporaryFolder folder;
     CHECK(contains(error_of_file(folder.path("no.toml")), "no such file"));
     CHECK(error_of_file(folder.path("no.toml")).starts_with(folder.path("no.toml") + ": "));
@@ -103,7 +103,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "set_option: a name with dots stands in quotes, and the error for a name without says so") {
+    "set_option: a name with dots must be in quotes, and the error for a name without quotes says "
+    "so") {
     const std::string text = "[[robot]]\nname = \"flow.0\"\n\n[[robot]]\nname = \"a=b\"\n";
     CHECK(contains(after_option(text, "robot.\"flow.0\".radio.power=2"),
                    "name = \"flow.0\"\nradio = { power = 2 }\n"));

@@ -214,7 +214,7 @@ TEST_CASE("stage scanner: a robot has all its own scanners in order, and no othe
     CHECK(world.notices.back() == "a.world: ignored: laser (1)");
 }
 
-TEST_CASE("stage scanner: invalid values are errors with a position") {
+TEST_CASE("stage scanner: invalid values of laser and ranger are refused, with their line") {
     CHECK(mistake("\nlaser ( samples 0 )") ==
           "3: samples: found 0; expected a whole number from 1 to 10,000; such as samples 181");
     CHECK(mistake("laser ( samples 2.5 )").starts_with("2: samples: found 2.5"));

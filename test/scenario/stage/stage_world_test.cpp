@@ -357,14 +357,16 @@ TEST_CASE("stage world: a world without robots is a scene, but not a scenario") 
         InputError);
 }
 
-TEST_CASE("stage world: a model whose macro is missing is a robot if it has a wifi") {
+TEST_CASE("stage world: a model whose macro is missing becomes a robot if the model has a wifi") {
     const Read world = read("pioneer ( name \"a\" cargo ( wifi ( model \"friis\" ) ) )\n");
     REQUIRE(world.robots().size() == 1);
     CHECK(value(world.propagation(0), "model") == "friis");
     CHECK(world.notices.back() == "a.world: ignored: cargo (1)");
 }
 
-TEST_CASE("stage world: a wifi at any depth below a position belongs to it") {
+TEST_CASE(
+    "stage world: a wifi nested at any depth in a position model belongs to the robot of this "
+    "position") {
     const Read world = read("position ( name \"a\" ranger ( model ( wifi ( power 3 ) ) ) )\n");
     REQUIRE(world.robots().size() == 1);
     CHECK(value(world.radio(0), "power") == "3 mW");
@@ -399,7 +401,7 @@ TEST_CASE("stage world: the scenario made from a world is read with all values o
     CHECK(scenario.robots[1].radio.power.value == Radio{}.power.value);
 }
 
-TEST_CASE("stage world: every value has its position in the world file") {
+TEST_CASE("stage world: every value of the scenario has its line and column in the world file") {
     const Read world =
         read("position\n(\n pose [1 2 3]\n wifi (\n  model \"friis\"\n  power 30\n )\n)");
     CHECK(world.robots()[0].where.line == 1);
@@ -428,7 +430,7 @@ TEST_CASE("stage world: robots without a name get unused names") {
           "a.world:2: names are generated for robots without a name: robot0, robot2_, robot3");
 }
 
-TEST_CASE("stage world: a second robot of a name gets a new name, with a notice") {
+TEST_CASE("stage world: a second robot with the same name gets a new name, with a notice") {
     const Read world = read(
         "define bot position ( wifi ( model \"friis\" ) )\n"
         "bot ( name \"a\" )\nbot ( name \"a_\" )\nmodel ( name \"a\" )\n"
@@ -442,7 +444,7 @@ TEST_CASE("stage world: a second robot of a name gets a new name, with a notice"
           "a.world:5: new names are generated for robots whose name is already in use: a__, a___");
 }
 
-TEST_CASE("stage world: an address of two robots gives a notice that names both") {
+TEST_CASE("stage world: if two robots have the same address, a notice names both robots") {
     const Read world = read(
         "define bot position ( wifi ( model \"friis\" ) )\n"
         "bot ( name \"a\" wifi ( ip \"1.2\" mac \"x\" ) )\n");
@@ -481,7 +483,7 @@ TEST_CASE(
           "mean \"sensitivity\"?");
 }
 
-TEST_CASE("stage world: values of a wrong type are errors with a position") {
+TEST_CASE("stage world: values of a wrong type are refused, with line and column") {
     CHECK(mistake(robot_with + "ip 5 ) )") ==
           "1:58: ip: found a number; expected a text in quotes; write ip \"...\"");
     CHECK(mistake(robot_with + "power \"30\" ) )") ==

@@ -84,7 +84,7 @@ TEST_CASE("models: a key of a model that is not chosen is checked and kept") {
     CHECK(error_of("shar = 0.2").find("did you mean \"share\"?") != std::string::npos);
 }
 
-TEST_CASE("models: a key that the chosen model lacks must be valid for one of the others") {
+TEST_CASE("models: a key that the chosen model lacks must be valid for one of the other models") {
     const Choice bare = read("model = \"bare\"\nhops = 30");
     CHECK(std::get<Far>(bare.parameters).hops == 30);
     CHECK(std::get<Near>(bare.parameters).hops == 2);

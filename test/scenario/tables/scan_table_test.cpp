@@ -35,7 +35,8 @@ constexpr double degrees = std::numbers::pi / 180;
 }  // namespace
 
 TEST_CASE(
-    "scan: a table gives one range finder, a list gives several, each with its own position") {
+    "scan: a table gives one range finder, a list gives several range finders, each with its own "
+    "position") {
     const auto one = read("{ beams = 5 }");
     REQUIRE(one.size() == 1);
     CHECK(one[0].finder.beams == 5);
@@ -79,7 +80,7 @@ TEST_CASE(
     CHECK(mistake("[{ name = \"laser1\" }, {}]").starts_with("30: scan: two range finders"));
 }
 
-TEST_CASE("scan: an error in a range finder has its position in the file") {
+TEST_CASE("scan: an error in a range finder has the line and column of the wrong key") {
     CHECK(mistake("{ name = \"\" }").starts_with("17: name: found "));
     CHECK(mistake("{ name = \"a/b\" }").find("without dots, slashes") != std::string::npos);
     CHECK(mistake("{ at = \"1 m\" }").starts_with("15: at: found"));

@@ -92,7 +92,7 @@ TEST_CASE("PNG: palette colours are looked up, with their alpha") {
     CHECK(clear.samples == Samples{0, 128, 0, 0, 1, 2, 3, 255});
 }
 
-TEST_CASE("PNG: the transparent gray becomes alpha 0") {
+TEST_CASE("PNG: the gray value that a file declares as transparent gets alpha 0") {
     const Image image =
         read_bytes(png_bytes({.width = 2, .rows = {{9, 10}}, .transparent_gray = 9}));
     CHECK(image.samples == Samples{9, 0, 10, 255});
@@ -153,7 +153,7 @@ TEST_CASE("PNG: 30,000 x 30,000 pixels are refused from the header alone") {
     CHECK(contains(picture_error(bytes), "30000 x 30000 pixels; expected at most 256 million"));
 }
 
-TEST_CASE("PGM: plain and raw give the same samples") {
+TEST_CASE("PGM: plain (P2) and raw (P5) files of the same image give the same samples") {
     CHECK(read_bytes("P2\n3 2\n255\n0 1 2\n253 254 255\n").samples ==
           Samples{0, 1, 2, 253, 254, 255});
     CHECK(read_bytes("P5 3 2 255\n" + bytes_of({0, 1, 2, 253, 254, 255})).samples ==
@@ -210,7 +210,7 @@ TEST_CASE("images: a missing file, a folder and files of other kinds cause diffe
     CHECK(fails(folder.path("."), "is a directory"));
     CHECK(fails("/dev/zero", "not a regular file"));
     CHECK(fails(folder.write("empty.png", ""), "an empty file"));
-    CHECK(fails(folder.write("page.png", "<html></html>"), "no picture of a kind that is read"));
+    CHECK(fails(folder.write("page.png", "<html></html>"), "not a picture in a supported format"));
     CHECK(fails(folder.write("page.png", "<html></html>"), "expected a PNG, JPEG, BMP, GIF or"));
 }
 

@@ -52,7 +52,7 @@ TEST_CASE("PPM and PBM: errors name the format") {
     CHECK(contains(picture_error("P1 2 1 1"), "truncated PBM"));
     CHECK(contains(picture_error("P1 2 1 12"), "byte 0x32 in PBM; expected 0 or 1"));
     CHECK(contains(picture_error("P6 30000 30000 255\n"), "at most 256 million"));
-    CHECK(contains(picture_error("P7\nWIDTH 1\n"), "no picture of a kind that is read"));
+    CHECK(contains(picture_error("P7\nWIDTH 1\n"), "not a picture in a supported format"));
 }
 
 }  // namespace netpbm_test

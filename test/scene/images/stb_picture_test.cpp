@@ -52,7 +52,7 @@ std::vector<std::string> all_kinds() {
 
 }  // namespace
 
-TEST_CASE("JPEG: gray blocks are within 1 of those of another decoder") {
+TEST_CASE("JPEG: gray blocks differ by at most 1 (of 255) from those of another decoder") {
     const Image image = read_bytes(test::gray_jpeg());
     CHECK(image.width == 16);
     CHECK(image.height == 8);
@@ -62,7 +62,7 @@ TEST_CASE("JPEG: gray blocks are within 1 of those of another decoder") {
             CHECK(std::abs(image.rgb_sum(column, row) - 3 * (column < 8 ? 0 : white)) <= 3);
 }
 
-TEST_CASE("JPEG: colours are within 1 of those of another decoder") {
+TEST_CASE("JPEG: colours differ by at most 1 (of 255) from those of another decoder") {
     const Image image = read_bytes(test::color_jpeg());
     CHECK(image.channels == 3);
     const int expected[] = {204, 29, 46};  // as `white`
@@ -134,7 +134,7 @@ TEST_CASE("JPEG, BMP, GIF: an image of 1e9 pixels is refused from its header alo
 
 TEST_CASE("BMP: a BMP of an unsupported kind is refused, and the error names the kind") {
     const std::string packed = bmp_header(4, 1, 8, std::string(8, '\0'), 1) + "\4\1\0\1"s;
-    CHECK(contains(error_of(packed), "a kind of BMP that is not read (BMP RLE)"));
+    CHECK(contains(error_of(packed), "a kind of BMP that is not supported (BMP RLE)"));
     CHECK(contains(error_of(packed), "save it as PNG"));
 }
 

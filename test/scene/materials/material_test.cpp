@@ -37,7 +37,8 @@ TEST_CASE(
     CHECK(glassless.per_metre == 0);
 }
 
-TEST_CASE("material: per crossing, a slab costs its loss at the signal's frequency") {
+TEST_CASE(
+    "material: each crossing of a slab attenuates by the slab's loss at the signal's frequency") {
     const Material glass{.slab = ItuMaterial::glass, .thickness = 0.006_m};
     for (const Hertz f : {2450_MHz, 5200_MHz}) {
         const WallRate rate = wall_rate(glass, f, usual);

@@ -38,7 +38,7 @@ bool equal(double value, double expected, double relative) {
 
 }  // namespace
 
-TEST_CASE("p2040: permittivities equal the vectors (table p2040_materials)") {
+TEST_CASE("p2040: permittivities equal the test vectors (table p2040_materials)") {
     constexpr double relative = 1e-9;  // a dozen digits of the vectors
     const Vectors vectors("p2040_materials.csv");
     std::size_t rows = 0;
@@ -55,7 +55,7 @@ TEST_CASE("p2040: permittivities equal the vectors (table p2040_materials)") {
     CHECK(rows == 4 * EnumNames<ItuMaterial>::values.size());
 }
 
-TEST_CASE("p2040: the loss per metre deep inside a material equals the vectors") {
+TEST_CASE("p2040: the loss per metre deep inside a material equals the test vectors") {
     const Vectors vectors("p2040_materials.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         const auto material = material_named(vectors.text(i, "material"));
@@ -71,7 +71,8 @@ TEST_CASE("p2040: the loss per metre deep inside a material equals the vectors")
     }
 }
 
-TEST_CASE("p2040: losses of slabs equal the vectors at every angle (table slab_transmission)") {
+TEST_CASE(
+    "p2040: losses of slabs equal the test vectors at every angle (table slab_transmission)") {
     constexpr double tolerance = 1e-8;  // [dB], see the vectors' description
     const Vectors vectors("slab_transmission.csv");
     std::size_t rows = 0;
@@ -122,7 +123,8 @@ TEST_CASE("p2040: a slab never transmits and reflects more power than it receive
     }
 }
 
-TEST_CASE("p2040: wall factors of real walls equal the vectors (table wallfactor_equivalent)") {
+TEST_CASE(
+    "p2040: wall factors of real walls equal the test vectors (table wallfactor_equivalent)") {
     constexpr double relative = 1e-9;  // the vectors' last digits
     const Vectors vectors("wallfactor_equivalent.csv");
     REQUIRE(vectors.size() == 7);

@@ -29,7 +29,7 @@ double loss_db(math::Complex field, double decay = 0) {
 
 }  // namespace
 
-TEST_CASE("slab: losses and transmitted field, with its phase, equal the table") {
+TEST_CASE("slab: losses and transmitted field, with its phase, equal the test vectors") {
     const test::Vectors vectors("slab_transmission.csv");
     int compared = 0;
     for (std::size_t i = 0; i < vectors.size(); ++i) {

@@ -122,7 +122,8 @@ TEST_CASE("stage walls: the rectangle around the dark pixels is scaled to the mo
 }
 
 TEST_CASE(
-    "stage walls: only the first channel of a pixel decides if it is a wall, alpha does not") {
+    "stage walls: only the first channel of a pixel decides whether it is a wall; alpha has no "
+    "effect") {
     World world;
     test::PngPicture picture{.width = 4, .rows = {}};
     picture.color_type = PNG_COLOR_TYPE_RGB_ALPHA;
@@ -341,7 +342,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "stage walls: a bitmap may be replaced, chosen by its whole name or the name's last part") {
+    "stage walls: a bitmap may be replaced by an image, for its whole name or the last part of the "
+    "name") {
     World world;
     world.draw("new.pgm", {"#.#"});
     for (const std::string old : {"bits/old.pgm", "old.pgm"}) {
@@ -366,19 +368,19 @@ TEST_CASE("stage walls: several models may use one bitmap, each scaled to its ow
     CHECK(walls.grids[1].origin == Vec3{7, -1, 0});
 }
 
-TEST_CASE("stage walls: a bitmap without walls causes a notice, a damaged one an error") {
+TEST_CASE("stage walls: a bitmap without walls causes a notice, a damaged bitmap an error") {
     World world;
     world.draw("white.pgm", {".-"});
     const StageWalls walls = world.walls("model ( bitmap \"white.pgm\" )\n");
     CHECK(walls.grids.empty());
     REQUIRE(walls.notices.size() == 1);
     CHECK(contains(walls.notices[0], "a.world:1: bitmap"));
-    CHECK(contains(walls.notices[0], "has no pixel at or below 127"));
+    CHECK(contains(walls.notices[0], "has no pixel with a grey level of at most 127"));
     world.folder.write("bad.pgm", "P2\n3 3\n255\n1 2");
     CHECK_THROWS_AS(world.walls("model ( bitmap \"bad.pgm\" )\n"), InputError);
 }
 
-TEST_CASE("stage walls: a value of a wrong type is refused with its position") {
+TEST_CASE("stage walls: a value of a wrong type is refused, with line and column") {
     const World world;
     CHECK(world.mistake("model ( laser_return \"yes\" )\n") ==
           "1:9: laser_return: found a text; expected one number; write laser_return 1");

@@ -66,7 +66,7 @@ bool contains(const std::string& text, const std::string& part) {
 }  // namespace
 
 TEST_CASE(
-    "worldfile: keys, texts, tuples and nested models are read in order, with their positions") {
+    "worldfile: keys, texts, tuples and nested models are read in order, with line and column") {
     const WorldFile world = read(
         "# a comment\n"
         "size [16 -.5 +3.]\tname \"a b\" # two on a line\r\n"
@@ -442,7 +442,7 @@ TEST_CASE("worldfile: unit_length and unit_angle apply to lengths and angles") {
                          doctest::Contains("did you mean \"degrees\"?"), InputError);
 }
 
-TEST_CASE("worldfile: an invalid pose or size is an error with its position") {
+TEST_CASE("worldfile: an invalid pose or size is refused, with line and column") {
     const auto refused = [](const std::string& body) -> std::string {
         const WorldFile world = read("model (\n " + body + " )\n");
         try {

@@ -225,7 +225,7 @@ TEST_CASE("event queue: keys that are added without end at the current time are 
     CHECK(queue.size() == 5000);
 }
 
-TEST_CASE("event queue: after a look at the next key, many keys before it may be added") {
+TEST_CASE("event queue: after a call of top(), many keys earlier than the next one may be added") {
     constexpr std::int64_t far = 1'000'000'000'000;
     Dice dice(1);
     EventQueue queue;
@@ -244,7 +244,8 @@ TEST_CASE("event queue: after a look at the next key, many keys before it may be
     CHECK(serves(queue, keys));
 }
 
-TEST_CASE("event queue: keys added around a single early key stay in order") {
+TEST_CASE(
+    "event queue: keys that are added before and after a single early key are served in order") {
     constexpr std::int64_t lone = std::int64_t{1} << 40;
     constexpr std::int64_t crowd = lone + (1 << 20);
     EventQueue queue;
@@ -288,7 +289,7 @@ TEST_CASE(
     CHECK(serves(near, {key_at(1000, 1), key_at(2000, 2), key_at(9'000'000, 20'000)}));
 }
 
-TEST_CASE("event queue: a copy is independent") {
+TEST_CASE("event queue: a copy of a queue is independent of the original") {
     EventQueue queue;
     std::vector<EventKey> keys;
     for (std::uint64_t i = 0; i < 5'000; ++i) {
@@ -300,7 +301,8 @@ TEST_CASE("event queue: a copy is independent") {
     CHECK(serves(copy, keys));
 }
 
-TEST_CASE("event line: keys in nearly ascending order are served in order; others are refused") {
+TEST_CASE(
+    "event line: keys in nearly ascending order are served in order; other keys are refused") {
     Dice dice(9);
     EventLine line;
     std::set<EventKey> taken;

@@ -129,7 +129,8 @@ std::vector<int> served(Scheduler<int>& queue) {
 }  // namespace
 
 TEST_CASE(
-    "event key: the largest sequence number and slot fit in, and at() changes only the time") {
+    "event key: the largest sequence number and slot fit into 16 bytes, and at() changes only the "
+    "time") {
     static_assert(sizeof(EventKey) == 16);
     constexpr std::uint64_t last_sequence = (std::uint64_t{1} << 36) - 1;
     constexpr std::uint32_t last_slot = (1U << 24) - 1;
@@ -143,7 +144,9 @@ TEST_CASE(
     CHECK(EventKey(at(-1), Priority::user, 9, 9) < EventKey(at(0), Priority::frame_end, 0, 0));
 }
 
-TEST_CASE("scheduler: for any calls, the order equals that of a sorted map, also at equal times") {
+TEST_CASE(
+    "scheduler: for any sequence of calls, the order equals that of a sorted map, also at equal "
+    "times") {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         drive(seed, 3, 10);
         drive(seed, 5, 300);
@@ -401,7 +404,8 @@ class ToyRadio {
 
 }  // namespace
 
-TEST_CASE("scheduler: one event per frame gives the order of one event per reception") {
+TEST_CASE(
+    "scheduler: one event per frame gives receptions the same order as one event per reception") {
     const auto one_each = ToyRadio(false).run();
     const auto one_per_frame = ToyRadio(true).run();
     CHECK(one_each.size() > 10'000);

@@ -138,7 +138,7 @@ TEST_CASE(
     CHECK(decision.decided_at() == expected);
 }
 
-TEST_CASE("decision: the first verdict is final") {
+TEST_CASE("decision: later values do not change the first verdict") {
     CandidateDecision decision({.tolerance = 0.1, .bounds = share});
     for (int i = 0; i < 200; ++i) add(decision, 0.01);
     REQUIRE(decision.verdict() == Equivalence::within);

@@ -217,7 +217,7 @@ TEST_CASE("advise: options select the reference and the candidates") {
     CHECK(names_of(c.receptions) == std::vector<std::string>{"threshold", "collision"});
 }
 
-TEST_CASE("advise: errors about reference and candidates are reported at their options") {
+TEST_CASE("advise: errors about reference and candidates name the option that selects them") {
     const auto reference = [](const std::string& text) {
         return error_of({.models = {}, .reference = {text}, .as_given = true});
     };
@@ -246,7 +246,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "advise: a candidate that is fitted to a reference of its own form gets the reference's "
+    "advise: a candidate that is fitted to a reference of the same formula gets the reference's "
     "parameters") {
     CandidateQuestion question{
         .models = {"friis", "multi_wall"},
@@ -304,8 +304,8 @@ TEST_CASE("advise: a simulated study selects the model that equals the reference
 }
 
 TEST_CASE(
-    "advise: the choice combines the cheapest sufficient models of both kinds, and is judged as a "
-    "combination") {
+    "advise: the cheapest sufficient propagation and reception models are combined, and the "
+    "combination is judged") {
     // `a` is wrong by 0.5, `b` by 0.01, and the reception `some` by 0.01: together by 0.02.
     MadeUp study([](std::size_t p, std::size_t r, std::uint32_t) {
         return 0.9 - (p == 0 ? 0.5 : p == 1 ? 0.01 : 0) - (r == 0 ? 0.01 : 0);
@@ -357,8 +357,8 @@ TEST_CASE("advise: an undecided candidate counts as insufficient, and is named")
 }
 
 TEST_CASE(
-    "advise: a candidate gets no more runs after its verdict, nor after the choice of a cheaper "
-    "one") {
+    "advise: a candidate gets no more runs after its verdict, nor after a cheaper candidate is "
+    "chosen") {
     // `a` is the reference at once; `b` is noisy, and never decided.
     MadeUp study([](std::size_t p, std::size_t, std::uint32_t r) {
         return p == 1 ? (r % 2 == 0 ? 1.0 : 0.0) : 0.5;
@@ -432,7 +432,9 @@ TEST_CASE("advise: if it is stopped before any run, the advice states that nothi
     CHECK(advice_text(advice).find("tolerance") == std::string::npos);
 }
 
-TEST_CASE("advise: replications are added in blocks of at least 10 or a quarter, up to the limit") {
+TEST_CASE(
+    "advise: replications are added in blocks of 10, or of a quarter of their number if that is "
+    "more") {
     CHECK(next_block(0, 4000) == 10);
     CHECK(next_block(10, 4000) == 20);
     CHECK(next_block(80, 4000) == 100);

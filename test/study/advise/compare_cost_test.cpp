@@ -54,7 +54,7 @@ struct Compared {
 
 }  // namespace
 
-TEST_CASE("costs of models: each model has a cost and its share of the run's CPU time") {
+TEST_CASE("costs of models: each model has a CPU cost, and a share of the CPU time of a run") {
     const Compared c("");
     for (const ComparedModel& model : c.comparison.models) {
         REQUIRE(model.cost);

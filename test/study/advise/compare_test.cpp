@@ -203,7 +203,7 @@ TEST_CASE("compare: with a margin, each model is within it, outside, or undecide
     CHECK_FALSE(compare_models(store, "reach", "friis").models[0].equivalence);
 }
 
-TEST_CASE("compare: intervals of several metrics are simultaneously valid") {
+TEST_CASE("compare: with several metrics the intervals are wider, to be valid simultaneously") {
     const TemporaryFolder folder;
     const Store store =
         made_of_protocols(folder.path("s.db"), {"flood", "aodv", "other"},
@@ -227,8 +227,8 @@ TEST_CASE("compare: intervals of several metrics are simultaneously valid") {
 }
 
 TEST_CASE(
-    "chart: each protocol has a mark with an interval in x and in y; one without deliveries has no "
-    "mark") {
+    "chart: each protocol has a mark with an interval in x and in y; a protocol without deliveries "
+    "has no mark") {
     const TemporaryFolder folder;
     const Store store = made_of_protocols(folder.path("s.db"), {"flood", "aodv", "mute"},
                                           {{0.2, 0.4, 0.3}, {0.9, 0.8, 0.7}, {0, 0, 0}},

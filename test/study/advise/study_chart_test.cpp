@@ -137,7 +137,7 @@ TEST_CASE("study chart: a condition selects points, and is stated in the note") 
                          std::invalid_argument);
 }
 
-TEST_CASE("study chart: an impossible request is an error that says what is possible") {
+TEST_CASE("study chart: the error for an impossible request states what is possible") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), "a.count", {10}, "b.count", {1});
     using Error = std::invalid_argument;

@@ -145,7 +145,7 @@ TEST_CASE("calibration: fitted parameters in the scenario give the predicted los
     CHECK(std::abs(fitted.worst[0].error) >= std::abs(fitted.worst[4].error));
 }
 
-TEST_CASE("calibration: robots that never move are sampled once, and grouped by sender") {
+TEST_CASE("calibration: links of robots that never move are sampled once, and grouped by sender") {
     const Scenario scenario = scenario_from(R"([[robot]]
 name = "a"
 at = ["0 m", "0 m"]
@@ -163,8 +163,8 @@ at = ["0 m", "90 m"]
 }
 
 TEST_CASE(
-    "calibration: a sample enlarged in steps equals one drawn at once, and computes no link "
-    "twice") {
+    "calibration: a sample of links enlarged in steps equals one drawn at once, and computes no "
+    "link twice") {
     const Scenario scenario = scenario_from(wanderers + "[[robot]]\nname = \"still\"\ncount = 2\n" +
                                             "at = [\"9 m\", \"9 m\"]\n");
     int asked = 0;
@@ -188,8 +188,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "calibration: while links are sampled for the model rays, robots hear each other by "
-    "multi_wall") {
+    "calibration: while links are sampled for the model rays, multi_wall decides which messages "
+    "robots receive") {
     // B drives off when it hears A, through a wall that takes so much by multi_wall.
     const auto links_with = [](const std::string& heavy_wall) {
         Scenario scenario = scenario_from(R"([scenario]
@@ -412,7 +412,7 @@ TEST_CASE("calibration: a useless fit is refused with the reason") {
     CHECK(models[0].refusal.empty());
     CHECK(models[1].refusal.empty());
     CHECK(models[2].refusal ==
-          "its error of 54.0 dB is far above the 5.0 dB of free space with its own constant");
+          "its error of 54.0 dB is far above the 5.0 dB of friis with a fitted constant");
     CHECK(models[3].refusal == "its power of 4212 dBm is more than 30 dB from the given 16.5 dBm");
     // By real levels: a power that was given 40 dB too high.
     const test::TemporaryFolder folder;
@@ -444,7 +444,8 @@ TEST_CASE("calibration: a useless fit is refused with the reason") {
         CHECK((each.failure.empty() || !each.is_fitted()));
 }
 
-TEST_CASE("levels: the error of one level is the repeatability divided by the square root of two") {
+TEST_CASE(
+    "levels: the error of a single level is the repeatability divided by the square root of two") {
     KnownLinks first, second;
     constexpr int places = 4000;
     for (int i = 0; i < places; ++i) {
@@ -512,7 +513,7 @@ move = { model = "random_waypoint", area = [["1 m", "1 m"], ["29 m", "19 m"]] }
     for (const FittedParameter& p : nothing.parameters) CHECK(!p.determined);
 }
 
-TEST_CASE("levels: an error in a file has its position") {
+TEST_CASE("levels: an error in a file of levels has a line, and for a wrong number a column") {
     const auto has = [](const std::string& text, const std::string& words) {
         CAPTURE(text);
         return text.find(words) != std::string::npos;

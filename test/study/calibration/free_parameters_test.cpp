@@ -49,7 +49,7 @@ TEST_CASE(
     CHECK(key_determined(LogDistance::name, Fit::Way::spread) == "sigma");
 }
 
-TEST_CASE("free parameters: a value is set unchanged, and one out of range is refused") {
+TEST_CASE("free parameters: a value is set unchanged, and a value out of range is refused") {
     const Scenario scenario = open_field("[propagation]\nmodel = \"friis\"\nexponent = 3.0\n");
     const Propagation fitted = model_with(scenario, LogDistance::name, {{"exponent", 0.1 + 0.2}});
     CHECK(fitted.as<LogDistance>()->exponent == 0.1 + 0.2);

@@ -57,7 +57,8 @@ TEST_CASE("locate: without shadowing positions are exact, also with walls") {
     }
 }
 
-TEST_CASE("locate: positions at a time are located with the doors that are closed at this time") {
+TEST_CASE(
+    "locate: robots at a given time are located with the doors that are closed at this time") {
     const TemporaryFolder folder;
     const Scenario scenario = load_scenario(folder.write("door.toml", R"([scenario]
 name = "door"

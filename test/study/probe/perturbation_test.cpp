@@ -92,14 +92,16 @@ TEST_CASE("perturbations: on an open field, or with models without walls, only p
     CHECK(names(perturbations(in_hall({Material{}}, 0, table_of(Friis{})))) == places);
 }
 
-TEST_CASE("perturbations: walls are varied also if only one robot's own model uses them") {
+TEST_CASE(
+    "perturbations: walls are varied also if only the propagation model of a single robot uses "
+    "walls") {
     Scenario scenario = in_hall({Material{}}, 0, table_of(Friis{}));
     scenario.robots.emplace_back().propagation = table_of(Raytrace2007{});
     CHECK(perturbations(scenario).size() > 2);
 }
 
 TEST_CASE(
-    "perturbations: dividing the cells of a map changes no loss, joining them makes walls "
+    "perturbations: dividing the cells of a map changes no loss; joining cells makes walls "
     "thicker") {
     const Scenario scenario = in_hall({Material{}}, 0, table_of(Raytrace2007{.wall_factor = 0.1}));
     const auto all = perturbations(scenario);
@@ -149,7 +151,7 @@ TEST_CASE("perturbations: crossing a wall costs 3 dB more or less, for every kin
     }
 }
 
-TEST_CASE("perturbations: 3 dB less for a wall of 1 dB gives no loss, not a negative one") {
+TEST_CASE("perturbations: a wall of 1 dB with 3 dB less has a loss of 0, not a negative loss") {
     const Material paper{.name = "paper", .per_crossing = Db{1}};
     const Scenario scenario = in_hall({Material{}, paper}, 1, table_of(MultiWall{}));
     const double free = loss(MultiWall{}, Scene{}, left, right);

@@ -88,7 +88,7 @@ TEST_CASE(
     CHECK(found.effects.back().perturbation.starts_with("1 cm"));
 }
 
-TEST_CASE("probe: messages that a displaced robot misses are counted and named") {
+TEST_CASE("probe: messages that a displaced robot misses are counted and listed") {
     const Displaced displaced{Friis{}, Meters{0.01}};
     const Vec3 a = displaced.displacement(name_key("A")), b = displaced.displacement(name_key("B"));
     std::uint64_t lost = 0;
@@ -113,7 +113,9 @@ TEST_CASE("probe: messages that a displaced robot misses are counted and named")
     CHECK(lost > 0);
 }
 
-TEST_CASE("probe: a link along the face of a wall changes greatly with 1 um: a cliff") {
+TEST_CASE(
+    "probe: the loss of a link along the face of a wall jumps after a shift of 1 um, and is listed "
+    "as a cliff") {
     // The face is the line y = 0, from x = 1 m to 2 m.
     const Probe found = probe(with_walls(4, rows_of(10, ".........."), walls), {.events = 0});
     CHECK(std::none_of(found.effects.begin(), found.effects.end(),
@@ -128,7 +130,9 @@ TEST_CASE("probe: a link along the face of a wall changes greatly with 1 um: a c
     CHECK(near(first.change(), 50, 0.1));  // it passes a metre of the wall
 }
 
-TEST_CASE("probe: effects are sorted by cliffs, then flips, then size") {
+TEST_CASE(
+    "probe: effects are listed in the order cliffs (steep losses), flipped links, size of the "
+    "change") {
     const Scenario scenario = with_walls(60, rows_of(20, "#.###.###."), walls);
     const Probe found = probe(scenario, {.events = 0});
     const auto group = [](const LinkEffect& e) { return e.is_cliff() ? 0 : e.flips() ? 1 : 2; };
@@ -187,11 +191,12 @@ place = { area = [["0 m", "0 m"], ["50 m", "50 m"]] }
     CHECK(named(found, "1 cm").worst != named(other, "1 cm").worst);
 }
 
-TEST_CASE("probe: robots out of range are an error") {
+TEST_CASE("probe: a scenario in which no robots come into range is refused") {
     CHECK_THROWS_WITH_AS(
         probe(scenario_from(two_robots(50, "[propagation]\nmodel = \"disc\"\nrange = \"1 m\"\n")),
               {}),
-        doctest::Contains("no two robots come within the range of disc"), InputError);
+        doctest::Contains("by the model disc, no two robots come within range of each other"),
+        InputError);
 }
 
 TEST_CASE("probe: reports progress from 0 to 1") {

@@ -81,7 +81,9 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("comparison: Student's ten patients slept 1.58 h more on the other drug, p = 0.2833 %") {
+TEST_CASE(
+    "comparison: Student's data of ten patients give 1.58 h more sleep on the other drug, p = "
+    "0.2833 %") {
     const std::array a{0.7, -1.6, -0.2, -1.2, -0.1, 3.4, 3.7, 0.8, 0.0, 2.0};
     const std::array b{1.9, 0.8, 1.1, 0.1, -0.1, 4.4, 5.5, 1.6, 4.6, 3.4};
     const auto c = compare_pairs(a, b);
@@ -128,8 +130,8 @@ TEST_CASE("comparison: p is at most the level exactly when the interval excludes
 }
 
 TEST_CASE(
-    "comparison: in a family of 5 comparisons, each interval is that of a single one at a fifth of "
-    "the level") {
+    "comparison: of 5 comparisons in a family, each has the interval of a single comparison at a "
+    "fifth of the level") {
     const Pairs pairs(8, 1, 1);
     const auto together = compare_pairs(pairs.a, pairs.b, {}, 0.95, 5);
     const auto alone = compare_pairs(pairs.a, pairs.b, {}, 0.99);
@@ -298,7 +300,8 @@ TEST_CASE("comparison in words: states whether two models are equivalent") {
 }
 
 TEST_CASE(
-    "comparison: 54 of 60 replications in one direction and none in the other are significant") {
+    "comparison: differences of 54 of 60 replications in one direction, none in the other, are "
+    "significant") {
     // Paired t: p = 1e-7 or so. The mean of differences from -1 to 1 is not told from 0: a loss of
     // everything in one run of 20 would outweigh it, and 60 runs may miss that.
     std::vector<double> a(60, 0.9), b(60, 0.9);

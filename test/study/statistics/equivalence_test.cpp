@@ -122,7 +122,9 @@ TEST_CASE(
     CHECK(result.decided_at == 288U);
 }
 
-TEST_CASE("equivalence: a first verdict is final") {
+TEST_CASE(
+    "equivalence: later differences do not change a first verdict, even if they would prove the "
+    "opposite") {
     EquivalenceTest test(0.5, 0.05, 1);
     for (int i = 0; i < 30; ++i) test.add(1);
     CHECK(test.verdict() == Equivalence::outside);

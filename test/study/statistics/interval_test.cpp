@@ -55,7 +55,9 @@ TEST_CASE("interval: the interval of a ratio that was 1 in every replication ext
     CHECK(betting->high == 1);
 }
 
-TEST_CASE("interval: one value of a ratio has a wide interval, one value of a time has none") {
+TEST_CASE(
+    "interval: a single value of a ratio has a wide interval, a single value of a time has no "
+    "interval") {
     CHECK(interval_of(std::vector{1.0}, share)->half_width() > 0.45);
     CHECK(!interval_of(std::vector{1.0}, delay));
     CHECK(!interval_of({}, share));

@@ -92,13 +92,14 @@ TEST_CASE("MSER-5: a change after the middle is not detected") {
     CHECK(mser5(step(200, 150, 3)) == Truncation{.observations = 0, .conclusive = true});
 }
 
-TEST_CASE("MSER-5: fewer than 50 observations give 0, not conclusive") {
+TEST_CASE(
+    "MSER-5: of fewer than 50 observations none is cut off, and the result is not conclusive") {
     CHECK(mser5({}) == Truncation{});
     CHECK(mser5(step(49, 20, 3)) == Truncation{.observations = 0, .conclusive = false});
     CHECK(mser5(step(50, 20, 3)) == Truncation{.observations = 20, .conclusive = true});
 }
 
-TEST_CASE("MSER-5: up to four observations at the end have no effect") {
+TEST_CASE("MSER-5: up to four observations at the end, an incomplete batch, have no effect") {
     for (std::size_t extra = 0; extra < 5; ++extra) {
         std::vector<double> series = fading(200, 2, 10, 15);
         const Truncation whole = mser5(series);

@@ -135,7 +135,7 @@ TEST_CASE("quantile: ranks and coverage equal sums of all probabilities") {
     }
 }
 
-TEST_CASE("quantile: in 10,000 studies the coverage is the stated one") {
+TEST_CASE("quantile: in 10,000 studies the intervals cover the true quantile as often as stated") {
     struct Study {
         std::size_t n;
         double p, confidence;

@@ -83,7 +83,7 @@ TEST_CASE(
     CHECK(mean.high == 1);
 }
 
-TEST_CASE("STaR-Bets: rejections equal the equations in the header") {
+TEST_CASE("STaR-Bets: rejections equal those by the equations in the C++ header") {
     int refuted = 0, kept = 0;
     for (std::uint32_t study = 0; study < 200; ++study) {
         const auto values = normals(5 + study % 60, 0.6, 0.25, study);

@@ -129,7 +129,7 @@ TEST_CASE("summary: an offset of 1e9 only shifts mean and extremes, without loss
     CHECK(is_close(a->mean + 1e9, b->mean, 1e-16));
 }
 
-TEST_CASE("summary: a leading outlier costs no digit") {
+TEST_CASE("summary: an outlier as the first value costs no digit of the results") {
     std::vector<double> values{1e9};
     for (int i = 0; i < 4; ++i) {
         values.push_back(1);

@@ -129,7 +129,8 @@ TEST_CASE("validation: a panel in which every error is 0 is replaced by a senten
     CHECK(count(page, "[small.csv](accuracy/small.csv)") == 1);  // its numbers are there
 }
 
-TEST_CASE("validation: a best method is named only if it is significantly better") {
+TEST_CASE(
+    "validation: a method is named the best only if it is significantly better than the others") {
     const auto all = [](const ValidationPoint&) { return true; };
     const auto words = [](double error) { return std::to_string(error).substr(0, 4) + " dB"; };
     const auto panel_of = [](std::size_t n) {
@@ -163,7 +164,9 @@ TEST_CASE("validation: a best method is named only if it is significantly better
     CHECK(!nearest_to_truth(many, [](const ValidationPoint&) { return false; }).point);
 }
 
-TEST_CASE("validation: charts for contributors are only on the page of the promises") {
+TEST_CASE(
+    "validation: a chart for contributors is on the page of promises, and not on the page of "
+    "accuracy") {
     Validation validation = small_validation();
     validation.charts.push_back(validation.charts[0]);
     validation.charts[1].name = "code";
@@ -178,8 +181,8 @@ TEST_CASE("validation: charts for contributors are only on the page of the promi
 }
 
 TEST_CASE(
-    "validation: a chart that continues another one is in its section, and does not repeat the "
-    "reference") {
+    "validation: a chart that continues another chart is in the same section, and does not repeat "
+    "the reference") {
     Validation validation = small_validation();
     validation.charts.push_back(validation.charts[0]);
     validation.charts[1].title = "And then?";
@@ -190,7 +193,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "headline: models are in order of cost, and forms of the reference are never the best one") {
+    "headline: models are in order of cost, and forms of the reference are never named the best "
+    "model") {
     const auto point = [](const char* label, const char* series, double cost, double error) {
         return ValidationPoint{.label = label,
                                .series = series,
@@ -221,7 +225,7 @@ TEST_CASE(
     CHECK(count(svg, "Means of 7 runs") == 1);
 }
 
-TEST_CASE("validation: the page needs no other file") {
+TEST_CASE("validation: the page of the results needs no other file") {
     const std::string html = validation_html(small_validation());
     CHECK(count(html, "<svg") == 1);
     CHECK(count(html, "http") == count(html, "http://www.w3.org/"));

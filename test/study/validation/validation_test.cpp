@@ -149,7 +149,7 @@ TEST_CASE("validation: errors are equal when measured again") {
     CHECK(runs() == runs());
 }
 
-TEST_CASE("naive walls: a raster parallel to the walls gives the exact length") {
+TEST_CASE("naive walls: sampling on a raster parallel to the walls gives the exact length") {
     OccupancyGrid grid;
     grid.columns = grid.rows = 8;
     grid.cells.assign(64, Cell::free);

@@ -65,12 +65,12 @@ TEST_CASE("two decimals: signs, zeros, huge numbers and NaN are printed as by pr
     }
 }
 
-TEST_CASE("two decimals: equal printf for random doubles of every magnitude") {
+TEST_CASE("two decimals: the text equals that of printf for random doubles of every magnitude") {
     std::mt19937_64 draw(1);
     CHECK(first_difference(200'000, [&] { return std::bit_cast<double>(draw()); }) == "");
 }
 
-TEST_CASE("two decimals: equal printf at and next to ties") {
+TEST_CASE("two decimals: the text equals that of printf for ties and the numbers next to them") {
     std::mt19937_64 draw(2);
     const auto near_tie = [&] {
         const auto whole = static_cast<double>(draw() >> (13 + draw() % 50));
@@ -87,7 +87,7 @@ TEST_CASE("two decimals: equal printf at and next to ties") {
     CHECK(first_difference(400'000, near_tie) == "");
 }
 
-TEST_CASE("seconds are exact to the nanosecond") {
+TEST_CASE("seconds with nine decimals are printed exactly, to the nanosecond") {
     CHECK(written(write_seconds, ns(0)) == "0.000000000");
     CHECK(written(write_seconds, ns(10'000'520'067)) == "10.000520067");
     CHECK(written(write_seconds, ns(-1)) == "-0.000000001");
@@ -104,14 +104,14 @@ TEST_CASE("seconds with five decimals are rounded, ties to the even digit") {
     CHECK(written(write_seconds5, ns(999'995'001)) == "1.00000");
 }
 
-TEST_CASE("short seconds have the decimals that they need") {
+TEST_CASE("short seconds are printed with no more decimals than they need") {
     CHECK(written(write_seconds_short, ns(0)) == "0");
     CHECK(written(write_seconds_short, ns(10'000'000'000)) == "10");
     CHECK(written(write_seconds_short, ns(250'000'000)) == "0.25");
     CHECK(written(write_seconds_short, ns(1'001'536'667)) == "1.001536667");
 }
 
-TEST_CASE("hexadecimal numbers are lower case without prefix") {
+TEST_CASE("hexadecimal numbers are written in lower case and without a prefix") {
     CHECK(written(write_hex, std::uint32_t{0}) == "0");
     CHECK(written(write_hex, std::uint32_t{0xABC}) == "abc");
     CHECK(written(write_hex, std::uint32_t{0xffffffff}) == "ffffffff");

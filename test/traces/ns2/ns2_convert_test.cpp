@@ -80,7 +80,9 @@ const std::string on_to_2 =
 
 }  // namespace
 
-TEST_CASE("trace convert: a trace of ours converted from old to new and back has the same bytes") {
+TEST_CASE(
+    "trace convert: a trace of rovernet converted from the old to the new format and back has the "
+    "same bytes") {
     for (unsigned seed = 0; seed < 5; ++seed) {
         const std::string text = written(Ns2Format::old_format, MacTrace::off, seed);
         const Made in_new = converted(text, TraceForm::ns2_new);
@@ -91,12 +93,15 @@ TEST_CASE("trace convert: a trace of ours converted from old to new and back has
 }
 
 TEST_CASE(
-    "trace convert: converting new to old gives the trace that the run writes in the old format") {
+    "trace convert: a trace in the new format is converted to the trace that the run writes in the "
+    "old format") {
     const Made made = converted(written(Ns2Format::new_format), TraceForm::ns2_old);
     CHECK(made.text == written(Ns2Format::old_format));
 }
 
-TEST_CASE("trace convert: converting old to new gives the run's new trace, except for positions") {
+TEST_CASE(
+    "trace convert: a trace in the old format is converted to the run's new trace, except for "
+    "positions") {
     const std::string expected = written(Ns2Format::new_format);
     const std::string made = converted(written(Ns2Format::old_format), TraceForm::ns2_new).text;
     std::istringstream a(expected), b(made);

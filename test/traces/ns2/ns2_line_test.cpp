@@ -132,7 +132,7 @@ TEST_CASE("ns-2 line: control frames of the MAC have no network part, and energy
     CHECK_FALSE(in_new.ip);
 }
 
-TEST_CASE("ns-2 line: ARP has no IP header in any format") {
+TEST_CASE("ns-2 line: the line of an ARP packet has no IP header, in any format") {
     const auto old_arp = packet_of(
         "r 11.184857138 _0_ MAC  --- 0 ARP 28 [0 ffffffff 3 806] ------- [REQUEST 3/3 "
         "0/0]");
@@ -146,7 +146,9 @@ TEST_CASE("ns-2 line: ARP has no IP header in any format") {
     CHECK_FALSE(new_arp.ip);
 }
 
-TEST_CASE("ns-2 line: a line of the physical layer has no MAC part; that of SMAC has decimals") {
+TEST_CASE(
+    "ns-2 line: a line of the physical layer has no MAC part; the MAC part of S-MAC may have "
+    "decimals") {
     CHECK_FALSE(packet_of("D 1.0 _2_ PHY  --- 4 cbr 512 ").mac);
     const auto smac = packet_of("s 1.0 _2_ MAC  --- 4 cbr 512 [0.25 3 2] ------- [2:0 3:0 32 3] ");
     CHECK(smac.mac == Ns2Mac{0, 3, 2, 0});
@@ -231,7 +233,7 @@ TEST_CASE("ns-2 line: times may have any number of digits, and invalid times are
     }
 }
 
-TEST_CASE("ns-2 line: any other line is refused") {
+TEST_CASE("ns-2 line: a line of none of the known kinds is refused") {
     for (const char* line :
          {"t 0.02105 /NodeList/0/DeviceList/0 DsssRate1Mbps",
           "r 0.0219142 DsssRate1Mbps /NodeList/1/DeviceList/0", "[scenario]", "name = \"A\"",

@@ -206,7 +206,9 @@ TEST_CASE("reader: every field of a record is reconstructed") {
     CHECK(r.dropped[0].frame.sender == NodeId{0});
 }
 
-TEST_CASE("reader: an annotation counts for the message that it names") {
+TEST_CASE(
+    "reader: an annotation (number of reachable robots) applies only to the message that it "
+    "names") {
     const auto annotated = [](const std::string& uid) {
         return records_of("v 1 eval {set sim_annotation {reachable " + uid + " 1}}\n" + old_lines)
             .sent[0]
@@ -225,7 +227,7 @@ TEST_CASE("reader: robots move as in their M lines") {
     CHECK(r.legs.position(NodeId{1}, at(9'000'000'000)) == Vec3{3, 4, 1});
 }
 
-TEST_CASE("reader: one file may contain both formats, and any kind of line ends") {
+TEST_CASE("reader: one file may contain lines of both ns-2 formats, and any kind of line ends") {
     CHECK(metrics_of(old_lines).deliveries == 1);
     CHECK(metrics_of(new_line).messages == 1);
     const std::string second = "s 2.0 _1_ AGT  --- 1 message 9 [0 0 0 0] ------- [1:0 -1:0 3 0]";
@@ -236,7 +238,7 @@ TEST_CASE("reader: one file may contain both formats, and any kind of line ends"
     CHECK(metrics_of("").messages == 0);
 }
 
-TEST_CASE("reader: lines of ns-2 that we do not write are skipped") {
+TEST_CASE("reader: lines of ns-2 that rovernet does not write are skipped") {
     const std::string foreign =
         "\n"
         "# a comment\n"
@@ -277,7 +279,7 @@ TEST_CASE("reader: the additional columns of an energy model do not change what 
 }
 
 TEST_CASE(
-    "reader: the error for a broken line names position, what was found and what was expected") {
+    "reader: the error for a broken line has line, column, what was found and what was expected") {
     const auto number_of_lines = "run.tr:8:";  // after the seven good ones
     const auto broken = [&](const std::string& line) { return error_of(old_lines + line + "\n"); };
     const std::string rest = " RTR  --- 0 message 64 [0 ffffffff 0 800] ------- [0:0 -1:0 3 0] ";
@@ -360,7 +362,7 @@ TEST_CASE("reader: a damaged trace is read or refused, without a crash") {
     CHECK(refused < 400);
 }
 
-TEST_CASE("reader: a file in which no line is one of ns-2 is refused as a trace") {
+TEST_CASE("reader: a file without any line of an ns-2 trace is refused") {
     const TempFolder folder;
     write_file(folder / "run.tr", "# by hand\n[scenario]\nname = \"A\"\n");
     try {

@@ -125,7 +125,8 @@ TEST_CASE("trace stats: packets of routing protocols count as load, also when th
 }
 
 TEST_CASE(
-    "trace stats: drops of messages are counted by reason, those of all packets by layer, too") {
+    "trace stats: drops of messages are counted by reason, drops of all packets by reason and "
+    "layer") {
     const auto s =
         stats_of(sent("1", 0) + "D 1.1 _0_ IFQ  ARP 0 cbr 120 [0 0 0 0] ------- [0:0 1:0 32 1] \n" +
                  "D 1.1 _0_ MAC  COL 0 RTS 44 [0 0 0 0] \n" +
@@ -271,7 +272,8 @@ TEST_CASE("stats: frames of S-MAC, which have signed addresses and no ethertype,
 }
 
 TEST_CASE(
-    "stats: M lines with a script's options are skipped as a header, invalid ones are refused") {
+    "stats: M lines with a script's options are skipped as a header, and invalid M lines are "
+    "refused") {
     const TempFolder folder;
     write_file(folder / "in.tr",
                "M 0.0 nn 3 x 600 y 300 rp AODV\n"

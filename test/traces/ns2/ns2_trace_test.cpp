@@ -86,7 +86,7 @@ TEST_CASE("ns-2 trace: the MAC drops a unicast that arrives a second time, with 
 }
 
 TEST_CASE(
-    "ns-2 trace: a frame lost on air has a line, with its size there, only if MAC lines are on") {
+    "ns-2 trace: a frame lost on air has a line, with its size on air, only if MAC lines are on") {
     const auto lose = [](Stream& s) {
         s.place(Vec3{});
         s.place(Vec3{10, 0, 0});
@@ -171,7 +171,7 @@ TEST_CASE("ns-2 trace: if the number of reachable robots is unknown, no annotati
     CHECK(text.find("v ") == text.npos);
 }
 
-TEST_CASE("ns-2 trace: a message lost at its own sender has no previous sender") {
+TEST_CASE("ns-2 trace: the drop line of a message lost at its own sender has no previous sender") {
     const auto text = trace_of(Ns2Format::old_format, [](Stream& s) {
         s.place(Vec3{});
         const auto m = s.send(at(0), a, 1);

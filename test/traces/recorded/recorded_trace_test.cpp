@@ -131,8 +131,8 @@ TEST_CASE("record kinds of later versions are skipped, with one notice") {
     const std::uint16_t arrived = channel_of(5), later = channel_of(std::variant_size_v<Record>);
     file.declare(arrived, "Arrived", "node:v");
     bool is_declared = false;
-    SUBCASE("declared") { is_declared = true; }
-    SUBCASE("not declared") {}
+    SUBCASE("the file declares the record kind of a later version") { is_declared = true; }
+    SUBCASE("the file does not declare the record kind of a later version") {}
     if (is_declared) file.declare(later, "Later", "node:v");
     McapChunk chunk;
     for (const std::uint16_t channel : {arrived, later, later, arrived}) {
@@ -250,7 +250,9 @@ TEST_CASE("an incomplete recorded trace is read up to its last complete chunk") 
     CHECK(before < recorded.all->records.size());
 }
 
-TEST_CASE("a recorded trace that is cut off before its first data is not called one of others") {
+TEST_CASE(
+    "a recorded trace that is cut off before its first data is not reported as a file of another "
+    "program") {
     const Recorded recorded(200);
     const std::string whole = content(recorded.path);
     const std::string rest = " is cut off before its first data; record the run again";
@@ -282,8 +284,8 @@ TEST_CASE("in a damaged recorded trace, a broken chunk affects only the records 
         }
     }
     REQUIRE(chunks.size() >= 4);
-    SUBCASE("its content") { bytes[chunks[1] + 2000] ^= 4; }
-    SUBCASE("its length") { bytes[chunks[1] + 3] ^= 64; }
+    SUBCASE("the content of the chunk is damaged") { bytes[chunks[1] + 2000] ^= 4; }
+    SUBCASE("the length of the chunk is damaged") { bytes[chunks[1] + 3] ^= 64; }
     write_file(recorded.path, bytes);
     std::vector<std::string> damage;
     const auto records = recorded.read_back(&damage);

@@ -102,7 +102,8 @@ TEST_CASE(
     CHECK(near(knife_edge_loss_db(-1e-9), knife_edge_loss_db(1e-9), 1e-7));
 }
 
-TEST_CASE("knife edge: far below the line the approximation is 0, not a gain of 145 dB (S16)") {
+TEST_CASE(
+    "knife edge: far below the line of sight the approximation is 0, not a gain of 145 dB (S16)") {
     for (const double nu : {-0.78, -1.0, -10.0, -1e4, -1e9}) {
         CHECK(knife_edge_loss_p526_db(nu) == 0);
         CHECK(near(knife_edge_loss_db(nu), 0, 1.4));
@@ -115,7 +116,7 @@ TEST_CASE("knife edge: far below the line the approximation is 0, not a gain of 
     }
 }
 
-TEST_CASE("transition function: real and imaginary part equal the vectors (utd_transition)") {
+TEST_CASE("transition function: real and imaginary part equal the test vectors (utd_transition)") {
     const Vectors vectors("utd_transition.csv");
     REQUIRE(vectors.size() == 22);
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -185,7 +186,7 @@ TEST_CASE("wedge: at shadow and reflection boundaries the field is finite and co
 }
 
 TEST_CASE(
-    "wedge: at a boundary the field is the same, whether the direct ray counts as lit (S19)") {
+    "wedge: at a boundary the field is the same, whether or not the direct ray is lit (S19)") {
     const WedgePath path{1.5, {0.3 + pi}, {0.3}};
     LitBy lit = lit_by(path);
     for (const WedgeFaces& faces : {soft_faces, hard_faces}) {
@@ -250,7 +251,8 @@ TEST_CASE(
     CHECK(near(face_incidence(behind).face_0.value, 70 * degree, 1e-14));
 }
 
-TEST_CASE("wedge: direct and reflected rays exist up to the right angles, boundaries included") {
+TEST_CASE(
+    "wedge: direct and reflected rays exist up to their shadow boundaries, boundaries included") {
     const LitBy low = lit_by({1.5, {100 * degree}, {45 * degree}});
     CHECK((low.direct && low.face_0 && !low.face_n));
     const LitBy between = lit_by({1.5, {150 * degree}, {45 * degree}});

@@ -12,7 +12,9 @@
 namespace block_shadows_test {
 using namespace rovernet;
 
-TEST_CASE("validation: losses behind blocks equal a wave computed with twice as many points") {
+TEST_CASE(
+    "validation: losses behind blocks equal those of a wave that is computed with twice as many "
+    "points") {
     constexpr double wavelength = speed_of_light / 2450e6;  // [m]
     constexpr double accuracy = 0.3;  // [dB] of 10 points a wavelength, against 20
     for (const BlockShadow& shadow : block_shadows) {
