@@ -229,9 +229,11 @@ class MapFile {
 
     /// Adapts the default of a missing threshold to the one in the file.
     void give_way(const char* missing, double& usual, const char* key, double given) const {
-        note(root_[key].Mark(),
-             fmt::format("no key {}, whose default {} contradicts {} {}: {} is used for both",
-                         missing, usual, key, given, given));
+        note(
+            root_[key].Mark(),
+            fmt::format(
+                "the key {} is missing, and its default {} contradicts {} {}: both are taken as {}",
+                missing, usual, key, given, given));
         usual = given;
     }
 

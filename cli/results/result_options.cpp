@@ -8,7 +8,7 @@ namespace {
 constexpr const char* only_points = "use only points of the study with KEY=VALUE, such as ttl=6";
 constexpr const char* only_cells =
     "if runs are missing from some rows, average each row only over the combinations of values and "
-    "replications that no row lacks";
+    "replications that all rows have";
 
 void add_results(Command app) {
     const auto [results, a] =

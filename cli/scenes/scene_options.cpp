@@ -103,9 +103,10 @@ void add_draw(Command app) {
                        "20s -o route.svg"});
     add_file(draw, a, any_file);
     draw.add_option("--at", a.at, "simulated time, such as 12.5s").shows_default();
-    Option coverage = draw.add_option("--coverage", a.coverage,
-                                      "transmitting robot; draw its received power over the map. "
-                                      "With several robots A,B: the power of the strongest one");
+    Option coverage =
+        draw.add_option("--coverage", a.coverage,
+                        "transmitting robot; draw its received power over the map. "
+                        "With several robots A,B: the power received from the strongest one");
     coverage.delimiter(',');
     draw.add_option("--for", a.receiver,
                     "robot whose radio and antenna height are used for reception (default: those "

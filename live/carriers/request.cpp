@@ -122,7 +122,7 @@ HelloRequest read_hello(const JsonElement& line, const Robots& robots) {
     for_each_item(list, [&](const JsonElement& item) {
         hello.robots.push_back(robots.named(item, item.text()));
     });
-    if (hello.robots.empty()) list.fail("out_of_range", "expected one robot at least");
+    if (hello.robots.empty()) list.fail("out_of_range", "expected at least one robot");
     auto sorted = hello.robots;
     std::sort(sorted.begin(), sorted.end());
     const auto twice = std::adjacent_find(sorted.begin(), sorted.end());

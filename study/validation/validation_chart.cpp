@@ -96,7 +96,8 @@ Nearest nearest_to_truth(const ValidationPanel& panel,
 std::string nearest_text(const Nearest& nearest, const std::function<std::string(double)>& off) {
     constexpr std::size_t most_named = 3;
     if (nearest.alike.empty())
-        return fmt::format("{} is nearest, {}", name_of(*nearest.point), off(nearest.point->error));
+        return fmt::format("{} has the smallest error, {}", name_of(*nearest.point),
+                           off(nearest.point->error));
     std::string out = fmt::format("{} ({}) cannot be distinguished from ", name_of(*nearest.point),
                                   off(nearest.point->error));
     const std::size_t named = std::min(most_named, nearest.alike.size());

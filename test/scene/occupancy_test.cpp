@@ -208,8 +208,8 @@ TEST_CASE("ROS map: a key of another program gives a notice, a misspelt key is a
 TEST_CASE("ROS map: a missing threshold that would contradict the given one is set equal to it") {
     CHECK(notices_of("occupied_thresh: 0.05\n") ==
           std::vector<std::string>{
-              "map.yaml:4:18: no key free_thresh, whose default 0.25 contradicts "
-              "occupied_thresh 0.05: 0.05 is used for both"});
+              "map.yaml:4:18: the key free_thresh is missing, and its default 0.25 contradicts "
+              "occupied_thresh 0.05: both are taken as 0.05"});
     CHECK(notices_of("free_thresh: 0.7\n").size() == 1);
     CHECK(notices_of("occupied_thresh: 0.3\n").empty());
     CHECK(notices_of("free_thresh: 0.6\n").empty());

@@ -238,7 +238,8 @@ TEST_CASE("store: an SQL query reads, and cannot write, attach or set anything")
     CHECK(store.points().size() == 2);
 }
 
-TEST_CASE("merge: copies runs that are missing or failed, and keeps finished ones") {
+TEST_CASE(
+    "merge: copies runs that the target lacks or has as failed, and keeps its finished runs") {
     const TemporaryFolder folder;
     const std::string shard = folder.path("shard.db");
     {

@@ -80,8 +80,7 @@ void Ns2Follower::on(const Ns2Packet& p) {
 FollowedMessage Ns2Follower::way(const std::string& trace) const {
     if (!is_found_) {
         const std::string known =
-            least_ ? fmt::format("expected an id of its messages, which are from {} to {}", *least_,
-                                 most_)
+            least_ ? fmt::format("expected the id of a message, from {} to {}", *least_, most_)
                    : "it has none";
         throw InputError({.source = trace},
                          fmt::format("found no message {}; {}", way_.uid, known));

@@ -160,7 +160,7 @@ TEST_CASE(
     // A candidate alone, and against one that is always worse, is the nearest.
     const Nearest without_b =
         nearest_to_truth(many, [](const ValidationPoint& p) { return p.label != "b"; });
-    CHECK(nearest_text(without_b, words) == "a is nearest, 2.00 dB");
+    CHECK(nearest_text(without_b, words) == "a has the smallest error, 2.00 dB");
     CHECK(!nearest_to_truth(many, [](const ValidationPoint&) { return false; }).point);
 }
 

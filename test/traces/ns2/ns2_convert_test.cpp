@@ -320,8 +320,7 @@ TEST_CASE(
         follow_ns2(folder / "run.tr", 7);
         FAIL("there is no message 7");
     } catch (const InputError& e) {
-        CHECK(e.message() ==
-              "found no message 7; expected an id of its messages, which are from 0 to 0");
+        CHECK(e.message() == "found no message 7; expected the id of a message, from 0 to 0");
     }
 }
 
