@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scenario whose keys a program varies: how many robots hear a call, by model and by walls.
+// Varies the key `propagation.exponent` of a scenario: which share of the robots hears a call?
 #include "rovernet.hpp"
 
 #include <fmt/format.h>
