@@ -272,7 +272,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("air: interference equals a check of all pairs, with every propagation model") {
+TEST_CASE(
+    "air: interference is that of a check of all pairs of frames, with every propagation model") {
     for_each_model([]<class Model>() {
         auto fates = play(listed<Model>(), 6);
         CHECK(fates[Fate::waiting] > 20);

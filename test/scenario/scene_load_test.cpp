@@ -123,7 +123,7 @@ TEST_CASE("scene: a material is selected by its grey level, and has its own loss
     CHECK(report.materials == std::vector<std::string>{"wall", "partition"});
 }
 
-TEST_CASE("scene: a slab of P.2040 has the same loss for any drawn thickness") {
+TEST_CASE("scene: a wall with an ITU material has the same loss, however thick the map shows it") {
     const TemporaryFolder folder;
     folder.write("m.png", picture());
     const std::string file = folder.write(

@@ -354,7 +354,9 @@ TEST_CASE("sweep: precision adds no runs to a point with a failed run") {
     CHECK_FALSE(result.stopped);
 }
 
-TEST_CASE("explain: the command that repeats a run has the options of the sweep and the point") {
+TEST_CASE(
+    "explain: the command that repeats a run sets the options of the sweep and the values of its "
+    "point") {
     const Bench bench(scattered + study_keys);
     bench.sweep({}, {"scenario.name=it's"});
     const Store store = Store::open(bench.store());

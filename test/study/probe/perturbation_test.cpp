@@ -208,7 +208,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("displaced: different keys give all four directions about equally often") {
+TEST_CASE(
+    "displaced: over many keys of a draw, each of four directions occurs about equally often") {
     const Displaced model{Friis{}, Meters{1}};
     int east = 0, north = 0;
     constexpr int n = 4000;

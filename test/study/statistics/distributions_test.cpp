@@ -83,7 +83,7 @@ TEST_CASE(
     CHECK(t_exceeded(3, std::numeric_limits<double>::infinity()) == 0);
 }
 
-TEST_CASE("distributions: binomial probabilities are sums of their terms") {
+TEST_CASE("distributions: cumulative binomial probabilities are the sums of their terms") {
     for (const std::size_t n : {1U, 2U, 7U, 30U}) {
         for (const double p : {0.05, 0.5, 0.9}) {
             double at_most = 0, term = std::pow(1 - p, n);
