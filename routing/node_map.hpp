@@ -31,7 +31,8 @@ class NodeMap {
                                value);
     }
     void erase(NodeId node) {
-        std::erase_if(values_, [&](const Value& each) { return each.*key == node; });
+        if (const Value* found = find(node))
+            values_.erase(values_.begin() + (found - values_.data()));
     }
     template <class IsRemoved>
     void erase_if(IsRemoved is_removed) {

@@ -4,6 +4,7 @@
 #include "routing/in_order.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 namespace rovernet {
