@@ -40,9 +40,10 @@ struct EnumNames<CaptureOrder> {
 /// CaptureOrder::first: a free receiver receives the first frame that it senses, until that frame
 /// ends. A later frame that is weaker by the capture ratio is ignored: it is lost and has no
 /// effect, even if it lasts longer than the first. Any other later frame collides with the received
-/// frame: both are lost, and the receiver is free again when both have ended. Of two frames that
-/// begin together the stronger one is received. Whether a frame is ignored depends on all frames on
-/// air at its beginning, including ignored ones.
+/// frame: both are lost, and the receiver is free again when both have ended. Until then, the
+/// receiver compares new frames with the one that ends last. Of two frames that begin together the
+/// stronger one is received. An ignored frame is compared with no other frame. See
+/// CollisionReceiver.
 ///
 /// CaptureOrder::later: of two overlapping frames, a frame that is stronger by the capture ratio
 /// survives.
@@ -60,7 +61,8 @@ struct Collision {
 
     static constexpr auto fields() {
         return describe(field("capture_ratio", &Collision::capture_ratio, positive,
-                              "a frame survives another one if it is stronger by this ratio"),
+                              "a frame survives a collision if its level is higher than the other "
+                              "level by this ratio"),
                         field("capture", &Collision::capture,
                               "which of two frames may survive: the first, or also the later one"));
     }
@@ -81,7 +83,7 @@ struct Collision {
         return capture == CaptureOrder::first && frame.begin > other.begin;
     }
     /// Whether the receiver ignores `frame`, because the receiver is receiving the stronger frame
-    /// `other`.
+    /// `other`. The result is valid if the receiver did not ignore `other`.
     template <class IsStronger>
     bool lets_pass(Arrival& frame, Arrival& other, IsStronger is_stronger) const {
         const bool is_at = other.begin <= frame.begin && frame.begin < other.end && !other.own;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "models/reception/interference.hpp"
 
+#include <algorithm>
+
 namespace rovernet {
 
 void Interference::goes(NodeId node, const Leg& leg) {
@@ -28,6 +30,7 @@ void Interference::judge(std::uint64_t serial, std::span<Reception> receptions, 
         for (const Reception& r : receptions) settings_.medium->prefetch_position(r.node);
     }
     all_.clear();
+    earlier_is_near_.reset();
     for (Reception& r : receptions) {
         if (!settings_.medium->stations().is_on(r.node)) continue;
         const bool near = !all_frames && !on_air_.has_changed(r.node);
@@ -41,12 +44,36 @@ void Interference::judge(std::uint64_t serial, std::span<Reception> receptions, 
     }
 }
 
+Frames Interference::earlier(const Emission& judged, NodeId node) {
+    const bool near = !settings_.all_frames && !on_air_.has_stored_change(node);
+    if (earlier_is_near_ == near) return earlier_;
+    earlier_is_near_ = near;
+    earlier_.clear();
+    const Duration delay = longest_delay();
+    const Time since = judged.begin - judge_->airtimes_kept() * (longest_airtime() + delay);
+    const Time until = judged.begin + delay;
+    if (near) {
+        const Frames found = on_air_.past(judged, since, until, judged.end + delay);
+        earlier_.assign(found.begin(), found.end());
+    } else {
+        for (const auto* frames : {&on_air_.past_frames(), &on_air_.frames()}) {
+            for (const Emission& e : *frames) {
+                const bool may_matter = e.end > since && e.begin < until;
+                if (may_matter && e.serial != judged.serial) earlier_.push_back(&e);
+            }
+        }
+    }
+    std::sort(earlier_.begin(), earlier_.end(),
+              [](const Emission* a, const Emission* b) { return a->serial > b->serial; });
+    return earlier_;
+}
+
 std::optional<Arrival> Interference::arrival(const Emission& frame, NodeId node) {
     if (frame.from == node) return own_frame(node, frame.begin, frame.end);
     Medium& medium = *settings_.medium;
     if (medium.stations().is_directional()) [[unlikely]]
         return directional_arrival(frame, node);
-    if (on_air_.has_changed(node)) return arrival_before_change(frame, node);
+    if (on_air_.has_stored_change(node)) return arrival_before_change(frame, node);
     return medium.arrivals().of(frame, node, medium.position(node, frame.begin, *settings_.legs));
 }
 
@@ -63,7 +90,7 @@ std::optional<Arrival> Interference::arrival_before_change(const Emission& frame
 /// Like arrival(), with the headings of both ends when the frame began.
 std::optional<Arrival> Interference::directional_arrival(const Emission& frame, NodeId node) {
     const auto before = [&](NodeId end) {
-        return on_air_.has_changed(end) ? on_air_.before(end, frame) : nullptr;
+        return on_air_.has_stored_change(end) ? on_air_.before(end, frame) : nullptr;
     };
     const auto leg_of = [&](NodeId end) {
         const OnAir::Before* changed = before(end);

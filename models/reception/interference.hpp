@@ -67,16 +67,18 @@ class Interference {
     /// @return serial number of the frame
     std::uint64_t add(Emission frame, const Transmission& how,
                       std::span<const Reception> receptions);
-    /// Removes the frames that cannot affect a reception from `now` on; calls use(frame) for each.
+    /// Removes the frames that cannot affect a reception from `now` on, except as earlier() frames;
+    /// calls use(frame) for each.
     template <class Use>
     void forget(Time now, Use use) {
         // Let T be the longest airtime plus the longest delay. A reception that is still to be
         // judged began at most T ago. A frame that affects it began at most T before it.
-        const Duration matters = 2 * (on_air_.longest() + longest_delay());
-        on_air_.forget(now - matters, [&](const Emission& frame) {
+        const Duration longest = longest_airtime() + longest_delay();
+        const auto drop = [&](const Emission& frame) {
             judge_->is_forgotten(frame);
             use(frame);
-        });
+        };
+        on_air_.forget(now - 2 * longest, drop, judge_->airtimes_kept() * longest);
     }
     /// Sets the fate of the receptions of frame number `serial` that end at or before `now`.
     /// Receptions at nodes that are off are not changed.
@@ -100,6 +102,14 @@ class Interference {
     bool is_stronger(Arrival& frame, Arrival& other, Db by, NodeId node) {
         return settings_.medium->arrivals().is_stronger(frame, other, by, node);
     }
+    /// Frames that may have arrived at `node`, a receiver of `judged`, before `judged` did; the
+    /// last one to start is first. They go back Judge::airtimes_kept() airtimes of the longest
+    /// frame; only the other frames of Judge::judge() have a valid Emission::flight. Called by a
+    /// judge during judge(). The result may contain further frames, and is valid until the next
+    /// call.
+    Frames earlier(const Emission& judged, NodeId node);
+    /// Longest airtime of any frame so far [ns].
+    Duration longest_airtime() const { return on_air_.longest(); }
     /// Physical layer of the frames.
     const Phy& phy() const { return *settings_.phy; }
     /// Longest propagation delay [ns] of any frame.
@@ -121,6 +131,9 @@ class Interference {
     OnAir on_air_;
     // Frames that may overlap with the judged frame; kept to reuse the memory.
     std::vector<const Emission*> all_;
+    // Result of earlier(), and whether it is that for a node without changes.
+    std::vector<const Emission*> earlier_;
+    std::optional<bool> earlier_is_near_;
 };
 
 }  // namespace rovernet

@@ -55,6 +55,8 @@ class Judge {
     /// Whether the fate of a frame may depend on frames that ended before the frame began. If true,
     /// the argument `others` of judge() includes such earlier frames.
     virtual bool looks_back() const = 0;
+    /// Number of airtimes of the longest frame over which Interference::earlier() goes back.
+    virtual int airtimes_kept() const { return 0; }
     /// Determines the fate of a reception that ends now, at a node that is on. Sets reception.fate
     /// if the frame is lost, and leaves it unchanged if the frame is received. A judge that models
     /// locking also sets reception.locked. The receptions of a frame are judged in the order of

@@ -45,11 +45,11 @@ struct Sinr {
     Db preamble_threshold{4};
 
     static constexpr auto fields() {
-        return describe(
-            field("interference_cut", &Sinr::interference_cut, non_negative,
-                  "frames that are weaker than the sensitivity by more than this are ignored"),
-            field("preamble_threshold", &Sinr::preamble_threshold,
-                  "SINR from which on a receiver detects a preamble"));
+        return describe(field("interference_cut", &Sinr::interference_cut, non_negative,
+                              "frames that are weaker than the sensitivity by more than this ratio "
+                              "do not interfere"),
+                        field("preamble_threshold", &Sinr::preamble_threshold,
+                              "smallest SINR at which a receiver detects a preamble"));
     }
 
     /// Creates the judge for one Network.

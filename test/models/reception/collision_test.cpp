@@ -73,7 +73,9 @@ TEST_CASE("collision: a node receives no frame that overlaps its own transmissio
     }
 }
 
-TEST_CASE("collision: with CaptureOrder::first, a later frame finds the receiver busy") {
+TEST_CASE(
+    "collision: with CaptureOrder::first, a receiver is busy for a frame that begins during "
+    "another frame") {
     const Arrival first = frame(0, 100, -50), second = frame(50, 150, -50);
     const Collision in_order, any_order{.capture = CaptureOrder::later};
     CHECK(in_order.finds_receiver_at(second, first));

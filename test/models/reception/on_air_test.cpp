@@ -34,7 +34,7 @@ std::set<std::uint64_t> near(OnAir& on_air, const Emission& frame, Time now,
 
 }  // namespace
 
-TEST_CASE("on air: the search finds every frame that reaches a receiver of the given frame") {
+TEST_CASE("frames on air: every frame that reaches a receiver of the given frame is found") {
     std::size_t found = 0, passed_over = 0;
     for (std::uint32_t seed = 1; seed <= 100; ++seed) {
         CAPTURE(seed);
@@ -77,7 +77,8 @@ TEST_CASE("on air: the search finds every frame that reaches a receiver of the g
     CHECK(passed_over > 10'000);
 }
 
-TEST_CASE("on air: the search is extended by the distance that the fastest node may have moved") {
+TEST_CASE(
+    "frames on air: the search is extended by the distance that the fastest node may have moved") {
     OnAir on_air;
     on_air.goes(rest({-1e6, 0, 0}), Meters{0});
     on_air.goes(rest({1e6, 0, 0}), Meters{0});
@@ -100,7 +101,7 @@ TEST_CASE("on air: the search is extended by the distance that the fastest node 
     CHECK(near(on_air, here, at(1000)).count(far.serial));
 }
 
-TEST_CASE("on air: ended frames are removed, oldest first") {
+TEST_CASE("frames on air: ended frames are removed, oldest first") {
     OnAir on_air;
     on_air.goes(rest({}), Meters{0});
     std::vector<std::uint32_t> forgotten;
@@ -136,7 +137,48 @@ TEST_CASE("on air: ended frames are removed, oldest first") {
     CHECK(on_air.frames().empty());
 }
 
-TEST_CASE("on air: the state that a node had when a frame began is stored as long as the frame") {
+TEST_CASE("frames on air: ended frames are found as past frames for the given time") {
+    for (const int kept : {0, 1, 7, 40}) {
+        CAPTURE(kept);
+        test::Draw draw(static_cast<std::uint32_t>(kept));
+        OnAir on_air;
+        on_air.goes(rest({-300, -300, 0}), Meters{0});
+        on_air.goes(rest({300, 300, 0}), Meters{0});
+        std::vector<Emission> all;
+        std::size_t past = 0;
+        for (int us = 0; us < 300; ++us) {
+            Emission frame{.begin = at(us),
+                           .end = at(us + 5),
+                           .origin = {draw.uniform(-300, 300), draw.uniform(-300, 300), 0},
+                           .from = NodeId{0},
+                           .heard_within = 40,
+                           .squared_reach = us < 150 ? 1600.0 : 3600.0};
+            on_air.forget(
+                at(us), [](const Emission&) {}, Duration{1000 * kept});
+            frame.serial = on_air.add(frame);
+            all.push_back(frame);
+            const auto nearby = on_air.near(frame, at(us - 30), never, at(us));
+            const std::vector<const Emission*> copy(nearby.begin(), nearby.end());
+            std::set<std::uint64_t> found;
+            for (const Emission* e : on_air.past(frame, at(us - 30), never, at(us))) {
+                CHECK(found.insert(e->serial).second);
+            }
+            CHECK(std::equal(nearby.begin(), nearby.end(), copy.begin()));
+            for (const Emission& e : all) {
+                const bool is_recent = e.end > at(us);
+                const bool is_kept = e.end > std::max(at(us - 30), at(us - kept));
+                const bool near =
+                    distance(e.origin, frame.origin) <= 80 && e.serial != frame.serial;
+                CHECK((on_air.frames().front().serial <= e.serial) == is_recent);
+                if (near) REQUIRE(found.count(e.serial) == is_kept);
+                past += near && is_kept && !is_recent;
+            }
+        }
+        CHECK((past > 0) == (kept > 0));
+    }
+}
+
+TEST_CASE("frames on air: a node's state at the begin of a frame is stored as long as the frame") {
     constexpr int nodes = 5;
     std::size_t unchanged = 0, changed = 0;
     for (std::uint32_t seed = 1; seed <= 50; ++seed) {
@@ -169,12 +211,18 @@ TEST_CASE("on air: the state that a node had when a frame began is stored as lon
                     on[i] = !on[i];
                 }
             }
-            on_air.forget(at(us - 10), [&](const Emission&) { ++first; });
-            for (const Emission& frame : on_air.frames()) {
-                CHECK(frame.serial >= static_cast<std::uint64_t>(first));
+            const Duration kept{seed % 2 ? 0 : 9000};
+            on_air.forget(
+                at(us - 10), [&](const Emission&) { ++first; }, kept);
+            std::vector<Emission> stored(on_air.past_frames().begin(), on_air.past_frames().end());
+            stored.insert(stored.end(), on_air.frames().begin(), on_air.frames().end());
+            for (const Emission& frame : stored) {
+                const bool is_recent = frame.serial >= static_cast<std::uint64_t>(first);
+                CHECK((is_recent || kept.count() > 0));
                 for (std::uint32_t i = 0; i < nodes; ++i) {
                     const OnAir::Before* before = on_air.before(NodeId{i}, frame);
-                    if (before) REQUIRE(on_air.has_changed(NodeId{i}));
+                    if (before) REQUIRE(on_air.has_stored_change(NodeId{i}));
+                    if (before && is_recent) REQUIRE(on_air.has_changed(NodeId{i}));
                     REQUIRE((before ? before->leg.from.x : now[i]) == places[frame.serial][i]);
                     REQUIRE((before ? before->on : on[i]) == states[frame.serial][i]);
                     ++(before ? changed : unchanged);
@@ -186,7 +234,9 @@ TEST_CASE("on air: the state that a node had when a frame began is stored as lon
     CHECK(unchanged > 1000);
 }
 
-TEST_CASE("on air: reach() is the interference range, but at most the diagonal of all antennas") {
+TEST_CASE(
+    "frames on air: reach() is the interference range, at most the diagonal of the box around all "
+    "antennas") {
     OnAir on_air;
     on_air.goes(rest({0, 0, 0}), Meters{0});
     on_air.goes(rest({3, 0, 0}), Meters{4});

@@ -199,7 +199,7 @@ TEST_CASE("sinr: a weak interferer counts after a strong one has ended (S28)") {
     }
 }
 
-TEST_CASE("sinr: interference has the same bits in any order of frames (S28)") {
+TEST_CASE("sinr: the interference is equal to the last bit in any order of the frames (S28)") {
     // A draw at the boundary: the last bit of the sum would show.
     const auto judged = [](std::vector<unsigned> order, double draw) {
         Receiver r;
