@@ -102,11 +102,11 @@ struct Radio {
                   "the weakest signal that is sensed; the sensitivity if not given"),
             field("frequency", &Radio::frequency, positive, "carrier frequency"),
             field("rate", &Radio::rate, Range{.low = 1, .text = ">= 1 bit/s"},
-                  "bit rate on air; if not given, that of [access] standard"),
+                  "bit rate on air; if not given, the rate of [access] standard"),
             field("preamble", &Radio::preamble,
                   Range{.low = 0, .high = 1e9, .text = "from 0 to 1e9 s"},
-                  "duration of the preamble, which is sent before the first bit; if not given, "
-                  "that of [access] standard"),
+                  "duration of the preamble, which is sent before the first bit; if not given, the "
+                  "duration of [access] standard"),
             field("antenna_gain", &Radio::antenna_gain,
                   "antenna gain, for sending and for receiving"),
             field("antenna", &Radio::antenna,
@@ -130,8 +130,10 @@ struct Radio {
             field("success_rate", &Radio::success_rate,
                   Range{.low = 0, .high = 1, .text = "from 0 to 1"},
                   "probability that a receiver in range gets a frame of this sender"),
-            field("essid", &Radio::essid, "name of its network; \"any\" joins all networks"),
-            field("channel", &Radio::channel, non_negative, "number that both ends must share"),
+            field("essid", &Radio::essid,
+                  "name of the radio's network; \"any\" joins all networks"),
+            field("channel", &Radio::channel, non_negative,
+                  "channel number; both robots of a link must have the same number"),
             field("gate", &Radio::gate,
                   "network: only radios with the same essid, channel and frequency receive each "
                   "other; none: all radios do"));

@@ -44,14 +44,15 @@ struct RadioLabels {
         return describe(
             field("ip", &RadioLabels::ip, "IP address; unique; if left out, one is generated"),
             field("netmask", &RadioLabels::netmask,
-                  "netmask of its IP address; without effect on radio"),
+                  "netmask of the IP address; without effect on radio"),
             field("mac", &RadioLabels::mac,
                   "hardware address; unique; if left out, one is generated"),
             field("mode", &RadioLabels::mode,
-                  "role of the radio in its network; without any effect"),
+                  "role of the radio in the network; without any effect"),
             field("encryption", &RadioLabels::encryption,
-                  "encryption of its network; without any effect"),
-            field("range_db", &RadioLabels::range_db, "level that pictures draw as a contour"));
+                  "encryption of the network; without any effect"),
+            field("range_db", &RadioLabels::range_db,
+                  "received level at which pictures draw a contour line"));
     }
 };
 

@@ -48,7 +48,7 @@ std::optional<std::uint32_t> Applications::shortest(NodeId from, NodeId to) {
 
 bool Applications::is_routed(NodeId from, NodeId to, bool one_hop) const {
     if (to != everyone && (to.index() >= world_.size() || to == from)) {
-        throw std::invalid_argument("a unicast needs another robot as its destination");
+        throw std::invalid_argument("a unicast needs a different robot as its destination");
     }
     if (one_hop) return false;
     const auto& router = routing_.router();
@@ -86,18 +86,35 @@ void Applications::saturate(NodeId node, NodeId to, std::string payload,
     if (!mac_.queues()) {
         throw std::invalid_argument("saturated traffic needs an access model: aloha or csma");
     }
-    saturated_[node] = {to, payload, options};
-    for (int waiting = 0; waiting < 2; ++waiting) send(node, to, payload, options);
+    auto& flows = saturated_[node];
+    flows.push_back({to, std::move(payload), options});
+    for (int waiting = 0; waiting < 2; ++waiting) send_saturated(node, flows.back());
 }
 
-/// Sends the next frame of a node with saturated traffic, 1 us after the last one.
-void Applications::has_room(NodeId id) {
-    if (saturated_.empty()) return;
-    const auto found = saturated_.find(id);
+void Applications::send_saturated(NodeId from, Saturated& traffic) {
+    traffic.waiting.push_back(world_.next_uid);
+    if (!send(from, traffic.to, traffic.payload, traffic.options)) traffic.waiting.pop_back();
+}
+
+void Applications::left_queue(NodeId node, const Message& message, bool has_room) {
+    const auto found = saturated_.find(node);
     if (found == saturated_.end()) return;
-    world_.schedule(world_.now + least_reaction, Callback<>([this, id, traffic = found->second] {
-                        send(id, traffic.to, traffic.payload, traffic.options);
-                    }));
+    for (Saturated& each : found->second) std::erase(each.waiting, message.uid);
+    if (has_room) refill(node);
+}
+
+void Applications::refill(NodeId node) {
+    const auto found = saturated_.find(node);
+    if (found == saturated_.end()) return;
+    auto& flows = found->second;
+    for (std::size_t i = 0; i < flows.size(); ++i) {
+        for (; flows[i].waiting.size() + flows[i].coming < 2; ++flows[i].coming) {
+            world_.schedule(world_.now + least_reaction, Callback<>([this, node, &flows, i] {
+                                --flows[i].coming;
+                                send_saturated(node, flows[i]);
+                            }));
+        }
+    }
 }
 
 void Applications::on_receive(NodeId id, Callback<const Heard&> react, HearOptions options) {
@@ -151,7 +168,9 @@ void Applications::react(NodeId id, std::size_t slot) {
 void Applications::cut_off() {
     for (const auto& [id, at] : world_.messages.on_their_way()) {
         const Message& m = world_.messages[id];
-        const Frame frame{.message = id, .sender = at, .ttl = 1, .hops = 1, .next_hop = m.to};
+        // Sent has the TTL of an application's message.
+        const Hops ttl = m.kind.empty() ? Hops{1} : world_.messages.first_ttl(id);
+        const Frame frame{.message = id, .sender = at, .ttl = ttl, .hops = 1, .next_hop = m.to};
         const bool is_held = m.is_routed && m.to != everyone;
         world_.emit(
             Dropped{world_.now, at, frame, is_held ? DropReason::held : DropReason::cut_off});

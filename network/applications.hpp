@@ -36,6 +36,7 @@ class Applications final : public RoutingUser {
                                       const SendOptions& options);
     /// Starts saturated traffic of a node; implements Network::saturate. Two messages are queued at
     /// the start, and each message that has left the queue is followed by a new message.
+    /// If the node is switched off and on again, the traffic goes on.
     /// @throws std::invalid_argument without an access model, because sending would be unlimited
     void saturate(NodeId node, NodeId to, std::string payload, const SendOptions& options);
     /// Whether any message was sent so far. If so, the error at the event limit advises the user to
@@ -56,8 +57,10 @@ class Applications final : public RoutingUser {
     /// delivered.
     void delivered(const Frame& frame, std::span<const Reception> receptions,
                    std::span<const Dbm> levels) override;
-    /// Implements RoutingUser: sends the next message of a node with saturated traffic.
-    void has_room(NodeId node) override;
+    /// Implements RoutingUser: a node with saturated traffic sends its next message.
+    void left_queue(NodeId node, const Message& message, bool has_room) override;
+    /// Sends messages of a node with saturated traffic, 1 us later, until two messages wait.
+    void refill(NodeId node);
 
   private:
     /// Saturated traffic of a node: destination, payload and options of the node's messages.
@@ -65,6 +68,9 @@ class Applications final : public RoutingUser {
         NodeId to;
         std::string payload;
         SendOptions options;
+        /// Messages in the node's queue, by uid, and number of messages that are about to be sent.
+        std::vector<std::uint64_t> waiting = {};
+        std::size_t coming = 0;
     };
     /// Callback of a node for received messages, and the callback's options.
     struct Reaction {
@@ -91,6 +97,7 @@ class Applications final : public RoutingUser {
     // Stores a new message of the node `from`, with one reference, which the caller holds.
     MessageId new_message(NodeId from, NodeId to, std::string payload, const SendOptions& options,
                           bool is_routed);
+    void send_saturated(NodeId from, Saturated& traffic);
     std::optional<std::uint32_t> reachable(NodeId from, NodeId to);
     std::optional<std::uint32_t> shortest(NodeId from, NodeId to);
 
@@ -103,8 +110,8 @@ class Applications final : public RoutingUser {
     std::vector<Few<Reaction>> reactions_;
     // Deliveries whose events are queued.
     Slots<Delivery> deliveries_;
-    // Saturated traffic, by sending node.
-    std::map<NodeId, Saturated> saturated_;
+    // Saturated traffic, by sending node; a node may have several destinations.
+    std::map<NodeId, std::vector<Saturated>> saturated_;
     // Search that computes Sent::reachable; kept to reuse its memory.
     Reachability reachability_;
     bool has_sent_ = false;

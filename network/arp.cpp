@@ -107,9 +107,10 @@ void Arp::learn(Entry& entry, NodeId node, Time time) {
     if (entry.held || entry.owes_reply) set_event(entry, node, time + least_reaction);
 }
 
-std::optional<QueuedFrame> Arp::take(NodeId node, NodeId next_hop) {
+std::optional<QueuedFrame> Arp::take(NodeId node, NodeId next_hop, const FrameTest& is_taken) {
     Entry* entry = find(node, next_hop);
-    return entry ? std::exchange(entry->held, std::nullopt) : std::nullopt;
+    const bool takes = entry && entry->held && is_taken(entry->held->frame);
+    return takes ? std::exchange(entry->held, std::nullopt) : std::nullopt;
 }
 
 std::vector<QueuedFrame> Arp::switch_off(NodeId node) {

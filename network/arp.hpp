@@ -54,8 +54,8 @@ class Arp {
     /// known, sends the waiting frame and a pending answer; otherwise sends the next request.
     void on_timer(NodeId node, NodeId next_hop);
     /// Removes and returns the frame of `node` that waits for the address of `next_hop`; empty if
-    /// no frame waits. See LinkLayer::take_queued.
-    std::optional<QueuedFrame> take(NodeId node, NodeId next_hop);
+    /// no frame waits for which `is_taken` is true. See LinkLayer::take_queued.
+    std::optional<QueuedFrame> take(NodeId node, NodeId next_hop, const FrameTest& is_taken);
     /// Clears the ARP table of a node that was switched off. @return frames that waited in the
     /// table
     std::vector<QueuedFrame> switch_off(NodeId node);

@@ -79,6 +79,7 @@ void Engine::switch_robot(NodeId id, bool on) {
     if (!world.running) return;
     on ? motion.resume(id) : motion.pause(id);
     routing.on_switched(id, on);
+    if (on) applications.refill(id);
 }
 
 void Engine::change_scene() {
@@ -122,10 +123,10 @@ void Engine::count_events() {
         const auto advice =
             applications.has_sent()
                 ? "lower the load: a shorter duration, fewer messages, a smaller ttl"
-                : "simulate less: a shorter duration or an earlier time";
+                : "simulate less: choose a shorter duration or an earlier time";
         throw RunError(fmt::format(
-            "event limit of {} reached at {:.9f} s; raise [scenario] event_limit, or {}", limit,
-            seconds(world.now), advice));
+            "the event limit of {} is reached at {:.9f} s; raise [scenario] event_limit, or {}",
+            limit, seconds(world.now), advice));
     }
     if (events.scheduled() > look_at_) {
         look_at_ = events.scheduled() + Liveness::most_events;
@@ -150,12 +151,13 @@ void Engine::count_next() {
         "robot \"{}\" at ({:.6f}, {:.6f}) m: {} events at {:.9f} s of the run, and the simulated "
         "time hardly advances; {} causes events without end",
         names[node.value], at.x, at.y, Liveness::most_events, seconds(world.now),
-        kind == Kind::leg_end ? "its movement" : "its protocol, or its reaction to a message,"));
+        kind == Kind::leg_end ? "its movement"
+                              : "the protocol of this robot, or its reaction to a message,"));
 }
 
-bool Engine::advance(Time end, std::uint64_t most_events) {
+bool Engine::advance(Time end, std::uint64_t most_events, Time limit) {
     auto& events = world.events;
-    world.end_of_run = end;
+    world.end_of_run = std::max(end, limit);
     if (!std::exchange(world.running, true)) {
         world.records.begin(run_info());
         routing.start();
@@ -173,6 +175,7 @@ bool Engine::advance(Time end, std::uint64_t most_events) {
         ++served;
         if (!events.empty()) world.medium.prefetch(events.next().node);  // meanwhile
         serve(event);
+        end = std::max(end, world.now);
     }
     world.now = std::max(world.now, end);
     return true;

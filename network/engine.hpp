@@ -44,12 +44,13 @@ class Engine {
     void switch_robot(NodeId node, bool on);
     /// Serves the events up to the time `end`, in order, but at most `most_events` of them. First
     /// starts the run, the movements and the link monitoring, if not yet started. After the last
-    /// event up to `end`, the simulated time is `end`.
+    /// event up to `end`, the simulated time is `end`, or the later end of this event: receptions
+    /// of one frame are one event, which may go on up to `limit`.
     /// @return whether `end` is reached; if not, events up to `end` remain
     /// @throws RunError   at an event limit
     /// @throws StalledRun if the events of a robot follow one another without end while time hardly
     ///         grows
-    bool advance(Time end, std::uint64_t most_events);
+    bool advance(Time end, std::uint64_t most_events, Time limit = start_of_run);
     /// Checks a robot's id passed by the user, and returns the id.
     NodeId known(NodeId node) const {
         if (node.index() >= world.size()) throw std::out_of_range("there is no such robot");

@@ -57,16 +57,31 @@ void Mac::miss(const AirFrame& air, Time end) {
         world_.emit(Dropped{world_.now, frame.sender, frame, DropReason::unheard});
         return;
     }
+    await_end({frame, air.heard_from}, end);
+}
+
+void Mac::report_end(const QueuedFrame& frame) {
+    constexpr Duration longest_delay{10'000'000};  // light travels 3,000 km
+    await_end(frame, world_.now + airtime({.frame = frame.frame}) + longest_delay);
+}
+
+void Mac::await_end(const QueuedFrame& frame, Time end) {
     const std::size_t slot = unheard_.take();
-    unheard_[slot] = {frame, air.heard_from};
+    unheard_[slot] = frame;
     world_.events.schedule(end, Priority::frame_end,
-                           {Occurrence::Kind::unheard, frame.sender, slot});
+                           {Occurrence::Kind::unheard, frame.frame.sender, slot});
 }
 
 void Mac::on_unheard(std::size_t slot) {
     const QueuedFrame frame = unheard_[slot];
     unheard_.release(slot);
-    user_.lost(frame, DropReason::unheard);
+    if (!listens_) return user_.lost(frame, DropReason::unheard);
+    const NodeId at = world_.messages.at(frame.frame.message);
+    if (at == frame.frame.next_hop || at == world_.messages[frame.frame.message].to) {
+        user_.sent(frame, false);
+    } else {
+        user_.lost(frame, DropReason::end);
+    }
 }
 
 void Mac::judge(const AirFrame& air, std::span<const Reception> receptions) {
@@ -79,6 +94,10 @@ void Mac::judge(const AirFrame& air, std::span<const Reception> receptions) {
             user_.lost(frame, DropReason::retries);
         }
     }
+}
+
+bool Mac::is_on(const QueuedFrame& frame) const {
+    return world_.medium.stations().is_on(frame.frame.sender);
 }
 
 std::uint32_t Mac::bytes(const AirFrame& frame) const {

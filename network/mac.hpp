@@ -50,15 +50,15 @@ class Mac final : public Air, public ChannelUser {
     void add() { access_->add(); }
     /// Clears the queue of a node that was switched off.
     void switch_off(NodeId node) { access_->switch_off(*this, node); }
-    /// Removes and returns the frames for `next_hop` in the queue of `node`, see
+    /// Removes and returns the frames in the queue of `node` for which `is_taken` is true, see
     /// LinkLayer::take_queued.
-    std::vector<QueuedFrame> take(NodeId node, NodeId next_hop) {
-        return access_->take(node, next_hop);
+    std::vector<QueuedFrame> take(NodeId node, const FrameTest& is_taken) {
+        return access_->take(node, is_taken);
     }
     /// Accepts a frame from its sender, which must be on. The frame holds a reference to its
     /// message. The MAC later reports the result by MacUser::sent or MacUser::lost.
     void send(const QueuedFrame& frame) { access_->send(*this, frame); }
-    /// Serves the event of the end of a unicast to a next hop out of range: reports the loss.
+    /// Serves the event of the end of a unicast whose sender hears no result: reports the result.
     /// @param slot  slot of the frame in unheard_
     void on_unheard(std::size_t slot);
     /// Serves the event of a timer of the access model, with the timer's tag.
@@ -93,10 +93,13 @@ class Mac final : public Air, public ChannelUser {
     void access_timer(NodeId node, Time at, std::uint32_t tag) override;
     double access_draw(NodeId node, std::uint64_t index) const override;
     /// Reports the result of a transmitted frame to the user. For a frame with judges() true, the
-    /// MAC instead reports the result when the frame ends.
+    /// MAC instead reports the result when the frame ends. A sender that is switched off hears no
+    /// acknowledgement: once the frame has ended, the MAC reports whether the next hop has it.
     void sent(const QueuedFrame& frame) override {
         if (judges(frame.frame)) return;
-        user_.sent(frame, listens_ && frame.frame.next_hop != everyone);
+        const bool is_acked = listens_ && frame.frame.next_hop != everyone;
+        if (is_acked && !is_on(frame)) return report_end(frame);
+        user_.sent(frame, is_acked);
     }
     void lost(const QueuedFrame& frame, DropReason reason) override { user_.lost(frame, reason); }
 
@@ -105,6 +108,7 @@ class Mac final : public Air, public ChannelUser {
     void sensed(std::span<const Sensing> nodes) override { access_->sensed(*this, nodes); }
 
   private:
+    bool is_on(const QueuedFrame& frame) const;
     // Bit rate [bit/s] of a frame: the rate chosen by the access model, by default the rate of the
     // sender's radio.
     BitRate rate_of(const AirFrame& frame) const;
@@ -119,6 +123,10 @@ class Mac final : public Air, public ChannelUser {
     // itself (see judges()), queues an event at `end`, the end of the frame, that reports the loss
     // to the user. Otherwise emits Dropped immediately.
     void miss(const AirFrame& air, Time end);
+    // Queues the event of on_unheard(): for a unicast on air whose sender was switched off, and in
+    // general.
+    void report_end(const QueuedFrame& frame);
+    void await_end(const QueuedFrame& frame, Time end);
     // Reports to the user whether the next hop has received a unicast that ends now.
     void judge(const AirFrame& air, std::span<const Reception> receptions);
     // Reports to the access model which stations have received or missed a frame that ends now.

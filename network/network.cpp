@@ -97,8 +97,8 @@ Subscription Network::every(Duration period, std::function<void()> action) {
 void Network::run_until(Time end) {
     engine_->advance(end, std::numeric_limits<std::uint64_t>::max());
 }
-bool Network::advance(Time end, std::uint64_t most_events) {
-    return engine_->advance(end, most_events);
+bool Network::advance(Time end, std::uint64_t most_events, Time limit) {
+    return engine_->advance(end, most_events, limit);
 }
 void Network::finish() {
     engine_->applications.cut_off();
@@ -172,7 +172,9 @@ const Scene& Network::scene() const { return *engine_->world.scene; }
 Planners& Network::planners() { return *engine_->world.planners; }
 
 MetricValues Network::metrics() const {
-    if (!engine_->metrics) throw std::invalid_argument("this network was made without metrics");
+    if (!engine_->metrics)
+        throw std::invalid_argument(
+            "this network computes no metrics; expected metrics = true in its settings");
     return engine_->metrics->values();
 }
 Duration Network::airtime() const { return engine_->mac.airtime_so_far(); }

@@ -69,8 +69,8 @@ class Network {
     NodeId add(Robot robot);
     /// Sets the routing protocol of all robots. @throws std::invalid_argument if already set
     void route(Router router);
-    /// Adds a sink: it gets every record of the kinds that it wants from now on. Its begin() is
-    /// called at the start of the run, or now if the run has begun.
+    /// Adds a sink, which gets every record of its kinds from now on. The sink's begin() is called
+    /// at the start of the run, or now if the run has begun.
     SinkId add_sink(Sink sink);
     /// Removes a sink: the sink gets no more records, and its finish() is not called. It is an
     /// error to call remove_sink() inside a sink.
@@ -132,9 +132,9 @@ class Network {
     void run_until(Time end);
     void run_for(Duration d) { run_until(now() + d); }
     /// Runs like run_until(), but serves at most `most_events`, for callers that have other work in
-    /// between.
-    /// @return whether `end` is reached
-    bool advance(Time end, std::uint64_t most_events);
+    /// between. Receptions of one frame are not separated by `end`, but by `limit`, if it is
+    /// later: now() may then be after `end`. @return whether `end` is reached
+    bool advance(Time end, std::uint64_t most_events, Time limit = start_of_run);
 
     /// Ends the run, then calls finish() of all sinks. A message is recorded as dropped ("END") if
     /// none of its frames has ended at a receiver. metrics() excludes these messages, except
@@ -150,8 +150,8 @@ class Network {
     std::uint64_t events() const;         ///< number of events served so far
     std::uint64_t transmissions() const;  ///< number of frames transmitted so far
     /// Upper bound [dB] on the reduction of any SINR so far by frames that the reception model
-    /// `sinr` neglected (Sinr::interference_cut), as if all frames on air anywhere came from just
-    /// beyond the cut-off; empty if no frames are neglected.
+    /// `sinr` neglected (Sinr::interference_cut). The bound assumes that all frames on air come
+    /// from just beyond the cut-off. Empty if no frames are neglected.
     std::optional<Db> interference_left_out() const;
     /// Name of a robot. @throws std::out_of_range if there is no such robot
     std::string name(NodeId node) const;

@@ -33,8 +33,8 @@ struct Occurrence {
         link_change,
         /// Timer of the access model at `node`; data: the model's tag.
         access_timer,
-        /// End of a unicast of `node` that its next hop did not receive; data: slot of the frame in
-        /// Mac.
+        /// End of a unicast of `node` whose sender hears no result: its next hop is out of range,
+        /// or the sender is off; data: slot of the frame in Mac.
         unheard,
         /// Change of the scene: a door closes or opens. `node` is not used.
         scene_change,

@@ -36,7 +36,9 @@ Routing::Routing(World& world, Mac& mac, RoutingUser& user)
 }
 
 void Routing::set(Router router) {
-    if (router_) throw std::invalid_argument("this network has a routing protocol already");
+    if (router_)
+        throw std::invalid_argument(
+            "this network already has a routing protocol; call route() only once");
     router_.emplace(std::move(router));
     world_.router = &*router_;
     world_.on_forgotten = [this](MessageId id) { router_->forget(id); };
@@ -164,11 +166,13 @@ MessageId Routing::originate(NodeId from, NodeId to, std::string_view kind, std:
 std::optional<SendHandle> Routing::send(const Frame& frame, std::optional<NodeId> heard_from,
                                         Time at) {
     if (at < world_.now || (receiving_ && at == world_.now)) {
-        throw std::invalid_argument(receiving_
-                                        ? "a router may not send while it receives: send 1 us later"
-                                        : "a router sent a frame in the past");
+        throw std::invalid_argument(
+            receiving_ ? "the routing protocol may not send a frame while it handles a reception: "
+                         "send the frame 1 us later"
+                       : "the routing protocol sent a frame at a time in the past");
     }
     world_.hold(frame);
+    world_.messages.note_sending(frame);
     const bool is_control =
         mac_.has_priority() && world_.messages[frame.message].is_routing_packet();
     if (at == world_.now) {
@@ -221,9 +225,12 @@ void Routing::send_now(const QueuedFrame& frame) {
 }
 
 std::vector<QueuedFrame> Routing::take_queued(NodeId node, NodeId next_hop) {
-    auto taken = mac_.take(node, next_hop);
+    const auto is_taken = [&](const Frame& frame) {
+        return frame.next_hop == next_hop && world_.messages[frame.message].is_routed;
+    };
+    auto taken = mac_.take(node, is_taken);
     if (arp_) {
-        if (const auto held = arp_->take(node, next_hop)) taken.push_back(*held);
+        if (const auto held = arp_->take(node, next_hop, is_taken)) taken.push_back(*held);
     }
     for (const QueuedFrame& each : taken) count_holds(each.frame.message, 1);
     return taken;
@@ -246,7 +253,8 @@ Dbm Routing::level(const Reception& reception) const {
 }
 
 void Routing::timer(NodeId node, Time at, std::uint64_t tag) {
-    if (at < world_.now) throw std::invalid_argument("a router set a timer in the past");
+    if (at < world_.now)
+        throw std::invalid_argument("the routing protocol set a timer to a time in the past");
     world_.events.schedule(at, Priority::timer, {Occurrence::Kind::router_timer, node, tag});
 }
 
@@ -263,10 +271,8 @@ double Routing::draw(Purpose purpose, NodeId node, std::uint64_t index) const {
 }
 
 void Routing::sent(const QueuedFrame& frame, bool acked) {
-    const bool is_message = world_.messages[frame.frame.message].kind.empty();
     if (wants_result(frame.frame)) tell(frame, acked ? SendResult::acked : SendResult::sent);
-    world_.release(frame.frame);
-    if (is_message) user_.has_room(frame.frame.sender);
+    end(frame.frame, is_on(frame.frame.sender));
 }
 
 void Routing::lost(const QueuedFrame& frame, DropReason reason) {
@@ -278,11 +284,16 @@ void Routing::unresolved(const QueuedFrame& frame, bool is_displaced) {
 }
 
 void Routing::lose(const QueuedFrame& frame, DropReason reason, SendResult result) {
-    const bool is_message = world_.messages[frame.frame.message].kind.empty();
     drop_sending(frame.frame.sender, frame.frame, frame.frame, reason);
     if (wants_result(frame.frame)) tell(frame, result);
-    world_.release(frame.frame);
-    if (is_message && result == SendResult::retries) user_.has_room(frame.frame.sender);
+    end(frame.frame, result == SendResult::retries);
+}
+
+/// Reports a frame that has left the queue of its sender to the application, and releases it.
+void Routing::end(const Frame& frame, bool has_room) {
+    const Message& message = world_.messages[frame.message];
+    if (message.kind.empty()) user_.left_queue(frame.sender, message, has_room);
+    world_.release(frame);
 }
 
 bool Routing::wants_result(const Frame& frame) const {

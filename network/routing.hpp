@@ -28,9 +28,10 @@ class RoutingUser {
     ///                requested; may be empty
     virtual void delivered(const Frame& frame, std::span<const Reception> receptions,
                            std::span<const Dbm> levels) = 0;
-    /// Called when the interface queue of `node` has space for one more frame: a frame was sent, or
-    /// dropped after its last attempt.
-    virtual void has_room(NodeId node) = 0;
+    /// Called when a frame of an application's message has left the interface queue of `node`: the
+    /// frame was sent, or lost.
+    /// @param has_room  whether the queue has space for one more frame
+    virtual void left_queue(NodeId node, const Message& message, bool has_room) = 0;
 
   protected:
     ~RoutingUser() = default;
@@ -121,6 +122,7 @@ class Routing final : public LinkLayer, public MacUser, public ArpUser {
     void pass_down(const QueuedFrame& frame);
     // Emits Dropped for a frame that was not transmitted, and reports the result to the protocol.
     void lose(const QueuedFrame& frame, DropReason reason, SendResult result);
+    void end(const Frame& frame, bool has_room);
     // Throws std::invalid_argument if the protocol does not know the role of the node.
     void check_role(NodeId node) const;
     // Calls the protocol by `call`, then passes down the frames that the protocol queued meanwhile.

@@ -97,13 +97,15 @@ void Routing::receive_unicast(const AirFrame& air, Reception& r, std::span<const
         if (mac_.is_repeated(r.node, air)) {
             r.fate = Fate::duplicate;
             r.delivered = false;
-        } else if (const Message& m = world_.messages[air.frame.message];
-                   m.is_routed || m.is_link_packet()) {
-            world_.messages.pass_to(air.frame.message, r.node);
-            hand_up(air.frame, {&r, 1}, level);
         } else {
-            r.fate = Fate::arrived;
-            r.delivered = true;
+            const Message& message = world_.messages[air.frame.message];
+            world_.messages.pass_to(air.frame.message, r.node);
+            if (message.is_routed || message.is_link_packet()) {
+                hand_up(air.frame, {&r, 1}, level);
+            } else {
+                r.fate = Fate::arrived;
+                r.delivered = true;
+            }
         }
     }
     const Received record{air.frame, {&r, 1}, air.reserved, mac_.header(), world_.for_sinks(level)};

@@ -97,7 +97,7 @@ struct World {
     /// Path planners for settings.scene, in which all doors are open; shared with other runs if
     /// settings.planners is set.
     std::shared_ptr<Planners> planners;
-    /// Time of the current event, and end of the current run_until().
+    /// Time of the current event, and time up to which the current run_until() or advance() serves.
     Time now = start_of_run, end_of_run = start_of_run;
     /// Whether the run has begun.
     bool running = false;

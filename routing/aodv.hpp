@@ -76,7 +76,7 @@ struct Aodv {
             field("active_route_timeout", &Aodv::active_route_timeout, seconds_range,
                   "time for which an unused route is kept; 3 s if not given"),
             field("my_route_timeout", &Aodv::my_route_timeout, seconds_range,
-                  "lifetime of a route that its destination offers; if not given, 2 * "
+                  "lifetime of a route in the reply of its destination; if not given, 2 * "
                   "active_route_timeout"),
             field("node_traversal_time", &Aodv::node_traversal_time, seconds_range,
                   "longest time that a packet needs for one hop; 40 ms if not given"),
@@ -84,7 +84,7 @@ struct Aodv {
                   "largest number of hops in a search of the whole network; 35 if not given"),
             field("rreq_retries", &Aodv::rreq_retries,
                   Range{.low = 0, .high = 100, .text = "from 0 to 100"},
-                  "searches of the whole network after the first one; 2 if not given"),
+                  "number of repeated searches of the whole network; 2 if not given"),
             field("rings", &Aodv::rings, "whether a search begins with small TTLs"),
             field("destination_only", &Aodv::destination_only,
                   "whether only the destination may answer a request"),
@@ -92,7 +92,8 @@ struct Aodv {
                   "whether a node that answers a request also sends the destination a route back "
                   "to the origin"),
             field("hello", &Aodv::hello, seconds_range,
-                  "time between HELLO packets; 0: the link layer reports broken links"),
+                  "time between HELLO packets; 0: no HELLO packets, because the link layer reports "
+                  "broken links"),
             field("local_repair", &Aodv::local_repair,
                   "whether a node near the destination repairs a broken route by a search of its "
                   "own"),
@@ -101,7 +102,7 @@ struct Aodv {
             field("ttl", &Aodv::ttl, Range{.low = 1, .high = 65535, .text = "from 1 to 65535"},
                   "hops that a message may cross; 64 if not given"),
             field("jitter", &Aodv::jitter, Range{.low = 0, .high = 1e9, .text = "from 0 to 1e9 s"},
-                  "upper end of the uniform delay before a request is forwarded"));
+                  "largest value of the uniform random delay before a node forwards a request"));
     }
 
     operator Router() const;

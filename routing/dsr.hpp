@@ -55,7 +55,8 @@ struct Dsr {
             field("buffer", &Dsr::buffer, Range{.low = 1, .high = 1e6, .text = "from 1 to 1e6"},
                   "packets that may wait at a node for routes"),
             field("jitter", &Dsr::jitter, Range{.low = 0, .high = 1e9, .text = "from 0 to 1e9 s"},
-                  "upper end of the uniform delay before a request is forwarded or answered"));
+                  "largest value of the uniform random delay before a node forwards or answers a "
+                  "request"));
     }
 
     operator Router() const;

@@ -39,12 +39,13 @@ struct Flood {
         return describe(
             field("ttl", &Flood::ttl, Range{.low = 1, .high = 65535, .text = "from 1 to 65535"},
                   "hops that a message may cross"),
-            field("duplicates", &Flood::duplicates, "what a node does with a second copy"),
+            field("duplicates", &Flood::duplicates,
+                  "what a node does with further copies of a message"),
             field("upgrade", &Flood::upgrade,
-                  "with \"suppress\": a copy with a higher TTL raises the TTL of the copy that is "
-                  "not yet sent"),
+                  "with \"suppress\": a second copy with a higher TTL raises the TTL of the first "
+                  "copy, if the first copy still waits"),
             field("jitter", &Flood::jitter, Range{.low = 0, .high = 1e9, .text = "from 0 to 1e9 s"},
-                  "upper end of the uniform delay before forwarding"),
+                  "largest value of the uniform random delay before a node forwards a message"),
             field("ttl_in_payload", &Flood::ttl_in_payload,
                   "the first byte of a payload is the message's TTL, as in the 2007 thesis"));
     }

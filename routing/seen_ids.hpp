@@ -22,6 +22,10 @@ class SeenIds {
     bool note(NodeId originator, std::uint32_t id, Time now, Duration memory) {
         Numbers* const found = of_.find(originator);
         if (!found) {
+            // Numbers of silent originators are forgotten when the table needs more memory.
+            if (of_.is_full()) {
+                of_.erase_if([&](const Numbers& each) { return now - each.last > memory; });
+            }
             of_.insert({originator, id, 0, now});
             return true;
         }

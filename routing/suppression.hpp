@@ -23,8 +23,8 @@ struct EnumNames<SuppressionScheme> {
 
 /// Flooding in which a node does not forward a message if forwarding would reach few new nodes. A
 /// node that hears a message for the first time waits for 1 us + U(0, delay). The node then
-/// forwards the message once, unless the scheme's condition to suppress the message was met
-/// meanwhile:
+/// forwards the message once, unless the scheme's condition to suppress the message was met during
+/// the wait:
 ///
 /// - "counter": the node heard C copies, the first one included.
 /// - "probability": with probability 1 - P, drawn at the first copy.
@@ -63,13 +63,14 @@ struct Suppression {
                   "metres, or a share of the disc"),
             field("range", &Suppression::range, positive,
                   "range of the radios, for the scheme \"location\""),
-            field(
-                "hello", &Suppression::hello,
-                Range{.low = 0, .high = 1e4, .low_included = false, .text = "> 0 s, up to 10000 s"},
-                "time between HELLO packets, for the scheme \"cluster\""),
+            field("hello", &Suppression::hello,
+                  Range{.low = 0, .high = 1e4, .text = "from 0 to 10000 s"},
+                  "time between HELLO packets, for the scheme \"cluster\", which needs a value > 0 "
+                  "s"),
             field("delay", &Suppression::delay,
                   Range{.low = 0, .high = 1e9, .text = "from 0 to 1e9 s"},
-                  "upper end of the uniform delay in which a node listens for further copies"),
+                  "largest value of the uniform random delay in which a node listens for further "
+                  "copies"),
             field("ttl", &Suppression::ttl,
                   Range{.low = 1, .high = 65535, .text = "from 1 to 65535"},
                   "hops that a message may cross"));

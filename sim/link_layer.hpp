@@ -101,10 +101,9 @@ class LinkLayer {
     /// @throws std::invalid_argument if `at` is too early
     virtual std::optional<SendHandle> send(const Frame& frame, std::optional<NodeId> heard_from,
                                            Time at) = 0;
-    /// Time [ns] from the start of a frame to that of the sender's next one, if both are sent at
-    /// once, so that they do not collide with each other on their way: 0 if the access model queues
-    /// frames; without an access model four airtimes, as the next hops forward the first frame
-    /// meanwhile.
+    /// Time [ns] between the starts of two frames that a node sends one after the other, so that
+    /// the frames and their forwarded copies do not collide. 0 if the access model queues frames.
+    /// Four airtimes without an access model: the next hops forward the first frame in this time.
     virtual Duration spacing(const Frame&) const { return Duration{0}; }
     /// Frame that waits for its send time. The protocol may change the frame, except for its
     /// message and its sender. Null once the send time has come. A handle may be reused for a later
@@ -112,10 +111,11 @@ class LinkLayer {
     virtual QueuedFrame* waiting(SendHandle) = 0;
     /// Cancels a frame that waits for its send time; does nothing after that time.
     virtual void cancel(SendHandle) = 0;
-    /// Removes the frames for `next_hop` from the interface queue of `node`, except a frame that is
-    /// on air or waits for its acknowledgement; used when a route has broken. The removed frames
-    /// have no result. The caller then holds their references: release(frame.frame). Frames that
-    /// wait for their send time are not in this queue: cancel() them by their handles.
+    /// Removes the protocol's frames for `next_hop` from the interface queue of `node`, except a
+    /// frame that is on air or waits for its acknowledgement; used when a route has broken.
+    /// Messages over one hop stay in the queue. The removed frames have no result. The caller then
+    /// holds their references: release(frame.frame). Frames that wait for their send time are not
+    /// in this queue: cancel() them by their handles.
     virtual std::vector<QueuedFrame> take_queued(NodeId node, NodeId next_hop) = 0;
     /// Records that `node` loses a copy of a message. Within on_receive the record follows the
     /// Received record of the frame, at the time of the node's reception.

@@ -92,7 +92,7 @@ struct Frame {
 /// Header that the routing protocol puts before the message in a frame, with the bytes that go on
 /// air; an address in these bytes is the id of a node.
 struct FrameHeader {
-    /// Protocol whose header it is, as in Message::protocol.
+    /// Protocol that made the header, by the name that Message::protocol() returns.
     std::string_view protocol;
     std::string bytes;
 };
@@ -177,9 +177,18 @@ class MessageTable {
         Slot& slot = slots_[id.index()];
         if (slot.at != slot.message.to) slot.at = node;
     }
-    /// Messages in use that are on their way, in order of id, each with the node that has it: those
-    /// of which no frame has ended at any receiver, and those that a protocol brings to one robot,
-    /// until they are there. At the end of a run they are reported as cut off or held.
+    /// Notes a frame that the routing protocol sends; the first one sets first_ttl().
+    void note_sending(const Frame& frame) {
+        Hops& ttl = slots_[frame.message.index()].first_ttl;
+        if (ttl == 0) ttl = frame.ttl;
+    }
+    /// TTL of the first frame of a message; 0 if the message has no frame yet.
+    Hops first_ttl(MessageId id) const { return slots_[id.index()].first_ttl; }
+    /// Node that received the message last as its next hop; at first the message's origin.
+    NodeId at(MessageId id) const { return slots_[id.index()].at; }
+    /// Messages on their way, in order of id, each with the node that has the message: messages of
+    /// which no frame has ended at any receiver, and messages that a protocol has not yet brought
+    /// to their destination, one robot. At the end of a run both are reported as cut off or held.
     std::vector<std::pair<MessageId, NodeId>> on_their_way() const;
     /// Number of messages in use.
     std::size_t size() const { return slots_.size() - free_.size(); }
@@ -187,12 +196,13 @@ class MessageTable {
     std::size_t capacity() const { return slots_.size(); }
 
   private:
-    // Slot: message, number of its references, whether a frame of the message has ended, and the
-    // last node that received it as its next hop (at first its origin).
+    // Slot: message, number of its references, whether a frame of the message has ended, TTL of
+    // its first frame, and the last node that received it as its next hop (at first its origin).
     struct Slot {
         Message message;
         std::uint32_t holders = 0;
         bool has_ended = false;
+        Hops first_ttl = 0;
         NodeId at{};
     };
     // Slots of the table, by MessageId.

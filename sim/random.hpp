@@ -20,11 +20,11 @@ enum class Purpose : std::uint16_t {
     link_shadowing = 2,
     /// Start position of a robot in an area. Key::a = robot key.
     placement = 3,
-    /// Order of a robot's shuffled waypoints. Key::a = robot key, Key::b = number of the
-    /// robot's movement plan.
+    /// Order of a robot's shuffled waypoints. Key::a = robot key, Key::b = 0 for the robot's table
+    /// `move`, n for the movement that the robot's n-th reaction starts.
     order = 4,
-    /// Choice of a robot's goal among several. Key::a = robot key, Key::b = number of the
-    /// robot's movement plan.
+    /// Choice of a robot's goal among several. Key::a = robot key, Key::b = 0 for the robot's table
+    /// `move`, n for the movement that the robot's n-th reaction starts.
     destination = 5,
     /// Draws of movement models. Key::a = robot key, Key::b = number of the robot's movement.
     movement = 6,
@@ -48,7 +48,8 @@ enum class Purpose : std::uint16_t {
     field_shadowing = 16,
     /// Fading of a frame at a receiver. Key::a = frame key, Key::b = receiver key.
     frame_fading = 17,
-    /// Random waves whose sum is the fading field. Key::a = number of the wave.
+    /// Random waves whose sum is a fading field. Key::a = number of the wave, Key::b = number of
+    /// the field (only nakagami can have several).
     place_fading = 18,
     /// Times of a routing protocol's HELLO packets. Key::a = robot key.
     hello = 19,

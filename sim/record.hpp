@@ -119,7 +119,7 @@ struct Routed {
 struct Dropped {
     Time time;
     NodeId node;
-    /// Frame as received; if the access model drops it, as it would have been transmitted.
+    /// Frame as received. If the access model drops the frame: as prepared for transmission.
     Frame frame;
     DropReason reason;  ///< reason for the loss
     /// Code of the reason, a literal, if `reason` is DropReason::own.

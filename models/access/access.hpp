@@ -30,6 +30,9 @@
 
 namespace rovernet {
 
+/// Condition on a frame.
+using FrameTest = std::function<bool(const Frame&)>;
+
 /// Functions that an access model may call; implemented by the MAC layer.
 class Air {
   public:
@@ -48,7 +51,8 @@ class Air {
     virtual void access_timer(NodeId node, Time at, std::uint32_t tag) = 0;
     /// Uniform random number in (0, 1) for channel access: draw number `index` of the node, from 0.
     virtual double access_draw(NodeId node, std::uint64_t index) const = 0;
-    /// Reports that a frame passed to Access::send() was transmitted, and acknowledged if required.
+    /// Reports that a frame passed to Access::send() was transmitted, and acknowledged if required;
+    /// or that its sender was switched off after the transmission began.
     /// Each frame causes exactly one call of sent() or lost(), unless Access::take() removed it.
     virtual void sent(const QueuedFrame& frame) = 0;
     /// Reports that a frame passed to Access::send() was dropped. The network emits a Dropped
@@ -77,10 +81,12 @@ class Access {
     virtual void send(Air& air, const QueuedFrame& frame) = 0;
     /// Called when a timer that the model set by Air::access_timer is due, with the timer's tag.
     virtual void on_timer(Air& /*air*/, NodeId /*node*/, std::uint32_t /*tag*/) {}
-    /// Removes and returns the frames for `next_hop` in the node's queue, except a frame that is on
-    /// air or waits for its acknowledgement. Removed frames count as neither sent nor lost:
-    /// the routing protocol may send these frames to a different next hop.
-    virtual std::vector<QueuedFrame> take(NodeId /*node*/, NodeId /*next_hop*/) { return {}; }
+    /// Removes and returns the frames in the node's queue for which `is_taken` is true, except a
+    /// frame that is on air or waits for its acknowledgement. Removed frames count as neither sent
+    /// nor lost: the routing protocol may send these frames to a different next hop.
+    virtual std::vector<QueuedFrame> take(NodeId /*node*/, const FrameTest& /*is_taken*/) {
+        return {};
+    }
     /// Clears the queue of a node that was switched off; its frames are lost.
     virtual void switch_off(Air& /*air*/, NodeId /*node*/) {}
 
@@ -166,11 +172,11 @@ struct ArpSettings {
     std::optional<Duration> arp_timeout = std::nullopt;
 
     static constexpr auto fields() {
-        return describe(
-            field("arp", &ArpSettings::arp, "whether robots ask for the address of a next hop"),
-            field("arp_timeout", &ArpSettings::arp_timeout,
-                  Range{.low = 0, .high = 1e18, .low_included = false, .text = "> 0 s"},
-                  "time after which an address is forgotten; never if not given"));
+        return describe(field("arp", &ArpSettings::arp,
+                              "whether robots first ask for the hardware address of a next hop"),
+                        field("arp_timeout", &ArpSettings::arp_timeout,
+                              Range{.low = 0, .high = 1e18, .low_included = false, .text = "> 0 s"},
+                              "time after which an address is forgotten; never if not given"));
     }
 };
 

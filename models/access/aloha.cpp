@@ -18,7 +18,7 @@ class AlohaAccess final : public Access {
     void add() override { stations_.emplace_back(); }
     void send(Air& air, const QueuedFrame& frame) override;
     void on_timer(Air& air, NodeId node, std::uint32_t tag) override;
-    std::vector<QueuedFrame> take(NodeId node, NodeId next_hop) override;
+    std::vector<QueuedFrame> take(NodeId node, const FrameTest& is_taken) override;
     std::size_t queued(NodeId node) const override { return stations_[node.index()].queue.size(); }
     void switch_off(Air& air, NodeId node) override;
     Phy phy() const override { return Wifi{}; }
@@ -75,8 +75,8 @@ void AlohaAccess::on_timer(Air& air, NodeId node, std::uint32_t /*tag*/) {
     air.sent(frame);
 }
 
-std::vector<QueuedFrame> AlohaAccess::take(NodeId node, NodeId next_hop) {
-    return stations_[node.index()].queue.take(next_hop, false);
+std::vector<QueuedFrame> AlohaAccess::take(NodeId node, const FrameTest& is_taken) {
+    return stations_[node.index()].queue.take(is_taken, false);
 }
 
 void AlohaAccess::switch_off(Air& air, NodeId node) {

@@ -45,7 +45,8 @@ struct Aloha {
             field("slot", &Aloha::slot, non_negative,
                   "frames start only at multiples of this time"),
             field("queue", &Aloha::queue, counts, "largest number of frames that wait at a robot"),
-            field("priority", &Aloha::priority, "packets of the routing protocol go first"));
+            field("priority", &Aloha::priority,
+                  "whether control packets of the routing protocol are sent before messages"));
     }
 
     /// Creates the access model for one Network.

@@ -85,7 +85,7 @@ struct Csma {
         constexpr Range counts{.low = 1, .high = 1000000, .text = "from 1 to 1000000"};
         constexpr Range window{.low = 0, .high = 65535, .text = "from 0 to 65535"};
         return describe(
-            field("slot", &Csma::slot, non_negative, "slot of the backoff"),
+            field("slot", &Csma::slot, non_negative, "duration of a backoff slot"),
             field("queue", &Csma::queue, counts, "largest number of frames that wait at a robot"),
             field("standard", &Csma::standard,
                   "standard whose timing and airtimes are used; with 802.11a and 802.11g, the "
@@ -93,7 +93,7 @@ struct Csma {
             field("sifs", &Csma::sifs, non_negative, "short interframe space"),
             field("difs", &Csma::difs, non_negative, "DCF interframe space"),
             field("cca_time", &Csma::cca_time, non_negative,
-                  "time from the arrival of energy until it is sensed"),
+                  "time from the arrival of a signal until a station senses the signal"),
             field("turnaround", &Csma::turnaround, non_negative,
                   "time from the decision to send until the frame begins"),
             field("rx_start_delay", &Csma::rx_start_delay, non_negative,
@@ -101,21 +101,24 @@ struct Csma {
             field("cw_min", &Csma::cw_min, window, "least contention window, in slots"),
             field("cw_max", &Csma::cw_max, window, "largest contention window, in slots"),
             field("basic_rates", &Csma::basic_rates,
-                  "broadcasts and RTS use the lowest of these rates; answers use the highest one "
-                  "that does not exceed the rate of the frame that they answer"),
+                  "broadcasts and RTS use the lowest of these rates; CTS and ACK use the highest "
+                  "of these rates that is not above the rate of the answered frame"),
             field("eifs", &Csma::eifs,
-                  "longer wait after a frame whose reception began and failed (standard), after "
-                  "every frame that was sensed but not decoded (ns2), or never (none)"),
+                  "when a station waits for an EIFS instead of a DIFS: after a frame whose "
+                  "reception began and failed (standard), after every frame that was sensed but "
+                  "not decoded (ns2), or never (none)"),
             field("immediate_access", &Csma::immediate_access,
                   "a station that finds the medium idle sends without a backoff"),
             field("short_retries", &Csma::short_retries, non_negative,
-                  "number of attempts; 0: unlimited"),
+                  "number of attempts for an RTS, or for a unicast without an RTS; 0: unlimited"),
             field("long_retries", &Csma::long_retries, non_negative,
                   "number of attempts for frames that follow an RTS; 0: unlimited"),
             field("rts_threshold", &Csma::rts_threshold,
-                  "unicasts larger than this are preceded by an RTS"),
-            field("header", &Csma::header, "bytes that access adds to a message"),
-            field("priority", &Csma::priority, "packets of the routing protocol go first"));
+                  "size above which an RTS precedes a unicast"),
+            field("header", &Csma::header,
+                  "size of the header that the access model adds to a message"),
+            field("priority", &Csma::priority,
+                  "whether control packets of the routing protocol are sent before messages"));
     }
 
     /// Complete timing: times that are not given have the values of the standard.

@@ -280,11 +280,11 @@ bool Dcf::is_repeated(NodeId node, const AirFrame& frame) {
     return !is_new && std::exchange(last->second, frame.number) == frame.number;
 }
 
-std::vector<QueuedFrame> Dcf::take(NodeId node, NodeId next_hop) {
+std::vector<QueuedFrame> Dcf::take(NodeId node, const FrameTest& is_taken) {
     Station& s = at(node);
     const bool contends = s.state == State::contending;
-    const bool takes_first = contends && s.queue.front().frame.next_hop == next_hop;
-    auto frames = s.queue.take(next_hop, !contends);
+    const bool takes_first = contends && is_taken(s.queue.front().frame);
+    auto frames = s.queue.take(is_taken, !contends);
     if (!takes_first) return frames;
     next_frame(s);
     if (!s.queue.empty()) return frames;
@@ -295,9 +295,11 @@ std::vector<QueuedFrame> Dcf::take(NodeId node, NodeId next_hop) {
 
 void Dcf::switch_off(Air& air, NodeId node) {
     Station& s = at(node);
+    const bool has_sent = s.state == State::awaiting_ack;
     s.state = State::idle;
     s.timer = never;
     s.response.reset();
+    if (has_sent) air.sent(s.queue.pop());  // the frame may still arrive, or has arrived
     for (const QueuedFrame& frame : s.queue.take_all()) air.lost(frame, DropReason::end);
 }
 

@@ -36,9 +36,9 @@ namespace rovernet {
 /// acknowledgement it is repeated with a doubled window, up to the retry limit. A large unicast is
 /// preceded by an RTS, which the receiver answers with a CTS; both reserve the medium (NAV).
 ///
-/// A station has at most one timer, and only while it has a frame: for its access, or for a
-/// response that it expects. Sensed frames are reported to its Backoff when they start; if the
-/// medium was busy before the timer is due, the timer is set again.
+/// A station has at most one timer, and only while the station has a frame: a timer for channel
+/// access, or for an expected response. The Backoff of a station gets each sensed frame when the
+/// frame starts. If the medium was busy before the timer is due, the timer is set again.
 ///
 /// Source: IEEE 802.11-2020, 10.3.
 class Dcf final : public Access {
@@ -53,7 +53,7 @@ class Dcf final : public Access {
     void add() override;
     void send(Air& air, const QueuedFrame& frame) override;
     void on_timer(Air& air, NodeId node, std::uint32_t tag) override;
-    std::vector<QueuedFrame> take(NodeId node, NodeId next_hop) override;
+    std::vector<QueuedFrame> take(NodeId node, const FrameTest& is_taken) override;
     std::size_t queued(NodeId node) const override { return stations_[node.index()].queue.size(); }
     void switch_off(Air& air, NodeId node) override;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/access/access.hpp"
 #include "sim/message.hpp"
 
 #include <algorithm>
@@ -57,13 +58,13 @@ class TransmitQueue {
         }
         return first;
     }
-    /// Removes the frames for `next_hop` and returns them; other frames keep their order.
+    /// Removes the frames for which `is_taken` is true and returns them; other frames keep their
+    /// order.
     /// @param keeps_first  whether the first frame stays, because it is on air
-    std::vector<QueuedFrame> take(NodeId next_hop, bool keeps_first) {
+    std::vector<QueuedFrame> take(const FrameTest& is_taken, bool keeps_first) {
         const auto first = frames_.begin() + offset() + (keeps_first && !empty() ? 1 : 0);
         const auto taken = std::stable_partition(
-            first, frames_.end(),
-            [&](const QueuedFrame& each) { return each.frame.next_hop != next_hop; });
+            first, frames_.end(), [&](const QueuedFrame& each) { return !is_taken(each.frame); });
         std::vector<QueuedFrame> frames(taken, frames_.end());
         frames_.erase(taken, frames_.end());
         return frames;

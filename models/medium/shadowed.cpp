@@ -18,8 +18,9 @@ Shadowed::Shadowed(Propagation base, const Shadowing& shadowing, std::uint64_t s
       draws_(seed, replication, Purpose::link_shadowing) {
     check_fields(shadowing, "shadowing");
     if (base_.is_random()) {
-        throw std::invalid_argument("shadowing: " + std::string(base_.name()) +
-                                    " draws random losses of its own; expected its sigma = 0 dB");
+        throw std::invalid_argument(
+            "shadowing: the propagation model " + std::string(base_.name()) +
+            " already draws random losses; expected sigma = 0 dB in this propagation model");
     }
     if (shadowing.model == ShadowingModel::field) {
         field_.emplace(shadowing.decorrelation_distance, seed, replication);

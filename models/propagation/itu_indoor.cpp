@@ -116,16 +116,16 @@ void ItuIndoor::check_frequency(Hertz f) const {
     const auto env = name_of(*environment);
     if (!coefficient && !nearest_row(coefficients, *environment, mhz)) {
         throw std::invalid_argument(fmt::format(
-            "itu_indoor: no coefficient for environment \"{}\" within a factor {} of {} MHz; the "
-            "table has {}; give coefficient = a number",
+            "itu_indoor: no coefficient for environment \"{}\" within a factor {} of {} MHz; "
+            "the model has coefficients for {}; give coefficient = a number",
             env, widest_ratio, mhz, frequencies(coefficients, *environment)));
     }
     if (floors.value_or(0) == 0) return;
     const auto* row = nearest_row(floor_losses, *environment, mhz);
     if (!row || *floors > row->most_floors) {
         throw std::invalid_argument(fmt::format(
-            "itu_indoor: no loss of {} floors for environment \"{}\" at {} MHz; the table has "
-            "floor losses at {}{}",
+            "itu_indoor: no loss of {} floors for environment \"{}\" at {} MHz; the model has "
+            "floor losses for {}{}",
             *floors, env, mhz, frequencies(floor_losses, *environment),
             row ? fmt::format(", for up to {} floors", row->most_floors) : ""));
     }

@@ -50,14 +50,15 @@ struct ItuIndoor {
     std::optional<int> floors = std::nullopt;
 
     static constexpr auto fields() {
-        return describe(
-            field("coefficient", &ItuIndoor::coefficient, positive,
-                  "N, distance power loss coefficient; 30 if no environment is given")
-                .linear(30),
-            field("environment", &ItuIndoor::environment,
-                  "kind of building: gives N (unless coefficient does) and the floor loss"),
-            field("floors", &ItuIndoor::floors, non_negative,
-                  "floors between the antennas; counted from their heights if not given"));
+        return describe(field("coefficient", &ItuIndoor::coefficient, positive,
+                              "N, distance power loss coefficient; 30 if no environment is given")
+                            .linear(30),
+                        field("environment", &ItuIndoor::environment,
+                              "kind of building, which determines the floor loss, and N if no "
+                              "coefficient is given"),
+                        field("floors", &ItuIndoor::floors, non_negative,
+                              "number of floors between the antennas; counted from the heights of "
+                              "the antennas if not given"));
     }
 
     /// Shape of the loss: by_heights if floors are counted and have a loss.

@@ -54,7 +54,8 @@ void ItuSiteGeneral::check_frequency(Hertz f) const {
         const Row& row = row_of(site, clear);
         if (ghz >= row.lowest_ghz && ghz <= row.highest_ghz) continue;
         throw std::invalid_argument(fmt::format(
-            "itu_site_general: found {} GHz; site \"{}\" {} line of sight is valid from "
+            "itu_site_general: found {} GHz; for site \"{}\" {} line of sight, the model is valid "
+            "from "
             "{} to {} GHz",
             ghz, name_of(site), clear ? "with" : "without", row.lowest_ghz, row.highest_ghz));
     }

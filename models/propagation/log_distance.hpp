@@ -39,12 +39,12 @@ struct LogDistance {
                   "n, path loss exponent: 2 is free space, about 4 an obstructed office")
                 .linear(2),
             field("sigma", &LogDistance::sigma, non_negative,
-                  "standard deviation of the link's shadowing; 0 for the median")
+                  "standard deviation of the shadowing of links; 0: the loss is the median")
                 .spread(),
             field("reference_distance", &LogDistance::reference_distance, positive,
                   "d0; the median loss at shorter distances equals the loss at d0"),
             field("excess", &LogDistance::excess,
-                  "loss at d0 in addition to that of free space; a fit determines it")
+                  "loss at d0 in addition to the loss of free space; a fit determines this loss")
                 .constant(far_from_zero));
     }
 

@@ -47,7 +47,7 @@ struct MultiWall {
     Db heavy_wall{6.9};
     /// Loss of one floor, Lf [dB], >= 0.
     Db floor_loss{18.3};
-    /// Parameter b of the floor term [-], 0 to 1: if b > 0, further floors add less than the first.
+    /// Parameter b of the floor term [-], 0 to 1: the larger b, the less loss further floors add.
     double floor_saving = 0.46;
 
     static constexpr auto fields() {
@@ -56,20 +56,21 @@ struct MultiWall {
                   "n, path loss exponent without the walls: 2 is free space")
                 .linear(2),
             field("excess", &MultiWall::excess,
-                  "loss at 1 m in addition to that of free space; a fit determines it")
+                  "loss at 1 m in addition to the loss of free space; a fit determines this loss")
                 .constant(far_from_zero),
             field("light_wall", &MultiWall::light_wall, non_negative,
                   "loss of a wall that is drawn thinner than 10 cm, if its material has no loss of "
                   "its own")
                 .linear(0),
             field("heavy_wall", &MultiWall::heavy_wall, non_negative,
-                  "loss of a thicker wall, if its material has no loss of its own")
+                  "loss of a wall that is drawn 10 cm thick or thicker, if its material has no "
+                  "loss of its own")
                 .linear(0),
             field("floor_loss", &MultiWall::floor_loss, non_negative, "loss of one floor"),
             field("floor_saving", &MultiWall::floor_saving,
                   Range{.low = 0, .high = 1, .text = "from 0 to 1"},
-                  "b: how much less loss each further floor has than the first one; 0: the same "
-                  "loss"));
+                  "b in the exponent of the number of floors: the larger b, the less loss further "
+                  "floors add"));
     }
 
     LossShape shape() const { return LossShape::by_walls; }

@@ -111,7 +111,7 @@ struct Rays {
                 .searched(6),
             field("max_paths", &Rays::max_paths,
                   Range{.low = 1, .high = 1000, .text = "from 1 to 1000"},
-                  "largest number of paths that are added; the strongest ones are taken"));
+                  "largest number of paths that are added; the strongest paths are taken"));
     }
 
     /// Forms of the model from the cheapest to the most detailed one, for `rovernet advise`.

@@ -68,8 +68,8 @@ struct Fading {
                   Range{.low = -100, .high = 30, .text = "from -100 dB to 30 dB"},
                   "for rician: power of the line of sight relative to all other waves"),
             field("m", &Fading::m, Range{.low = 0.5, .high = 100, .text = "from 0.5 to 100"},
-                  "for nakagami: shape; 1 is rayleigh. With coherence = \"place\", levels are "
-                  "crossed as often as in theory only if 2 m is a whole number"));
+                  "for nakagami: shape parameter m; 1 is rayleigh. With coherence = \"place\", the "
+                  "rate of level crossings agrees with theory only if 2 * m is a whole number"));
     }
 
     /// Quantile of the power g relative to its local mean [-]: g is below the quantile with

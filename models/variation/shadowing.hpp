@@ -49,8 +49,8 @@ struct Shadowing {
     static constexpr auto fields() {
         return describe(
             field("model", &Shadowing::model,
-                  "none; link: one draw for each pair of robots; field: a draw that depends on the "
-                  "places of both robots"),
+                  "none; link: one random value for each pair of robots; field: a random value "
+                  "that depends on the places of both robots"),
             field("sigma", &Shadowing::sigma, non_negative, "standard deviation of the shadowing"),
             field("decorrelation_distance", &Shadowing::decorrelation_distance,
                   Range{.low = 1e-3, .text = ">= 1 mm"},

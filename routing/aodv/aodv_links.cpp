@@ -8,6 +8,11 @@
 // those of RFC 3561.
 
 namespace rovernet {
+namespace {
+
+constexpr int allowed_hello_loss = 2;
+
+}  // namespace
 
 /// Whether a node repairs the route of a packet that it could not forward (6.12).
 bool AodvRouter::repairs(const Route& route, const QueuedFrame& queued) const {
@@ -199,35 +204,46 @@ void AodvRouter::refuse(LinkLayer& link, const Frame& frame, NodeId to, const Re
     link.drop(at, frame, DropReason::no_route);
 }
 
-/// Sends a HELLO if routes carry messages and nothing was broadcast meanwhile, and looks for
-/// neighbours that have fallen silent (6.9, 6.10).
+/// Sends a HELLO if routes carry messages and nothing was broadcast meanwhile (6.9).
 void AodvRouter::send_hello(LinkLayer& link, NodeId at) {
-    constexpr int allowed_hello_loss = 2;
     Node& here = node(at);
     const Time now = link.now();
-    if (!link.is_on(at)) return;
     const bool has_broadcast = here.last_broadcast && now - *here.last_broadcast < rules_.hello;
-    if (now < here.active_until && !has_broadcast && !is_silent(at, now)) {
-        const aodv::Reply hello{.destination = at,
-                                .number = here.number,
-                                .originator = at,
-                                .lifetime = allowed_hello_loss * rules_.hello};
-        const MessageId id =
-            link.originate(at, everyone, aodv::hello_kind, rules_.reply_bytes, to_bytes(hello));
-        link.send({.message = id, .sender = at, .path = link.key(at), .ttl = 1, .hops = 1}, {},
-                  now);
-        link.release(id);
-    }
+    if (now >= here.active_until || has_broadcast || is_silent(at, now)) return;
+    const aodv::Reply hello{.destination = at,
+                            .number = here.number,
+                            .originator = at,
+                            .lifetime = allowed_hello_loss * rules_.hello};
+    const MessageId id =
+        link.originate(at, everyone, aodv::hello_kind, rules_.reply_bytes, to_bytes(hello));
+    link.send({.message = id, .sender = at, .path = link.key(at), .ttl = 1, .hops = 1}, {}, now);
+    link.release(id);
+}
+
+/// Ends the routes over neighbours that have been silent for too long (6.10), and sets a timer for
+/// the next neighbour that may be.
+void AodvRouter::end_silent(LinkLayer& link, NodeId at) {
+    const Duration longest = allowed_hello_loss * rules_.hello;
+    Node& here = node(at);
+    const Time now = link.now();
+    Time next = never;
     std::vector<NodeId> silent;
     std::erase_if(here.neighbours, [&](const Neighbour& each) {
-        if (now - each.last <= allowed_hello_loss * rules_.hello) return false;
-        silent.push_back(each.node);
-        return true;
+        const Time silent_from = each.last + longest + Duration{1};
+        const bool is_silent = silent_from <= now;
+        if (is_silent) silent.push_back(each.node);
+        if (!is_silent) next = std::min(next, silent_from);
+        return is_silent;
     });
     for (const NodeId each : silent) {
         const std::vector<QueuedFrame> stranded = link.take_queued(at, each);
         on_broken(link, at, each, stranded);
         for (const QueuedFrame& queued : stranded) link.release(queued.frame);
+    }
+    const bool is_soon = next < now + rules_.hello;  // later ones are found by the next timer
+    if (is_soon && next != node(at).silence_timer) {
+        node(at).silence_timer = next;
+        link.timer(at, next, Tag::silence);
     }
 }
 

@@ -8,13 +8,6 @@
 #include <utility>
 
 namespace rovernet {
-namespace {
-
-// Tags of timers.
-constexpr std::uint64_t searches = 0, hello = 1;
-
-}  // namespace
-
 Aodv::operator Router() const { return AodvRouter{AodvRules::of(*this)}; }
 
 Time AodvRouter::RateLimit::take(Time now) {
@@ -29,6 +22,10 @@ Time AodvRouter::RateLimit::take(Time now) {
 }
 
 void AodvRouter::make_room(NodeId node) {
+    // An eighth more than needed: a node takes 600 bytes, and std::vector would double its
+    // capacity.
+    const std::size_t needed = node.index() + std::size_t{1};
+    if (needed > nodes_.capacity()) nodes_.reserve(needed + needed / 8);
     while (nodes_.size() <= node.index()) nodes_.emplace_back().number = rules_.first_number;
 }
 
@@ -87,7 +84,7 @@ void AodvRouter::on_start(LinkLayer& link, NodeId at) {
     Node& here = node(at);
     if (rules_.hello == Duration{0} || std::exchange(here.is_started, true)) return;
     const double u = link.draw(Purpose::hello, at, 0);
-    link.timer(at, link.now() + from_seconds(u * seconds(rules_.hello)), hello);
+    link.timer(at, link.now() + from_seconds(u * seconds(rules_.hello)), Tag::hello);
 }
 
 /// A node that is switched off loses what it knows, and begins in silence (6.13).
@@ -252,11 +249,13 @@ Duration AodvRouter::jitter(LinkLayer& link, NodeId at, MessageId message) const
 }
 
 void AodvRouter::on_timer(LinkLayer& link, NodeId at, std::uint64_t tag) {
-    if (tag == hello) {
-        link.timer(at, link.now() + rules_.hello, hello);
-        return send_hello(link, at);
-    }
     const Time now = link.now();
+    if (tag == Tag::hello) link.timer(at, now + rules_.hello, Tag::hello);
+    if (tag != Tag::searches) {
+        if (!link.is_on(at)) return;
+        if (tag == Tag::hello) send_hello(link, at);
+        return end_silent(link, at);
+    }
     if (node(at).timer != now) return;  // an earlier one was set since
     node(at).timer.reset();
     for (const auto& packet : node(at).buffer.take_expired(now)) {

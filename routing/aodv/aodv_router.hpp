@@ -92,6 +92,9 @@ class AodvRouter {
       private:
         std::vector<Time> last_;
     };
+    struct Tag {  // of a timer
+        static constexpr std::uint64_t searches = 0, hello = 1, silence = 2;
+    };
     struct Node {
         /// Sequence number of the node, and RREQ ID of the node's last request.
         std::uint32_t number = 0, request = 0;
@@ -106,6 +109,8 @@ class AodvRouter {
         /// Time of the next timer event, for searches and waiting packets; empty if no timer is
         /// set.
         std::optional<Time> timer;
+        /// Time of the next timer event for a neighbour that may have fallen silent.
+        Time silence_timer = start_of_run;
         /// Time until which the node takes no part in route searches after a restart (6.13).
         Time silent_until = start_of_run;
         std::optional<Time> last_broadcast;
@@ -157,6 +162,7 @@ class AodvRouter {
     bool is_blacklisted(Node& here, NodeId neighbour, Time now) const;
     void refuse(LinkLayer& link, const Frame& frame, NodeId to, const Reception& reception);
     void send_hello(LinkLayer& link, NodeId at);
+    void end_silent(LinkLayer& link, NodeId at);
 
     // Searches (aodv_search.cpp).
     Fate receive_request(LinkLayer& link, const Frame& frame, const aodv::Request& request,

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-// Searches of AODV: requests, replies, and the waits between them. Sections are those of RFC 3561.
+// Searches of AODV: requests, replies, waits. Sections are those of RFC 3561.
 
 namespace rovernet {
 
@@ -189,7 +189,7 @@ void AodvRouter::set_timer(LinkLayer& link, NodeId at) {
     for (const Search& each : here.searches) next = std::min(next.value_or(due(each)), due(each));
     if (!next || (here.timer && *here.timer <= *next)) return;
     here.timer = std::max(*next, link.now() + least_reaction);
-    link.timer(at, *here.timer, 0);
+    link.timer(at, *here.timer, Tag::searches);
 }
 
 /// Notes that a neighbour was heard: there is a route to it, whatever its number (6.5, 6.7).
@@ -267,6 +267,8 @@ bool AodvRouter::answer(LinkLayer& link, NodeId from, const aodv::Request& reque
     Node& here = node(at);
     if (request.destination == at) {
         here.number = newest(here.number, request.number.value_or(here.number));  // 6.1, 6.6.1
+        // Nodes whose valid route is as new do not forward a reply (6.7); flag D silenced them.
+        if (request.destination_only) ++here.number;
         reply(link, at,
               {.destination = at,
                .number = here.number,
@@ -352,9 +354,9 @@ Fate AodvRouter::receive_reply(LinkLayer& link, const Frame& frame, const aodv::
     const NodeId at = r.node, from = frame.sender;
     const Time when = r.time + least_reaction;
     if (is_silent(at, r.time)) return Fate::arrived;  // 6.13
-    meet(at, from, r.time);
-    end_search(link, at, from, when);
     const auto hops = static_cast<Hops>(reply.hops + frame.hops);
+    // Before meet(), which would revive a broken route to the destination, if that is the sender;
+    // its reply would then tell nothing new (6.7 (iii)).
     const bool is_new = learn(at,
                               {.destination = reply.destination,
                                .next_hop = from,
@@ -369,11 +371,11 @@ Fate AodvRouter::receive_reply(LinkLayer& link, const Frame& frame, const aodv::
             if (each.destination == reply.destination) note_latency(at, each, hops, r.time);
         }
     }
+    meet(at, from, r.time);
+    end_search(link, at, from, when);
     end_search(link, at, reply.destination, when);
     const bool is_hello = reply.originator == reply.destination;
-    if (reply.originator == at || is_hello || !is_new) {
-        return Fate::arrived;
-    }
+    if (reply.originator == at || is_hello || !is_new) return Fate::arrived;
     // 6.7: along the reverse route, whose life it lengthens.
     const Route* back = valid_route(at, reply.originator, r.time);
     if (!back || frame.ttl <= 1) return Fate::arrived;

@@ -72,16 +72,17 @@ FrameHeader DsrRouter::header_bytes(const Frame& frame) const {
 }
 
 std::size_t DsrRouter::pairs_too_far() const {
-    return static_cast<std::size_t>(std::count_if(too_far_.begin(), too_far_.end(),
-                                                  [](const auto& each) { return each.second; }));
+    return static_cast<std::size_t>(std::count_if(
+        too_far_.begin(), too_far_.end(), [](const auto& each) { return each.second.has_lost; }));
 }
 
 std::string DsrRouter::notice() const {
     const std::size_t pairs = pairs_too_far();
     if (pairs == 0) return {};
     return fmt::format(
-        "dsr: {} pair{} of robots lost messages, because a route has at most {} robots", pairs,
-        pairs == 1 ? "" : "s", Path::longest);
+        "dsr: {0} pair{1} of robots lost messages after a route request had reached {2} robots "
+        "without finding the destination; a route of dsr has at most {2} robots",
+        pairs, pairs == 1 ? "" : "s", Path::longest);
 }
 
 void DsrRouter::forget(MessageId message) {
@@ -164,15 +165,21 @@ void DsrRouter::keep(LinkLayer& link, NodeId at, const QueuedFrame& queued) {
     if (oldest) lose(link, at, *oldest, DropReason::buffer_full);
 }
 
-/// Ends a packet that waited. One that waited in vain has no route if the route would be too long.
+/// Ends a packet that waited. One that waited in vain has no route if requests for it became full.
+/// The next packet gets all requests of a search anew.
 void DsrRouter::lose(LinkLayer& link, NodeId at, const SendBuffer::Packet& packet,
                      DropReason reason) {
     if (reason == DropReason::timeout || reason == DropReason::no_route) {
         const auto far = too_far_.find({at, packet.destination});
-        if (far != too_far_.end()) {
-            far->second = true;
+        const Time created = link.message(packet.queued.frame.message).created;
+        if (far != too_far_.end() && far->second.last >= created) {
+            far->second.has_lost = true;
             reason = DropReason::no_route;
         }
+    }
+    if (!has_own(at, packet.destination)) {
+        for (Search& each : node(at).searches)
+            if (each.target == packet.destination) each.requests = 0;
     }
     link.drop(at, packet.queued.as_received(), reason);
     link.release(packet.queued.frame);
@@ -233,8 +240,7 @@ void DsrRouter::on_sent(LinkLayer& link, const QueuedFrame& queued, SendResult r
     const Message& message = link.message(queued.frame.message);
     if (result != SendResult::retries) {
         if (!message.kind.empty() || message.to == everyone) return;
-        return link.drop(at, queued.as_received(),
-                         result == SendResult::off ? DropReason::off : DropReason::queue_full);
+        return link.drop(at, queued.as_received(), drop_reason_of(result));
     }
     std::vector<QueuedFrame> stranded = link.take_queued(at, next_hop);
     stranded.insert(stranded.begin(), queued);
@@ -251,7 +257,6 @@ void DsrRouter::on_broken(LinkLayer& link, NodeId at, NodeId neighbour,
     for (const QueuedFrame& each : stranded) {
         const Message& message = link.message(each.frame.message);
         const bool is_control = !message.kind.empty();
-        if (!is_control && each.frame.header == 0) continue;
         const Header own{.path = is_control ? dsr::packet_of(message).route.value_or(Path{at, at})
                                             : header(each.frame).path,
                          .salvage = is_control ? std::uint8_t{0} : header(each.frame).salvage,
@@ -280,7 +285,6 @@ unsigned DsrRouter::salvage_of(const QueuedFrame& queued) const {
 /// Sends a message whose next hop is gone along another route (8.3.6): its source waits for one if
 /// it knows none, others salvage the message.
 void DsrRouter::send_otherwise(LinkLayer& link, NodeId at, const QueuedFrame& queued) {
-    if (queued.frame.header == 0) return link.drop(at, queued.as_received(), DropReason::broken);
     const NodeId to = link.message(queued.frame.message).to;
     const unsigned salvage = salvage_of(queued);
     const bool may = salvage <= static_cast<unsigned>(dsr_.salvage);

@@ -61,20 +61,23 @@ class DsrRouter {
     };
     /// Source route of a frame of a message.
     const Header& header(const Frame& frame) const { return headers_[frame.header - 1]; }
-    /// Number of pairs (source, destination) that lost messages because the route between them has
-    /// more than sixteen nodes. notice() returns a sentence on these pairs for the user; the
-    /// sentence is empty if the number is 0.
+    /// Number of pairs (source, destination) that lost messages after a request for a route had
+    /// reached sixteen nodes without finding the destination: the route would be longer, or there
+    /// is none. notice() returns a sentence on these pairs for the user; the sentence is empty if
+    /// the number is 0.
     std::size_t pairs_too_far() const;
     std::string notice() const;
 
   private:
-    /// Search of a node for a route to a target to which packets wait in the node's buffer. The
-    /// search ends when a route is found, or when the node gives up after its last request. It
-    /// counts the requests, because the waits between requests grow (RFC 4728, 4.3).
+    /// Search of a node for a route to a target. The search ends when a route is found; it pauses
+    /// while no packet of the node waits for the route.
     struct Search {
         NodeId target;
-        /// Number of requests sent; the first request reaches only the neighbours (TTL 1).
+        /// Number of requests sent for the packets that wait now; the first request reaches only
+        /// the neighbours (TTL 1).
         int requests = 0;
+        /// Number of times that the wait between two requests was doubled (RFC 4728, 4.3).
+        int doublings = 0;
         /// Time at which the wait for a reply ends.
         Time until = start_of_run;
     };
@@ -143,7 +146,7 @@ class DsrRouter {
                       std::optional<NodeId> heard_from, Time when);
     void search(LinkLayer& link, NodeId at, NodeId target, Time when);
     void request(LinkLayer& link, NodeId at, Search& search, Time when);
-    bool proceed(LinkLayer& link, NodeId at, Search& search, Time when);
+    void proceed(LinkLayer& link, NodeId at, Search& search, Time when);
     void end_searches(LinkLayer& link, NodeId at, Time when);
     void set_timer(LinkLayer& link, NodeId at);
     Duration jitter(LinkLayer& link, NodeId at, MessageId message) const;
@@ -156,9 +159,13 @@ class DsrRouter {
     // Flag of each message, by the index of its MessageId; true: the message has arrived at its
     // destination, so that a salvaged copy that arrives later is a duplicate.
     std::vector<bool> arrived_;
-    // Pairs (originator, target) of requests whose path reached sixteen nodes before the target;
-    // true if the pair has lost messages.
-    std::map<std::pair<NodeId, NodeId>, bool> too_far_;
+    // Requests of pairs (originator, target) whose path reached sixteen nodes before the target:
+    // time of the last one, and whether the pair has lost messages for which it searched.
+    struct FullRequest {
+        Time last;
+        bool has_lost = false;
+    };
+    std::map<std::pair<NodeId, NodeId>, FullRequest> too_far_;
 };
 
 /// DsrRouter that also receives packets for other nodes (overhearing), see Dsr::promiscuous.

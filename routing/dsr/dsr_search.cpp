@@ -131,7 +131,7 @@ Fate DsrRouter::receive_request(LinkLayer& link, const Frame& frame, const dsr::
     }
     if (frame.ttl <= 1) return Fate::ttl;
     if (to_here.is_full()) {  // no room for the target
-        too_far_.try_emplace({asked.path.front(), asked.target}, false);
+        too_far_[{asked.path.front(), asked.target}].last = r.time;
         return Fate::ttl;
     }
     pass_on(link, frame,
@@ -186,7 +186,7 @@ void DsrRouter::search(LinkLayer& link, NodeId at, NodeId target, Time when) {
     auto found = std::find_if(all.begin(), all.end(),
                               [&](const Search& each) { return each.target == target; });
     if (found == all.end()) found = all.insert(all.end(), Search{.target = target});
-    if (found->until <= when && !proceed(link, at, *found, when)) all.erase(found);
+    if (found->until <= when) proceed(link, at, *found, when);
     set_timer(link, at);
 }
 
@@ -198,16 +198,12 @@ bool DsrRouter::has_own(NodeId at, NodeId target) {
     });
 }
 
-/// Sends the next request of a search, or gives up. @return whether the search goes on
-bool DsrRouter::proceed(LinkLayer& link, NodeId at, Search& search, Time when) {
-    if (search.requests <= most_requests) {
-        request(link, at, search, when);
-        return true;
-    }
+/// Sends the next request for the messages that wait, or gives up.
+void DsrRouter::proceed(LinkLayer& link, NodeId at, Search& search, Time when) {
+    if (search.requests <= most_requests) return request(link, at, search, when);
     for (const auto& packet : node(at).buffer.take(search.target)) {
         lose(link, at, packet, DropReason::no_route);
     }
-    return false;
 }
 
 /// Sends the next request of a search (8.2.1): the first one to the neighbours alone.
@@ -225,9 +221,11 @@ void DsrRouter::request(LinkLayer& link, NodeId at, Search& search, Time when) {
                   .ttl = propagates ? farthest : Hops{1},
                   .hops = 1},
                  packet, {}, when);
-    const int doublings = std::min(search.requests - 1, 10);
-    search.until = when + (propagates ? std::min(first_wait * (1 << doublings), longest_backoff)
-                                      : nonpropagating_wait);
+    search.until = when + nonpropagating_wait;
+    if (propagates) {  // 4.3: the waits grow until a route is found
+        search.until = when + std::min(first_wait * (1 << search.doublings), longest_backoff);
+        search.doublings = std::min(search.doublings + 1, 10);
+    }
     search.requests += is_own;
 }
 
@@ -271,14 +269,9 @@ void DsrRouter::on_timer(LinkLayer& link, NodeId at, std::uint64_t) {
     for (const auto& packet : here.buffer.take_expired(now)) {
         lose(link, at, packet, DropReason::timeout);
     }
-    for (std::size_t i = 0; i < here.searches.size();) {
+    for (std::size_t i = 0; i < here.searches.size(); ++i) {
         Search& each = here.searches[i];
-        const bool is_due = each.until <= now && has_own(at, each.target);
-        if (is_due && !proceed(link, at, each, now)) {
-            here.searches.erase(here.searches.begin() + static_cast<std::ptrdiff_t>(i));
-        } else {
-            ++i;
-        }
+        if (each.until <= now && has_own(at, each.target)) proceed(link, at, each, now);
     }
     set_timer(link, at);
 }

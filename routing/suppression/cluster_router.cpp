@@ -24,6 +24,8 @@ ClusterRouter::ClusterRouter(const Suppression& suppression) : settings_(suppres
         throw_out_of_range("suppression", "threshold", "left out for scheme \"cluster\"",
                            *suppression.threshold);
     }
+    if (suppression.hello == Duration{0})
+        throw_out_of_range("suppression", "hello", "> 0 s for scheme \"cluster\"", 0);
 }
 
 ClusterRouter::Node& ClusterRouter::node(NodeId id) {

@@ -89,6 +89,9 @@ void SuppressionRouter::on_receive(LinkLayer& link, const Frame& frame,
     }
     news_.keep_to(next);
     const std::span<Reception*> news = news_.kept();
+    if (waits_matter()) {
+        for (const Reception* r : news) __builtin_prefetch(&known.wait_of[r->node.index()]);
+    }
     const auto end = std::remove_if(news.begin(), news.end(), [&](const Reception* r) {
         return waits_matter() && hear_again(link, heard, known, r->node);
     });
@@ -120,6 +123,10 @@ bool SuppressionRouter::hear_again(LinkLayer& link, const Heard& heard, Known& k
     const std::uint32_t number = known.wait_of[node.index()];
     if (number == 0) return false;
     Wait& wait = known.waits[number - 1];
+    if (settings_.scheme == SuppressionScheme::counter && wait.copies + 1 < threshold_) {
+        ++wait.copies;  // whether the copy was sent matters only once there are enough
+        return true;
+    }
     const QueuedFrame* copy = link.waiting(wait.copy);
     const bool is_sent =
         !copy || copy->frame.message != heard.frame.message || copy->frame.sender != node;

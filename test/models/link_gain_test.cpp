@@ -40,7 +40,8 @@ TEST_CASE("link gain: a receiver with a sensitivity 10 dB worse has a budget 10 
     CHECK(near((link_budget({}, keen) - link_budget({}, deaf)).value, 10, tolerance));
 }
 
-TEST_CASE("link gain: the budgets of the two directions differ only by powers and sensitivities") {
+TEST_CASE(
+    "link gain: the budgets of a link's two directions differ only by the difference of powers") {
     const Radio loud{.power = 20_dBm, .antenna_gain = 5_dB, .cable_loss = 2_dB};
     const Radio quiet{.power = 10_dBm, .antenna_gain = 3_dB};
     CHECK(near((link_budget(loud, quiet) - link_budget(quiet, loud)).value, 10, tolerance));
@@ -126,7 +127,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("antennas: poses are used only for directional antennas, whose gain depends on them") {
+TEST_CASE("antennas: the poses of robots are used only if an antenna is directional") {
     const Radio plain{.antenna_gain = 2_dB, .cable_loss = 1_dB};
     Radio sector = plain;
     sector.antenna = AntennaShape::cosine;

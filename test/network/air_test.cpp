@@ -101,6 +101,7 @@ struct Playground {
     std::vector<Radio> radios{};
     std::shared_ptr<Log> log = std::make_shared<Log>();
     std::vector<std::vector<std::optional<Heard>>> arrivals{};  // by sending and node
+    std::vector<std::vector<bool>> locks{};                     // by node and sending
 
     Playground(std::uint32_t number, Propagation model, Collision collision, bool reference)
         : seed(number),
@@ -194,17 +195,40 @@ struct Playground {
     }
     std::uint64_t key(NodeId node) const { return name_key(net.name(node)); }
 
-    /// Somebody was on air at the node when it began who is stronger by the capture ratio.
-    bool was_let_pass(const Heard& mine, NodeId node) const {
-        return std::any_of(log->sendings.begin(), log->sendings.end(), [&](const Sending& g) {
-            const auto other = g.from == node ? std::nullopt : heard(g, node);
-            return other && other->begin <= mine.begin && mine.begin < other->end &&
-                   other->level_dbm >= mine.level_dbm + reception.capture_ratio.value;
+    /// Sendings onto which the receiver of `node` locks, as in ns-2: it is free when they begin. A
+    /// frame that begins while it is not free is ignored if it is weaker by the capture ratio than
+    /// the current one; otherwise both collide, and the one that ends last is the current one.
+    std::vector<bool> locks_at(NodeId node) const {
+        std::vector<std::pair<std::size_t, Heard>> all;
+        for (std::size_t i = 0; i < log->sendings.size(); ++i) {
+            if (log->sendings[i].from == node) continue;
+            if (const auto h = heard(log->sendings[i], node)) all.emplace_back(i, *h);
+        }
+        std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+            return std::pair(a.second.begin, -a.second.level_dbm) <
+                   std::pair(b.second.begin, -b.second.level_dbm);
         });
+        std::vector<bool> locked(log->sendings.size());
+        std::optional<Heard> current;
+        for (const auto& [sending, h] : all) {
+            locked[sending] = !current || current->end <= h.begin;
+            const bool is_ignored = !locked[sending] && is_stronger(*current, h);
+            if (locked[sending] || (!is_ignored && h.end > current->end)) current = h;
+        }
+        return locked;
+    }
+    bool is_stronger(const Heard& a, const Heard& b) const {
+        return a.level_dbm >= b.level_dbm + reception.capture_ratio.value;
     }
 
     /// What becomes of a sending at a node that can receive it.
-    Fate expected(const Sending& f, NodeId node) const {
+    Fate expected(const Sending& f, NodeId node) {
+        const bool first = reception.capture == CaptureOrder::first;
+        if (first && locks.empty()) {
+            for (std::uint32_t i = 0; i < radios.size(); ++i) locks.push_back(locks_at(NodeId{i}));
+        }
+        const auto number = static_cast<std::size_t>(&f - log->sendings.data());
+        if (first && !locks[node.index()][number]) return Fate::collided;
         const Heard mine = *heard(f, node);
         Fate fate = Fate::waiting;
         for (const Sending& g : log->sendings) {
@@ -212,13 +236,10 @@ struct Playground {
             const bool own = g.from == node;
             const auto other = own ? Heard{g.begin, g.end, 1e300} : heard(g, node);
             if (!other || mine.begin >= other->end || other->begin >= mine.end) continue;
-            const bool in_order =
-                mine.begin <= other->begin || reception.capture == CaptureOrder::later;
-            if (in_order && mine.level_dbm >= other->level_dbm + reception.capture_ratio.value)
-                continue;
-            if (!own && !in_order && was_let_pass(*other, node)) continue;
-            if (!own) return Fate::collided;
-            fate = Fate::busy;
+            if (own) fate = Fate::busy;
+            // The receiver ignored what was on air when it locked onto this one.
+            const bool matters = !first || other->begin >= mine.begin;
+            if (!own && matters && !is_stronger(mine, *other)) return Fate::collided;
         }
         return fate;
     }
@@ -261,7 +282,7 @@ Propagation listed<Disc>() {
 }  // namespace
 
 TEST_CASE(
-    "air: interference equals a check of all pairs, while robots move, jump and are switched") {
+    "air: interference is that of a check of all pairs, while robots move, jump and switch off") {
     for (const Propagation& model :
          {Propagation{LogDistance{.exponent = 2, .sigma = Db{0}}},
           Propagation{LogDistance{.exponent = 2, .sigma = Db{4}}}, Propagation{Slope{}}}) {
@@ -378,7 +399,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("air: frames of a network with another essid do not interfere, unless its gate is open") {
+TEST_CASE(
+    "air: frames of another essid do not interfere, unless their sender's key `gate` is `none`") {
     for (const Gate gate : {Gate::network, Gate::none}) {
         OpenField space;
         const Radio ours{.power = {0}, .essid = "ours"};

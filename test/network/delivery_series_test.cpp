@@ -13,7 +13,9 @@ namespace delivery_series_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 
-TEST_CASE("delivery series: each message has its share of receivers, in the order of sending") {
+TEST_CASE(
+    "delivery series: the series has the share of robots that each message reached, in order of "
+    "sending") {
     Network net({.propagation = Disc{.range = Meters{10}}});
     net.route(Flood{.ttl = 5});
     const auto series = std::make_shared<DeliverySeries>();

@@ -317,9 +317,7 @@ TEST_CASE("doors: links change at the nanosecond at which a door closes or opens
     }
 }
 
-TEST_CASE(
-    "doors: at each time, the links of a moving robot equal those computed with the doors as they "
-    "are then") {
+TEST_CASE("doors: at each time, a moving robot has the links that the states of the doors allow") {
     // The door fills the gap, or a part of it: then its ends are where links change.
     for (const auto& [bottom, top] : {std::pair{3.0, 5.0}, {3.0, 4.0}, {3.75, 3.9}}) {
         Door half = door();

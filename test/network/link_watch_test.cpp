@@ -115,7 +115,8 @@ TEST_CASE(
     CHECK_FALSE(network.watch.next());
 }
 
-TEST_CASE("link watch: a new leg cancels the changes predicted for the old one") {
+TEST_CASE(
+    "link watch: a new movement of a node cancels the changes predicted for its old movement") {
     const Scene field;
     Harness network{&field};
     network.add(Disc{.range = 10_m}, resting({}));
@@ -154,8 +155,7 @@ TEST_CASE("link watch: one call reports all changes that are due, and none that 
 }
 
 TEST_CASE(
-    "link watch: a change at the end of a leg is reported once, before or after the leg is "
-    "replaced") {
+    "link watch: a change at the end of a movement is reported once, even if a movement follows") {
     const Scene field;
     for (const bool served_first : {false, true}) {
         Harness network{&field};
@@ -316,7 +316,7 @@ TEST_CASE("link watch: too many robots are refused") {
     CHECK_THROWS_AS(network.watch.start(begin), RunError);
 }
 
-TEST_CASE("link watch: if a directional antenna turns in place, its links change, leg by leg") {
+TEST_CASE("link watch: if a directional antenna turns in place, its links change during the turn") {
     const Scene field;
     Harness network{&field, {.tolerance = 1us, .min_dwell = 10ms}};
     const Radio sector{.antenna = AntennaShape::cosine, .antenna_beamwidth = Radians{1}};

@@ -37,8 +37,7 @@ std::string stall(Network& net, Duration span) {
 }  // namespace
 
 TEST_CASE(
-    "liveness: if a robot starts a leg each nanosecond, the run ends with an error with its name "
-    "and position") {
+    "liveness: if a robot starts a movement each nanosecond, the error names robot and position") {
     for (const Duration step : {0ns, 1ns, 9ns}) {
         CAPTURE(step.count());
         Network net;

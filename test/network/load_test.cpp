@@ -299,7 +299,7 @@ TEST_CASE("load: with range 0, robots that pass through each other lose every li
     CHECK(net.events() < 20);
 }
 
-TEST_CASE("load: with threshold, two frames in the same nanosecond are received in sending order") {
+TEST_CASE("load: with the reception model threshold, simultaneous frames arrive in sending order") {
     for (const std::uint32_t first : {0U, 1U}) {
         Watched world(disc(15));
         world.add({0, 20, 10, 10});
@@ -409,7 +409,7 @@ TEST_CASE("load: a message storm ends at the event limit, with an explanation an
         CAPTURE(access.name());
         Storm storm(10'000, access);
         storm.run();
-        CHECK(storm.said.starts_with("event limit of 10000 reached at 0."));
+        CHECK(storm.said.starts_with("the event limit of 10000 is reached at 0."));
         CHECK(
             storm.said.ends_with(" s; raise [scenario] event_limit, or lower the load: a shorter "
                                  "duration, fewer messages, a smaller ttl"));
@@ -428,7 +428,7 @@ TEST_CASE("load: exactly as many events are served as the limit allows") {
     CHECK(net.events() == 100);
 }
 
-TEST_CASE("load: events before a storm reached the limit are not lost") {
+TEST_CASE("load: receptions before the end of a message storm are recorded and counted") {
     Storm shorter(5'000), longer(10'000);
     shorter.run();
     longer.run();

@@ -47,8 +47,7 @@ Robot surveyor() {
 
 }  // namespace
 
-TEST_CASE(
-    "motion: turning in place takes the angle divided by the turn rate, and is recorded as a leg") {
+TEST_CASE("motion: a turn in place takes the angle divided by the turn rate, and has a record") {
     Network net;
     const auto diary = std::make_shared<Diary>();
     net.add_sink(diary);
@@ -101,7 +100,7 @@ TEST_CASE("motion: a robot switched off while it turns continues the turn later"
     CHECK(near(net.position(s), Vec3{0, 5, 0}));
 }
 
-TEST_CASE("motion: no leg is faster than the robot's top speed") {
+TEST_CASE("motion: on the way to goals, with or without times, no robot exceeds its top speed") {
     Network net;
     const NodeId slow = net.add({.name = "slow",
                                  .at = {},
@@ -143,7 +142,7 @@ TEST_CASE("motion: invalid parameters of a robot are refused") {
     CHECK(net.size() == 0);
 }
 
-TEST_CASE("links: a callback for a lost signal is called 1 us after the loss") {
+TEST_CASE("links: the callback for a lost link is called 1 us after the link is lost") {
     Network net({.propagation = Disc{.range = Meters{50}}});
     const NodeId base = net.add({.name = "base", .at = {}});
     const NodeId rover =
@@ -216,7 +215,8 @@ TEST_CASE("links: movements that were replaced leave no events behind") {
     CHECK(net.events() < 4 * plans);  // an action each, a look each, and a few more
 }
 
-TEST_CASE("links: if no sink wants link changes, links are not searched") {
+TEST_CASE(
+    "links: link changes are searched only if a sink (a listener to records) wants link changes") {
     struct Watcher {
         KindMask kinds() const { return kind_links; }
         void on(const Record&, const RecordContext&) {}

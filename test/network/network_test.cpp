@@ -173,6 +173,15 @@ struct Receptions {
     }
 };
 
+/// An observer that notes how many receptions each record has.
+struct ReceptionCounts {
+    std::vector<std::size_t> all{};
+    KindMask kinds() const { return kind_of<Received>(); }
+    void on(const Record& record, const RecordContext&) {
+        all.push_back(std::get<Received>(record).receptions.size());
+    }
+};
+
 Robot robot_at(double x) { return {.name = {}, .at = {x, 0, 0}}; }
 
 NetworkSettings disc(double range) { return {.propagation = Disc{.range = {range}}}; }
@@ -214,8 +223,23 @@ TEST_CASE("network: a run in parts of any size gives the same result as one run"
 }
 
 TEST_CASE(
-    "network: advance() serves at most the given number of events, and returns whether it reached "
-    "its end time") {
+    "network: with a late limit, steps of advance() do not separate the receptions of a frame") {
+    const auto counts_in_steps = [](Duration step, Time limit) {
+        Busy busy(5);
+        const auto counts = std::make_shared<ReceptionCounts>();
+        busy.net.add_sink(counts);
+        while (busy.net.now() < Busy::end)
+            busy.net.advance(std::min(Busy::end, busy.net.now() + step), 1'000'000, limit);
+        CHECK(busy.net.now() == Busy::end);
+        return counts->all;
+    };
+    const auto whole = counts_in_steps(Busy::end - start_of_run, start_of_run);
+    CHECK(counts_in_steps(33'333ns, Busy::end) == whole);
+    CHECK(counts_in_steps(33'333ns, start_of_run).size() > whole.size());
+}
+
+TEST_CASE(
+    "network: advance() serves at most n events, and returns whether it reached its end time") {
     Busy busy(5);
     CHECK_FALSE(busy.net.advance(Busy::end, 10));
     CHECK(busy.net.events() == 10);
@@ -506,7 +530,7 @@ TEST_CASE("network: at the event limit a run fails, however little time passes")
         net.at(start_of_run, again);
         CHECK_THROWS_AS(net.run_for(1s), RunError);
     }
-    SUBCASE("a movement with endless legs of 1 ns in place ends the run at the event limit") {
+    SUBCASE("a movement with endless pieces of 1 ns in place ends the run at the event limit") {
         struct Fidget {
             Step next_leg(Mover& mover) {
                 return straight_leg(mover, mover.position, mover.now + 1ns);

@@ -112,8 +112,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "order: a routing protocol gets receptions in the order of time, at the time of the last "
-    "reception") {
+    "order: a routing protocol gets each batch of receptions in order, as the last of them ends") {
     const auto always_in_order = std::make_shared<bool>(true);
     Playground({}, 1).run(WatchedFlood{.always_in_order = always_in_order});
     CHECK(*always_in_order);
@@ -175,7 +174,9 @@ TEST_CASE("order: receivers light seconds away also receive in the order of time
     CHECK(order == std::vector{NodeId{4}, NodeId{2}, NodeId{3}, NodeId{1}});
 }
 
-TEST_CASE("order: a robot can react at the very time at which the frame ends at another robot") {
+TEST_CASE(
+    "order: a robot can forward a frame at the very time at which the frame ends at another "
+    "robot") {
     constexpr double microsecond = 299.792458;  // [m] at the speed of light
     Network net({.propagation = Disc{.range = Meters{1000}}});
     auto log = std::make_shared<ReceptionLog>();

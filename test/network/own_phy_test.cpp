@@ -174,6 +174,8 @@ TEST_CASE("own phy: sinr and capture reject interference from frames of other co
     CHECK(delivered(capture, fast, 1e-6) == 0);
     CHECK(delivered(capture, slow, 1e-6) == 2);
     CHECK(delivered(capture, slow, 1) == 0);  // not rejected
+    // Both begin at the same time, and the receiver locks onto one of them.
+    CHECK(delivered(Collision{.capture_ratio = Db{6}}, slow, 1e-6) == 1);
     // A receiver of sinr is locked onto one frame; its bits are right only if the other is
     // rejected.
     CHECK(delivered(Sinr{}, fast, 1e-6) == 0);

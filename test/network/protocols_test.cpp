@@ -112,13 +112,14 @@ void for_each_case(Visit visit) {
 
 }  // namespace
 
-TEST_CASE("protocols: records are in the order of time") {
+TEST_CASE("protocols: with every routing protocol, records are in the order of time") {
     for_each_case([](Router router, const AccessModel& access, bool arp) {
         CHECK(run(std::move(router), access, arp)->out_of_order == 0);
     });
 }
 
-TEST_CASE("protocols: every unicast is either delivered or lost, exactly once") {
+TEST_CASE(
+    "protocols: if a protocol routes unicasts, each unicast is delivered or lost exactly once") {
     for_each_case([](Router router, const AccessModel& access, bool arp) {
         const bool routes = router.traits().routes_unicasts;
         const auto checker = run(std::move(router), access, arp);

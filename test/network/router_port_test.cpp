@@ -221,8 +221,7 @@ TEST_CASE("router port: csma reports if a frame was acknowledged, sent, given up
 }
 
 TEST_CASE(
-    "router port: the result of a frame is reported after the call that sent it, and may cause the "
-    "next sending") {
+    "router port: a frame's result comes after the call of send(), and may trigger a new frame") {
     Row row(Csma{.queue = 1});
     int more = 3;
     row.diary->send = [](LinkLayer& link, NodeId node, MessageId message) {
@@ -328,8 +327,7 @@ TEST_CASE("router port: take_queued returns the frames for one next hop, except 
 }
 
 TEST_CASE(
-    "router port: nodes start in the order of their keys, and nodes added later start when they "
-    "are added") {
+    "router port: nodes start in the order of their keys (name hashes), later nodes when added") {
     Row row(NoAccess{}, 5);
     row.net.route(Scripted{.diary = row.diary});
     CHECK(row.diary->lines.empty());

@@ -172,6 +172,78 @@ TEST_CASE(
     CHECK(script->results == std::vector{SendResult::retries, SendResult::retries});
 }
 
+namespace {
+
+/// Protocol that routes unicasts over one hop, and is not told of results.
+struct Deaf {
+    static constexpr bool routes_unicasts = true;
+
+    Hops initial_ttl() const { return 3; }
+    void send(LinkLayer& link, NodeId node, MessageId m) { Script{}.send(link, node, m); }
+    void on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions) {
+        for (Reception& r : receptions) Script{}.receive(link, frame, r);
+    }
+};
+
+/// Drops of two unicasts that collide at their destination, by reason.
+template <class Protocol>
+std::string drops_of_collision(Protocol protocol) {
+    Network net({.propagation = Disc{.range = {100}}, .reception = Collision{}});
+    for (int i = 0; i < 3; ++i) net.add({.name = {}, .at = {80.0 * i, 0, 0}});
+    net.route(std::move(protocol));
+    for (const NodeId from : {NodeId{0}, NodeId{2}}) net.send(from, {1}, "a", {.size = 100});
+    net.run_for(1s);
+    std::string drops;
+    for (const DropCount& drop : net.metrics().drops) {
+        if (drop.count > 0) drops += std::string(drop.reason) + std::to_string(drop.count) + " ";
+    }
+    return drops;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "results: a lost routed unicast has one drop reason, also if the protocol takes no results") {
+    CHECK(drops_of_collision(Scripted{.script = std::make_shared<Script>()}) == "CBK2 ");
+    CHECK(drops_of_collision(Deaf{}) == "COL2 ");
+}
+
+TEST_CASE("results: a frame on air when its sender is switched off is delivered, and not dropped") {
+    Row row(Csma{});
+    for (int i = 0; i < 3; ++i) row.net.send({0}, {1}, "x", {.size = 1000});
+    row.net.at(start_of_run + 3ms, [&] { row.net.switch_off({0}); });  // a frame takes 8 ms
+    row.net.run_for(1s);
+    row.net.finish();
+    CHECK(row.script->results == std::vector{SendResult::off, SendResult::off, SendResult::sent});
+    const MetricValues m = row.net.metrics();
+    CHECK(m.messages == 3);
+    CHECK(m.deliveries == 1);
+    std::uint64_t dropped = 0;
+    for (const DropCount& each : m.drops) dropped += each.count;
+    CHECK(dropped == 2);
+}
+
+TEST_CASE(
+    "results: a sender that is switched off drops the frame that its next hop did not receive") {
+    for (const bool is_in_range : {true, false}) {
+        for (const bool one_hop : {true, false}) {
+            CAPTURE(is_in_range);
+            CAPTURE(one_hop);
+            Row row(Csma{});
+            if (!is_in_range) row.net.switch_off({1});
+            row.net.send({0}, {1}, "x", {.size = 1000, .one_hop = one_hop});
+            row.net.at(start_of_run + 8ms, [&] { row.net.switch_off({0}); });  // it is on air
+            row.net.run_for(1s);
+            row.net.finish();
+            const MetricValues m = row.net.metrics();
+            CHECK(m.deliveries == (is_in_range ? 1 : 0));
+            std::uint64_t dropped = 0;
+            for (const DropCount& each : m.drops) dropped += each.count;
+            CHECK(dropped == (is_in_range ? 0 : 1));
+        }
+    }
+}
+
 TEST_CASE(
     "salvage: a packet that the routing protocol sends again after a failure does not count as "
     "lost") {
@@ -224,6 +296,27 @@ TEST_CASE("take_queued: after a failed frame, it returns all queued frames for t
         CHECK(taken == 2);
         CHECK(last_on_air < at);  // no frame and no RTS after it
     }
+}
+
+TEST_CASE("take_queued: messages over one hop stay in the queue, and get their own attempts") {
+    Row row(Csma{});
+    row.net.switch_off({1});
+    std::size_t taken = 0;
+    row.script->sent = [&](LinkLayer& link, const QueuedFrame& f, SendResult) {
+        for (const QueuedFrame& each : link.take_queued(f.frame.sender, f.frame.next_hop)) {
+            ++taken;
+            CHECK(link.message(each.frame.message).payload == "routed");
+            link.release(each.frame);
+        }
+    };
+    for (const char* what : {"routed", "one hop", "routed", "one hop"}) {
+        const bool one_hop = std::string_view(what) == "one hop";
+        row.net.send({0}, {1}, what, {.one_hop = one_hop});
+    }
+    row.net.run_for(10s);
+    CHECK(taken == 1);
+    CHECK(row.lines("D") == Lines{"D0 RET?", "D0 RET", "D0 RET"});
+    CHECK(row.lines("a").size() == 3 * 7);
 }
 
 TEST_CASE("take_queued: a station whose queue was emptied can send later frames") {

@@ -73,8 +73,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "end of the run: a message that a robot has received, or that no robot could hear, is not "
-    "counted as cut off") {
+    "end of the run: a broadcast that a robot has received, or none can hear, is not cut off") {
     Line net(3);
     net.run_for(1s);
     net.send(a, everyone, "on its way");
@@ -91,7 +90,9 @@ TEST_CASE(
     CHECK(alone.metrics().delivery_ratio == 0.0);
 }
 
-TEST_CASE("end of the run: a message that a robot on the route still has is dropped there") {
+TEST_CASE(
+    "end of the run: a unicast that waits at a robot on its route counts as dropped by this "
+    "robot") {
     const auto check = [](Router protocol) {
         Network net(Line::of({.access = Csma{}}));
         net.route(std::move(protocol));

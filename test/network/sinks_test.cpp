@@ -61,7 +61,8 @@ TEST_CASE("sinks: begin() is called before the first record, and finish() after 
 }
 
 TEST_CASE(
-    "sinks: for a sink added later, begin() is called then; a removed sink gets no more records") {
+    "sinks: begin() of a sink added during the run is called at once; a removed sink gets no more "
+    "records") {
     Pair pair;
     pair.net.run_for(1s);
     const auto first = std::make_shared<Told>(), second = std::make_shared<Told>();

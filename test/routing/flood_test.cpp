@@ -227,7 +227,9 @@ struct RandomNetwork {
 
 }  // namespace
 
-TEST_CASE("flood: with duplicates forwarded, counts equal the numbers of walks in the graph") {
+TEST_CASE(
+    "flood: with duplicates forwarded, numbers of sent and heard frames equal the numbers of walks "
+    "in the graph") {
     for (const auto& [graph, by_ttl, suppressed] : exact_counts()) {
         for (const auto& [ttl, exact] : by_ttl) {
             const std::string which = graph.name + ", ttl " + std::to_string(ttl);
@@ -296,7 +298,8 @@ TEST_CASE("flood: with ttl_in_payload, the first byte of each message's payload 
 }
 
 TEST_CASE(
-    "flood: with duplicates forwarded, the source forwards its own message, but delivers none") {
+    "flood: with duplicates forwarded, the source forwards copies of its own message, but delivers "
+    "none of them") {
     const Ledger run = flooded(complete(2), {.ttl = 5, .duplicates = Duplicates::forward});
     CHECK(run.forwards_of.at({0}) == 2);
     CHECK(run.forwards_of.at({1}) == 2);
@@ -320,7 +323,8 @@ TEST_CASE("flood: TTL 260 crosses 260 hops") {
     CHECK(run.delivered == 260);
 }
 
-TEST_CASE("flood: upgrade reaches more robots than first copies alone, and only within the TTL") {
+TEST_CASE(
+    "flood: with `upgrade`, more robots get a message than by first copies alone, within the TTL") {
     std::uint64_t upgraded = 0, first_only = 0, possible = 0;
     for (std::uint32_t seed = 1; seed <= 40; ++seed) {
         const RandomNetwork random(seed);

@@ -27,7 +27,7 @@ struct Hearer {
 
 }  // namespace
 
-TEST_CASE("flood: with upgrade, a waiting copy takes the highest TTL that the node hears") {
+TEST_CASE("flood: with `upgrade`, a waiting copy takes the highest TTL that the node hears") {
     for (const bool upgrade : {true, false}) {
         Hearer node(upgrade);
         CHECK(node.hear(3) == Fate::waiting);
@@ -39,7 +39,7 @@ TEST_CASE("flood: with upgrade, a waiting copy takes the highest TTL that the no
     }
 }
 
-TEST_CASE("flood: with upgrade, the first of several copies with the same TTL is forwarded") {
+TEST_CASE("flood: with `upgrade`, the first of several copies with the same TTL is forwarded") {
     Hearer node(true);
     node.hear(4);
     node.hear(4, NodeId{7});
@@ -50,7 +50,8 @@ TEST_CASE("flood: with upgrade, the first of several copies with the same TTL is
 }
 
 TEST_CASE(
-    "flood: with upgrade, a message without TTL left continues if a copy with more is heard") {
+    "flood: with `upgrade`, a message without TTL left is forwarded if a copy with a higher TTL is "
+    "heard") {
     for (const bool upgrade : {true, false}) {
         Hearer node(upgrade);
         CHECK(node.hear(1) == Fate::ttl);

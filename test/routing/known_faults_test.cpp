@@ -18,8 +18,7 @@ using test::path;
 using test::request;
 
 TEST_CASE(
-    "without the fault of ns-3: a request that comes from the next hop to its destination is "
-    "forwarded") {
+    "aodv, unlike ns-3: a request that comes from the next hop to its destination is forwarded") {
     AodvNode n;
     n.learn(5, 2, 10, 3);
     aodv::Request asked = request(7, 5);
@@ -28,8 +27,7 @@ TEST_CASE(
     CHECK(n.sent<aodv::Request>().size() == 1);
 }
 
-TEST_CASE(
-    "without the fault of ns-3: an older request does not change the route to its originator") {
+TEST_CASE("aodv, unlike ns-3: an older request does not change the route to its originator") {
     AodvNode n;
     n.hear(1, request(7, 5, 1, 20), 2);
     n.hear(2, request(7, 5, 2, 19), 1);
@@ -39,8 +37,7 @@ TEST_CASE(
     CHECK(n.route(7)->next_hop == NodeId{3});
 }
 
-TEST_CASE(
-    "without the fault of ns-3: a request makes a broken route to its originator valid again") {
+TEST_CASE("aodv, unlike ns-3: a request makes an invalid route to its originator valid again") {
     AodvNode n;
     n.learn(7, 1, 20, 3);
     n.link.time += 4s;
@@ -50,8 +47,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "without the fault of ns-3: the route to a neighbour does not get the originator's sequence "
-    "number") {
+    "aodv, unlike ns-3: the route to a neighbour does not get the originator's sequence number") {
     AodvNode n;
     n.hear(2, request(7, 5, 1, 20), 3);
     REQUIRE(n.route(2));
@@ -59,8 +55,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "without the fault of ns-3: a lost destination's sequence number is incremented before the "
-    "RERR is sent") {
+    "aodv, unlike ns-3: before a RERR, the lost destination's sequence number is incremented") {
     AodvNode n;
     n.pass_reply(7, 2, 5, 1, 9);
     n.forward(7, 2, 5);
@@ -71,15 +66,14 @@ TEST_CASE(
     CHECK(errors[0].second.lost.back().number == 10);
 }
 
-TEST_CASE(
-    "without the fault of INET: requests of two originators with equal ids are two requests") {
+TEST_CASE("aodv, unlike INET: requests of two originators with equal ids are two requests") {
     AodvNode n;
     CHECK(n.hear(2, request(7, 5, 1)) == Fate::waiting);
     CHECK(n.hear(2, request(8, 5, 1)) == Fate::waiting);
     CHECK(n.hear(2, request(7, 5, 1)) == Fate::duplicate);
 }
 
-TEST_CASE("without the fault of ns-2: a repair accepts no reply as old as the broken route") {
+TEST_CASE("aodv, unlike ns-2: a repair accepts no reply as old as the broken route") {
     // Node 0 loses its route to 5 and repairs it. The answer of a neighbour whose own route went
     // over node 0 has the number of the broken route, and is not accepted.
     AodvNode n({.local_repair = true});
@@ -97,7 +91,7 @@ TEST_CASE("without the fault of ns-2: a repair accepts no reply as old as the br
     CHECK_FALSE(n.route(5)->is_valid);
 }
 
-TEST_CASE("without the fault of ns-2: a RERR does not drop messages for other destinations") {
+TEST_CASE("aodv, unlike ns-2: a RERR does not drop messages for other destinations") {
     AodvNode n;
     n.learn(5, 2, 9);
     n.learn(6, 2, 9);
@@ -109,7 +103,7 @@ TEST_CASE("without the fault of ns-2: a RERR does not drop messages for other de
     CHECK(n.data().size() == 1);
 }
 
-TEST_CASE("without the fault of ns-2: messages without a route cause at most ten RERRs a second") {
+TEST_CASE("aodv, unlike ns-2: messages without a route cause at most ten RERRs a second") {
     AodvNode n;
     for (int i = 0; i < 50; ++i) n.forward(7, 2, 5);
     CHECK(n.sent<aodv::Error>().size() <= 10);
@@ -117,7 +111,7 @@ TEST_CASE("without the fault of ns-2: messages without a route cause at most ten
     CHECK(n.link.drops.size() == 50);
 }
 
-TEST_CASE("without the fault of ns-2: an unanswered search ends, and its messages are dropped") {
+TEST_CASE("aodv, unlike ns-2: an unanswered search ends, and its messages are dropped") {
     for (const bool as_ns2 : {false, true}) {
         AodvNode n({.profile = as_ns2 ? AodvProfile::ns2 : AodvProfile::rfc});
         for (int i = 0; i < 3; ++i) n.send(5);
@@ -128,8 +122,7 @@ TEST_CASE("without the fault of ns-2: an unanswered search ends, and its message
     }
 }
 
-TEST_CASE(
-    "without the fault of ns-2: a request of DSR grows at each node only by the node's address") {
+TEST_CASE("dsr, unlike ns-2: a request grows at each node only by the node's address") {
     DsrNode n;
     n.request(path({7}), 5, 1);
     n.request(path({7, 1}), 5, 2);

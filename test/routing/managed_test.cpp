@@ -68,7 +68,8 @@ struct Relay {
 
 }  // namespace
 
-TEST_CASE("managed, M1: the first copy with hops left is queued, with a hop limit smaller by one") {
+TEST_CASE(
+    "managed, rule M1: the first copy with hops left is queued, with a hop limit smaller by one") {
     for (const char* role : {"", "client", "router", "router_late"}) {
         Relay node(role);
         const Reception r = node.hear(3);
@@ -82,7 +83,7 @@ TEST_CASE("managed, M1: the first copy with hops left is queued, with a hop limi
 }
 
 TEST_CASE(
-    "managed, M1: a copy with hop limit 0 is only delivered, and a mute node relays nothing") {
+    "managed, rule M1: a copy with hop limit 0 is only delivered, and a mute node relays nothing") {
     Relay last;
     const Reception at_the_end = last.hear(0);
     CHECK(at_the_end.fate == Fate::ttl);
@@ -97,7 +98,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "managed, M1: a source sends its message immediately, only once, with the full hop limit") {
+    "managed, rule M1: a source sends its message at once, only once, with the full hop limit") {
     Relay node;
     node.router.send(node.link, {1}, node.message);
     REQUIRE(node.link.sent.size() == 1);
@@ -113,7 +114,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "managed, M2: an SNR of -20 to 10 dB maps to a window of 3 to 8; values beyond are clamped") {
+    "managed, rule M2: an SNR of -20 to 10 dB gives a CW of 3 to 8; values beyond are clamped") {
     const std::vector<std::pair<double, int>> windows{
         {-40, 3},  {-20, 3}, {-15, 3},  {-14.5, 4},       {-14, 4}, {-8.1, 5},
         {-7.5, 5}, {-2, 6},  {-0.9, 6}, {0, 6},           {3.9, 6}, {4, 7},
@@ -125,7 +126,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "managed, M2: routers wait 0 to 2 CW - 1 slots, and other roles 16 to 16 + 2^CW - 1 slots") {
+    "managed, rule M2: routers wait 0 to 2 CW - 1 slots, other roles 16 to 16 + 2^CW - 1 slots") {
     const auto slots = [](const char* role, double drawn, Db snr) {
         Relay node(role);
         node.link.drawn = drawn;
@@ -147,7 +148,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "managed, M4: if a client hears a duplicate while its copy is queued, it does not relay") {
+    "managed, rule M4: if a client hears a duplicate while its copy is queued, it does not relay") {
     for (const char* role : {"", "client"}) {
         Relay node(role);
         node.hear(3);
@@ -161,7 +162,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("managed, M4: a router relays also if it hears a duplicate") {
+TEST_CASE("managed, rule M4: a router relays also if it hears a duplicate") {
     Relay node("router");
     node.hear(3);
     const auto slots = node.slots();
@@ -170,7 +171,7 @@ TEST_CASE("managed, M4: a router relays also if it hears a duplicate") {
 }
 
 TEST_CASE(
-    "managed, M4: after a first duplicate, a late router waits behind the slots of all others") {
+    "managed, rule M4: a late router that hears a duplicate waits behind the slots of all others") {
     Relay node("router_late");
     node.link.drawn = 0.1;
     node.hear(3, -8_dB);
@@ -185,7 +186,7 @@ TEST_CASE(
     CHECK(node.slots() == 16 + 31);
 }
 
-TEST_CASE("managed, M4: copies after the send time cancel nothing") {
+TEST_CASE("managed, rule M4: a copy that a node hears after its own send time cancels nothing") {
     for (const char* role : {"", "router", "router_late"}) {
         Relay node(role);
         node.hear(3);
@@ -197,8 +198,7 @@ TEST_CASE("managed, M4: copies after the send time cancel nothing") {
 }
 
 TEST_CASE(
-    "managed, M4: if the handle of a sent copy is reused for another frame, a duplicate does not "
-    "cancel the frame") {
+    "managed, rule M4: a duplicate cancels no new frame that reuses the handle of the sent copy") {
     Relay node;
     node.hear(3);
     node.link.sent[0].queued.frame.sender = NodeId{3};
@@ -207,7 +207,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "managed, M5: in every role, a duplicate with a higher hop limit replaces the queued copy") {
+    "managed, rule M5: in all roles, a duplicate with a higher hop limit replaces the queued "
+    "copy") {
     for (const char* role : {"", "router", "router_late"}) {
         Relay node(role);
         node.hear(1, -20_dB);
@@ -221,7 +222,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("managed, M5: the delay of the replacing copy is drawn anew") {
+TEST_CASE("managed, rule M5: the delay of the replacing copy is drawn anew") {
     Relay node;
     node.link.drawn_at = {{0, 0.25}, {1, 0.75}};
     node.hear(1);
@@ -230,7 +231,7 @@ TEST_CASE("managed, M5: the delay of the replacing copy is drawn anew") {
     CHECK(node.slots() == 16 + 192);
 }
 
-TEST_CASE("managed, M5: if no copy is queued, a higher hop limit has no effect") {
+TEST_CASE("managed, rule M5: if no copy is queued, a higher hop limit has no effect") {
     Relay ended;
     ended.hear(0);
     CHECK(ended.hear(1).fate == Fate::duplicate);
@@ -242,7 +243,8 @@ TEST_CASE("managed, M5: if no copy is queued, a higher hop limit has no effect")
     CHECK(cancelled.queued().empty());
 }
 
-TEST_CASE("managed, M6: a message that its source repeats is relayed again if no copy is queued") {
+TEST_CASE(
+    "managed, rule M6: a message that its source repeats is relayed again if no copy is queued") {
     Relay node;
     node.link.drawn_at = {{0, 0.25}, {1, 0.75}};
     CHECK(node.hear(5).delivered);
@@ -257,7 +259,7 @@ TEST_CASE("managed, M6: a message that its source repeats is relayed again if no
     CHECK(node.copy().frame.ttl - 1 == 4);
 }
 
-TEST_CASE("managed: a hop limit outside of 1 to 7 and a negative slot are refused") {
+TEST_CASE("managed: a hop limit outside of 1 to 7 and a negative slot duration are refused") {
     for (const int hop_limit : {0, 8, -1}) {
         CHECK_THROWS_AS(ManagedRouter(Managed{.hop_limit = hop_limit}), std::invalid_argument);
     }

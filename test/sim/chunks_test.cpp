@@ -26,7 +26,9 @@ TEST_CASE("chunks: values are found by their index and never move in memory") {
     }
 }
 
-TEST_CASE("chunks: at() refuses a number beyond the last value, also within a chunk") {
+TEST_CASE(
+    "chunks: at() refuses an index beyond the last value, even if the last chunk has room for more "
+    "values") {
     Chunks<int> list;
     CHECK_THROWS_AS(list.at(0), std::out_of_range);
     list.push_back(7);
@@ -34,7 +36,7 @@ TEST_CASE("chunks: at() refuses a number beyond the last value, also within a ch
     CHECK_THROWS_AS(list.at(1), std::out_of_range);
 }
 
-TEST_CASE("chunks: a copy has its own values") {
+TEST_CASE("chunks: a copied list has its own values") {
     Chunks<int> list;
     for (int i = 0; i < 100; ++i) list.push_back(i);
     Chunks<int> copy = list;
@@ -48,7 +50,8 @@ TEST_CASE("chunks: a copy has its own values") {
     CHECK(list.size() == 101);
 }
 
-TEST_CASE("slots: a freed slot is reused with its old value, and values never move in memory") {
+TEST_CASE(
+    "memory slots: a freed slot is reused with its old value, and values never move in memory") {
     Slots<std::vector<int>> slots;
     std::vector<const std::vector<int>*> places;
     for (std::size_t i = 0; i < 200; ++i) {

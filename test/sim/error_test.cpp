@@ -16,7 +16,8 @@ const std::vector<std::string> models = {"disc", "friis", "two_ray", "itu_indoor
 
 }  // namespace
 
-TEST_CASE("location: text() prints file:line:column, the file alone, or the option") {
+TEST_CASE(
+    "location: text() gives FILE:LINE:COLUMN, FILE if no line is known, or an option's text") {
     CHECK(Location{"rescue.toml", 9, 4}.text() == "rescue.toml:9:4");
     CHECK(Location{"office.png"}.text() == "office.png");
     CHECK(Location{.source = "--set radio.power=3", .is_option = true}.text() ==

@@ -63,7 +63,7 @@ std::vector<Leg> kinds_of_legs() {
 
 }  // namespace
 
-TEST_CASE("legs: a stored leg is read back bit for bit, as a node's first leg or a later one") {
+TEST_CASE("legs: each stored leg (piece of movement) of a node is read back bit for bit") {
     const auto kinds = kinds_of_legs();
     for (const Leg& first : kinds) {
         for (const Leg& second : kinds) {
@@ -76,7 +76,8 @@ TEST_CASE("legs: a stored leg is read back bit for bit, as a node's first leg or
     }
 }
 
-TEST_CASE("legs: a node is exactly at the position that its leg gives, also after the leg's end") {
+TEST_CASE(
+    "legs: a node is exactly where its leg (piece of movement) leads, also after the leg's end") {
     Legs legs;
     for (const Leg& leg : kinds_of_legs()) {
         const NodeId node = legs.add(leg);
@@ -86,7 +87,7 @@ TEST_CASE("legs: a node is exactly at the position that its leg gives, also afte
     }
 }
 
-TEST_CASE("legs: after many changes every node has the leg that it got last") {
+TEST_CASE("legs: after many changes every node has its last leg (piece of movement)") {
     constexpr std::uint32_t nodes = 50;
     const auto kinds = kinds_of_legs();
     Legs legs;
@@ -129,7 +130,7 @@ TEST_CASE("legs: a node that starts and rests again and again takes no more memo
 }
 
 TEST_CASE(
-    "legs: after a million calls a robot's position has no accumulated rounding error (S30)") {
+    "legs: after a million computed positions, a robot's position has no rounding error (S30)") {
     Legs legs;
     legs.add({.start = start_of_run,
               .end = start_of_run + 200'000s,

@@ -29,7 +29,7 @@ TEST_CASE("sieve: keeps the selected values in order, for any number of values a
     }
 }
 
-TEST_CASE("sieve: values written directly into the reserved memory are kept up to the given end") {
+TEST_CASE("sieve: values written directly into room() are kept up to the end given to keep_to()") {
     Sieve<int> sieve;
     for (const std::size_t room : {0UL, 1UL, 5UL, 100UL, 3UL, 1000UL}) {
         sieve.put(-1, true);

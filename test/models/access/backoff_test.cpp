@@ -97,7 +97,7 @@ TEST_CASE("backoff: a frame with errors requires an EIFS, unless an error-free f
     CHECK(idle.backoff.grant() == at(86));
 }
 
-TEST_CASE("backoff: the medium stays busy to the end of a frame that was given up before its end") {
+TEST_CASE("backoff: the medium stays busy to the end of a frame that the receiver has given up") {
     Station s;
     s.backoff.energy(at(20), at(60));
     s.backoff.frame_lost(at(40), eifs);
@@ -107,7 +107,7 @@ TEST_CASE("backoff: the medium stays busy to the end of a frame that was given u
 }
 
 TEST_CASE(
-    "backoff: the medium counts as busy during a reservation, which a shorter frame does not end") {
+    "backoff: the medium is busy to the end of a reservation, even if a shorter frame follows") {
     Station s;
     s.backoff.energy(at(20), at(60));
     s.ask_while_busy(30, 2);
@@ -142,7 +142,7 @@ TEST_CASE("backoff: slots that are counted between several frames add up") {
 }
 
 TEST_CASE(
-    "backoff: of overlapping frames the earliest stops the count of slots, in any order of calls") {
+    "backoff: of overlapping frames the earliest stops the slots, whichever is reported first") {
     for (const bool swapped : {false, true}) {
         Station s;
         s.good_frame(20, 60);
@@ -196,7 +196,8 @@ TEST_CASE("backoff: a station's own frame, its answer and the wait for the answe
     CHECK(ignored.backoff.grant() == at(80));
 }
 
-TEST_CASE("backoff: two stations whose slots end together both send, whatever the delay") {
+TEST_CASE(
+    "backoff: stations whose backoffs end together both send, at propagation delays below 2 us") {
     WifiTiming timing = timing_of(WifiStandard::b);
     for (const Duration delay : {Duration{0}, Duration{1000}, Duration{1999}}) {
         Backoff first(timing), second(timing);

@@ -52,7 +52,7 @@ struct Rings {
 }  // namespace
 
 TEST_CASE(
-    "link changes: the link of a disc is up from the first to the last nanosecond within range") {
+    "link changes: with model disc, a link is up from the first to the last nanosecond in range") {
     const Scene field;
     MovingPair pair{&field};
     pair.add(Disc{.range = 10_m}, resting({}));
@@ -152,8 +152,7 @@ TEST_CASE("link changes: for a pair that stays out of range, the loss is compute
 }
 
 TEST_CASE(
-    "link changes: the changes are right for legs that end in rest, endless legs and resting "
-    "robots") {
+    "link changes: times are right for movements with and without end, and for resting robots") {
     const Scene field;
     const Propagation disc = Disc{.range = 10_m};
     MovingPair pair{&field};
@@ -181,7 +180,7 @@ TEST_CASE(
     CHECK(pair.changes(a, b, start_of_run, never).empty());
 }
 
-TEST_CASE("link changes: steps below a nanosecond are refused") {
+TEST_CASE("link changes: a tolerance of 0 ns and a negative min_dwell are refused") {
     const Scene field;
     MovingPair pair{&field};
     for (int i = 0; i < 2; ++i) pair.add(Friis{}, resting({}));

@@ -83,7 +83,9 @@ TEST_CASE(
     CHECK(std::chrono::abs(rising[0] - (start_of_run + from_seconds(3 - 20 / 10.1))) <= within);
 }
 
-TEST_CASE("link changes: a link that is up only at the least loss between two corners is found") {
+TEST_CASE(
+    "link changes: along a wall, a link that is up only within 1e-4 dB of its least loss is "
+    "found") {
     // Along a wall: the less slanted the ray the less wall it pays for; both ends move.
     constexpr double above = 1e-4;  // [dB] of the budget over the least loss
     const Scene scene = wall_with_gap(0, 0.5, {.per_metre = DbPerMeter{40}});

@@ -56,7 +56,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("range crossing: robots at rest, a range of 0 and infinite numbers give no crossing") {
+TEST_CASE(
+    "range crossing: robots at rest, a range of 0, infinite and NaN arguments give no crossing") {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     constexpr double infinity = std::numeric_limits<double>::infinity();
     CHECK_FALSE(range_crossing({1, 0, 0}, {}, 10));

@@ -51,7 +51,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "wall passages: if an end of the line moves through a wall, the times at the wall's edges are "
+    "wall passages: if an end of the line goes through a wall, its entry and exit times are "
     "found") {
     const Scene scene(box(4, -1, 2, 2));
     for (const double speed : {1.0, 0.625})
@@ -103,8 +103,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "wall passages: for a line between storeys, the times at ceilings and at feet of upper walls "
-    "are found") {
+    "wall passages: the times at which a line between storeys passes ceilings or feet of upper "
+    "walls are found") {
     OccupancyGrid ground = box(-50, -50, 1, 1), upper = box(4, -1, 2, 2);
     ground.cells = {Cell::free};
     upper.origin.z = 3;

@@ -131,7 +131,8 @@ struct Twins {
 
 }  // namespace
 
-TEST_CASE("medium: cached losses change nothing while robots start, stop, jump and are switched") {
+TEST_CASE(
+    "medium: cached losses change no result while robots move, jump or switch radios on and off") {
     const CountedRays counted;
     const std::vector<Propagation> walls{counted}, mixed{counted, TwoRay{}, Raytrace2007{}};
     for (std::uint32_t seed = 1; seed <= 30; ++seed) {
@@ -177,7 +178,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "medium: the losses computed in the search for receivers are used again to judge the frame") {
+    "medium: losses from the search for receivers are not computed again for their receptions") {
     const CountedRays counted;
     Twins twins(6);
     for (std::uint32_t i = 0; i < 20; ++i) {
@@ -208,7 +209,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "recent losses: a stored loss that exceeds its cut-off is not used for a larger cut-off") {
+    "recent losses: a loss known only to exceed a cut-off is not reused for a larger cut-off") {
     RecentLosses losses;
     const RecentLosses::Link link{NodeId{1}, NodeId{2}, {0, 0, 1}, {5, 0, 1}};
     CHECK(!losses.find(link, 90_dB));

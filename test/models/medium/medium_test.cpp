@@ -158,7 +158,7 @@ constexpr std::size_t robots = 60;
 
 }  // namespace
 
-TEST_CASE("medium: receivers equal a search over all pairs, for every model") {
+TEST_CASE("medium: receivers are those of a search over all pairs, for every model") {
     for_each_model([]<class Model>() {
         CAPTURE(std::string(Model::name));
         Crowd crowd(1);
@@ -173,7 +173,7 @@ TEST_CASE("medium: receivers equal a search over all pairs, for every model") {
 }
 
 TEST_CASE(
-    "medium: with log_distance and few kinds of radio, receivers equal a search over all pairs") {
+    "medium: with log_distance and few radios, receivers are those of a search over all pairs") {
     for (const std::size_t kinds : {std::size_t{1}, std::size_t{3}}) {
         CAPTURE(kinds);
         Crowd crowd(12);
@@ -249,7 +249,7 @@ TEST_CASE("medium: without propagation delay all receptions end with the frame")
 }
 
 TEST_CASE(
-    "medium: a loss equal to the budget is a link, and a loss one rounding above it is none") {
+    "medium: at a loss equal to the budget a link is up; at the next larger loss it is down") {
     const Scene field;
     Legs legs;
     for (const double x : {0.0, 50.0}) legs.add({.from = {x, 0, 0}, .to = {x, 0, 0}});
@@ -289,7 +289,7 @@ TEST_CASE(
     CHECK(Reachability::count_anew(medium, {0}, start_of_run, legs) == 4);
 }
 
-TEST_CASE("medium: with every third radio switched off, receivers equal a search over all pairs") {
+TEST_CASE("medium: with radios switched off, receivers are those of a search over all pairs") {
     Crowd crowd(4);
     const Propagation friis = Friis{};
     for (std::size_t i = 0; i < robots; ++i) crowd.add(friis);
@@ -385,7 +385,7 @@ TEST_CASE("medium: a sender without neighbours reaches all robots that jump into
 }
 
 TEST_CASE(
-    "medium: with every method of comparison, the frame of the higher level is the stronger") {
+    "medium: is_stronger() agrees with the levels of both frames, with four kinds of models") {
     const Scene field;
     test::Draw draw(23);
     int stronger = 0, plain = 0;
@@ -424,7 +424,8 @@ TEST_CASE(
     CHECK(plain > 10'000);
 }
 
-TEST_CASE("medium: the bound on neglected interference counts each frame at the cut-off level") {
+TEST_CASE(
+    "medium: the bound on neglected interference takes each neglected frame at the cut-off level") {
     const Scene field;
     // Noise of -93.6 dBm; the cut is at -95 dBm: each adds 0.72 of the noise at most.
     Medium medium{{.scene = &field, .interference_cut = Db{20}}};

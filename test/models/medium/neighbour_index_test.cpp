@@ -126,8 +126,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "neighbour index: for nodes at rest, the first test gets a bound close to the squared "
-    "distance") {
+    "neighbour index: for nodes at rest, the lower bound on a distance is near the distance") {
     Swarm swarm(7);
     const auto place = [&] {
         return Vec3{swarm.draw.uniform(0, 1e4), swarm.draw.uniform(0, 1e4), 0};
@@ -152,7 +151,7 @@ TEST_CASE(
     CHECK(looked_at > 300);
 }
 
-TEST_CASE("neighbour index: a node on an endless leg is found") {
+TEST_CASE("neighbour index: a node whose movement has no end is found") {
     Swarm swarm(4);
     for (int i = 0; i < 20; ++i) {
         swarm.index.add(static_cast<std::uint32_t>(i) % 7);

@@ -77,8 +77,7 @@ TEST_CASE("pair cache: each pair gets its own loss, in whatever order losses are
     }
 }
 
-TEST_CASE(
-    "pair cache: a loss that exceeds its cut-off is invalid for a request with a larger cut-off") {
+TEST_CASE("pair cache: a loss known only to exceed a cut-off is not reused for a larger cut-off") {
     PairCache cache;
     keep(cache, a, b, 95);  // more than the budget of 90 dB: who knows how much
     CHECK(kept(cache, a, b, Db{80}) == 95);
@@ -86,7 +85,8 @@ TEST_CASE(
     CHECK(kept(cache, a, b, Db{91}) == std::nullopt);
 }
 
-TEST_CASE("pair cache: a new loss gets at least the cut-off of the sender's stored losses") {
+TEST_CASE(
+    "pair cache: the cut-off for a sender's new losses is at least that of its stored losses") {
     PairCache cache;
     keep(cache, a, b, 95);
     CHECK(cache.open(a, Db{80}) == budget);

@@ -138,7 +138,8 @@ class RandomWorld {
 }  // namespace
 
 TEST_CASE(
-    "reachability: counts equal those of a search without cache, in random scenes of ten kinds") {
+    "reachability: numbers of reachable robots equal those of a search without cache, in ten "
+    "kinds of random scenes") {
     const World worlds[] = {
         {.name = "a sparse disc", .model = Disc{.range = {3}}},
         {.name = "a dense disc", .model = Disc{.range = {6}}},

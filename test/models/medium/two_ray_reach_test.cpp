@@ -88,8 +88,7 @@ TEST_CASE(
     CHECK(links > 3000);
 }
 
-TEST_CASE(
-    "two-ray: as long as all antennas have one height, distance alone decides links, and exactly") {
+TEST_CASE("two-ray: if all antennas have one height, the distance alone decides links, exactly") {
     Ground ground(1);
     const Radio radio{.power = {10}, .antenna_height = {1.5}};
     const auto add = [&](double x) {

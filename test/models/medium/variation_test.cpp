@@ -135,7 +135,7 @@ Emission frame_of(Medium& medium, NodeId from, Time t, const Legs& legs) {
 }  // namespace
 
 TEST_CASE(
-    "variation: receivers equal a search over all pairs, and their levels reach the sensitivity") {
+    "variation: receivers are those of a search over all pairs, at or above the sensitivity") {
     for (const Variation& v : variations()) {
         CAPTURE(std::string(v.name));
         Twins twins(v, 3);
@@ -204,8 +204,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "variation: losses of a shadowed model are symmetric, consistent with its reach, and right "
-    "with a cut-off") {
+    "variation: a shadowed loss is symmetric, within the model's reach, and exact up to the "
+    "cut-off") {
     for (const Shadowing& shadowing : {link_shadowing, field_shadowing}) {
         const Propagation model = Shadowed(Friis{}, shadowing, 3, 5);
         CHECK(model.as<Shadowed>()->base().name() == Friis::name);
@@ -370,7 +370,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "shadowing field: link changes are found within min_dwell; with shadowing by pair, exactly") {
+    "shadowing: link changes are exact to the tolerance with the model field, and to 1 ns with "
+    "the model link") {
     const Scene scene;
     for (const Shadowing& shadowing : {link_shadowing, field_shadowing}) {
         Medium medium({.scene = &scene, .shadowing = shadowing, .seed = 5});

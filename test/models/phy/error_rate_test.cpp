@@ -353,8 +353,7 @@ const Code three_quarters{{{true, true, false}, {true, false, true}}, 15};
 
 }  // namespace
 
-TEST_CASE(
-    "ofdm: the error bound equals that of the first weights of the standard's punctured codes") {
+TEST_CASE("ofdm: the bound on bit errors sums the lowest path weights of each punctured code") {
     struct Row {
         Modulation modulation;
         const Code& code;
@@ -387,7 +386,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("error rate: all compilers give the same bits") {
+TEST_CASE("error rate: with every compiler, the results are equal to the last bit") {
     std::uint64_t sum = 0;
     for (const Modulation modulation : all) {
         for (int i = -300; i < 400; ++i) {
@@ -399,8 +398,7 @@ TEST_CASE("error rate: all compilers give the same bits") {
     CHECK(sum == 0x478273263e15067e);
 }
 
-TEST_CASE(
-    "error rate: from certain_sinr on every frame succeeds, and 1 dB below it a frame may fail") {
+TEST_CASE("error rate: at certain_sinr every frame succeeds, and 1 dB below it a frame may fail") {
     constexpr double bits = 8 * 0x1p32;
     for (const Modulation modulation : all) {
         CAPTURE(static_cast<int>(modulation));

@@ -50,7 +50,7 @@ TEST_CASE(
     });
 }
 
-TEST_CASE("every phy: success grows with the signal, and is certain from certain_sinr on") {
+TEST_CASE("every phy: success grows with the signal, and is certain at an SINR of certain_sinr") {
     for_each_phy([](const Phy& phy) {
         for (const BitRate rate : phy.rates()) {
             REQUIRE(phy.coding(rate));

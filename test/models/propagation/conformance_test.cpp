@@ -179,7 +179,8 @@ TEST_CASE("every model: the loss is the same in both directions, to the last bit
     });
 }
 
-TEST_CASE("every model by distance: the loss never decreases with distance") {
+TEST_CASE(
+    "every model that needs only distance and heights: the loss never decreases with distance") {
     int checked = 0;
     for_each_variant([&](const auto& model) {
         const LossShape shape = model.shape();
@@ -195,7 +196,7 @@ TEST_CASE("every model by distance: the loss never decreases with distance") {
     CHECK(checked >= 6);
 }
 
-TEST_CASE("every model: the loss of a link does not depend on the rest of the batch") {
+TEST_CASE("every model: a link has the same loss if computed alone or together with other links") {
     World world;
     for_each_variant([&](const auto& model) {
         const auto together = losses(model, world.batch());
@@ -245,8 +246,7 @@ TEST_CASE("every model: beyond the reach for a budget, the loss exceeds the budg
 }
 
 TEST_CASE(
-    "every model: losses up to the cut-off are exact, and for other links a loss above the cut-off "
-    "is returned") {
+    "every model: up to the cut-off the loss is exact; beyond, it is any value above the cut-off") {
     World world;
     for_each_variant([&](const auto& model) {
         const auto exact = losses(model, world.batch());
@@ -299,7 +299,7 @@ TEST_CASE("every model: infinite parameters are refused") {
 }
 
 TEST_CASE(
-    "every model: names are unique and consist of lower-case letters, digits and underscores") {
+    "every model: its name is unique and has only lower-case letters, digits and underscores") {
     std::vector<std::string> names;
     for_each_model([&]<class Model>() { names.emplace_back(Model::name); });
     std::sort(names.begin(), names.end());

@@ -20,7 +20,7 @@ TEST_CASE("disc: the loss is 0 up to the range, also exactly at the range") {
     CHECK(test::OneLink{.to = {3, 4, 0}}.loss(Disc{.range = 5_m}) == 0);
 }
 
-TEST_CASE("disc: just one rounding beyond the range the loss is 1000 dB") {
+TEST_CASE("disc: at the next number above the range, the loss is 1000 dB") {
     CHECK(loss_at(Disc{.range = 100_m}, std::nextafter(100.0, 101.0)) == 1000);
     CHECK(loss_at(Disc{.range = 100_m}, 1e9) == 1000);
 }

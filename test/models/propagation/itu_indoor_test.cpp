@@ -98,7 +98,7 @@ TEST_CASE("itu_indoor: below 1 m the loss is the value at 1 m") {
 }
 
 TEST_CASE(
-    "itu_indoor: a frequency that differs by more than a factor of 1.5 from every row is refused") {
+    "itu_indoor: a frequency must be within a factor of 1.5 of one in the environment's table") {
     const ItuIndoor office = indoor({}, Environment::office);
     CHECK_NOTHROW(office.check_frequency(601_MHz));
     CHECK_THROWS_AS(office.check_frequency(599_MHz), std::invalid_argument);
@@ -117,7 +117,8 @@ TEST_CASE("itu_indoor: with a given coefficient any frequency is accepted") {
     CHECK_NOTHROW(both.check_frequency(20'000_MHz));
 }
 
-TEST_CASE("itu_indoor: floors are refused without an environment, or if its table row lacks them") {
+TEST_CASE(
+    "itu_indoor: floors are refused without an environment, or if the table has no loss for them") {
     CHECK_THROWS_AS(indoor({}, {}, 1).check_frequency(2450_MHz), std::invalid_argument);
     const ItuIndoor two = indoor({}, Environment::office, 2);
     CHECK_THROWS_AS(two.check_frequency(2450_MHz), std::invalid_argument);
@@ -144,7 +145,8 @@ TEST_CASE("itu_indoor: floors are counted from the storeys of the antennas") {
     CHECK(near(between(office, 3, 5.9) - same, 0, tolerance));
 }
 
-TEST_CASE("itu_indoor: heights have no effect if only a coefficient, or the floors, are given") {
+TEST_CASE(
+    "itu_indoor: heights have no effect if only a coefficient, or the number of floors, is given") {
     CHECK(near(between(indoor(30), 1, 7), between(indoor(30), 1, 1), tolerance));
     const ItuIndoor one = indoor({}, Environment::office, 1);
     CHECK(near(between(one, 1, 7), between(one, 1, 1), tolerance));

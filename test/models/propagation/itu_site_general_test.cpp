@@ -66,8 +66,8 @@ TEST_CASE("itu_site_general: frequencies outside a site's range are refused with
     CHECK_NOTHROW(ItuSiteGeneral{}.check_frequency(433_MHz));
     const ItuSiteGeneral corridor{.site = Site::corridor};
     CHECK_THROWS_WITH_AS(corridor.check_frequency(433_MHz),
-                         "itu_site_general: found 0.433 GHz; site \"corridor\" without line of "
-                         "sight is valid from 0.625 to 83.5 GHz",
+                         "itu_site_general: found 0.433 GHz; for site \"corridor\" without line of "
+                         "sight, the model is valid from 0.625 to 83.5 GHz",
                          std::invalid_argument);
     CHECK_NOTHROW(
         ItuSiteGeneral{.site = Site::corridor, .los = LineOfSight::yes}.check_frequency(433_MHz));

@@ -82,7 +82,7 @@ TEST_CASE(
     CHECK(near_by.loss(model) == first);
 }
 
-TEST_CASE("log_distance: shadowing is sigma times the pair's draw") {
+TEST_CASE("log_distance: the shadowing of a pair is sigma times the pair's random draw") {
     for (std::uint64_t key = 0; key < 100; ++key) {
         const OneLink link{.from_key = key, .to_key = 50, .seed = 7, .replication = 3};
         const PairDraws draws(7, 3, Purpose::link_shadowing);
@@ -127,7 +127,7 @@ TEST_CASE(
     CHECK(held > 100);  // the median is 48 dB: 11 % of the links lie below 0
 }
 
-TEST_CASE("log_distance: with sigma 0, keys and seeds have no effect") {
+TEST_CASE("log_distance: with sigma 0, the keys of robots and the seed have no effect") {
     const double plain = OneLink{.to = {33, 0, 0}}.loss(median);
     for (std::uint64_t key = 0; key < 20; ++key) {
         const OneLink link{.to = {33, 0, 0}, .from_key = key, .seed = key, .replication = 7};
@@ -140,8 +140,7 @@ TEST_CASE("log_distance: with sigma 0, keys and seeds have no effect") {
     CHECK(out == plain);
 }
 
-TEST_CASE(
-    "log-distance: the excess is added at every distance, and shortens the reach accordingly") {
+TEST_CASE("log_distance: `excess` adds to the loss at every distance, and shortens the reach") {
     const LogDistance plain{.exponent = 3, .sigma = 0_dB};
     LogDistance more = plain;
     more.excess = 7.5_dB;

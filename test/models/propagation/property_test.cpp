@@ -197,7 +197,8 @@ TEST_CASE("property: each link gets its own loss in a batch of any size and orde
     }));
 }
 
-TEST_CASE("property: 1 mm changes the loss by less than 0.5 dB, except where documented (S04)") {
+TEST_CASE(
+    "property: a 1 mm shift changes the loss by less than 0.5 dB, except as documented (S04)") {
     CHECK(holds("steps in the open", [] { check_steps(Scene{}, false); }));
     CHECK(holds("steps among walls", [] { check_steps(rooms(), true); }));
 }

@@ -161,7 +161,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "rays: behind a solid block the error is at most 1.2 dB with utd and 2.5 dB with knife edges") {
+    "rays: behind an opaque block the loss is right within 1.2 dB (utd) or 2.5 dB (knife edges)") {
     for (const double width : {0.3, 0.6, 1.0, 2.0}) {
         const test::SoftBody exact(
             {{-width / 2, 0}, {width / 2, 0}, {width / 2, 1}, {-width / 2, 1}}, wavelength);
@@ -187,7 +187,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("rays: deep behind a shelf the error is at most 2.5 dB") {
+TEST_CASE("rays: deep behind a shelf, the difference from the exact loss is at most 2.5 dB") {
     for (const double thick : {0.3, 0.5}) {
         const test::SoftBody exact({{0, -1}, {thick, -1}, {thick, 1}, {0, 1}}, wavelength);
         const Scene scene = drawn(block(0, -1, thick, 1), metal);
@@ -230,7 +230,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("rays: the loss is continuous across the plane of a block's face, and beyond its end") {
+TEST_CASE("rays: the loss is continuous as an end of a link crosses the plane of a block's face") {
     const Scene wide = drawn(block(-1, 0, 1, 1.5), metal);
     for (const auto by : both) {
         const Rays model{.order = 0, .diffraction = by};

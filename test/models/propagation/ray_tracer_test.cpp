@@ -155,7 +155,7 @@ TEST_CASE("ray tracer: reflections in a metal corridor equal the image series, a
     }
 }
 
-TEST_CASE("ray tracer: a wall drawn at an angle reflects at that angle") {
+TEST_CASE("ray tracer: a wall drawn at any angle reflects like a straight wall at this angle") {
     for (int degrees = 0; degrees < 180; degrees += 7) {
         CAPTURE(degrees);
         const double angle = degrees * pi / 180, cell = 0.05;
@@ -186,7 +186,9 @@ TEST_CASE("ray tracer: a wall drawn at an angle reflects at that angle") {
     }
 }
 
-TEST_CASE("ray tracer: a path along an oblique wall crosses none of the steps of its cells") {
+TEST_CASE(
+    "ray tracer: a path along an oblique wall crosses none of the stair steps of the wall's "
+    "cells") {
     OccupancyGrid grid;
     grid.columns = grid.rows = 200;
     grid.cell_width = grid.cell_height = 0.05;
@@ -255,7 +257,8 @@ TEST_CASE("ray tracer: a face reflects only within its ends, horizontally and in
     CHECK(count({1.5, 1}, {4.5, 3.5}) == 0);  // behind the wall
 }
 
-TEST_CASE("ray tracer: the same paths are found from either end, with and without a limit") {
+TEST_CASE(
+    "ray tracer: the same paths are found from either end, with and without a limit of loss") {
     test::Draw draw(11);
     const Scene scene(test::random_map(draw, 30, 30, 6));
     const RayMaterials materials(scene.materials(), 2450_MHz, ItuMaterial::concrete, {}, 6_dB);

@@ -81,7 +81,8 @@ TEST_CASE("rays: a slab has the loss of P.2040 at the path's angle") {
 }
 
 TEST_CASE(
-    "rays: a wall without a loss of its own is a slab of the material `wall`, as thick as drawn") {
+    "rays: a wall without a given loss is a slab of the model's material `wall`, as thick as "
+    "drawn") {
     for (const double thick : {0.1, 0.2, 0.3}) {
         const Scene scene = drawn(20, 6, 0.1, bar(-10, 10, thick), {});
         for (const auto wall : {ItuMaterial::concrete, ItuMaterial::glass}) {
@@ -106,7 +107,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "rays: in a coherent sum two fields add with their phases, with a null close to a mirror") {
+    "rays: in a coherent sum, direct and reflected ray add by phase, with a null close to the "
+    "mirror") {
     const Material mirror{.per_crossing = 200_dB};
     const Scene scene = drawn(40, 6, 0.1, bar(-20, 20, 0.1), mirror);
     const Rays coherent{.order = 1,

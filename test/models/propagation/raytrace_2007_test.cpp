@@ -66,7 +66,9 @@ TEST_CASE("raytrace_2007: an oblique ray pays for its whole length inside the wa
     CHECK(near(wall_loss(rising), 30 * std::sqrt(2.0), tolerance));
 }
 
-TEST_CASE("raytrace_2007: the cut-off never changes which links are within the budget") {
+TEST_CASE(
+    "raytrace_2007: a computation that stops at the cut-off finds the same links within the "
+    "budget") {
     test::Draw draw(2007);
     const Scene scene(test::random_map(draw, 40, 40, 10));
     int within = 0, beyond = 0;

@@ -163,7 +163,7 @@ int disagreements_around(double d, const Setting& setting, const Links& links, s
 
 }  // namespace
 
-TEST_CASE("shadowed range: for a million links, the decision equals that by the loss") {
+TEST_CASE("shadowed range: for a million links, in_range() agrees with loss and budget") {
     Numbers draw(1);
     int wrong = 0, in_range = 0;
     for (int network = 0; network < 1000; ++network) {
@@ -183,8 +183,7 @@ TEST_CASE("shadowed range: for a million links, the decision equals that by the 
 }
 
 TEST_CASE(
-    "shadowed range: the distance at which a link goes down equals that by the loss, to the last "
-    "bit") {
+    "shadowed range: near the distance where a link goes down, in_range() agrees with the loss") {
     Numbers draw(2);
     int wrong = 0;
     for (int network = 0; network < 500; ++network) {
@@ -207,8 +206,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "shadowed range: the random draw at which a link goes down equals that by the loss, to the "
-    "last bit") {
+    "shadowed range: near the random draw where a link is lost, in_range() agrees with the loss") {
     Numbers draw(3);
     int wrong = 0;
     for (int network = 0; network < 500; ++network) {
@@ -297,7 +295,8 @@ TEST_CASE("shadowed range: the loss is computed for less than one link in a hund
     CHECK(sum / looks < 0.002);
 }
 
-TEST_CASE("first look: all pairs in range pass this fast test, and few other pairs pass") {
+TEST_CASE(
+    "shadowed range: all pairs in range pass the fast first test, and few other pairs pass it") {
     Numbers draw(77);
     for (int network = 0; network < 40; ++network) {
         const ShadowedLoss loss{.at_reference = draw.uniform(20, 60),
@@ -330,7 +329,7 @@ TEST_CASE("first look: all pairs in range pass this fast test, and few other pai
 }
 
 TEST_CASE(
-    "first look: pairs in range also pass this fast test with a reach of 0 and an infinite reach") {
+    "shadowed range: pairs in range pass the fast first test, also with a reach of 0 or infinity") {
     const ShadowedLoss loss{
         .at_reference = 40, .per_decade = 30, .reference_distance = 1, .sigma = 4};
     const std::uint64_t bits = shadowing_draws(3, 1).bits(1, 2);
@@ -345,8 +344,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "shadowed range: only the model log_distance has a shadowed range, which decides links as the "
-    "loss does") {
+    "shadowed range: only log_distance has a shadowed range, which decides links like the loss") {
     for_each_model([]<class Model>() {
         const Propagation model{[] {
             if constexpr (std::same_as<Model, Disc>)

@@ -159,7 +159,8 @@ TEST_CASE("two-ray: beyond the crossover, doubling the height of an antenna save
                20 * std::log10(2.0), flat));
 }
 
-TEST_CASE("two-ray: an antenna below lowest_antenna counts as at that height") {
+TEST_CASE(
+    "two-ray: an antenna lower than the parameter lowest_antenna has the height lowest_antenna") {
     for (const double z : {0.0, -0.0, -1.0, -1e6, 0.05}) {
         CHECK(loss_over_ground(z, z, 100, 2450_MHz) == loss_over_ground(0.1, 0.1, 100, 2450_MHz));
     }
@@ -182,7 +183,8 @@ TEST_CASE("two-ray: at the same distance, a higher antenna may have less loss") 
     CHECK(Propagation(TwoRay{}).shape() == LossShape::by_heights);
 }
 
-TEST_CASE("two-ray: the reach for a greatest height is exact for antennas of that height") {
+TEST_CASE(
+    "two-ray: if a greatest height is given, the reach is exact for antennas of this height") {
     for (const double highest : {-2.0, 0.5, 1.5, 30.0}) {
         const double h = std::max(highest, 0.1);
         for (const double budget : {40.0, 80.0, 95.0, 140.0}) {

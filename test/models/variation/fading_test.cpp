@@ -85,7 +85,7 @@ TEST_CASE("fading: with a strong line of sight the power stays within 1.5 dB of 
     }
 }
 
-TEST_CASE("fading: by frame, powers have the theoretical distribution, with mean 1") {
+TEST_CASE("fading: with fading by frame, powers have the theoretical distribution, with mean 1") {
     for (const Fading& settings : all_settings(Coherence::frame)) {
         const Fades fades(settings, 5, 2);
         std::vector<double> powers;
@@ -122,7 +122,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "fading: by place, powers have the theoretical distribution, with mean 1 over the seeds") {
+    "fading: with fading by place, powers have the theoretical distribution, with mean 1 over the "
+    "seeds") {
     for (const Fading& settings : all_settings(Coherence::place)) {
         std::vector<double> powers;
         for (std::uint64_t seed = 0; seed < 40; ++seed) {
@@ -138,8 +139,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "fading: by place, a robot that returns to a place has the same gain there, in both "
-    "directions, for any frame") {
+    "fading: with fading by place, a robot back at a place has the same gain, in both directions") {
     for (const Fading& settings : all_settings(Coherence::place)) {
         const Fades fades(settings, 5, 2);
         for (int i = 0; i < 50; ++i) {

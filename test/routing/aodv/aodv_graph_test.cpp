@@ -134,4 +134,51 @@ TEST_CASE("aodv on graphs: with profile ns2, as many packets are sent as in ns-2
     CHECK(nine.ends.delivered == 35);
 }
 
+TEST_CASE(
+    "aodv 6.7: if no frame is lost, every message arrives, also after gaps in the traffic and with "
+    "flag D (destination only)") {
+    // Gaps in which routes expire but are not forgotten, between random nodes of random graphs.
+    int replies_of_neighbours = 0;
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+        const auto draw = [&](std::uint64_t index, std::size_t below) {
+            return static_cast<std::uint32_t>(
+                uniform({.seed = seed, .purpose = Purpose::order, .index = index}) *
+                static_cast<double>(below));
+        };
+        const std::size_t nodes = 4 + draw(0, 8);
+        std::vector<Graph::Edge> edges;
+        for (std::uint32_t i = 1; i < nodes; ++i) edges.push_back({draw(i, i), i});
+        for (std::uint32_t k = 0; k < draw(100, nodes); ++k) {
+            const std::uint32_t a = draw(200 + k, nodes), b = draw(300 + k, nodes);
+            if (a != b) edges.push_back({a, b});
+        }
+        Graph graph(nodes, edges, Run::with_no_jitter({.destination_only = seed % 2 == 0}));
+        graph.seed = seed;
+        Time when = start_of_run + 1s;
+        for (int i = 0; i < 12; ++i, when += 1s + draw(400 + i, 16'000) * 1ms) {
+            const std::uint32_t from = draw(500 + i, nodes), to = draw(600 + i, nodes);
+            if (from == to) continue;
+            graph.send(from, to, when);
+        }
+        graph.run(when + 60s);
+        CAPTURE(seed);
+        for (const auto& each : graph.delivered) CHECK(each.size() == 1);
+        CHECK(graph.drops.empty());
+        replies_of_neighbours += graph.frames[aodv::reply_kind];
+    }
+    CHECK(replies_of_neighbours > 1000);
+}
+
+TEST_CASE(
+    "aodv 6.7: after a gap in the traffic, a search needs one request, whose TTL is the old "
+    "route's hops plus 2") {
+    Graph line(3, {{0, 1}, {1, 2}}, Run::with_no_jitter({}));
+    for (int i = 0; i < 10; ++i) line.send(0, 2, start_of_run + 1s + i * 10s);
+    line.run(start_of_run + 120s);
+    for (const auto& each : line.delivered) CHECK(each.size() == 1);
+    // The first search: TTL 1, then 3. Each later one: TTL 4.
+    CHECK(line.frames[aodv::request_kind] == 1 + 2 + 9 * 2);
+    CHECK(line.frames[aodv::reply_kind] == 10 * 2);
+}
+
 }  // namespace aodv_graph_test

@@ -170,7 +170,8 @@ TEST_CASE("aodv 6.9: the destination of messages also sends HELLOs, in both prof
     }
 }
 
-TEST_CASE("aodv 6.9: no HELLO is sent if a request was broadcast within the interval") {
+TEST_CASE(
+    "aodv 6.9: no HELLO is sent if the node has broadcast a request within the HELLO interval") {
     Hellos n;
     n.learn(6, 2, 1);
     n.send(6);
@@ -216,7 +217,7 @@ TEST_CASE("aodv 6.9: a neighbour that sent a HELLO and then nothing for two inte
         n.send(5);  // waits in the queue
         n.run(start + 10s);
         CHECK(n.route(5)->is_valid);
-        n.run(start + 10500ms);
+        n.run(start + 10s + 1ns);  // at once, not at the node's next HELLO
         CHECK_FALSE(n.route(5)->is_valid);
         CHECK(n.route(5)->number == std::optional<std::uint32_t>(11));
         REQUIRE(n.link.drops.size() == 1);
@@ -301,7 +302,7 @@ TEST_CASE("aodv 6.11: a RERR is forwarded to the users of the routes that it end
     CHECK(n.route(5)->until == n.link.time + 15s);
 }
 
-TEST_CASE("aodv 6.11, ns2: RERRs are broadcast, and forwarded after the jitter") {
+TEST_CASE("aodv 6.11, profile ns2: RERRs are broadcast, and forwarded after the jitter") {
     AodvNode n({.profile = AodvProfile::ns2, .local_repair = false});
     n.pass_reply(7, 2, 5, 1);
     n.learn(6, 1, 4);
@@ -340,7 +341,8 @@ TEST_CASE("aodv 6.11: a broken link ends each valid route over it once, and no o
 }
 
 TEST_CASE(
-    "aodv A14: a RERR with the known sequence number ends the route and increments the number") {
+    "aodv, rule A14: a RERR with the sequence number of the node's route ends the route and "
+    "increments this number") {
     AodvNode n;
     n.learn(5, 1, 20);
     n.hear(1, aodv::Error{.lost = {{NodeId{5}, 20}}});
@@ -361,7 +363,8 @@ TEST_CASE("aodv 6.11: the users of a broken route are remembered until a RERR ca
     CHECK(n.sent<aodv::Error>()[10].first.next_hop == everyone);  // to 2 and 3
 }
 
-TEST_CASE("aodv 6.11: a RERR lists at most 255 destinations, in the order of their keys") {
+TEST_CASE(
+    "aodv 6.11: a RERR lists at most 255 destinations, in the order of their keys (name hashes)") {
     AodvNode n({}, 400);
     for (std::uint32_t i = 0; i < 400; ++i) n.link.keys.push_back(1000 - i);
     n.pass_reply(7, 2, 10, 1);
@@ -377,8 +380,8 @@ TEST_CASE("aodv 6.11: a RERR lists at most 255 destinations, in the order of the
 }
 
 TEST_CASE(
-    "aodv 6.12: a second forwarded message waits for the repair, a message of the node itself for "
-    "its own search") {
+    "aodv 6.12: if a repair fails, forwarded messages are dropped, and a search begins for the "
+    "node's own messages") {
     AodvNode n({.local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     n.forward(7, 2, 5);
@@ -397,8 +400,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "aodv 6.12: repairs begin in the order of messages; lost routes that nobody uses are not "
-    "reported") {
+    "aodv 6.12: repairs begin in the order in which messages came; a lost route is reported once a "
+    "message needs it") {
     AodvNode n({.local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     n.pass_reply(7, 2, 6, 1);
@@ -432,8 +435,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "aodv 6.12: the wait for a repair follows from the TTL of its request, also at the network's "
-    "diameter") {
+    "aodv 6.12: the wait for a repair follows from its request's TTL, also if this TTL is the "
+    "network's diameter") {
     AodvNode n({.net_diameter = 10, .local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     const MessageId id = n.link.message_from(NodeId{7}, NodeId{5});
@@ -448,7 +451,8 @@ TEST_CASE(
     CHECK(n.link.drops.size() == 1);
 }
 
-TEST_CASE("aodv 6.12: a route is repaired up to 0.3 of the net diameter from its destination") {
+TEST_CASE(
+    "aodv 6.12: a node repairs a route if the destination is at most 0.3 net diameters away") {
     const auto repairs = [](int net_diameter, int hops) {
         AodvNode n({.net_diameter = net_diameter, .local_repair = true});
         n.pass_reply(7, 2, 5, 1, 9, static_cast<std::uint8_t>(hops - 2));
@@ -476,7 +480,9 @@ TEST_CASE("aodv 6.12: if the repaired route has the same length, no RERR is sent
     CHECK(n.sent<aodv::Error>().empty());
 }
 
-TEST_CASE("aodv 6.12: if the route has got another next hop in the meantime, no repair is made") {
+TEST_CASE(
+    "aodv 6.12: if a route gets a new next hop before a frame to the old one fails, no repair is "
+    "made") {
     AodvNode n({.local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     n.forward(7, 2, 5);
@@ -519,8 +525,8 @@ TEST_CASE("aodv 6.12: a RERR of a repaired route is forwarded, and changes no ro
 }
 
 TEST_CASE(
-    "aodv 6.8: a neighbour is blacklisted for RREQ_RETRIES * NET_TRAVERSAL_TIME; profile ns2 has "
-    "no blacklist") {
+    "aodv 6.8: a blacklist entry lasts RREQ_RETRIES * NET_TRAVERSAL_TIME; profile ns2 has no "
+    "blacklist") {
     const auto answers = [](Aodv aodv, Duration later) {
         AodvNode n(aodv);
         n.hear(2, request(7, 0), 3);
@@ -557,7 +563,8 @@ TEST_CASE("aodv 6.13: a node switched on for the first time is not silent") {
 }
 
 TEST_CASE(
-    "aodv 6.13: a message that a silent node should forward is reported, and extends the silence") {
+    "aodv 6.13: a message that a silent node should forward is answered with a RERR, and starts "
+    "the 15 s of silence anew") {
     AodvNode n;
     n.router.on_switched(n.link, NodeId{0}, false);
     n.router.on_switched(n.link, NodeId{0}, true);
@@ -604,8 +611,7 @@ TEST_CASE("aodv: a broadcast goes one hop; if it cannot be sent, it is dropped w
 }
 
 TEST_CASE(
-    "aodv: the drop of a message that cannot be sent is recorded with a reason, that of a control "
-    "packet is not") {
+    "aodv: the drop of an unsent message is recorded, that of an unsent control packet is not") {
     for (const SendResult result : {SendResult::queue_full, SendResult::off}) {
         AodvNode n;
         n.learn(5, 1, 4);

@@ -102,7 +102,7 @@ const std::vector<Aodv> variants{
 
 }  // namespace
 
-TEST_CASE("aodv: runs depend on the keys of nodes, and not on their ids") {
+TEST_CASE("aodv: runs do not depend on how the nodes are numbered") {
     for (const Aodv& aodv : variants) {
         for (std::uint32_t seed = 1; seed <= 40; ++seed) {
             CAPTURE(seed);
@@ -121,7 +121,9 @@ TEST_CASE("aodv: adding a node without links changes nothing") {
     }
 }
 
-TEST_CASE("aodv: every message is delivered or dropped with a reason, once, and then released") {
+TEST_CASE(
+    "aodv: every message is delivered or dropped with a reason, once, and then deleted from "
+    "memory") {
     for (Aodv aodv : variants) {
         for (const bool hellos : {false, true}) {
             if (hellos) aodv.hello = 500ms;

@@ -118,8 +118,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "aodv 6.3, ns2: a reply that arrives before the first request of its search does not change "
-    "the time per hop") {
+    "aodv 6.3, profile ns2: a reply before the first request of its search does not change the "
+    "time per hop") {
     AodvNode n({.profile = AodvProfile::ns2}, 40);
     n.link.time += 100s;
     for (std::uint32_t to = 10; to < 21; ++to) n.send(to);
@@ -133,7 +133,8 @@ TEST_CASE(
     CHECK(asked_for(n, 20) == 2);
 }
 
-TEST_CASE("aodv 6.3, ns2: a search that took no time does not change the measured time per hop") {
+TEST_CASE(
+    "aodv 6.3, profile ns2: a search that took no time does not change the measured time per hop") {
     AodvNode n({.profile = AodvProfile::ns2});
     n.send(5);
     n.hear(1, reply(5, 4, 0));
@@ -143,7 +144,9 @@ TEST_CASE("aodv 6.3, ns2: a search that took no time does not change the measure
     CHECK(asked_for(n, 5) == 3);
 }
 
-TEST_CASE("aodv 6.3, ns2: the wait for a reply follows from the time per hop of earlier searches") {
+TEST_CASE(
+    "aodv 6.3, profile ns2: the wait for a reply follows from the time per hop of earlier "
+    "searches") {
     AodvNode n({.profile = AodvProfile::ns2});
     n.send(5);
     n.link.time += 800ms;
@@ -157,7 +160,24 @@ TEST_CASE("aodv 6.3, ns2: the wait for a reply follows from the time per hop of 
 }
 
 TEST_CASE(
-    "aodv 6.3, ns2: after a failed search, the next one for a destination begins 10 s later") {
+    "aodv 6.3, profile ns2: a reply of the destination itself also counts for the time per hop") {
+    AodvNode n({.profile = AodvProfile::ns2});
+    n.send(5);
+    n.link.time += 800ms;
+    aodv::Reply own = reply(5, 4, 0);
+    own.hops = 0;
+    n.hear(5, own);  // 1 hop: 0.8 s
+    n.run(start + 20s);
+    n.send(5);  // TTL 3: waits for 4.8 s, looked at every 0.5 s
+    n.run(start + 24500ms);
+    CHECK(asked_for(n, 5) == 2);
+    n.run(start + 25s);
+    CHECK(asked_for(n, 5) == 3);
+}
+
+TEST_CASE(
+    "aodv 6.3, profile ns2: after a failed search, the next one for a destination begins 10 s "
+    "later") {
     AodvNode n({.profile = AodvProfile::ns2});
     n.send(5);
     while (n.link.drops.empty()) n.wait();
@@ -215,7 +235,8 @@ TEST_CASE("aodv 6.2: a route has the lifetime of its reply, and a later reply ne
 }
 
 TEST_CASE(
-    "aodv 6.5: a heard neighbour has a route for 3 s, and a longer lifetime is not shortened") {
+    "aodv 6.5: a route to a neighbour lasts at least 3 s after the neighbour is heard, and is not "
+    "shortened") {
     AodvNode n;
     n.hear(2, request(2, 9, 1), 1);  // a route of 5.52 s
     n.hear(2, request(7, 9, 1), 3);
@@ -253,8 +274,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "aodv 6.5: a forwarded request keeps its destination number if the node knows only an older "
-    "one") {
+    "aodv 6.5: a forwarded request keeps its destination sequence number if the node knows only an "
+    "older one") {
     AodvNode n;
     n.learn(5, 1, 20);
     aodv::Request asked = request(7, 5);
@@ -274,7 +295,9 @@ TEST_CASE("aodv 6.5: the ids of requests are remembered for each originator, for
     CHECK(n.hear(2, request(7, 5, 1, 9)) == Fate::waiting);
 }
 
-TEST_CASE("aodv 6.6.2: a node that answered for the destination reports breaks to both next hops") {
+TEST_CASE(
+    "aodv 6.6.2: a node that answered for the destination reports a break on either side to the "
+    "other side") {
     AodvNode n;
     n.learn(5, 1, 20, 3);
     CHECK(n.hear(2, request(7, 5), 3) == Fate::arrived);
@@ -291,8 +314,7 @@ TEST_CASE("aodv 6.6.2: a node that answered for the destination reports breaks t
 }
 
 TEST_CASE(
-    "aodv 6.6.2: a node that does not know the destination's sequence number does not reply for "
-    "the destination") {
+    "aodv 6.6.2: a node that does not know the destination's sequence number sends no reply") {
     AodvNode n;
     n.hear(5, request(8, 9));  // 5 is a neighbour of unknown number
     CHECK(n.route(5)->is_valid);
@@ -325,7 +347,7 @@ TEST_CASE("aodv 6.7: a reply does not travel beyond its TTL") {
 }
 
 TEST_CASE(
-    "aodv 6.3: a search that is due earlier than searches begun before it is continued in time") {
+    "aodv 6.3: a search repeats its request in time, even while an earlier search still waits") {
     AodvNode n;
     n.send(5);
     n.run(start + 2s);  // waits until 4.72 s
@@ -335,8 +357,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "aodv 6.6.3: with flag G (gratuitous), the answering node sends the destination the route "
-    "back") {
+    "aodv 6.6.3: with flag G (gratuitous), the answering node also sends the destination a route "
+    "to the originator") {
     AodvNode n;
     n.learn(5, 1, 20, 3);
     aodv::Request asked = request(7, 5);
@@ -385,7 +407,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("aodv A16: a reply or HELLO of a neighbour ends the search for this neighbour") {
+TEST_CASE("aodv, rule A16: a reply or HELLO of a neighbour ends the search for this neighbour") {
     AodvNode n({.hello = 1s});
     n.send(3);
     n.send(4);
@@ -398,14 +420,15 @@ TEST_CASE("aodv A16: a reply or HELLO of a neighbour ends the search for this ne
     CHECK(n.link.drops.empty());
 }
 
-TEST_CASE("aodv A16: a request forwarded by a neighbour ends the search for this neighbour") {
+TEST_CASE("aodv, rule A16: a request forwarded by a neighbour ends the search for this neighbour") {
     AodvNode n;
     n.send(3);
     n.hear(3, request(8, 9), 2);
     CHECK(n.data().size() == 1);
 }
 
-TEST_CASE("aodv A16: a learnt route also ends a search that has not yet sent its first request") {
+TEST_CASE(
+    "aodv, rule A16: a learnt route also ends a search that has not yet sent its first request") {
     AodvNode n({}, 40);
     for (std::uint32_t to = 10; to < 21; ++to) n.send(to);
     n.learn(20, 1, 4);

@@ -81,7 +81,7 @@ TEST_CASE(
     CHECK(n.route(5)->is_valid);
 }
 
-TEST_CASE("aodv 6.2: a message extends the lifetimes of four routes") {
+TEST_CASE("aodv 6.2: a message extends its routes to source, destination, last hop and next hop") {
     AodvNode n;
     n.learn(5, 1, 10, 3);
     n.hear(2, request(7, 9), 3);
@@ -137,8 +137,8 @@ TEST_CASE("aodv 6.3: a node sends at most ten requests a second") {
 }
 
 TEST_CASE(
-    "aodv 6.5: a request is forwarded once, within its TTL, with the node's destination number if "
-    "it is larger") {
+    "aodv 6.5: a request is forwarded once, within its TTL, with the destination's sequence number "
+    "that the node knows") {
     AodvNode n;
     n.learn(5, 1, 20, 3);
     n.link.time += 4s;  // broken: number 21
@@ -254,8 +254,8 @@ TEST_CASE("aodv 6.11: a message without a route is reported to the neighbour tha
 }
 
 TEST_CASE(
-    "aodv A14: a RERR never decreases a sequence number, and is ignored unless it comes from the "
-    "next hop") {
+    "aodv, rule A14: a RERR never decreases a sequence number, and is ignored unless it comes from "
+    "the next hop") {
     AodvNode n;
     n.learn(5, 1, 20, 3);
     const auto report = [&](std::uint32_t from, std::uint32_t number) {
@@ -275,7 +275,7 @@ TEST_CASE(
     CHECK(n.route(5)->number == 31);
 }
 
-TEST_CASE("aodv A15: no node has a route to itself") {
+TEST_CASE("aodv, rule A15: no node has a route to itself") {
     AodvNode n;
     n.hear(1, aodv::Reply{.hops = 2,
                           .destination = NodeId{0},
@@ -286,7 +286,7 @@ TEST_CASE("aodv A15: no node has a route to itself") {
     CHECK_FALSE(n.route(0));
 }
 
-TEST_CASE("aodv A16: a route that is learnt in any way ends the search for its destination") {
+TEST_CASE("aodv, rule A16: a route that is learnt in any way ends the search for its destination") {
     AodvNode n;
     n.send(7);
     CHECK(n.data().empty());
@@ -346,7 +346,8 @@ TEST_CASE("aodv 6.13: a node that was switched on again is silent for 15 s") {
     CHECK(n.sent<aodv::Request>().size() == 1);
 }
 
-TEST_CASE("aodv: at most 64 messages wait, for 30 s each, and the oldest is dropped first") {
+TEST_CASE(
+    "aodv: at most 64 messages wait for a route, for 30 s each, and the oldest is dropped first") {
     AodvNode n({.rreq_retries = 10});
     for (int i = 0; i < 66; ++i) n.send(5);
     REQUIRE(n.link.drops.size() == 2);

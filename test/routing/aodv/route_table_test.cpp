@@ -89,7 +89,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "seen ids: after an id up to 64 higher, the ids still in the window of 64 are remembered") {
+    "seen ids: after a higher id, earlier ids stay remembered, and unseen ids within 64 are new") {
     for (const std::uint32_t step : {1U, 63U, 64U, 65U, 1000U}) {
         SeenIds seen;
         CHECK(seen.note(a, 100, start, 5s));
@@ -101,7 +101,9 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("seen ids: ids are stored for each originator, and forgotten after a silence") {
+TEST_CASE(
+    "seen ids: ids are stored for each originator, and forgotten after a silence of the "
+    "originator") {
     SeenIds seen;
     CHECK(seen.note(a, 9, start, 5s));
     CHECK(seen.note(b, 9, start, 5s));

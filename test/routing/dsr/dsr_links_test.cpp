@@ -137,7 +137,9 @@ TEST_CASE("dsr 8.3.5: a node that receives an error forgets the link, and forwar
     }
 }
 
-TEST_CASE("dsr 3.4.4: for 1 s, the last error is repeated in the next network-wide request") {
+TEST_CASE(
+    "dsr 3.4.4: a route error is repeated in the next network-wide request if this is sent within "
+    "1 s") {
     for (const Duration age : {0ms, 1500ms}) {
         DsrNode n;
         n.learn(path({0, 4, 5}));

@@ -180,6 +180,33 @@ TEST_CASE(
     CHECK(n.sent(dsr::request_kind).back().first.ttl == 1);
 }
 
+// Each message waits alone, and is dropped after 30 s without an answer.
+TEST_CASE(
+    "dsr 4.3: after a failed search, each new message starts a search with longer waits between "
+    "requests") {
+    DsrNode n;
+    for (int message = 0; message < 6; ++message) {
+        const std::size_t asked = n.sent(dsr::request_kind).size();
+        const Time begin = n.link.time;
+        n.send(5);
+        n.wait();
+        n.wait();
+        REQUIRE(n.sent(dsr::request_kind).size() >= asked + 2);
+        CHECK(n.sent(dsr::request_kind)[asked].first.ttl == 1);
+        CHECK(n.sent(dsr::request_kind)[asked + 1].first.ttl == 32);
+        while (n.link.drops.size() == static_cast<std::size_t>(message)) n.wait();
+        CHECK(n.link.time == begin + 30s);
+        n.link.time = begin + 100s;
+        const std::size_t requests = n.sent(dsr::request_kind).size() - asked;
+        CHECK(
+            requests ==
+            (message == 0 ? 8U : 4U));  // 0, 0.03, 0.53 ... 15.53, 25.53 s; 0, 0.03, 10.03, 20.03 s
+        CHECK(n.link.drops.back().reason == DropReason::timeout);
+    }
+    n.learn(path({0, 4, 5}));  // an answer ends the search
+    CHECK(n.link.drops.size() == 6);
+}
+
 TEST_CASE(
     "dsr 8.2.2: the target answers each copy of a request along its path, and stores the path") {
     DsrNode n;
@@ -274,10 +301,13 @@ TEST_CASE(
     CHECK(n.link.drops[1].reason == DropReason::timeout);   // not heard of
     CHECK(n.router.pairs_too_far() == 1);
     CHECK(n.router.notice() ==
-          "dsr: 1 pair of robots lost messages, because a route has at most 16 robots");
+          "dsr: 1 pair of robots lost messages after a route request had reached 16 robots without "
+          "finding the destination; a route of dsr has at most 16 robots");
 }
 
-TEST_CASE("dsr 4.2: at most 64 messages wait, for 30 s each, and the oldest is dropped first") {
+TEST_CASE(
+    "dsr 4.2: at most 64 messages wait for a route, for 30 s each, and the oldest is dropped "
+    "first") {
     DsrNode n;
     for (int i = 0; i < 66; ++i) n.send(5);
     REQUIRE(n.link.drops.size() == 2);

@@ -84,7 +84,8 @@ constexpr Time settled = start_of_run + 60s;
 
 }  // namespace
 
-TEST_CASE("cluster: a node without neighbours is a head, and later joins a head with a lower key") {
+TEST_CASE(
+    "cluster: a node without neighbours is a head, and later joins a head with a lower name hash") {
     Member node;
     CHECK(node.relays());  // no cluster yet
     CHECK(node.tells() == NodeId{5});
@@ -171,7 +172,7 @@ TEST_CASE("cluster: a copy to be forwarded waits for the delay, any other copy i
     }
 }
 
-TEST_CASE("cluster: a threshold and a period of 0 are refused") {
+TEST_CASE("cluster: any threshold, and a HELLO period of 0, are refused") {
     const auto make = [](const Suppression& settings) { return Router(settings); };
     CHECK_THROWS_WITH_AS(make({.scheme = SuppressionScheme::cluster, .threshold = 3}),
                          "suppression: threshold must be left out for scheme \"cluster\", got 3",

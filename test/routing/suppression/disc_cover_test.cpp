@@ -54,8 +54,7 @@ double counted(const std::vector<Vec3>& centres) {
 }  // namespace
 
 TEST_CASE(
-    "disc cover: without neighbours the whole disc is uncovered; a disc at the same position "
-    "covers all of it") {
+    "disc cover: without neighbours a disc is uncovered; a disc at the same position covers all") {
     CHECK(uncovered({}) == 1);
     CHECK(uncovered({{2, 0, 0}, {0, -3, 0}}) == 1);
     CHECK(uncovered({{0.5, 0, 0}, {0, 0, 0}}) == 0);
@@ -91,7 +90,8 @@ TEST_CASE("disc cover: equal discs count once, and the unit of length and height
     CHECK(std::abs(uncovered({{300, 100, 7}, {-150, 450, -9}}, 500) - uncovered(two)) < rounding);
 }
 
-TEST_CASE("disc cover: for random discs, the uncovered share agrees with counted points") {
+TEST_CASE(
+    "disc cover: for random discs, the uncovered share agrees with a count of sample points") {
     // A border of length up to 2 pi (k + 1) crosses cells of 1/400: their half area, spread evenly.
     constexpr double grain = 2e-3;
     std::uint64_t index = 0;

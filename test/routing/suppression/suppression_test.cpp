@@ -72,7 +72,9 @@ TEST_CASE("suppression, counter: with C = 1 no copy is forwarded, but the messag
     CHECK(node.link.sent.empty());
 }
 
-TEST_CASE("suppression: copies after the send time have no effect, and are not delivered again") {
+TEST_CASE(
+    "suppression: copies heard after the robot's own send time have no effect, and are not "
+    "delivered again") {
     for (const Scheme scheme : {Scheme::counter, Scheme::distance, Scheme::location}) {
         Hearer node({.scheme = scheme, .range = Meters{100}});
         CHECK(node.hear().delivered);
@@ -91,8 +93,7 @@ TEST_CASE("suppression: copies after the send time have no effect, and are not d
 }
 
 TEST_CASE(
-    "suppression: if the handle of a sent copy is reused for another frame, a later copy does not "
-    "cancel it") {
+    "suppression: a later copy does not cancel a new frame that reuses the sent copy's handle") {
     Hearer node({.threshold = 2});
     node.hear();
     node.link.sent[0].queued.frame.sender = NodeId{7};  // sent, and the slot is another frame's
@@ -110,7 +111,8 @@ TEST_CASE("suppression: a copy waits for 1 us plus a uniform time from 0 to the 
     }
 }
 
-TEST_CASE("suppression, probability: only the draw against P decides, whatever is heard later") {
+TEST_CASE(
+    "suppression, probability: only the random draw against P decides, whatever is heard later") {
     for (const double drawn : {0.1, 0.299, 0.301, 0.9}) {
         Hearer node({.scheme = Scheme::probability, .threshold = 0.3});
         node.link.drawn = drawn;
@@ -143,7 +145,9 @@ TEST_CASE("suppression, distance: a robot that hears any sender nearer than D do
     CHECK(later.link.sent.size() == 1);
 }
 
-TEST_CASE("suppression, location: a robot forwards only if the share A of its disc is uncovered") {
+TEST_CASE(
+    "suppression, location: a robot forwards only if at least the share A of its disc is "
+    "uncovered") {
     const auto run = [](double a) {
         Hearer node({.scheme = Scheme::location, .threshold = a, .range = Meters{100}});
         std::string sends;

@@ -203,7 +203,7 @@ TEST_CASE("event queue: the order equals that of a heap and of a sorted set, for
 }
 
 TEST_CASE(
-    "event queue: 200 000 keys at one time are served by priority, then by order of insertion") {
+    "event queue: 200 000 events at one time are served by priority, then by order of insertion") {
     EventQueue queue;
     std::vector<EventKey> keys;
     for (std::uint64_t i = 0; i < 200'000; ++i) {
@@ -213,7 +213,8 @@ TEST_CASE(
     CHECK(serves(queue, keys));
 }
 
-TEST_CASE("event queue: keys that are added without end at the current time are served in order") {
+TEST_CASE(
+    "event queue: events that are added without end at the current time are served in order") {
     EventQueue queue;
     std::uint64_t pushed = 0;
     for (; pushed < 5000; ++pushed) queue.push(key_at(5, pushed));
@@ -225,7 +226,8 @@ TEST_CASE("event queue: keys that are added without end at the current time are 
     CHECK(queue.size() == 5000);
 }
 
-TEST_CASE("event queue: after a call of top(), many keys earlier than the next one may be added") {
+TEST_CASE(
+    "event queue: after a call of top(), many events earlier than the next one may be added") {
     constexpr std::int64_t far = 1'000'000'000'000;
     Dice dice(1);
     EventQueue queue;
@@ -244,8 +246,7 @@ TEST_CASE("event queue: after a call of top(), many keys earlier than the next o
     CHECK(serves(queue, keys));
 }
 
-TEST_CASE(
-    "event queue: keys that are added before and after a single early key are served in order") {
+TEST_CASE("event queue: events added before and after a single early event are served in order") {
     constexpr std::int64_t lone = std::int64_t{1} << 40;
     constexpr std::int64_t crowd = lone + (1 << 20);
     EventQueue queue;
@@ -264,7 +265,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "event queue: a filter may remove all keys, all but the farthest, or all but the nearest") {
+    "event queue: a filter may remove all events, all but the latest, or all but the earliest") {
     const auto filled = [] {
         EventQueue queue;
         for (std::uint64_t i = 0; i < 10'000; ++i) queue.push(key_at(std::int64_t(i) * 1000, i));
@@ -302,7 +303,7 @@ TEST_CASE("event queue: a copy of a queue is independent of the original") {
 }
 
 TEST_CASE(
-    "event line: keys in nearly ascending order are served in order; other keys are refused") {
+    "event line: events in nearly ascending order are served in order; other events are refused") {
     Dice dice(9);
     EventLine line;
     std::set<EventKey> taken;
@@ -336,7 +337,7 @@ TEST_CASE(
     CHECK(before_the_last > 100);
 }
 
-TEST_CASE("event line: keys that are appended in unsorted groups are served in order") {
+TEST_CASE("event line: events that are appended in unsorted groups are served in order") {
     Dice dice(10);
     EventLine line;
     std::uint64_t sequence = 0;

@@ -129,8 +129,8 @@ std::vector<int> served(Scheduler<int>& queue) {
 }  // namespace
 
 TEST_CASE(
-    "event key: the largest sequence number and slot fit into 16 bytes, and at() changes only the "
-    "time") {
+    "event key: the largest sequence number and memory slot fit into 16 bytes; at(t) gives the "
+    "same key with the time t") {
     static_assert(sizeof(EventKey) == 16);
     constexpr std::uint64_t last_sequence = (std::uint64_t{1} << 36) - 1;
     constexpr std::uint32_t last_slot = (1U << 24) - 1;
@@ -154,7 +154,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("scheduler: serves equal keys in the order of scheduling") {
+TEST_CASE("scheduler: events of equal time and priority are served in the order of scheduling") {
     Scheduler<int> queue;
     std::vector<int> expected;
     for (int i = 0; i < 1000; ++i) {

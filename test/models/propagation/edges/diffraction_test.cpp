@@ -103,7 +103,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "knife edge: far below the line of sight the approximation is 0, not a gain of 145 dB (S16)") {
+    "knife edge: far below the line of sight the formula of P.526 gives 0, not -145 dB (S16)") {
     for (const double nu : {-0.78, -1.0, -10.0, -1e4, -1e9}) {
         CHECK(knife_edge_loss_p526_db(nu) == 0);
         CHECK(near(knife_edge_loss_db(nu), 0, 1.4));
@@ -186,7 +186,7 @@ TEST_CASE("wedge: at shadow and reflection boundaries the field is finite and co
 }
 
 TEST_CASE(
-    "wedge: at a boundary the field is the same, whether or not the direct ray is lit (S19)") {
+    "wedge: at a shadow boundary the field is the same with the direct ray lit or shadowed (S19)") {
     const WedgePath path{1.5, {0.3 + pi}, {0.3}};
     LitBy lit = lit_by(path);
     for (const WedgeFaces& faces : {soft_faces, hard_faces}) {
@@ -217,7 +217,8 @@ TEST_CASE("wedge: an edge that is flat or lets everything through diffracts noth
     CHECK(wedge_coefficient({1.5, {3}, {1}}, 50, 0_m, hard_faces) == Complex{0});
 }
 
-TEST_CASE("wedge: exchanging source and receiver gives the same bits, also with lossy faces") {
+TEST_CASE(
+    "wedge: exchanging source and receiver changes no bit of the result, also with lossy faces") {
     const auto reflection = [](Radians incidence) {  // of a dielectric half space, TE
         const double cosine = std::cos(incidence.value);
         const double root = std::sqrt(4 + cosine * cosine);
@@ -240,8 +241,7 @@ TEST_CASE("wedge: exchanging source and receiver gives the same bits, also with 
     }
 }
 
-TEST_CASE(
-    "wedge: where a reflection begins, the angle of incidence equals that of the reflected ray") {
+TEST_CASE("wedge: at a reflection boundary, the angle of incidence is that of the reflected ray") {
     const WedgePath face_0{1.5, {140 * degree}, {40 * degree}};
     CHECK(near(face_incidence(face_0).face_0.value, 50 * degree, 1e-14));
     const WedgePath face_n{1.5, {230 * degree}, {130 * degree}};
