@@ -34,7 +34,8 @@ struct RoutedMetrics {
         return describe(
             field("data_transmissions", &R::data,
                   "transmissions of messages to one robot; each hop counts"),
-            field("path_stretch", &R::path_stretch, "hops divided by those of the shortest path"),
+            field("path_stretch", &R::path_stretch,
+                  "hops divided by the hops of the shortest path"),
             field("delay_waiting", &R::waiting, "mean time that a message waits in routers"),
             field("delay_travelling", &R::travelling,
                   "mean time that a message travels between routers"));

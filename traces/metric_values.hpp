@@ -173,10 +173,10 @@ struct MetricValues {
         return describe(
             field("messages", &M::messages, "messages sent by applications"),
             field("cut_off", &M::cut_off,
-                  "messages of which no frame had ended when the run ended; delivery_ratio does "
-                  "not count them"),
+                  "messages whose first frame had not ended when the run ended; delivery_ratio "
+                  "does not count these messages"),
             field("transmissions", &M::transmissions, "frames transmitted"),
-            field("receptions", &M::receptions, "copies that robots decoded"),
+            field("receptions", &M::receptions, "copies of messages that robots decoded"),
             field("deliveries", &M::deliveries,
                   "messages that reached a robot; a message counts once for each robot"),
             field("delivery_ratio", &M::delivery_ratio,
@@ -191,7 +191,7 @@ struct MetricValues {
             field("hops_max", &M::max_hops, "most hops of a delivery"),
             field("routing", &M::routing, "cost of the routing protocol"),
             field("routed", &M::routed, "paths and delays of routed unicasts"),
-            field("drops", &M::drops, "copies lost, by reason"));
+            field("drops", &M::drops, "lost copies of messages, by reason"));
     }
 
     friend bool operator==(const MetricValues&, const MetricValues&) = default;

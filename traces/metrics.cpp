@@ -2,6 +2,7 @@
 #include "traces/metrics.hpp"
 
 #include "sim/legs.hpp"
+#include "sim/router.hpp"
 
 #include <algorithm>
 
@@ -34,6 +35,12 @@ std::optional<double> ratio(std::uint64_t part, std::uint64_t whole) {
 /// Whether a frame that was lost for this reason shows that a link is broken.
 bool breaks_link(DropReason reason) {
     return reason == DropReason::retries || reason == DropReason::unheard;
+}
+
+/// Whether the routing protocol is told of each attempt that failed, and decides what becomes of
+/// the message. Every protocol of a scenario that routes unicasts is told of it.
+bool hears_of_results(const RecordContext& context) {
+    return !context.router || context.router->hears_of_results();
 }
 
 }  // namespace
@@ -126,22 +133,45 @@ void Metrics::count(const Routed& routed, const RecordContext& context) {
     if (parts_.flows && message.flow > 0) ++flow(message).routed.transmissions;
 }
 
-/// Adds a message to the counts of its destinations, or removes one that was cut off.
-void Metrics::count_parts(const Message& message, std::uint64_t others, bool is_cut_off) {
-    const std::uint64_t one = is_cut_off ? ~std::uint64_t{0} : 1;  // modulo 2^64
+void Metrics::BroadcastCounts::add(NodeId sender, std::size_t existing) {
+    if (existing >= by_size.size()) by_size.resize(existing + 1);
+    ++by_size[existing];
+    if (sender.index() >= by_sender.size()) by_sender.resize(sender.index() + 1);
+    ++by_sender[sender.index()];
+}
+
+std::size_t Metrics::BroadcastCounts::robots() const {
+    return std::max(by_sender.size(), by_size.empty() ? 0 : by_size.size() - 1);
+}
+
+std::vector<std::uint64_t> Metrics::BroadcastCounts::for_robots(std::size_t count) const {
+    std::vector<std::uint64_t> numbers(count);
+    std::uint64_t later = 0;  // number of broadcasts that were sent while robot i existed
+    for (std::size_t i = count; i-- > 0;) {
+        if (i + 1 < by_size.size()) later += by_size[i + 1];
+        numbers[i] = later - (i < by_sender.size() ? by_sender[i] : 0);
+    }
+    return numbers;
+}
+
+/// Adds a message to the counts of its flow and of its destinations.
+void Metrics::count_sent(const Message& message, std::uint64_t others) {
     if (parts_.flows && message.flow > 0) {
-        flow(message).messages += is_cut_off ? 0 : 1;
-        flow(message).expected += one * others;
+        ++flow(message).messages;
+        flow(message).expected += others;
     }
     if (!parts_.robots) return;
-    if (message.to != everyone) {
-        robot(message.to).messages += one;
-        return;
-    }
-    broadcasts_ += one;
-    const std::size_t origin = message.origin.index();
-    if (origin >= own_broadcasts_.size()) own_broadcasts_.resize(origin + 1);
-    own_broadcasts_[origin] += one;
+    if (message.to == everyone) return broadcasts_.add(message.origin, others + 1);
+    ++robot(message.to).messages;
+    ++robot(message.to).expected;
+}
+
+/// Removes a message that was cut off from the expected deliveries.
+void Metrics::count_cut_off(const Message& message, std::uint64_t others) {
+    if (parts_.flows && message.flow > 0) flow(message).expected -= others;
+    if (!parts_.robots) return;
+    if (message.to == everyone) return cut_off_broadcasts_.add(message.origin, others + 1);
+    --robot(message.to).expected;
 }
 
 void Metrics::count(const Dropped& dropped, const RecordContext& context) {
@@ -158,7 +188,7 @@ void Metrics::count(const Dropped& dropped, const RecordContext& context) {
     ++totals_.cut_off;
     others_ -= state.others;
     reachable_ -= state.reachable.value_or(0);
-    count_parts(message, state.others, true);
+    count_cut_off(message, state.others);
 }
 
 void Metrics::count(const Sent& sent, const RecordContext& context) {
@@ -172,7 +202,7 @@ void Metrics::count(const Sent& sent, const RecordContext& context) {
     if (!sent.reachable) totals_.reach_known = false;
     others_ += state.others;
     reachable_ += sent.reachable.value_or(0);
-    count_parts(context.messages[sent.message], state.others, false);
+    count_sent(context.messages[sent.message], state.others);
 }
 
 void Metrics::count(const Transmitted& transmitted, const RecordContext& context) {
@@ -196,7 +226,9 @@ void Metrics::count(const Received& received, const RecordContext& context) {
     if (!counts(received.frame, context)) return;
     const Message& message = context.messages[received.frame.message];
     const bool is_routed = message.is_routed_unicast();
+    const bool is_attempt = is_routed && hears_of_results(context);
     for (const Reception& rx : received.receptions) {
+        if (is_attempt && !is_decoded(rx.fate)) continue;  // a drop by the protocol may follow
         ++fates_[rx.fate];
         if (is_routed) count_way(rx, received.frame, context);
         if (rx.delivered) deliver(rx, received.frame, context);
@@ -252,10 +284,12 @@ void Metrics::deliver(const Reception& rx, const Frame& frame, const RecordConte
 
 std::vector<PartValues> Metrics::robots() const {
     std::vector<PartValues> all = robots_;
-    all.resize(std::max(all.size(), own_broadcasts_.size()));
+    all.resize(std::max(all.size(), broadcasts_.robots()));
+    const auto sent = broadcasts_.for_robots(all.size());
+    const auto cut_off = cut_off_broadcasts_.for_robots(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
-        all[i].messages += broadcasts_ - (i < own_broadcasts_.size() ? own_broadcasts_[i] : 0);
-        all[i].expected = all[i].messages;
+        all[i].messages += sent[i];
+        all[i].expected += sent[i] - cut_off[i];
     }
     return all;
 }

@@ -57,6 +57,19 @@ class Metrics {
         std::uint64_t operator[](Reason r) const { return of[static_cast<std::size_t>(r)]; }
     };
 
+    /// Number of broadcasts, from which the number for each robot follows.
+    struct BroadcastCounts {
+        /// Number of broadcasts sent while n robots existed, at index n; each is for the first n
+        /// robots except its sender.
+        std::vector<std::uint64_t> by_size;
+        std::vector<std::uint64_t> by_sender;  ///< number of broadcasts by each robot
+        void add(NodeId sender, std::size_t existing);
+        /// Number of robots that exist or sent, according to the broadcasts.
+        std::size_t robots() const;
+        /// Number of broadcasts for each of the first `count` robots, by their ids.
+        std::vector<std::uint64_t> for_robots(std::size_t count) const;
+    };
+
     void count(const Sent&, const RecordContext&);
     void count(const Transmitted&, const RecordContext&);
     void count(const Received&, const RecordContext&);
@@ -66,7 +79,8 @@ class Metrics {
     void count(const Routed&, const RecordContext&);
     void count_way(const Reception&, const Frame&, const RecordContext&);
     void count_drop(LossReason, const Message&);
-    void count_parts(const Message&, std::uint64_t others, bool is_cut_off);
+    void count_sent(const Message&, std::uint64_t others);
+    void count_cut_off(const Message&, std::uint64_t others);
     bool counts(const Frame& frame, const RecordContext& context) const {
         const Message& message = context.messages[frame.message];
         return message.created >= begin_ && message.kind.empty();
@@ -79,6 +93,7 @@ class Metrics {
     MessageState& begin_state(MessageId id, std::uint64_t uid);
     PartValues& flow(const Message&);
     PartValues& robot(NodeId);
+    /// Values of each robot, by its id. Robots that joined after all messages may be missing.
     std::vector<PartValues> robots() const;
 
     Time begin_;
@@ -92,16 +107,16 @@ class Metrics {
     std::uint64_t broadcast_deliveries_ = 0;  ///< deliveries of broadcasts
     /// Number of pairs of a broadcast and a robot that forwarded it.
     std::uint64_t forwarders_ = 0;
-    RoutingValues routing_;             ///< counts of the routing protocol
-    RoutedSums routed_;                 ///< sums over routed unicasts
-    std::uint64_t bytes_ = 0;           ///< size of the messages delivered [bytes]
-    std::vector<Duration> delays_;      ///< latencies of the deliveries, unsorted
-    std::vector<std::uint64_t> hops_;   // deliveries by number of hops
-    std::vector<MessageState> states_;  ///< states of the messages, by index of the MessageId
-    std::vector<PartValues> flows_;     ///< values of each flow, at index flow - 1
-    std::vector<PartValues> robots_;    ///< values of each robot, by its id, without broadcasts
-    std::uint64_t broadcasts_ = 0;      ///< number of broadcasts, which are for all other robots
-    std::vector<std::uint64_t> own_broadcasts_;  ///< number of broadcasts by each robot
+    RoutingValues routing_;               ///< counts of the routing protocol
+    RoutedSums routed_;                   ///< sums over routed unicasts
+    std::uint64_t bytes_ = 0;             ///< size of the messages delivered [bytes]
+    std::vector<Duration> delays_;        ///< latencies of the deliveries, unsorted
+    std::vector<std::uint64_t> hops_;     // deliveries by number of hops
+    std::vector<MessageState> states_;    ///< states of the messages, by index of the MessageId
+    std::vector<PartValues> flows_;       ///< values of each flow, at index flow - 1
+    std::vector<PartValues> robots_;      ///< values of each robot, by its id, without broadcasts
+    BroadcastCounts broadcasts_;          ///< broadcasts that were sent
+    BroadcastCounts cut_off_broadcasts_;  ///< broadcasts that the end of the run cut off
 };
 
 }  // namespace rovernet

@@ -175,7 +175,7 @@ void RowLayout::choose(const std::string& words) {
         const std::string wanted = word.substr(equals + 1);  // npos + 1 is 0
         const auto cell = std::find_if(cells.begin(), cells.end(),
                                        [&](const Cell& each) { return each.name == wanted; });
-        if (cell == cells.end()) throw std::logic_error("a record has no cell named " + wanted);
+        if (cell == cells.end()) throw std::logic_error("a record has no field named " + wanted);
         chosen.push_back(&*cell);
         columns.push_back({word.substr(0, equals), cell->format, 0});
     }

@@ -36,7 +36,8 @@ struct TopologyValues {
             field("components_mean", &T::components_mean, "mean number of connected components"),
             field("speed_mean_m_s", &T::speed_mean, "mean speed of the robots"),
             field("link_lifetime_mean_s", &T::link_lifetime_mean, "mean lifetime of a link"),
-            field("links_ended", &T::links_ended, "number of links in the mean lifetime"));
+            field("links_ended", &T::links_ended,
+                  "number of links over which the mean lifetime is computed"));
     }
 };
 

@@ -106,7 +106,8 @@ TEST_CASE("fingerprint: a change of any covered field of a record changes the fi
     CHECK(seen.size() == std::size(changes));
 }
 
-TEST_CASE("fingerprint: payloads, keys, and moves below a micrometre do not change it") {
+TEST_CASE(
+    "fingerprint: payloads, message keys and moves below 1 um do not change the fingerprint") {
     Run run;
     run.sent.reachable.reset();
     run.message.payload = "other";

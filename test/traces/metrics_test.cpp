@@ -98,7 +98,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "metrics: a new message in the slot of an old one does not inherit the old message's relays") {
+    "metrics: a message that reuses the table entry of an old one does not inherit its relays") {
     LineOfFour run;
     REQUIRE(run.messages.release(MessageId{0}));
     const auto m = run.send(at(9'000), a, 2);
@@ -112,7 +112,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "metrics: receptions by a radio that is off, and its waiting copies, count as drops (SLP)") {
+    "metrics: frames that arrive at a radio that is off, and copies that wait to be sent by it, "
+    "are drops of reason SLP") {
     LineOfFour run;
     const MessageId m{0};
     run.receive(frame(m, b, 1, 2), {{at(4'000), d, Fate::off, false}});
@@ -202,7 +203,7 @@ TEST_CASE("metrics: every reason of a drop is counted under its own code") {
 }
 
 TEST_CASE(
-    "metrics: a control packet in a message's old slot does not inherit the message's counts") {
+    "metrics: a control packet that reuses a message's table entry does not inherit its counts") {
     Measured run;
     for (int i = 0; i < 3; ++i) run.place(Vec3{10.0 * i, 0, 0});
     const auto m = run.send(at(0), a, 2, 64, 2);
@@ -215,6 +216,84 @@ TEST_CASE(
     const auto v = run.values();
     CHECK(v.reach == 0.0);                // the delivery is of no message that was sent
     CHECK(v.saved_rebroadcasts == -1.0);  // b relayed both
+}
+
+TEST_CASE("metrics: a robot's number of messages includes messages to it that did not reach it") {
+    Stream run;
+    const auto metrics =
+        std::make_shared<Metrics>(start_of_run, MetricParts{.flows = true, .robots = true});
+    run.sinks = {metrics};
+    for (int i = 0; i < 3; ++i) run.place(Vec3{10.0 * i, 0, 0});
+    const auto first = run.send(at(0), a, 1);
+    run.receive(frame(first, a, 1, 1), {{at(10), b, Fate::ttl, true}});
+    CHECK(metrics->values().robots.size() == 3);
+    CHECK(metrics->values().robots[2].messages == 1);
+    CHECK(metrics->values().robots[2].delivery_ratio() == 0.0);
+    run.place(Vec3{30, 0, 0});  // d joins: the first message was not for it
+    run.send(at(100), b, 1);
+    const auto last = run.send(at(200), a, 1);
+    run.emit(Dropped{at(201), a, frame(last, a, 1, 1), DropReason::cut_off});
+    const MetricValues v = metrics->values();
+    REQUIRE(v.robots.size() == 4);
+    CHECK(v.robots[0].messages == 1);
+    CHECK(v.robots[1].delivery_ratio() == 1.0);
+    CHECK(v.robots[2].messages == 3);  // with the last one, which the end cut off
+    CHECK(v.robots[2].expected == 2);
+    CHECK(v.robots[3].messages == 2);
+    CHECK(v.robots[3].expected == 1);
+    CHECK(v.robots[3].delivery_ratio() == 0.0);
+    std::uint64_t expected = 0;
+    for (const PartValues& robot : v.robots) expected += robot.expected;
+    CHECK(v.delivery_ratio == 1.0 / static_cast<double>(expected));
+}
+
+TEST_CASE(
+    "metrics: a message cut off by the end of the run counts in the messages of its flow and of "
+    "its destination") {
+    Stream run;
+    const auto metrics =
+        std::make_shared<Metrics>(start_of_run, MetricParts{.flows = true, .robots = true});
+    run.sinks = {metrics};
+    for (int i = 0; i < 2; ++i) run.place(Vec3{10.0 * i, 0, 0});
+    for (int i = 0; i < 2; ++i) {
+        const auto id = run.messages.add({.origin = a, .to = b, .payload = {}, .flow = 1});
+        run.emit(Sent{at(i), a, id, 1, 2, {}});
+        const Frame sent{.message = id, .sender = a, .ttl = 1, .hops = 1, .next_hop = b};
+        if (i == 0) run.receive(sent, {{at(9), b, Fate::arrived, true}});
+        if (i == 1) run.emit(Dropped{at(10), a, sent, DropReason::cut_off});
+    }
+    const MetricValues v = metrics->values();
+    CHECK(v.cut_off == 1);
+    CHECK(v.messages == 2);
+    for (const PartValues& part : {v.flows.at(0), v.robots.at(b.index())}) {
+        CHECK(part.messages == 2);
+        CHECK(part.delivery_ratio() == 1.0);
+    }
+}
+
+TEST_CASE("metrics: failed attempts to send a routed unicast over a link are no losses") {
+    for (const bool is_routed : {false, true}) {
+        CAPTURE(is_routed);
+        Stream run;
+        const auto metrics = std::make_shared<Metrics>(start_of_run, MetricParts{.flows = true});
+        run.sinks = {metrics};
+        for (int i = 0; i < 2; ++i) run.place(Vec3{10.0 * i, 0, 0});
+        const auto id = run.messages.add(
+            {.origin = a, .to = b, .payload = {}, .flow = 1, .is_routed = is_routed});
+        run.emit(Sent{at(0), a, id, 9, 2, {}});
+        const Frame sent{.message = id, .sender = a, .ttl = 9, .hops = 1, .next_hop = b};
+        const Fate failures[] = {Fate::off, Fate::garbled, Fate::collided, Fate::busy};
+        for (const Fate fate : failures) run.receive(sent, {{at(1), b, fate, false}});
+        run.receive(sent, {{at(2), b, Fate::arrived, true}});
+        run.receive(sent, {{at(3), b, Fate::duplicate, false}});  // its acknowledgement was lost
+        const MetricValues v = metrics->values();
+        std::uint64_t lost = 0;
+        for (const DropCount& drop : v.drops) lost += drop.count;
+        CHECK(lost == (is_routed ? 1 : 5));
+        CHECK(v.drops[loss_codes.place("DUP")].count == 1);
+        if (is_routed) CHECK(v.flows[0].drops[loss_codes.place("DUP")] == 1);
+        if (is_routed) CHECK(v.flows[0].drops[loss_codes.place("COL")] == 0);
+    }
 }
 
 }  // namespace metrics_test

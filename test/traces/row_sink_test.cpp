@@ -86,7 +86,7 @@ TEST_CASE(
     CHECK(cell<bool>(received, 1, "delivered"));
 }
 
-TEST_CASE("rows: each kind has the expected columns and cell formats") {
+TEST_CASE("rows: the rows of each kind of record have the expected columns and cell formats") {
     const char* const expected[] = {
         "t_ns<i8 robot<i4 uid<i8 to<i4 size<i4 flow<i4 ttl<i4",
         "t_ns<i8 robot<i4 uid<i8 origin<i4 heard_from<i4 next_hop<i4 ttl<i4 hops<i4",
@@ -113,8 +113,8 @@ TEST_CASE("rows: each kind has the expected columns and cell formats") {
 }
 
 TEST_CASE(
-    "rows: the row of a link is of its receiver, and the row of a leg has the position at the "
-    "record's time") {
+    "rows: the robot in a link's row is the receiver; a movement's row has the position at its "
+    "time") {
     const auto rows = std::make_shared<RowSink>(kind_all);
     Stream stream;
     stream.sinks = {rows};

@@ -129,7 +129,7 @@ TraceDifference diff_ns2(Ns2Source source_a, Ns2Source source_b, Duration tolera
         auto& both = result.kinds[kind_name(*a.event())];
         ++both.first, ++both.second;
     }
-    if (!a.event() != !b.event()) result.field = a.event() ? "the second ends" : "the first ends";
+    if (!a.event() != !b.event()) result.field = a.event() ? "B ends before A" : "A ends before B";
     result.is_equal = result.field.empty();
     result.place = result.a.size();
     if (extent == DiffExtent::first_difference) {

@@ -17,7 +17,7 @@ constexpr std::size_t most_shown = 10;
 std::string said_of(const Ns2Refused& refused) {
     constexpr std::size_t longest = 40;
     const std::string found = refused.found.empty()
-                                  ? "the line ends"
+                                  ? "found the end of the line"
                                   : "found \"" + printable(refused.found, longest) + '"';
     const bool is_key = refused.expected.starts_with('-') && refused.expected.size() < 8;
     const std::string_view quote = is_key ? "\"" : "";

@@ -49,6 +49,8 @@ void Ns2Follower::received(const Ns2Packet& p) {
         robot.from = from(p);
         const auto parent = by_robot_.find(robot.from.value_or(way_.origin).value);
         robot.depth = parent == by_robot_.end() ? 1 : parent->second.depth + 1;
+        if (p.node != way_.origin)
+            robot.hops = std::max<std::int64_t>(first_ttl_.value_or(way_.ttl) - p.ip->ttl + 1, 1);
         order_.push_back(p.node.value);
     }
     const bool is_same_copy = p.layer == "AGT" && robot.copies > 0;
@@ -73,6 +75,7 @@ void Ns2Follower::on(const Ns2Packet& p) {
     } else if (p.op == 'r' && (p.layer == "RTR" || p.layer == "AGT")) {
         received(p);
     } else if (p.layer == "RTR" && by_robot_.contains(p.node.value)) {
+        if (!first_ttl_) first_ttl_ = p.ip->ttl;
         by_robot_[p.node.value].on_air.push_back(p.time);
     }
 }
@@ -81,7 +84,7 @@ FollowedMessage Ns2Follower::way(const std::string& trace) const {
     if (!is_found_) {
         const std::string known =
             least_ ? fmt::format("expected the id of a message, from {} to {}", *least_, most_)
-                   : "it has none";
+                   : "this trace has no messages";
         throw InputError({.source = trace},
                          fmt::format("found no message {}; {}", way_.uid, known));
     }

@@ -26,7 +26,8 @@ struct LostCopy {
 /// Robot that received a message, in the tree of first copies.
 struct FollowedRobot {
     NodeId robot;
-    int depth = 0;               ///< number of hops of the first copy; 0: sender of the message
+    int depth = 0;               ///< level in the tree; 0: sender of the message
+    std::int64_t hops = 0;       ///< number of hops of the first copy, by its TTL
     std::optional<NodeId> from;  ///< robot that transmitted the first copy
     Time time;                   ///< time of the first copy; for the sender, time of sending
     bool is_delivered = false;   ///< true if the robot's application received the message
@@ -76,6 +77,8 @@ class Ns2Follower {
 
     FollowedMessage way_;
     bool is_found_ = false;
+    /// TTL of the first frame of the message
+    std::optional<std::int64_t> first_ttl_;
     std::map<std::uint32_t, FollowedRobot> by_robot_;
     std::vector<std::uint32_t> order_;  ///< robots in the order of their first copies
     std::set<std::uint32_t> robots_;
@@ -90,7 +93,8 @@ class Ns2Follower {
 ///
 /// Robots form a tree by their first copies of the message. The first copy of a robot is its first
 /// line `r RTR` or `r AGT` of the message. The sender in the MAC header of this line is the robot's
-/// parent in the tree.
+/// parent in the tree. If protocols forward a message several times, the first copy of a robot may
+/// have made more hops than the robot's level in the tree.
 /// @throws InputError as read_ns2_trace(), and if no message has this id
 FollowedMessage follow_ns2(Ns2Source source, std::uint64_t uid,
                            Ns2Strictness = Ns2Strictness::tolerant);

@@ -31,7 +31,8 @@ bool read_layer(Ns2Packet& p, Words& words, std::string_view word) {
 
 bool read_reason(Ns2Packet& p, Words& words, std::string_view word) {
     p.reason = word;
-    return is_ns2_reason(word) || words.fail(word, "a reason of ns-2, or ---");
+    return is_ns2_reason(word) ||
+           words.fail(word, "a reason for a drop as in ns-2 (COL, TTL, ...), or ---");
 }
 
 bool read_uid(Ns2Packet& p, Words& words, std::string_view word) {
@@ -46,7 +47,7 @@ bool read_size(Ns2Packet& p, Words& words, std::string_view word) {
 /// "address<separator>port"
 bool read_address(Words& words, std::string_view word, char separator, std::int64_t& address,
                   std::int64_t& port) {
-    constexpr std::string_view expected = "an address and port";
+    constexpr std::string_view expected = "an address and a port";
     const std::size_t at = word.rfind(separator);
     if (at == word.npos) return words.fail(word, expected);
     return words.integer(word.substr(0, at), address, expected) &&
@@ -54,7 +55,7 @@ bool read_address(Words& words, std::string_view word, char separator, std::int6
 }
 
 constexpr std::string_view a_ttl = "a ttl";
-constexpr std::string_view a_mac_field = "a field of the MAC in hexadecimal";
+constexpr std::string_view a_mac_field = "a hexadecimal number of the MAC header";
 
 /// Reads an address of S-MAC, which prints it as a signed number: -1 is broadcast.
 bool read_smac_address(Words& words, std::string_view word, std::uint32_t& address) {

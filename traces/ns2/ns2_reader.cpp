@@ -162,10 +162,10 @@ bool Replay::sent(const Ns2Packet& p) {
     if (!p.ip || p.ip->from_port == routing_port || p.type == "ack") return false;
     const auto [entry, is_new] = by_type_[std::string(p.type)].try_emplace(p.uid);
     if (!is_new) {
-        file_.refuse(p.uid_column,
-                     fmt::format("{} {} is sent a second time; expected a different number for "
-                                 "each message of a type",
-                                 p.type, p.uid));
+        file_.refuse(p.uid_column, fmt::format("a packet of type {} with number {} is sent a "
+                                               "second time; expected a different number for "
+                                               "each packet of a type",
+                                               p.type, p.uid));
         return false;
     }
     const bool for_one = p.ip->to >= 0;

@@ -16,13 +16,20 @@ bool is_of_routing(const Ns2Packet& p) {
     return (p.ip && p.ip->from_port == routing_port) || TraceCounter::is_of_routing(p.type);
 }
 
+/// Whether a message is a unicast that a routing protocol forwards. rovernet writes its unicasts
+/// over one hop with type "message" and TTL 1.
+bool is_routed_unicast(const Ns2Packet& p) {
+    return p.ip && p.ip->to >= 0 && !(p.type == "message" && p.ip->ttl == 1);
+}
+
 /// Counter of a trace's lines, and of the records that they form.
 struct Ns2Counter {
     Metrics metrics;
     TraceCounter counter;
 
     KindMask kinds() const {
-        return metrics.kinds() | kind_of<Sent>() | kind_of<Transmitted>() | kind_of<Received>();
+        return metrics.kinds() | kind_of<Sent>() | kind_of<Transmitted>() | kind_of<Received>() |
+               (counter.by() == TraceRows::robot ? kind_of<Moved>() : 0);
     }
     void on(const Record& record, const RecordContext& context);
     void packet(const Ns2Packet& p, const Message* message);
@@ -41,10 +48,13 @@ void Ns2Counter::on(const Record& record, const RecordContext& context) {
         counter.transmitted(t->frame.sender, flow, t->time);
     } else if (const auto* r = std::get_if<Received>(&record)) {
         for (const Reception& rx : r->receptions) counter.received(rx, sending(r->frame.message));
+    } else if (const auto* m = std::get_if<Moved>(&record)) {
+        counter.know(m->node);
     }
 }
 
 void Ns2Counter::packet(const Ns2Packet& p, const Message* message) {
+    counter.know(p.node);
     if (p.op == 'D') {
         counter.add_drops(p.layer, p.reason, 1);
         if (!message) return;
@@ -53,6 +63,7 @@ void Ns2Counter::packet(const Ns2Packet& p, const Message* message) {
     }
     const bool is_sent = p.layer == "RTR" && (p.op == 's' || p.op == 'f');
     if (is_sent && !message && is_of_routing(p)) counter.routed(p.size.value_or(0));
+    if (is_sent && message && is_routed_unicast(p)) counter.forwarded();
     if (counter.by() != TraceRows::flow || !message || p.layer != "AGT" || p.op != 's') return;
     counter.name_flow(message->flow, fmt::format("{} {}:{} -> {}:{}", p.type, p.ip->from,
                                                  p.ip->from_port, p.ip->to, p.ip->to_port));

@@ -48,7 +48,10 @@ struct TraceStats {
     /// Number of transmissions of control packets by routing agents: `s RTR` and `f RTR` lines from
     /// port 255, or of the type of a routing protocol (AODV, DSR, ...); each hop counts.
     std::uint64_t routing_packets = 0;
-    std::uint64_t routing_bytes = 0;    ///< size of the routing packets, as in the lines [bytes]
+    std::uint64_t routing_bytes = 0;  ///< size of the routing packets, as in the lines [bytes]
+    /// Number of transmissions of unicasts by routing agents: `s RTR` and `f RTR` lines of messages
+    /// to one robot, except unicasts that rovernet sent over one hop without a routing protocol.
+    std::uint64_t data_transmissions = 0;
     std::uint64_t delivered_bytes = 0;  ///< sum of the sizes of the delivered messages [bytes]
 
     // Jitter of the latencies d of one flow at one receiver, in the order of arrival.

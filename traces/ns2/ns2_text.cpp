@@ -82,11 +82,11 @@ KnownPayload payload_of(const Ns2Packet& packet) {
 }
 
 constexpr std::string_view no_network_part =
-    "ARP, RTS, CTS, ACK and other frames of the MAC: only one of the formats has their type and "
-    "size";
+    "ARP, RTS, CTS, ACK and other frames of the MAC layer: only one of the two formats contains "
+    "their type and size";
 constexpr std::string_view other_payload =
-    "packets of routing agents, and others: only the contents of TCP packets and of constant bit "
-    "rate can be converted";
+    "packets of routing agents and of other types: only the contents of packets of TCP and of "
+    "constant bit rate can be converted";
 
 /// Ethertype of a packet; that of IP if S-MAC gives none, because a reader recognises by it that a
 /// MAC has sent the packet.

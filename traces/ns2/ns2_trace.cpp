@@ -121,7 +121,7 @@ void Ns2Trace::Writer::lines(const Dropped& r, const RecordContext& context) {
     const auto [code, layer] = r.loss();
     if (layer == "MAC" && mac_ == MacTrace::off) return;
     if (layer != "MAC" && r.protocol_decides) return;  // the protocol's drop follows
-    const Frame frame = lost_frame(r);
+    const Frame frame = lost_frame(r, context.messages[r.frame.message]);
     const NodeId before = r.frame.sender;
     const bool is_unicast = frame.next_hop != everyone;
     Ns2MacFields mac;
@@ -136,11 +136,11 @@ void Ns2Trace::Writer::lines(const Dropped& r, const RecordContext& context) {
 
 /// Frame in which the node would have sent the lost copy on; the frame that it received, if it has
 /// chosen no next hop.
-Frame Ns2Trace::Writer::lost_frame(const Dropped& r) const {
+Frame Ns2Trace::Writer::lost_frame(const Dropped& r, const Message& message) const {
     Frame frame = r.frame;
     if (r.reason == DropReason::cut_off || r.reason == DropReason::held) {
-        const std::size_t message = frame.message.index();
-        if (message < ttls_.size()) frame.ttl = ttls_[message];
+        const std::size_t place = frame.message.index();
+        if (message.kind.empty() && place < ttls_.size()) frame.ttl = ttls_[place];
         frame.next_hop = everyone;
     }
     const bool has_next_hop = frame.next_hop != everyone && frame.next_hop != r.node;

@@ -119,7 +119,7 @@ class Ns2Trace::Writer {
     void router_line(Time, const Frame&, std::optional<NodeId> heard_from, const RecordContext&);
     void lines(const Received&, const RecordContext&);
     void lines(const Dropped&, const RecordContext&);
-    Frame lost_frame(const Dropped&) const;
+    Frame lost_frame(const Dropped&, const Message&) const;
     void lines(const Moved&, const RecordContext&);
     void lines(const AirSent&, const RecordContext&);
     void lines(const ControlReceived&, const RecordContext&);
@@ -166,7 +166,8 @@ class Ns2Trace::Writer {
     char* at_ = nullptr;  ///< end of the current line so far
     bool finished_ = false, closed_ = false;
     std::string description_;  ///< description of a control packet; kept to reuse its memory
-    std::vector<Hops> ttls_;   ///< TTL of each message when it was sent, by MessageId
+    /// TTL of each application's message when it was sent, by MessageId.
+    std::vector<Hops> ttls_;
     /// Time reserved by the last unicast that was received, and by the last one on air [ns]. The
     /// latter is known only if the MAC is traced.
     Duration reserved_{0}, sent_reserved_{0};

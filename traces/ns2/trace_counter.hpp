@@ -52,6 +52,10 @@ class TraceCounter {
     TraceCounter(TraceCounter&&) = default;  // no copies: near_ points into rows_
 
     TraceRows by() const { return by_; }
+    /// Adds the row of a robot of the trace, if rows are by robot and it has none yet.
+    void know(NodeId node) {
+        if (by_ == TraceRows::robot) row(node.value);
+    }
     void sent(NodeId node, const Sending& message);
     void transmitted(NodeId sender, std::uint32_t flow, Time time) {
         if (TraceRow* r = row(sender, flow, time)) ++r->transmissions;
@@ -67,6 +71,8 @@ class TraceCounter {
     void add_drops(std::string_view layer, std::string_view reason, std::uint64_t count);
     /// Counts a control packet sent by a routing agent.
     void routed(std::uint64_t bytes);
+    /// Counts a unicast sent or forwarded by a routing agent.
+    void forwarded() { ++counted_.data_transmissions; }
     /// Whether packets of this type are control packets of a routing protocol.
     static bool is_of_routing(std::string_view type);
     /// Sets the name of a flow's row.

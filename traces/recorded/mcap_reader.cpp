@@ -51,9 +51,11 @@ McapReader::McapReader(const std::string& path) : file_(mapped(path)), at_(mcap_
     const std::string kind(foreign_kind(file_.substr(0, 512)));
     unmap();
     if (!kind.empty())
-        throw InputError({.source = path}, kind + "; expected an uncompressed recorded trace");
+        throw InputError({.source = path},
+                         kind + "; expected a recorded trace (.mcap), not compressed");
     throw InputError({.source = path},
-                     "this is no recorded trace: expected a file in the format MCAP");
+                     "this file is not a recorded trace; expected a file in the format MCAP, as "
+                     "rovernet run --record writes it");
 }
 
 McapReader::~McapReader() { unmap(); }
@@ -150,7 +152,7 @@ void McapReader::skip_to_chunk() {
     const std::uint64_t chunk = next_chunk(at_ + 1);
     const bool is_last = chunk == file_.size();
     // A chunk that was being written when the writer died is part of the missing end.
-    if (!is_last) tell(fmt::format("bytes {} to {} are broken", at_, chunk));
+    if (!is_last) tell(fmt::format("bytes {} to {} are damaged", at_, chunk));
     at_ = chunk;
 }
 
@@ -163,7 +165,7 @@ std::optional<McapMessages> McapReader::unpack(const McapRecord& chunk) {
     const std::string_view compression = from.text();
     const std::string_view packed = from.take(from.fixed<std::uint64_t>());
     const auto broken = [&](std::string_view why) {
-        tell(fmt::format("the chunk at byte {} ({:.6f} to {:.6f} s) is broken: {}", chunk.offset,
+        tell(fmt::format("the chunk at byte {} ({:.6f} to {:.6f} s) is damaged: {}", chunk.offset,
                          static_cast<double>(messages.first) / 1e9,
                          static_cast<double>(messages.last) / 1e9, why));
         return std::nullopt;

@@ -59,7 +59,10 @@ bool is_recorded_trace(const std::string& path) {
 std::string RecordedRun::names_in_words() const {
     const bool is_broken = std::find(broken.begin(), broken.end(), names_file) != broken.end();
     const std::string_view why = is_broken ? "is broken" : "is missing";
-    return fmt::format("the trace names {}", robots.size()) +
+    std::string names = fmt::format("the names of {} robots", robots.size());
+    if (robots.empty()) names = "no names of robots";
+    if (robots.size() == 1) names = "the name of 1 robot";
+    return "the trace has " + names +
            (has_names ? "" : fmt::format(", because the file {} in the trace {}", names_file, why));
 }
 
@@ -88,7 +91,10 @@ RecordedReader::RecordedReader(const std::string& path) : path_(path), file_(pat
         fail(fmt::format("this {} is cut off before its first data; record the run again",
                          has_profile ? "recorded trace" : "MCAP file"));
     }
-    if (!has_metadata) fail("this MCAP file was not recorded by rovernet");
+    if (!has_metadata)
+        fail(
+            "this MCAP file was not recorded by rovernet; expected a trace of rovernet run "
+            "--record");
     for (std::size_t i = 0; i < run_.robots.size(); ++i) legs_.add({});
 }
 
@@ -110,8 +116,10 @@ void RecordedReader::read_metadata(std::string_view content) {
         if (key != "format") continue;
         format_ = number_in<std::uint32_t>(value);
         if (format_ == 0 || format_ > recorded_format) {
-            fail(fmt::format("a recorded trace of format {}; this version reads format {}", value,
-                             recorded_format));
+            fail(
+                fmt::format("this recorded trace has format {}, but this version of rovernet reads "
+                            "formats up to {}; use a newer version, or record the run again",
+                            value, recorded_format));
         }
     }
     if (!before.empty() && before != run_.scenario) {
@@ -128,7 +136,7 @@ void RecordedReader::read_attachment(std::string_view content) {
     const auto crc = from.fixed<std::uint32_t>();
     if (!from.is_done() ||
         (crc != 0 && mcap_crc(content.substr(0, content.size() - sizeof crc)) != crc)) {
-        file_.tell(fmt::format("the attached file {} is broken", file.name));
+        file_.tell(fmt::format("the file {}, which this trace contains, is damaged", file.name));
         run_.broken.push_back(std::move(file.name));
         return;
     }
@@ -162,8 +170,10 @@ void RecordedReader::read_channel(std::string_view content) {
 /// Reports, once, that the records of a kind are left out.
 void RecordedReader::leave_out(std::string& kind) {
     if (kind.empty()) return;
-    file_.tell(fmt::format("the records {} are left out: this version does not know them",
-                           std::exchange(kind, {})));
+    file_.tell(
+        fmt::format("the records of kind {} are left out, because this version of rovernet does "
+                    "not know this kind",
+                    std::exchange(kind, {})));
 }
 
 /// Unpacks the next complete chunk. @return false at the end of the file
@@ -278,8 +288,8 @@ bool RecordedReader::define(std::string_view bytes) {
     for (const NodeId end : {message.origin, message.to}) meet(end);
     constexpr std::uint32_t most_flows = 1 << 20;
     if (message.flow > most_flows) {
-        fail(fmt::format("record {} is of flow {}; expected at most {}", records_ + 1, message.flow,
-                         most_flows));
+        fail(fmt::format("record {} belongs to flow number {}; expected a number of at most {}",
+                         records_ + 1, message.flow, most_flows));
     }
     if (slot.index() >= slots_.size()) slots_.resize(slot.index() + 1);
     message.kind = *kinds_.emplace(kind).first;
@@ -300,8 +310,8 @@ void RecordedReader::meet(NodeId robot) {
     constexpr std::size_t most_more = 1 << 20;
     const std::size_t named = run_.robots.size();
     if (robot.index() >= named + (run_.scenario.empty() && run_.has_names ? most_more : 0)) {
-        fail(fmt::format("record {} is of robot {}; {}", records_ + 1, robot.value,
-                         run_.names_in_words()));
+        fail(fmt::format("record {} belongs to robot number {} (counted from 0), but {}",
+                         records_ + 1, robot.value, run_.names_in_words()));
     }
     while (legs_.size() <= robot.index()) legs_.add({});
 }

@@ -104,7 +104,7 @@ TEST_CASE("seconds with five decimals are rounded, ties to the even digit") {
     CHECK(written(write_seconds5, ns(999'995'001)) == "1.00000");
 }
 
-TEST_CASE("short seconds are printed with no more decimals than they need") {
+TEST_CASE("times in seconds are printed with no more decimals than their value needs") {
     CHECK(written(write_seconds_short, ns(0)) == "0");
     CHECK(written(write_seconds_short, ns(10'000'000'000)) == "10");
     CHECK(written(write_seconds_short, ns(250'000'000)) == "0.25");

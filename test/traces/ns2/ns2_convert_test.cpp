@@ -81,8 +81,7 @@ const std::string on_to_2 =
 }  // namespace
 
 TEST_CASE(
-    "trace convert: a trace of rovernet converted from the old to the new format and back has the "
-    "same bytes") {
+    "trace convert: a trace of rovernet converted to the new format and back has the same bytes") {
     for (unsigned seed = 0; seed < 5; ++seed) {
         const std::string text = written(Ns2Format::old_format, MacTrace::off, seed);
         const Made in_new = converted(text, TraceForm::ns2_new);
@@ -92,9 +91,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "trace convert: a trace in the new format is converted to the trace that the run writes in the "
-    "old format") {
+TEST_CASE("trace convert: a trace in the new format becomes the run's trace in the old format") {
     const Made made = converted(written(Ns2Format::new_format), TraceForm::ns2_old);
     CHECK(made.text == written(Ns2Format::old_format));
 }
@@ -162,7 +159,7 @@ TEST_CASE(
     CHECK(routing.converted.left_out.size() == 1);
     const Made unplaced = converted(cbr, TraceForm::ns2_new);
     CHECK(unplaced.text.empty());
-    CHECK(unplaced.converted.left_out.begin()->first.find("without an M line") !=
+    CHECK(unplaced.converted.left_out.begin()->first.find("no earlier M line") !=
           std::string::npos);
 }
 
@@ -220,7 +217,7 @@ TEST_CASE("trace cut: a trace cut to one message has all deliveries of the messa
     CHECK(deliveries == whole.metrics.deliveries);
 }
 
-TEST_CASE("trace diff: traces of a run in both formats are equal, also with added comments") {
+TEST_CASE("trace diff: traces of a run in both ns-2 formats are equal, also with added comments") {
     const std::string old_text = written(Ns2Format::old_format, MacTrace::on);
     const std::string new_text = written(Ns2Format::new_format, MacTrace::on);
     CHECK(difference(old_text, new_text).is_equal);
@@ -244,10 +241,10 @@ TEST_CASE("trace diff: the first different field, the lines around it and all co
     CHECK(d.kinds.at("D MAC COL") == std::pair<std::uint64_t, std::uint64_t>{1, 1});
     CHECK(difference(a, b, Duration{1}).is_equal);
     const auto shorter = difference(a, moves + sent_0 + got_1);
-    CHECK(shorter.field == "the second ends");
+    CHECK(shorter.field == "B ends before A");
     CHECK(shorter.b.size() == 2);
     CHECK(shorter.kinds.at("D MAC COL") == std::pair<std::uint64_t, std::uint64_t>{1, 0});
-    CHECK(difference(moves, moves + sent_0).field == "the first ends");
+    CHECK(difference(moves, moves + sent_0).field == "A ends before B");
     const auto changed = [&](const std::string& what, const std::string& by) {
         std::string c = a;
         c.replace(c.find(what), what.size(), by);
@@ -311,6 +308,7 @@ TEST_CASE(
     CHECK(way.robots[2].robot == NodeId{2});
     CHECK(way.robots[2].from == NodeId{1});
     CHECK(way.robots[2].depth == 2);
+    CHECK(way.robots[2].hops == 2);
     REQUIRE(way.lost.size() == 2);
     CHECK(way.lost[0].reason == "DUP");
     CHECK(way.lost[1].robot == NodeId{3});
@@ -322,6 +320,21 @@ TEST_CASE(
     } catch (const InputError& e) {
         CHECK(e.message() == "found no message 7; expected the id of a message, from 0 to 0");
     }
+}
+
+TEST_CASE(
+    "trace follow: the hops of a copy follow from its TTL, also if its sender forwarded the "
+    "message twice") {
+    const TempFolder folder;
+    const std::string again =
+        "f 1.620000000 _1_ RTR  --- 0 message 64 [0 ffffffff 0 800] ------- [0:0 -1:0 1 0] \n"
+        "r 1.720000000 _4_ RTR  --- 0 message 64 [0 ffffffff 1 800] ------- [0:0 -1:0 1 0] \n";
+    write_file(folder / "run.tr", moves + sent_0 + got_1 + on_to_2 + again);
+    const auto way = follow_ns2(folder / "run.tr", 0);
+    REQUIRE(way.robots.size() == 4);
+    CHECK(way.robots[3].robot == NodeId{4});
+    CHECK(way.robots[3].depth == 2);
+    CHECK(way.robots[3].hops == 3);
 }
 
 TEST_CASE(

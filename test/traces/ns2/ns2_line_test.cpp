@@ -109,7 +109,9 @@ TEST_CASE(
     CHECK_FALSE(rts.ip);
 }
 
-TEST_CASE("ns-2 line: control frames of the MAC have no network part, and energy may follow") {
+TEST_CASE(
+    "ns-2 line: lines of the MAC's control frames have no IP header; any line may have the robot's "
+    "energy") {
     for (const std::string energy : {"", "[energy 98.3 ei 1.3 es 0.0 et 0.1 er 0.2] "}) {
         const std::string line = "D 3.541349000 _2_ MAC  RET 0 RTS 44 [14ee 3 2 0] " + energy;
         const auto p = packet_of(line);
@@ -162,7 +164,7 @@ TEST_CASE("ns-2 line: the unusual MAC addresses of Mac/Simple are read unchanged
     CHECK(p.mac == Ns2Mac{0, 0x1000000, 0xffff0008, 0});
 }
 
-TEST_CASE("ns-2 line: M, N and v lines are read, with the annotation that this program writes") {
+TEST_CASE("ns-2 line: M, N and v lines are read, with the annotation that rovernet writes") {
     const Ns2Line m = parse_ns2_line("M 2.00000 3 (6.59, 418.73, 1.00), (67.99, 108.50), 14.52");
     REQUIRE(std::holds_alternative<Ns2Move>(m));
     CHECK(std::get<Ns2Move>(m).from == Vec3{6.59, 418.73, 1});

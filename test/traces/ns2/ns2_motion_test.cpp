@@ -42,7 +42,7 @@ void check_place(const Ns2Motion& motion, Duration t, Vec3 expected, double tole
 }  // namespace
 
 TEST_CASE(
-    "ns-2 motion: a robot rests before its first leg, goes to the leg's goal, and rests there") {
+    "ns-2 motion: a robot rests before its first movement, goes to the goal, and rests there") {
     Ns2Motion motion;
     go(motion, 2s, {1, 2}, {9, 2}, 4);
     CHECK(motion.knows(robot));
@@ -56,7 +56,8 @@ TEST_CASE(
     CHECK(motion.legs(robot).back().heading == 0);
 }
 
-TEST_CASE("ns-2 motion: a leg that ends early is corrected by the start position of the next one") {
+TEST_CASE(
+    "ns-2 motion: a movement that ends early is corrected by the start position of the next one") {
     Ns2Motion motion;
     go(motion, 0s, {}, {100, 0}, 2.5);           // in truth at 2.503 m/s
     go(motion, 20s, {50.06, 0}, {50.06, 9}, 1);  // and turned here
@@ -66,7 +67,7 @@ TEST_CASE("ns-2 motion: a leg that ends early is corrected by the start position
 }
 
 TEST_CASE(
-    "ns-2 motion: a leg that had time to finish ends at its goal, wherever the next one begins") {
+    "ns-2 motion: a movement with enough time ends at its goal, wherever the next one begins") {
     Ns2Motion motion;
     go(motion, 0s, {}, {10, 0}, 1);
     go(motion, 15s, {10, 0}, {10, 5}, 1);
@@ -76,7 +77,7 @@ TEST_CASE(
     check_place(motion, 31s, {70, 70});
 }
 
-TEST_CASE("ns-2 motion: positions in packet lines refine the rounded speed of a leg") {
+TEST_CASE("ns-2 motion: positions in packet lines refine the rounded speed of a movement") {
     Ns2Motion motion;
     go(motion, 0s, {}, {100, 0}, 2.5);
     for (int i = 1; i <= 30; ++i) motion.is_at(robot, at(i * 1s), {2.503 * i, 0});
@@ -102,7 +103,7 @@ TEST_CASE("ns-2 motion: without M lines a robot moves straight from position to 
     check_place(motion, 99s, {9, 7});
 }
 
-TEST_CASE("ns-2 motion: legs are in order of time, in any order of lines") {
+TEST_CASE("ns-2 motion: movements are in order of time, in any order of lines") {
     Ns2Motion motion;
     motion.is_at(robot, at(1s), {});
     motion.is_at(robot, at(1s), {4, 0});

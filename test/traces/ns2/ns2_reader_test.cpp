@@ -293,24 +293,25 @@ TEST_CASE(
     CHECK(broken("r 1.0 _1048576_" + rest) ==
           "run.tr:8:8: found \"1048576\", expected a robot's number below 1048576");
     CHECK(broken("r 1 -s 0 -d -1 -p cbr -k RTR") ==
-          "run.tr:8:29: the line ends, expected \"-i\"");  // tagged
+          "run.tr:8:29: found the end of the line, expected \"-i\"");  // tagged
     CHECK(broken("r 1.0 _1_ RTX  ---") ==
           "run.tr:8:11: found \"RTX\", expected a layer (AGT, RTR, MAC, IFQ, PHY or TRP)");
     CHECK(broken("r 1.0 _1_ RTR  -- 0") ==
-          "run.tr:8:16: found \"--\", expected a reason of ns-2, or ---");
+          "run.tr:8:16: found \"--\", expected a reason for a drop as in ns-2 (COL, TTL, ...), or "
+          "---");
     CHECK(broken("r 1.0 _1_ RTR  --- 0 message") ==
-          "run.tr:8:29: the line ends, expected a size in bytes");
+          "run.tr:8:29: found the end of the line, expected a size in bytes");
     CHECK(broken("r 1.0 _1_ RTR  --- 0 message 64 [0 ffffffff 0 800] ------- [0:0 -1:0 x 0] ") ==
           "run.tr:8:70: found \"x\", expected a ttl");
     CHECK(broken("s 1.0 _1_ AGT  --- 0 message 64 [0 0 0 0] ------- [0:0 -1:0 3 0] ") ==
-          "run.tr:8:20: message 0 is sent a second time; expected a different number for each "
-          "message of a type");
+          "run.tr:8:20: a packet of type message with number 0 is sent a second time; expected a "
+          "different number for each packet of a type");
     CHECK(broken("M 0.0 1 (3.00, 0.00, 1.00), (3.00, 4.00)") ==
           "run.tr:8:36: found \"4.00)\", expected a coordinate [m] as in (x, y, z), (x, y), speed");
     CHECK(broken("M 0.0 1 (nan, 0.00, 1.00), (3.00, 4.00), 2.00") ==
           "run.tr:8:10: found \"nan\", expected a coordinate [m] as in (x, y, z), (x, y), speed");
     CHECK(broken("v 1 eval {set sim_annotation {reachable 0 x}}").starts_with("run.tr:8:43: "));
-    CHECK(broken(new_start) == "run.tr:8:118: the line ends, expected \"-Is\"");
+    CHECK(broken(new_start) == "run.tr:8:118: found the end of the line, expected \"-Is\"");
     CHECK(broken("s -t 1.0 -Hs 0 -Nd -2")
               .starts_with("run.tr:8:16: found \"-Nd\", expected \"-Hd\""));
     CHECK(broken(std::string("\0\xff\n", 2)) ==

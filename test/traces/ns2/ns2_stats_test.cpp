@@ -187,7 +187,8 @@ TEST_CASE("trace stats: each line is counted as an event, as skipped or as refus
     REQUIRE(s.counts.refused == 2);
     CHECK(s.counts.refused_lines[0].line == 4);
     CHECK(s.counts.refused_lines[0].text == "what is this");
-    CHECK(s.counts.refused_lines[1].why.starts_with("cbr 0 is sent a second time"));
+    CHECK(s.counts.refused_lines[1].why.starts_with(
+        "a packet of type cbr with number 0 is sent a second time"));
     std::string many = sent("1", 0);
     for (int i = 0; i < 25; ++i) many += "nothing\n";
     CHECK(stats_of(many).counts.refused == 25);
@@ -247,7 +248,8 @@ TEST_CASE("trace stats: traces of one run of ns-2 in both formats give equal sta
     CHECK_THROWS_AS(ns2_stats(in + "ns3_aodv_wifi_ascii.tr"), InputError);
 }
 
-TEST_CASE("stats: frames of S-MAC, which have signed addresses and no ethertype, are counted") {
+TEST_CASE(
+    "trace stats: frames of S-MAC, which have signed addresses and no ethertype, are counted") {
     const TempFolder folder;
     write_file(
         folder / "smac.tr",
@@ -272,8 +274,8 @@ TEST_CASE("stats: frames of S-MAC, which have signed addresses and no ethertype,
 }
 
 TEST_CASE(
-    "stats: M lines with a script's options are skipped as a header, and invalid M lines are "
-    "refused") {
+    "trace stats: M lines that list options of the simulation script are skipped; invalid M lines "
+    "are refused") {
     const TempFolder folder;
     write_file(folder / "in.tr",
                "M 0.0 nn 3 x 600 y 300 rp AODV\n"
@@ -288,7 +290,7 @@ TEST_CASE(
     CHECK(s.counts.refused == 2);
 }
 
-TEST_CASE("stats: a file without any trace line is refused, whatever it contains") {
+TEST_CASE("trace stats: a file without any trace line is refused, whatever it contains") {
     const TempFolder folder;
     const std::vector<std::pair<std::string, std::string>> files = {
 

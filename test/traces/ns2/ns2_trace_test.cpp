@@ -235,7 +235,8 @@ TEST_CASE(
         "\n"));
 }
 
-TEST_CASE("ns-2 trace: if MAC lines are off, the sink does not request the records for them") {
+TEST_CASE(
+    "ns-2 trace: if MAC lines are off, the trace does not request the records of MAC frames") {
     const TempFolder folder;
     const KindMask of_mac = kind_of<AirSent>() | kind_of<ControlReceived>();
     CHECK((Ns2Trace(folder / "a.tr").kinds() & of_mac) == 0);

@@ -52,7 +52,7 @@ std::vector<Frame> frames_unlike(Frame frame, MessageId other) {
 
 }  // namespace
 
-TEST_CASE("records match exactly if all recorded data of frames is equal") {
+TEST_CASE("records about frames match if, and only if, all recorded data of the frames is equal") {
     const Two t;
     Frame frame{.message = t.slot_a, .sender = NodeId{1}, .ttl = 3, .hops = 1};
     Frame same = frame;
@@ -73,7 +73,8 @@ TEST_CASE("records match exactly if all recorded data of frames is equal") {
     }
 }
 
-TEST_CASE("records match exactly if all recorded data of receptions and frames on air is equal") {
+TEST_CASE(
+    "records about receptions or frames on air match if, and only if, all their data is equal") {
     const Two t;
     const Frame a{.message = t.slot_a, .sender = NodeId{1}},
         b{.message = t.slot_b, .sender = NodeId{1}};
@@ -102,7 +103,7 @@ TEST_CASE("records match exactly if all recorded data of receptions and frames o
     CHECK_FALSE(t.same(AirSent{at(1), {.frame = a}, 7}, AirSent{at(2), air, 7}));
 }
 
-TEST_CASE("records match exactly if all recorded data of robots is equal") {
+TEST_CASE("records about robots match if, and only if, all their recorded data is equal") {
     const Two t;
     const Sent sent{at(1), NodeId{2}, t.slot_a, 3, 4, 5};
     CHECK(t.same(sent, Sent{at(1), NodeId{2}, t.slot_b, 3, 4, 5}));

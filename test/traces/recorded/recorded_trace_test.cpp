@@ -114,13 +114,16 @@ std::string said_of(std::size_t named, std::uint32_t last, const std::string& sc
     }
 }
 
-TEST_CASE(
-    "in a recorded trace of a scenario, a record of a robot whose name is missing is reported") {
+TEST_CASE("in a recorded trace with a scenario, a record of a robot without a name is reported") {
     CHECK(said_of(3, 2, "[scenario]\n") == "nothing");
-    CHECK(said_of(3, 3, "[scenario]\n") == "record 2 is of robot 3; the trace names 3");
+    CHECK(said_of(3, 3, "[scenario]\n") ==
+          "record 2 belongs to robot number 3 (counted from 0), but the trace has the names of 3 "
+          "robots");
     // Robots may have been added later to a network that was made in code.
     CHECK(said_of(3, 3, "") == "nothing");
-    CHECK(said_of(3, 4'000'000, "") == "record 2 is of robot 4000000; the trace names 3");
+    CHECK(said_of(3, 4'000'000, "") ==
+          "record 2 belongs to robot number 4000000 (counted from 0), but the trace has the names "
+          "of 3 robots");
 }
 
 TEST_CASE("record kinds of later versions are skipped, with one notice") {
@@ -150,7 +153,8 @@ TEST_CASE("record kinds of later versions are skipped, with one notice") {
     if (is_declared) {
         CHECK(records == 2);
         CHECK(reader.damage()[0] ==
-              "the records Later are left out: this version does not know them");
+              "the records of kind Later are left out, because this version of rovernet does not "
+              "know this kind");
     } else {
         CHECK(records == 1);  // the control: a channel of nothing is damage
     }
@@ -312,10 +316,13 @@ TEST_CASE("a file that is not a recorded trace is refused with the reason") {
         return std::string("read");
     };
     CHECK(refused("\x1f\x8b\x08 and more") ==
-          "the file is compressed by gzip; expected an uncompressed recorded trace");
-    CHECK(refused("") == "this is no recorded trace: expected a file in the format MCAP");
+          "the file is compressed by gzip; expected a recorded trace (.mcap), not compressed");
+    CHECK(refused("") ==
+          "this file is not a recorded trace; expected a file in the format MCAP, as rovernet run "
+          "--record writes it");
     CHECK(refused("s 1.0 _0_ AGT") ==
-          "this is no recorded trace: expected a file in the format MCAP");
+          "this file is not a recorded trace; expected a file in the format MCAP, as rovernet run "
+          "--record writes it");
     CHECK(refused(std::string(mcap_magic)) ==
           "this MCAP file is cut off before its first data; record the run again");
     CHECK_THROWS_AS(RecordedReader("/nowhere/at/all"), InputError);
