@@ -5,7 +5,8 @@
 #              statistics, which tests draw ten thousand times
 #   scenarios  from a scenario file to a run and its results         less so: two thirds of the time to compile
 #   terminal   the command line, and the command `run`               less so
-#   lockstep   clients that drive a run step by step                 optimised: bench/live is a fifth slower without
+#   streams    clients that drive a run step by step, and the        optimised: bench/live is a fifth slower without,
+#              columns of the viewer                                 `view` of a large run a seventh
 #   upper      replay, reports, pictures, studies, live runs         less so
 #   commands   the other commands                                    less so
 include(cmake/rooms.cmake)
@@ -13,9 +14,10 @@ include(cmake/python.cmake)
 
 sources_in("^experiment/(session|client_radios|driven_robots)|^study/statistics/" engine_sources
            ${ROVERNET_UPPER_SOURCES})
-sources_in("^live/lockstep/" lockstep_sources ${ROVERNET_UPPER_SOURCES})
+sources_in("^live/lockstep/|^pictures/viewer/(frame_columns|view_run|view_series)" stream_sources
+           ${ROVERNET_UPPER_SOURCES})
 set(upper_sources ${ROVERNET_UPPER_SOURCES})
-list(REMOVE_ITEM upper_sources ${engine_sources} ${lockstep_sources})
+list(REMOVE_ITEM upper_sources ${engine_sources} ${stream_sources})
 sources_in("^scenario/|^experiment/[^/]*$" scenario_sources ${upper_sources})
 list(REMOVE_ITEM upper_sources ${scenario_sources})
 
@@ -48,7 +50,7 @@ endfunction()
 
 add_part(engine fast ${ROVERNET_ENGINE_SOURCES} ${engine_sources})
 add_part(scenarios brief ${scenario_sources})
-add_part(lockstep fast ${lockstep_sources})
+add_part(streams fast ${stream_sources})
 add_part(upper brief ${upper_sources})
 include(cmake/version.cmake)
 include(cmake/viewer.cmake)
@@ -56,7 +58,7 @@ include(cmake/viewer.cmake)
 # What the library is linked with: by name, so that no path of this machine enters the installed package.
 set(libraries fmt::fmt PNG::PNG ZLIB::ZLIB yaml-cpp tomlplusplus xxhash zstd SQLiteCpp sqlite3 simdjson)
 set(engine_and_scenarios $<TARGET_OBJECTS:rovernet_engine> $<TARGET_OBJECTS:rovernet_scenarios>)
-add_library(rovernet ${engine_and_scenarios} $<TARGET_OBJECTS:rovernet_lockstep> $<TARGET_OBJECTS:rovernet_upper>)
+add_library(rovernet ${engine_and_scenarios} $<TARGET_OBJECTS:rovernet_streams> $<TARGET_OBJECTS:rovernet_upper>)
 add_library(rovernet::rovernet ALIAS rovernet)
 set_target_properties(rovernet PROPERTIES LINKER_LANGUAGE CXX)
 target_compile_features(rovernet PUBLIC cxx_std_20)

@@ -34,12 +34,16 @@ CsvTable::CsvTable(const std::string& path) : path_(path) {
             continue;
         }
         if (fields.size() != names_.size()) {
-            throw InputError(lines.where(), fmt::format("found {} fields, expected {}",
-                                                        fields.size(), names_.size()));
+            throw InputError(
+                lines.where(),
+                fmt::format("found {} fields; expected {}, as in the line of column names",
+                            fields.size(), names_.size()));
         }
         rows_.push_back({fields, lines.where()});
     }
-    if (names_.empty()) throw InputError({path_, 0, 0}, "the file has no line of column names");
+    if (names_.empty())
+        throw InputError({path_, 0, 0},
+                         "the file has no line of column names; expected one as its first line");
 }
 
 bool CsvTable::has(std::string_view column) const {
@@ -51,7 +55,7 @@ Word CsvTable::word(std::size_t row, std::string_view column) const {
     if (found == names_.end()) {
         const std::string near = did_you_mean(std::string(column), names_);
         throw InputError(names_where_,
-                         fmt::format("no column \"{}\"; expected one in {}{}{}", column,
+                         fmt::format("no column \"{}\"; expected one of {}{}{}", column,
                                      fmt::join(names_, ", "), near.empty() ? "" : "; ", near));
     }
     return rows_[row].fields[static_cast<std::size_t>(found - names_.begin())];

@@ -69,7 +69,8 @@ PartFile::PartFile(std::string path, Failed failed, Orphans orphans)
     std::error_code ignored;
     const auto status = fs::status(path_, ignored);
     // A rename would replace a device by a file.
-    if (exists(status) && !is_regular_file(status)) fail("it exists and is no regular file");
+    if (exists(status) && !is_regular_file(status))
+        fail("something that is not a regular file has this name");
     if (orphans == Orphans::are_removed) remove_orphans(path_);
     for (auto n = static_cast<std::uint64_t>(getpid());; ++n) {
         const std::string part = fmt::format("{}.{}.part", path_, n);
@@ -125,7 +126,8 @@ void PartFile::discard() {
 void PartFile::fail(std::string_view why) {
     std::string message = fmt::format("{}: cannot be written: {}", path_, why);
     if (failed_ == Failed::is_kept && !part_.empty()) {
-        message += fmt::format("; what was written so far is {}", std::exchange(part_, {}));
+        message +=
+            fmt::format("; the file {} keeps the part that was written", std::exchange(part_, {}));
     }
     discard();
     throw RunError(message);

@@ -16,7 +16,8 @@ namespace rovernet {
 TemporaryDirectory::TemporaryDirectory()
     : path_((std::filesystem::temp_directory_path() / "rovernet-XXXXXX").string()) {
     if (mkdtemp(path_.data())) return;
-    throw RunError(fmt::format("{}: cannot be made: {}", path_, std::strerror(errno)));
+    throw RunError(
+        fmt::format("{}: cannot create this temporary folder: {}", path_, std::strerror(errno)));
 }
 
 TemporaryDirectory::~TemporaryDirectory() {

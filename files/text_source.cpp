@@ -98,9 +98,8 @@ void TextSource::refuse_foreign() const {
         part * std::count(text.begin(), text.end(), '\0') <= std::ssize(text))
         return;
     fail(
-        "the file is no text: it has many NUL bytes; expected text in UTF-8, plain or packed by "
-        "gzip or "
-        "zstd");
+        "the file is not a text, because it has many NUL bytes; expected text in UTF-8, plain or "
+        "compressed by gzip or zstd");
 }
 
 /// Detects zstd: data that zlib passes on unchanged may begin with zstd's magic number (RFC 8878,

@@ -28,7 +28,7 @@ void fail_at(Location line, Word word, std::string_view expected) {
     constexpr std::size_t longest = 40;
     line.column = word.column;
     const auto found = word.text.empty()
-                           ? "the line ends"
+                           ? "found the end of the line"
                            : fmt::format("found \"{}\"", printable(word.text, longest));
     throw InputError(std::move(line), fmt::format("{}, expected {}", found, expected));
 }

@@ -24,11 +24,10 @@ void check_times(const DoorTable& door, TableReader& table) {
     }
     for (const Duration t : door.opens) {
         if (std::find(door.closes.begin(), door.closes.end(), t) == door.closes.end()) continue;
-        throw InputError(
-            table.take("opens")->where,
-            fmt::format(
-                "opens: found {} s, at which the door also closes; expected a different time",
-                seconds(t)));
+        throw InputError(table.take("opens")->where,
+                         fmt::format("opens: found {} s, but the door also closes at this time; "
+                                     "expected a different time",
+                                     seconds(t)));
     }
 }
 

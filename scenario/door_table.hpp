@@ -41,7 +41,7 @@ struct DoorTable {
 
     static constexpr auto fields() {
         return describe(
-            field("name", &DoorTable::name, "name of the door in messages"),
+            field("name", &DoorTable::name, "name of the door, by which messages mention it"),
             field("from", &DoorTable::from, "one end of the door"),
             field("to", &DoorTable::to, "other end of the door"),
             field("thickness", &DoorTable::thickness, positive,

@@ -51,7 +51,8 @@ void check_memory(Scenario& scenario, std::uint64_t available) {
     const auto most = std::max_element(
         scenario.robots.begin(), scenario.robots.end(),
         [](const RobotTable& a, const RobotTable& b) { return memory_of(a) < memory_of(b); });
-    const std::string need = fmt::format("robots take about {:.1f} GB of memory", gigabytes(bytes));
+    const std::string need =
+        fmt::format("the robots take about {:.1f} GB of memory", gigabytes(bytes));
     if (bytes > available) {
         throw InputError(
             most->where,

@@ -35,11 +35,9 @@ class Names {
     void add(const std::string& name, const RobotTable& robot) {
         const auto [first, added] = names_.emplace(name, &robot);
         if (added) return;
-        throw InputError(
-            robot.where,
-            fmt::format(
-                "two robots are named \"{}\"; the other is at {}; give each robot its own name",
-                name, first->second->where.text()));
+        throw InputError(robot.where, fmt::format("two robots are named \"{}\"; the first of them "
+                                                  "is at {}; give each robot a different name",
+                                                  name, first->second->where.text()));
     }
     std::string suggestion(const std::string& name) const {
         for (const RobotTable& robot : scenario_.robots) {
@@ -73,9 +71,11 @@ void check_address(Given& given, const std::optional<std::string>& address, std:
                                  ? fmt::format("all robots \"{}\" have", robot.name)
                                  : fmt::format("robots \"{}\" ({}) and \"{}\" have", other.name,
                                                other.where.text(), robot.name);
-    const std::string message = fmt::format("{} the {} {}", both, what, *address);
-    throw InputError(robot.radio_where,
-                     message + "; give each robot its own, or leave it out to get a generated one");
+    const std::string message = fmt::format("{} the same {}, {}", both, what, *address);
+    throw InputError(
+        robot.radio_where,
+        message +
+            "; give each robot its own address, or leave the key out to get a generated address");
 }
 
 }  // namespace

@@ -13,10 +13,11 @@ void check_receiver(const ReactionTable& reaction, TableReader& table) {
     if (!reaction.to) return;
     if (!reaction.send) table.missing("send", "send = \"F\", which the key \"to\" needs");
     if (*reaction.to != ReactionTable::sender || reaction.trigger == Trigger::on_receive) return;
-    throw InputError(reaction.to_where,
-                     fmt::format("to: found \"sender\" in {}, which has no received message; "
-                                 "expected the name of a robot, or the table on_receive",
-                                 name_of(reaction.trigger)));
+    throw InputError(
+        reaction.to_where,
+        fmt::format("to: found \"sender\" in {}, but only the table on_receive has a received "
+                    "message and its sender; expected the name of a robot, or the table on_receive",
+                    name_of(reaction.trigger)));
 }
 
 Table reaction_document(const ReactionTable& reaction) {

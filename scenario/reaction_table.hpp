@@ -82,9 +82,10 @@ struct ReactionTable {
         using R = ReactionTable;
         return describe(
             field("payload", &R::payload,
-                  "beginning of the received message; if not given, every message counts"),
+                  "beginning of the messages to which the robot reacts; if not given, the robot "
+                  "reacts to every message"),
             field("hops", &R::hops, hop_counts,
-                  "largest number of hops that the received message has crossed"),
+                  "largest number of hops of a message to which the robot reacts"),
             field("from", &R::from, "sender of the message, or robot whose link is lost"),
             field("time", &R::time, non_negative, "time at which the robot reacts"),
             field("once", &R::once, "react only the first time"),

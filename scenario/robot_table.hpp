@@ -122,7 +122,8 @@ struct RobotTable {
             field("heading", &R::heading, "heading of the robot at the start"),
             field("radius", &R::radius, non_negative, "radius of the robot's body"),
             field("top_speed", &R::top_speed, positive, "speed that the robot never exceeds"),
-            field("turn_rate", &R::turn_rate, turn_rates, "turn rate on the spot"),
+            field("turn_rate", &R::turn_rate, turn_rates,
+                  "turn rate while the robot turns in place"),
             field("off", &R::off, "times at which the robot is switched off"),
             field("on", &R::on, "times at which the robot is switched on"));
     }

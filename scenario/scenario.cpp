@@ -6,12 +6,14 @@
 #include "scenario/affected.hpp"
 #include "scenario/document/choice.hpp"
 #include "scenario/document/located.hpp"
+#include "scenario/idle_keys.hpp"
 #include "scenario/memory.hpp"
 #include "scenario/names.hpp"
 #include "scenario/tables/flow_names.hpp"
 #include "scenario/tables/read_model.hpp"
 #include "scenario/tables/reader.hpp"
 #include "scenario/traffic_file.hpp"
+#include "scenario/unknown_key.hpp"
 #include "scenario/unlikely.hpp"
 #include "sim/math.hpp"
 
@@ -52,9 +54,10 @@ void check_traffic(const Scenario& scenario) {
 /// Checks a bit rate: reception model "sinr" can compute its errors.
 void check_coding(const Phy& phy, std::string_view key, BitRate rate, Location where) {
     if (phy.coding(rate)) return;
-    throw InputError(where, fmt::format("{}: found {} Mbit/s; expected a rate whose errors "
-                                        "[reception] model = \"sinr\" can compute: {} Mbit/s",
-                                        key, rate.value / 1e6, megabits_text(phy.rates())));
+    throw InputError(where,
+                     fmt::format("{}: found {} Mbit/s; expected a rate for which [reception] model "
+                                 "= \"sinr\" can compute bit errors: {} Mbit/s",
+                                 key, rate.value / 1e6, megabits_text(phy.rates())));
 }
 
 /// Checks the requirements of reception model "sinr": levels, and bit rates with known error rates.
@@ -71,8 +74,9 @@ void check_sinr(const Scenario& scenario) {
                            const Radio& radio, Location rate_where) {
         if (propagation.make().name() == Disc::name) {
             throw InputError(propagation_where,
-                             "model: \"disc\" has no levels for [reception] model = \"sinr\"; "
-                             "expected a different model, such as \"friis\"");
+                             "model: \"disc\" has no levels (received powers), which [reception] "
+                             "model = \"sinr\" needs; expected a different propagation model, "
+                             "such as \"friis\"");
         }
         check_coding(phy, "rate", radio.rate, rate_where);
     };
@@ -173,10 +177,12 @@ void check_shadowing(TableReader& document, const Scenario& scenario) {
     const auto check = [&](const PropagationTable& propagation) {
         const Propagation model = propagation.make();
         if (!model.is_random()) return;
-        throw InputError(where, fmt::format("[shadowing]: propagation model \"{}\" has a shadowing "
-                                            "of its own; expected one of the two: [propagation] "
-                                            "sigma = \"0 dB\", or [shadowing] model = \"none\"",
-                                            model.name()));
+        throw InputError(
+            where,
+            fmt::format(
+                "[shadowing]: propagation model \"{}\" already contains shadowing; expected only "
+                "one of the two: [propagation] sigma = \"0 dB\", or [shadowing] model = \"none\"",
+                model.name()));
     };
     const auto has_own = [](const RobotTable& robot) { return robot.propagation.has_value(); };
     const auto& robots = scenario.robots;
@@ -228,7 +234,10 @@ void note_decay(Scenario& out) {
     for (const RobotTable& robot : out.robots) {
         const auto* model = std::get_if<RandomWaypoint>(&robot.move.model);
         if (!model || model->start == StartState::stationary) continue;
-        const double low = model->min_speed.value, high = model->max_speed.value;
+        const auto driven = [&](MetersPerSecond speed) {
+            return (robot.top_speed ? std::min(speed, *robot.top_speed) : speed).value;
+        };
+        const double low = driven(model->min_speed), high = driven(model->max_speed);
         if (low == high) continue;
         const double settled = low > 0 ? (high - low) / math::log(high / low) : 0;
         out.notices.push_back(fmt::format(
@@ -238,10 +247,16 @@ void note_decay(Scenario& out) {
     }
 }
 
-/// Checks that there is a robot.
-void check_robots(TableReader& document, const Scenario& scenario) {
+/// Checks that there is a robot, or at least a map if a report of the scene needs no robots.
+void check_robots(TableReader& document, const Scenario& scenario, bool needs_robots) {
     if (!scenario.robots.empty() || !scenario.movement.robots.empty()) return;
-    if (!scenario.scene.world) document.missing("robot", "[[robot]] with a name and a place");
+    const bool has_map = scenario.scene.has_maps() || scenario.scene.world;
+    if (!needs_robots && has_map) return;
+    if (!scenario.scene.world) {
+        document.missing("robot", needs_robots ? "[[robot]] with a name and a place"
+                                               : "[[robot]] with a name and a place, or [scene] "
+                                                 "with a map");
+    }
     throw InputError(
         scenario.scene.map_where.line > 0 ? scenario.scene.map_where : Location{scenario.file},
         "found no robot in this world; expected a model of type position, or a scenario with "
@@ -328,7 +343,7 @@ Radio usual_radio(const AccessTable& access) {
     return out;
 }
 
-Scenario read_scenario(const Value& value, const std::string& file, bool needs_robots) {
+Scenario read_scenario(const Value& value, const std::string& file, bool needs_robots) try {
     Scenario out;
     out.file = file;
     TableReader document(value, "the scenario");
@@ -366,7 +381,7 @@ Scenario read_scenario(const Value& value, const std::string& file, bool needs_r
     const std::vector<std::string>& asked = out.study.metrics;
     const bool asks_reach = std::find(asked.begin(), asked.end(), "reach") != asked.end();
     if (asks_reach && !out.metrics.reach) out.metrics.reach = true;
-    if (needs_robots) check_robots(document, out);
+    check_robots(document, out, needs_robots);
     check_memory(out, available_memory());
     check_names(out);
     check_traffic(out);
@@ -374,8 +389,11 @@ Scenario read_scenario(const Value& value, const std::string& file, bool needs_r
     check_shadowing(document, out);
     note_decay(out);
     note_unlikely(out);
+    note_idle_keys(value, out);
     check_addresses(out);
     return out;
+} catch (const UnknownKey& fault) {
+    throw with_tables(fault);
 }
 
 }  // namespace rovernet

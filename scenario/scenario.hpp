@@ -86,7 +86,7 @@ struct LinksTable {
         constexpr Range dwell{.low = 1e-6, .high = 1e6, .text = "from 1 us to 1e6 s"};
         return describe(
             field("tolerance", &LinksTable::tolerance, step,
-                  "largest error of the time of a link change where walls are involved"),
+                  "largest error of the time at which walls change a link"),
             field("min_dwell", &LinksTable::min_dwell, dwell,
                   "for models of unknown shape: states of a link that are shorter than this may be "
                   "missed"));

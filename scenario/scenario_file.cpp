@@ -4,12 +4,12 @@
 #include "files/input_file.hpp"
 #include "scenario/document/located.hpp"
 #include "scenario/document/toml.hpp"
+#include "scenario/other_files.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/stage/stage_world.hpp"
 #include "scenario/tables/read_value.hpp"
 #include "scenario/unlikely.hpp"
 #include "scenario/unlikely_walls.hpp"
-#include "scene/images/image.hpp"
 
 #include <fmt/format.h>
 
@@ -23,52 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_world(const std::string& path) { return fs::path(path).extension() == ".world"; }
-
-/// World named in a Player configuration; "NAME.world" if it names none.
-std::string world_of(const std::string& player_file) {
-    std::ifstream file(player_file);
-    for (std::string line; std::getline(file, line);) {
-        const auto key = line.find("worldfile");
-        const auto begin = line.find('"', key);
-        if (key == line.npos || begin == line.npos || line.find('#') < key) continue;
-        const std::string name = line.substr(begin + 1, line.find('"', begin + 1) - begin - 1);
-        return (fs::path(player_file).parent_path() / name).string();
-    }
-    return "NAME.world";
-}
-
-/// Rejects files of other kinds by their endings, with a hint on the right command.
-void refuse_others(const std::string& path) {
-    struct Kind {
-        std::string_view endings, what;
-    };
-    constexpr Kind a_map = {".yaml .yml",
-                            "a map, not a scenario; expected a scenario (.toml) that names it: "
-                            "[scene] map = \"...\"; rovernet scene shows a map alone"};
-    constexpr Kind kinds[] = {
-        a_map,
-        {".inc", "a part of a Stage world; expected the world that includes it (.world)"},
-        {".db", "a study's store, not a scenario; rovernet results shows what is in it"},
-        {".tr", "a trace, not a scenario; rovernet trace stats shows its metrics"},
-        {".json", "not a scenario; the scenario of a run is the file scenario.toml beside it"}};
-    const std::string ending = fs::path(path).extension().string();
-    if (ending.empty() || input_kind(path) != InputKind::file) return;
-    if (ending == ".cfg") {
-        throw InputError(Location{path},
-                         fmt::format("a configuration of Player, not a scenario; expected the "
-                                     "Stage world that it names: {}",
-                                     world_of(path)));
-    }
-    if (is_image_name(path)) throw InputError(Location{path}, std::string(a_map.what));
-    for (const Kind& kind : kinds) {
-        for (auto at = kind.endings.find(ending); at != kind.endings.npos;
-             at = kind.endings.find(ending, at + 1)) {
-            const auto end = at + ending.size();
-            if (end != kind.endings.size() && kind.endings[end] != ' ') continue;
-            throw InputError(Location{path}, std::string(kind.what));
-        }
-    }
-}
 
 /// A Stage world alone, as the document of a scenario.
 Value world_alone(const std::string& path) {
@@ -236,7 +190,7 @@ void add_world(Table& document, const Table& world) {
 
 /// The document that a file is, or is made into.
 Value document_of(const std::string& path) {
-    refuse_others(path);
+    refuse_other_files(path);
     if (is_world(path)) return world_alone(path);
     return is_movement(path) ? movement_alone(path) : read_toml(path);
 }

@@ -44,10 +44,11 @@ OccupancyGrid load_grid(const FloorTable& floor, const fs::path& path,
                          "map: a map.yaml contains its own size; leave out the key size");
     }
     if (!yaml && input_kind(path.string()) == InputKind::file && !floor.size) {
-        throw InputError(floor.map_where,
-                         fmt::format("map: \"{}\" is a picture without a scale; expected a ROS "
-                                     "map.yaml, or also size = [\"40 m\", \"20 m\"]",
-                                     floor.map));
+        throw InputError(
+            floor.map_where,
+            fmt::format("map: \"{}\" is a picture without a scale; expected a ROS "
+                        "map.yaml, or this picture together with size = [\"40 m\", \"20 m\"]",
+                        floor.map));
     }
     if (yaml) return read_ros_map(path.string(), notices);
     const auto size = floor.size.value_or(std::vector<Meters>{{1}, {1}});
@@ -67,19 +68,20 @@ void note_pixels(const MaterialTable& material, Pixels pixels, std::string_view 
     if (!material.has_walls()) return;  // it is for doors
     const bool has_grey = material.grey || material.greys;
     if (!has_grey) {
-        return notices.push_back(fmt::format(
-            "{}: material \"{}\" is not used, because it has no grey, and a map has no colours",
-            material.where.text(), material.name));
+        return notices.push_back(
+            fmt::format("{}: material \"{}\" is not used: in a map, only the key grey or greys "
+                        "gives walls a material, and this material has neither key",
+                        material.where.text(), material.name));
     }
     if (pixels.all == 0) {
         return notices.push_back(
             fmt::format("{}: material \"{}\" matches no pixel of {}; if several materials match a "
-                        "pixel, the first one counts",
+                        "pixel, the first of them counts",
                         material.where.text(), material.name, map));
     }
     notices.push_back(fmt::format(
         "{}: material \"{}\": {} of its {} pixels in {} are not walls and do not attenuate radio, "
-        "because their grey is too light: darken it, or lower the map's occupied_thresh",
+        "because their grey is too light: darken these pixels, or lower the map's occupied_thresh",
         material.where.text(), material.name, pixels.all - pixels.walls, pixels.all, map));
 }
 
@@ -114,7 +116,9 @@ void Palette::append(const std::vector<MaterialTable>& more) {
     pixels_.resize(tables_.size() + 1);
     constexpr std::size_t most = 254;
     if (tables_.size() <= most) return;
-    throw InputError(tables_[most].where, "materials: expected at most 254 of them");
+    throw InputError(
+        tables_[most].where,
+        fmt::format("materials: found {} tables; expected at most {}", tables_.size(), most));
 }
 
 void Palette::paint(OccupancyGrid& grid, const fs::path& map, const std::string& name) {
@@ -176,9 +180,9 @@ void check_place(const Door& door, const DoorTable& table, const Scene& scene) {
     const std::string name = table.name ? fmt::format("door \"{}\"", *table.name) : "door";
     const Storeys& storeys = scene.storeys();
     if (storeys.number_at(door.from.z) != storeys.number_at(door.to.z)) {
-        throw InputError(
-            table.where,
-            name + ": its ends are on two storeys; expected both ends on the same storey");
+        throw InputError(table.where, name +
+                                          ": the two ends of the door are on different storeys; "
+                                          "expected both ends on the same storey");
     }
     const Scene& storey = scene.storey_at(door.from.z);
     for (const Vec3 corner : door.corners()) {
@@ -186,7 +190,7 @@ void check_place(const Door& door, const DoorTable& table, const Scene& scene) {
         const Vec3 low = storey.lower_left(), high = storey.upper_right();
         throw InputError(
             table.where,
-            fmt::format("{}: its corner at ({:.3f}, {:.3f}) m lies off the map; "
+            fmt::format("{}: the corner of the door at ({:.3f}, {:.3f}) m lies off the map; "
                         "expected a door between ({:.3f}, {:.3f}) and ({:.3f}, {:.3f})",
                         name, corner.x, corner.y, low.x, low.y, high.x, high.y));
     }
@@ -220,8 +224,8 @@ std::shared_ptr<const Scene> load_map(const SceneTable& scene, const std::string
         if (const auto beside = named_beside(fs::path(file).parent_path().string(), floor.map);
             !beside.empty())
             throw InputError(floor.map_where,
-                             fmt::format("map: no file \"{}\"; \"{}\" lies beside this file; write "
-                                         "map = \"{}\"",
+                             fmt::format("map: there is no file \"{}\", but there is \"{}\" in the "
+                                         "same folder; write map = \"{}\"",
                                          floor.map, beside, beside));
         located_map(floor.map_where, [&] {
             maps.push_back(load_grid(floor, path, notices));
@@ -256,8 +260,9 @@ std::shared_ptr<const Scene> load_walls(const SceneTable& scene, const std::stri
         const bool used = std::any_of(walls.materials.begin(), walls.materials.end(),
                                       [&](const Material& m) { return table.color == m.name; });
         if (used) continue;
-        notices.push_back(fmt::format("{}: material \"{}\": no wall of the world has its colour",
-                                      table.where.text(), table.name));
+        notices.push_back(fmt::format(
+            "{}: material \"{}\": no wall of the Stage world has the colour of this material",
+            table.where.text(), table.name));
     }
     if (walls.grids.empty()) return nullptr;
     return std::make_shared<const Scene>(std::move(walls.grids), std::move(walls.materials));

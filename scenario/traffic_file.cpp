@@ -64,12 +64,13 @@ class TrafficReader {
         if (random_ > 0) {
             file.notices.push_back(
                 fmt::format("{}: random_ of {} flow{} is ignored: ns-2 makes each interval up to "
-                            "half longer or shorter, but here all intervals are equal",
+                            "50 % longer or shorter, but rovernet makes all intervals equal",
                             lines_.where().source, random_, random_ == 1 ? "" : "s"));
         }
         if (left_out_ > 0) {
             file.notices.push_back(
-                fmt::format("{}: this line about an agent is left out{}; expected set packetSize_",
+                fmt::format("{}: this line about an agent is left out{}; of the settings of "
+                            "agents, only packetSize_ is read",
                             first_left_out_.text(),
                             left_out_ > 1 ? fmt::format(", and {} more", left_out_ - 1) : ""));
         }
@@ -265,11 +266,14 @@ void TrafficReader::add_flow(const App& app, TrafficFile& file) {
     };
     if (!app.start || app.most < 1) return;
     const auto from = agents_.find(app.agent);
-    if (from == agents_.end()) fault("is attached to no agent; expected attach-agent");
+    if (from == agents_.end())
+        fault("is attached to no agent; expected a command attach-agent for it");
     const auto to = agents_.find(from->second.peer);
-    if (!from->second.sends || to == agents_.end()) fault("has no destination; expected connect");
+    if (!from->second.sends || to == agents_.end())
+        fault("has no destination; expected a command connect for its agent");
     if (!from->second.node || !to->second.node)
-        fault("has an agent that is on no node; expected $ns_ attach-agent");
+        fault(
+            "has an agent that is on no node; expected a command $ns_ attach-agent for the agent");
     constexpr double most = std::numeric_limits<int>::max();
     TrafficTable flow;
     flow.kind = TrafficKind::unicast;
@@ -281,8 +285,10 @@ void TrafficReader::add_flow(const App& app, TrafficFile& file) {
     flow.from_where = from->second.where;
     flow.to_where = to->second.where;
     if (app.stop) flow.stop = *app.stop - start_of_run;
-    if (flow.stop && *flow.stop <= *flow.start) fault("stops before it starts");
-    if (flow.from == flow.to) fault("sends to its own node; expected a different one");
+    if (flow.stop && *flow.stop <= *flow.start)
+        fault("stops before it starts; expected a stop after the start");
+    if (flow.from == flow.to)
+        fault("sends to its own node; expected an agent on a different node as destination");
     if (app.most < most) flow.count = static_cast<int>(app.most);
     add_packets(flow, app.size, from->second.size, file);
 }

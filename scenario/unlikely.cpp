@@ -46,15 +46,8 @@ void note_power(Scenario& out, const Radio& radio, const RadioPlaces& places) {
 }
 
 void note_frequency(Scenario& out, const Radio& radio, const RadioPlaces& places) {
-    constexpr double lowest = 30e6, highest = 300e9;  // [Hz] VHF to EHF
-    const double f = radio.frequency.value;
-    if (f >= lowest && f <= highest) return;
-    const bool slip = f * 1000 >= 10 * lowest && f * 1000 <= highest;
-    add_notice(
-        out.notices,
-        fmt::format("{}: frequency: {} is not a frequency of robots' radios{}",
-                    places.frequency.text(), shown(radio.frequency),
-                    slip ? fmt::format("; did you mean \"{}\"?", shown(Hertz{f * 1000})) : ""));
+    const std::string doubt = unlikely_frequency(radio.frequency);
+    if (!doubt.empty()) add_notice(out.notices, places.frequency.text() + ": " + doubt);
 }
 
 void note_rate(Scenario& out, std::string_view key, BitRate rate, const Location& where) {
@@ -63,7 +56,7 @@ void note_rate(Scenario& out, std::string_view key, BitRate rate, const Location
     const auto rates = rates_of(csma->standard);
     if (std::find(rates.begin(), rates.end(), rate) != rates.end()) return;
     add_notice(out.notices,
-               fmt::format("{}: {}: {} has no rate of {}; it has {} Mb/s", where.text(), key,
+               fmt::format("{}: {}: {} has no rate of {}; its rates are {} Mb/s", where.text(), key,
                            name_of(csma->standard), shown(rate), megabits_text(rates)));
 }
 
@@ -77,9 +70,10 @@ void note_switching(Scenario& out, const RobotTable& robot) {
     for (const auto& [t, on] : switches) {
         if (on == is_on) {
             add_notice(out.notices,
-                       fmt::format("{}: {}: robot \"{}\" is already {} at {} s",
-                                   (on ? robot.on_where : robot.off_where).text(),
-                                   on ? "on" : "off", robot.name, on ? "on" : "off", seconds(t)));
+                       fmt::format(
+                           "{}: {}: robot \"{}\" is already {} at {} s, so this time has no effect",
+                           (on ? robot.on_where : robot.off_where).text(), on ? "on" : "off",
+                           robot.name, on ? "on" : "off", seconds(t)));
         }
         is_on = on;
     }
@@ -134,16 +128,15 @@ void note_unicasts(Scenario& out) {
     const auto note = [&](const Location& where, std::string_view to, std::string_view advice) {
         unicasts.add([&] {
             return fmt::format(
-                "{}: to: the routing protocol does not route messages to one robot, "
-                "so those to \"{}\" go over one hop{}",
+                "{}: to: the routing protocol does not route messages to a single robot, so "
+                "messages to \"{}\" go over one hop only{}",
                 where.text(), to, advice);
         });
     };
     for (const TrafficTable& traffic : out.traffic) {
         if (!traffic.to || !is_for_protocol(out, traffic)) continue;
         note(traffic.to_where, *traffic.to,
-             "; hops = 1 states this in the scenario, and [routing] protocol = \"aodv\" finds "
-             "routes");
+             "; write hops = 1 to confirm this, or [routing] protocol = \"aodv\" to find routes");
     }
     for (const RobotTable& robot : out.robots) {
         for (const ReactionTable& reaction : robot.reactions) {
@@ -163,16 +156,16 @@ void note_unforwarded(Scenario& out) {
                           std::string_view advice) {
         broadcasts.add([&] {
             return fmt::format(
-                "{}: {}: the routing protocol does not forward broadcasts, so those of \"{}\" go "
-                "over one hop{}",
+                "{}: {}: the routing protocol does not forward broadcasts, so broadcasts of \"{}\" "
+                "go over one hop only{}",
                 where.text(), key, from, advice);
         });
     };
     for (const TrafficTable& traffic : out.traffic) {
         if (traffic.to || !is_for_protocol(out, traffic)) continue;
         note(traffic.from_where, "from", traffic.from,
-             "; hops = 1 states this in the scenario, and [routing] protocol = \"flood\" forwards "
-             "them");
+             "; write hops = 1 to confirm this, or [routing] protocol = \"flood\" to forward "
+             "broadcasts");
     }
     for (const RobotTable& robot : out.robots) {
         for (const ReactionTable& reaction : robot.reactions) {
@@ -192,21 +185,45 @@ void note_broadcasts(Scenario& out) {
         broadcasts.add([&] {
             return fmt::format(
                 "{}: hops: with hops = 1 the routing protocol does not forward these broadcasts, "
-                "so only neighbours of \"{}\" hear them; without the key it forwards them",
+                "so only neighbours of \"{}\" hear these broadcasts; without the key hops, the "
+                "protocol forwards them",
                 traffic.hops_where.text(), traffic.from);
         });
     }
     broadcasts.note(out.notices);
 }
 
+/// Notices model "disc" under protocol "managed", whose delays depend on levels.
+void note_levels(Scenario& out) {
+    if (!out.routing.as<Managed>()) return;
+    Affected discs;
+    const auto note = [&](const PropagationTable& model, const Location& where) {
+        if (!model.as<Disc>()) return;
+        discs.add([&] {
+            return fmt::format(
+                "{}: model: \"disc\" computes no received levels, so under [routing] protocol = "
+                "\"managed\" a robot's delay before it relays a message does not depend on the "
+                "received level; expected a different model, such as \"friis\"",
+                where.text());
+        });
+    };
+    const auto is_shared = [](const RobotTable& robot) { return !robot.propagation; };
+    if (out.robots.empty() || std::any_of(out.robots.begin(), out.robots.end(), is_shared)) {
+        note(out.propagation, out.propagation_where);
+    }
+    for (const RobotTable& robot : out.robots) {
+        if (robot.propagation) note(*robot.propagation, robot.propagation_where);
+    }
+    discs.note(out.notices);
+}
+
 }  // namespace
 
 void refuse_disc(const Propagation& model, const Location& where, std::string_view who) {
     if (!model.as<Disc>()) return;
-    throw InputError(
-        where,
-        fmt::format(
-            "\"disc\" has no levels, which {} needs; expected a different propagation model", who));
+    throw InputError(where, fmt::format("\"disc\" computes no received levels, which {} needs; "
+                                        "expected a different propagation model",
+                                        who));
 }
 
 void add_notice(std::vector<std::string>& notices, std::string notice) {
@@ -235,6 +252,7 @@ void note_unlikely(Scenario& scenario) {
     note_unicasts(scenario);
     note_unforwarded(scenario);
     note_broadcasts(scenario);
+    note_levels(scenario);
     note_equal_starts(scenario);
 }
 
@@ -258,6 +276,15 @@ void note_own_models(Scenario& scenario) {
                     fmt::join(names, ", "), others > 0 ? fmt::format(" and {} more", others) : ""));
 }
 
+std::string unlikely_frequency(Hertz frequency) {
+    constexpr double lowest = 30e6, highest = 300e9;  // [Hz] VHF to EHF
+    const double f = frequency.value;
+    if (f >= lowest && f <= highest) return "";
+    const bool slip = f * 1000 >= 10 * lowest && f * 1000 <= highest;
+    return fmt::format("frequency: {} is not a frequency of robots' radios{}", shown(frequency),
+                       slip ? fmt::format("; did you mean \"{}\"?", shown(Hertz{f * 1000})) : "");
+}
+
 void note_places(Scenario& scenario, const Scene* scene) {
     if (!scene) return;
     Affected beyond, in_walls;
@@ -278,8 +305,8 @@ void note_places(Scenario& scenario, const Scene* scene) {
         if (scene->clearance(*robot.at) >= robot.radius.value) continue;
         in_walls.add([&] {
             return fmt::format(
-                "{}: robot \"{}\" at {} is inside a wall or nearer to one than its "
-                "radius of {} m",
+                "{}: robot \"{}\" at {} is inside a wall, or nearer to a wall than its radius of "
+                "{} m",
                 robot.at_where.text(), robot.name, shown(*robot.at), robot.radius.value);
         });
     }
@@ -304,8 +331,8 @@ void note_antennas(Scenario& scenario, const Scene* scene) {
         elsewhere.add([&] {
             return fmt::format(
                 "{}: the antenna of robot \"{}\" is {:.6g} m above the robot and therefore {:.0f} "
-                "storey{} {}: floors lie between this antenna and those of robots nearby; expected "
-                "an antenna_height within the storey",
+                "storey{} {}: floors lie between this antenna and the antennas of robots nearby; "
+                "expected an antenna_height within the storey",
                 robot.radio_where.text(), robot.name, above, std::abs(storeys_up),
                 std::abs(storeys_up) == 1 ? "" : "s", storeys_up > 0 ? "higher" : "lower");
         });

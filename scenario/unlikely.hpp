@@ -21,6 +21,10 @@ namespace rovernet {
 /// nothing
 void note_unlikely(Scenario& scenario);
 
+/// Sentence about a frequency that robots' radios do not use, with a suggestion; empty for any
+/// other frequency.
+std::string unlikely_frequency(Hertz frequency);
+
 /// Adds notices about robots that start off the map, or in a wall of a Stage world. A start in a
 /// wall of a map is an error, which is reported when the network is built.
 /// @param scene  scene of the scenario; null: an open field

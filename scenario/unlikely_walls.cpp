@@ -116,9 +116,10 @@ void note_coherent_slants(Scenario& scenario, const Scene* scene) {
         if (slanting == 0) return;
         off.add([&] {
             return fmt::format(
-                "{}: sum: {} faces of walls are oblique to the cells of the map, and therefore "
-                "inaccurate by some centimetres: levels with sum = \"coherent\" have errors of 3 "
-                "to 5 dB (rms), and up to 30 dB; did you mean sum = \"power\"?",
+                "{}: sum: {} faces of walls are oblique to the cells of the map, so the positions "
+                "of these faces are inaccurate by some centimetres; with sum = \"coherent\", "
+                "levels then have errors of 3 to 5 dB (rms), and at most 30 dB; did you mean sum = "
+                "\"power\"?",
                 where.text(), slanting);
         });
     });

@@ -58,7 +58,8 @@ OccupancyGrid map_of(const Door& door, const Storeys& storeys) {
 std::uint8_t number_of(const Material& material, std::vector<Material>& all) {
     const auto found = std::find(all.begin(), all.end(), material);
     const auto number = static_cast<std::size_t>(found - all.begin());
-    if (number > 255) throw std::invalid_argument("Scene: more than 256 materials");
+    if (number > 255)
+        throw std::invalid_argument("Scene: found more than 256 materials; expected at most 256");
     if (found == all.end()) all.push_back(material);
     return static_cast<std::uint8_t>(number);
 }

@@ -47,8 +47,8 @@ class MapFile {
         }
         if (!root_.IsMap())
             fail(root_.Mark(),
-                 "no \"key: value\" lines; expected a map with image, resolution and "
-                 "origin; is this the map's YAML file?");
+                 "found no \"key: value\" lines; expected a map with image, resolution and origin; "
+                 "is this the map's YAML file?");
         check_keys();
     }
 
@@ -57,9 +57,9 @@ class MapFile {
         map.image = picture();
         map.resolution = number(need_node("resolution"), "resolution", "metres per pixel");
         if (!(map.resolution > 0))
-            fail_at("resolution", fmt::format("resolution {}; expected metres per pixel > 0; "
-                                              "such as 0.05",
-                                              map.resolution));
+            fail_at("resolution",
+                    fmt::format("resolution is {}; expected metres per pixel > 0; such as 0.05",
+                                map.resolution));
         read_origin(map.origin);
         read_thresholds(map);
         if (root_["negate"]) map.negate = read_negate();
@@ -73,14 +73,14 @@ class MapFile {
     std::string picture() const {
         const auto name = need<std::string>("image", "the picture's file name");
         if (name.empty())
-            fail_at("image", "image \"\"; expected the picture's file name; such as \"map.png\"");
+            fail_at("image",
+                    "image is empty; expected the picture's file name; such as \"map.png\"");
         const auto folder = std::filesystem::path(path_).parent_path();
         const std::string beside = named_beside(folder.string(), name);
         if (!beside.empty())
-            fail_at("image",
-                    fmt::format("image \"{}\"; no such file; \"{}\" lies beside this file; "
-                                "write image: {}",
-                                name, beside, beside));
+            fail_at("image", fmt::format("image is \"{}\"; there is no such file, but there is "
+                                         "\"{}\" in the same folder; write image: {}",
+                                         name, beside, beside));
         return (folder / name).string();
     }
 
@@ -105,8 +105,8 @@ class MapFile {
                  "is not a regular file; expected a map's YAML file; name a file");
         if (std::filesystem::file_size(path_, ignored) > max_bytes)
             fail(YAML::Mark::null_mark(),
-                 "more than a megabyte; expected a map's YAML file of a "
-                 "few lines; is this the map's YAML file?");
+                 "found more than a megabyte; expected a map's YAML file of a few lines; is this "
+                 "the map's YAML file?");
         std::ifstream file(path_, std::ios::binary);
         if (!file)
             fail(YAML::Mark::null_mark(),
@@ -119,8 +119,9 @@ class MapFile {
         for (const auto& entry : root_) {
             const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "(not a word)";
             if (!seen.insert(key).second)
-                fail(entry.first.Mark(),
-                     fmt::format("key \"{}\" is given twice; expected it once; remove one", key));
+                fail(entry.first.Mark(), fmt::format("key \"{}\" is given twice; expected the key "
+                                                     "once; remove one of the two lines",
+                                                     key));
             if (std::find(keys().begin(), keys().end(), key) == keys().end())
                 strangers_.emplace_back(key, entry.first.Mark());
         }
@@ -188,8 +189,9 @@ class MapFile {
         double value = 0;
         if (!node.IsScalar() || !YAML::convert<double>::decode(node, value) ||
             !std::isfinite(value))
-            fail(node.Mark(), fmt::format("{} is {}; expected a number, {}; write it like 0.05",
-                                          key, described(node), what));
+            fail(node.Mark(),
+                 fmt::format("{} is {}; expected a number, {}; write a number such as 0.05", key,
+                             described(node), what));
         return value;
     }
 
@@ -211,16 +213,15 @@ class MapFile {
             if (!root_[key]) continue;
             *value = number(root_[key], key, "from 0 to 1");
             if (*value < 0 || *value > 1)
-                fail_at(key, fmt::format("{} {}; expected a number from 0 to 1; such as 0.65", key,
-                                         *value));
+                fail_at(key, fmt::format("{} is {}; expected a number from 0 to 1; such as 0.65",
+                                         key, *value));
         }
         const YAML::Node occupied = root_["occupied_thresh"], free = root_["free_thresh"];
         if (map.occupied_thresh > map.free_thresh || !(occupied || free)) return;
         if (occupied && free)
-            fail(occupied.Mark(),
-                 fmt::format("occupied_thresh {} and free_thresh {}; expected occupied_thresh > "
-                             "free_thresh; swap them?",
-                             map.occupied_thresh, map.free_thresh));
+            fail(occupied.Mark(), fmt::format("occupied_thresh is {} and free_thresh is {}; "
+                                              "expected occupied_thresh > free_thresh; swap them?",
+                                              map.occupied_thresh, map.free_thresh));
         if (occupied)
             give_way("free_thresh", map.free_thresh, "occupied_thresh", map.occupied_thresh);
         else
@@ -229,11 +230,9 @@ class MapFile {
 
     /// Adapts the default of a missing threshold to the one in the file.
     void give_way(const char* missing, double& usual, const char* key, double given) const {
-        note(
-            root_[key].Mark(),
-            fmt::format(
-                "the key {} is missing, and its default {} contradicts {} {}: both are taken as {}",
-                missing, usual, key, given, given));
+        note(root_[key].Mark(), fmt::format("the key {} is missing, and its default {} contradicts "
+                                            "{} {}: both keys are taken as {}",
+                                            missing, usual, key, given, given));
         usual = given;
     }
 
@@ -250,8 +249,8 @@ class MapFile {
         for (std::size_t i = 0; i < names.size(); ++i)
             if (name == names[i]) return static_cast<Mode>(i);
         const std::string near = did_you_mean(name, names);
-        fail_at("mode", fmt::format("mode \"{}\"; expected trinary, scale or raw; {}", name,
-                                    near.empty() ? "leave it out for trinary" : near));
+        fail_at("mode", fmt::format("mode is \"{}\"; expected trinary, scale or raw; {}", name,
+                                    near.empty() ? "leave the key out for trinary" : near));
     }
 
     static constexpr std::uintmax_t max_bytes = 1 << 20;

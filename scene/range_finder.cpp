@@ -43,7 +43,7 @@ Radians RangeFinder::step() const {
 void RangeFinder::measure(const Scene& scene, Vec3 at, Radians heading,
                           std::span<const RoundBody> bodies, std::span<double> out) const {
     if (out.size() != static_cast<std::size_t>(beams)) {
-        throw std::invalid_argument("RangeFinder: expected one output element for each beam");
+        throw std::invalid_argument("RangeFinder: the output must have one element for each beam");
     }
     const std::vector<RoundBody> in_reach = near(at, range.value, bodies);
     std::vector<Crossing> walls;

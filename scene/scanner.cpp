@@ -32,7 +32,7 @@ void Scanner::measure(const Scene& scene, const ScannerPose& robot,
     const ScannerPose own = robot * pose();
     if (!is_ring()) return finder.measure(scene, own.at, own.heading, bodies, out);
     if (out.size() != size()) {
-        throw std::invalid_argument("Scanner: expected one output element for each beam");
+        throw std::invalid_argument("Scanner: the output must have one element for each beam");
     }
     const RangeFinder single{.beams = 1, .from = {}, .to = {}, .range = finder.range};
     for (std::size_t i = 0; i < size(); ++i) {

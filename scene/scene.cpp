@@ -45,7 +45,7 @@ void check(const OccupancyGrid& grid, std::size_t materials) {
     constexpr double most_turned = 1e9;  // what math::sincos takes
     if (!std::isfinite(grid.origin.x + grid.origin.y + grid.origin.z) ||
         !(std::abs(grid.yaw) <= most_turned))
-        refuse("origin [m] must be finite and yaw [rad] within 1e9");
+        refuse("origin [m] must be finite and yaw [rad] from -1e9 to 1e9");
 }
 
 std::array<Vec3, 4> corners_of(const CellRectangle& r, const MapFrame& frame) {

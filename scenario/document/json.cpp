@@ -92,7 +92,9 @@ Value parse_json(std::string_view text) {
     try {
         return value_of(Json::parse(text, [](int depth, Json::parse_event_t, Json&) {
             constexpr int deepest = 100;  // what we write has a few levels
-            if (depth > deepest) throw InputError({}, "JSON with more than 100 levels");
+            if (depth > deepest)
+                throw InputError(
+                    {}, "found more than 100 levels of brackets in JSON; expected at most 100");
             return true;
         }));
     } catch (const Json::exception& error) {

@@ -149,15 +149,21 @@ double in_base_unit(const Value& value, std::string_view key, const QuantityKind
     const double scaled = unit.in_base(number);
     if (!unit.level) return within(value, key, kind, scaled);
     if (!(scaled > 0)) {
-        reject(value, key, kind, fmt::format("found {} {}, which has no level", number, unit.name),
+        reject(value, key, kind,
+               fmt::format("found {} {}, which has no level in dBm", number, unit.name),
                fmt::format("did you mean \"{} dBm\"?", number));
     }
     return within(value, key, kind, to_dbm({scaled}).value);
 }
 
+std::string example_of(const QuantityKind& kind) {
+    return fmt::format("for example \"{}\"", kind.example);
+}
+
 /// Number without a unit: allowed on the command line only, where it is in SI units.
 double bare(const Value& value, std::string_view key, Dimension dimension, double number) {
     const QuantityKind& k = kind(dimension);
+    if (std::isnan(number)) reject(value, key, k, "found " + value.description(), example_of(k));
     if (value.where.is_option) {
         constexpr Unit watts = power_units[2];
         return dimension == Dimension::power ? in_base_unit(value, key, k, number, watts)
@@ -180,7 +186,7 @@ double read_quantity(const Value& value, std::string_view key, Dimension dimensi
     if (const auto* number = std::get_if<std::int64_t>(&value.data)) {
         return bare(value, key, dimension, static_cast<double>(*number));
     }
-    const std::string example = fmt::format("for example \"{}\"", k.example);
+    const std::string example = example_of(k);
     if (!value.string()) reject(value, key, k, "found " + value.description(), example);
 
     std::string_view text = trimmed(*value.string());
@@ -202,7 +208,7 @@ double read_quantity(const Value& value, std::string_view key, Dimension dimensi
     const bool decibel_watts = dimension == Dimension::power && unit_name == "dBW";
     const std::string near =
         decibel_watts
-            ? fmt::format("that is another unit: {} dBW is \"{} dBm\"", number, number + 30)
+            ? fmt::format("dBW is a different unit: {} dBW is \"{} dBm\"", number, number + 30)
             : nearest_unit(k, usual_unit(unit_name));
     reject(value, key, k, fmt::format("found the unit \"{}\"", unit_name),
            near.empty() ? example : near);

@@ -2,7 +2,7 @@
 #include "scenario/document/toml.hpp"
 
 #include "files/input_file.hpp"
-#include "scenario/document/choice.hpp"
+#include "scenario/document/toml_mistake.hpp"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -55,7 +55,8 @@ Value convert(const toml::node& node, const std::string& source) {
         out = truth->get();
     } else {
         throw InputError(location(source, node.source()),
-                         "found a date or a time of day; expected a duration such as \"10 s\"");
+                         "found a date or a time of day, which is the value of no key; expected a "
+                         "number, true, false, a list, or a text in quotes, such as \"10 s\"");
     }
     out.where = location(source, node.source());
     return out;
@@ -140,7 +141,7 @@ bool is_list_of_tables(const Value& value) {
         return name.starts_with(step + ".");
     });
     if (dotted != names.end()) near = fmt::format("write a name with dots as \"{}\"", *dotted);
-    throw InputError(option, fmt::format("nothing in the list is named \"{}\"{}{}", step,
+    throw InputError(option, fmt::format("no item of the list is named \"{}\"{}{}", step,
                                          near.empty() ? "" : "; ", near));
 }
 
@@ -152,8 +153,9 @@ Value& descend(Value& at, const std::string& step, const Location& option) {
         if (error == std::errc{} && end == step.data() + step.size()) {
             if (index < list->size()) return (*list)[index];
             throw InputError(
-                option, fmt::format("there is no item {}; the list has {}, counted from 0", index,
-                                    list->size()));
+                option,
+                fmt::format("there is no item {}; the list has {} items, and the first is item 0",
+                            index, list->size()));
         }
         std::vector<std::string> names;
         for (auto& item : *list) {
@@ -182,69 +184,8 @@ Value& descend(Value& at, const std::string& step, const Location& option) {
     return *table->find(step);
 }
 
-/// Hint on the probable mistake behind a message of the parser.
-std::string_view advice_for(std::string_view description) {
-    struct Slip {
-        std::string_view words, advice;
-    };
-    constexpr Slip slips[] = {
-        {"expected a comment or whitespace", "texts and quantities need quotes: \"30 mW\""},
-        {"expected '='", "a line is KEY = VALUE, [TABLE] or [[LIST OF TABLES]]"},
-        {"parsing boolean", "true and false have small letters"},
-        {"dangling comma", "there must be no comma before }"},
-        {"inline table", "what begins with { ends with } on the same line"},
-        {"invalid utf-8", "save the file as UTF-8"},
-    };
-    for (const Slip& slip : slips) {
-        if (description.find(slip.words) != description.npos) return slip.advice;
-    }
-    return "";
-}
-
-/// Message of the parser, with a hint on the probable mistake.
-std::string parse_message(std::string_view description) {
-    constexpr std::string_view twice = "cannot redefine existing ";
-    if (const auto found = description.find(twice); found != description.npos) {
-        const auto begin = description.find('\'', found) + 1;
-        const auto name = description.substr(begin, description.find('\'', begin) - begin);
-        if (description.substr(found + twice.size(), 5) != "table") {
-            return fmt::format("the key \"{}\" is there a second time; expected it once", name);
-        }
-        if (name == "robot" || name == "traffic") {
-            return fmt::format("[{0}] is there a second time; expected [[{0}]], once for each",
-                               name);
-        }
-        return fmt::format("[{0}] is there a second time; expected one [{0}] with all its keys",
-                           name);
-    }
-    const std::string_view advice = advice_for(description);
-    return fmt::format("not TOML: {}{}{}", description, advice.empty() ? "" : "; ", advice);
-}
-
-/// Word of letters at a place of a text, line and column from 1; empty: there is none.
-std::string_view word_at(std::string_view text, const toml::source_position& at) {
-    const auto is_letter = [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-    };
-    for (toml::source_index line = 1; line < at.line; ++line) {
-        text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
-    }
-    text.remove_prefix(std::min<std::size_t>(at.column - 1, text.size()));
-    const auto end = std::find_if_not(text.begin(), text.end(), is_letter);
-    return text.substr(0, static_cast<std::size_t>(end - text.begin()));
-}
-
-/// Message for a bare word where a value is expected; empty if the error is a different one.
-std::string bare_word_message(std::string_view description, std::string_view word) {
-    const bool is_value = description.find("could not determine value type") != description.npos;
-    if (!is_value || word.empty()) return "";
-    const auto truth = truth_in(word);
-    return fmt::format("found {} without quotes; did you mean {}?", word,
-                       truth ? fmt::format("{}", *truth) : fmt::format("\"{}\"", word));
-}
-
 [[noreturn]] void fail_long(const std::string& source) {
-    throw InputError({source}, "larger than 64 MiB; expected a scenario file");
+    throw InputError({source}, "this file is larger than 64 MiB; expected a scenario file");
 }
 
 /// Text of the whole stream. @throws InputError if it is longer than 64 MiB
@@ -267,10 +208,11 @@ Value parse_toml(std::string_view text, const std::string& source) {
         document.where = {source};
         return document;
     } catch (const toml::parse_error& error) {
-        const auto& at = error.source();
-        const std::string bare = bare_word_message(error.description(), word_at(text, at.begin));
-        throw InputError(location(source, at),
-                         bare.empty() ? parse_message(error.description()) : bare);
+        Location where = location(source, error.source());
+        const TomlMistake mistake =
+            toml_mistake(text, where.line, where.column, error.description());
+        where.column = mistake.column;
+        throw InputError(where, mistake.message);
     }
 }
 
@@ -282,7 +224,8 @@ Value read_toml(const std::string& path) {
     const InputKind kind = input_kind(path);
     if (kind == InputKind::nothing) throw InputError({path}, "no such file; check the path");
     if (kind == InputKind::folder) {
-        throw InputError({path}, "a directory; expected a scenario file (.toml) in it");
+        throw InputError({path},
+                         "this is a directory; expected a scenario file (.toml) in this directory");
     }
     const std::string text = InputFile(path).read(largest_file + 1);
     if (text.size() > largest_file) fail_long(path);
@@ -341,10 +284,16 @@ void set_value(Value& document, const std::string& path, Value value, const Loca
     std::string_view steps = path;
     Value* at = &document;
     while (!steps.empty()) {
+        Value* whole = at->table() ? at->table()->find(steps) : nullptr;
+        if (whole) {
+            at = whole;
+            break;
+        }
         const std::string step(take_key(steps));
         if (step.empty()) {
             throw InputError(where,
-                             "expected keys joined by single dots; a key with dots is in quotes");
+                             "expected keys joined by single dots, such as radio.power; a key that "
+                             "contains dots is in quotes");
         }
         at = &descend(*at, step, where);
     }
@@ -358,7 +307,7 @@ void set_option(Value& document, const std::string& assignment, const std::strin
         throw InputError(option, "expected key=value, such as radio.power=\"15 dBm\"");
     }
     if (assignment[equals - 1] == '.') {
-        throw InputError(option, "expected keys joined by single dots");
+        throw InputError(option, "expected keys joined by single dots, such as radio.power");
     }
     const std::string text = assignment.substr(equals + 1);
     Value value{text};

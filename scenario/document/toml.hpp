@@ -46,7 +46,8 @@ std::size_t find_equals(std::string_view assignment);
 
 /// Sets the value at `path` in a scenario's document: `radio.power`, `robot.NAME.radio.power`,
 /// `robot."flow.0".radio.power`, `traffic.0.start`. An item of a list is given by its number or by
-/// its `name`. Missing tables along the path are created.
+/// its `name`. Missing tables along the path are created. If the rest of the path is an existing
+/// key with dots, as in [study] vary, this key is meant, also without quotes.
 /// @param where  file position given to the new values, for later error messages
 /// @throws InputError at `where` if the path does not exist and cannot be created
 void set_value(Value& document, const std::string& path, Value value, const Location& where);

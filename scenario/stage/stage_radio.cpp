@@ -128,8 +128,9 @@ void RadioReader::range() {
     const auto* model = wifi_.find("model");
     if (!model || model->text() != "simple") return;
     out_.propagation.set("range", text(0, "m", model->where));
-    out_.notices.push_back(
-        world_notice(model->where, "model \"simple\" without a range has range 0, as in Stage"));
+    out_.notices.push_back(world_notice(model->where,
+                                        "a wifi of model \"simple\" without a range has the range "
+                                        "0 m, as in Stage; to connect robots, give it a range"));
 }
 
 void RadioReader::seed() {
@@ -152,9 +153,9 @@ void RadioReader::unknown_keys() {
         if (std::find(keys.begin(), keys.end(), p.name) != keys.end()) continue;
         if (is_model_key(p.name)) continue;
         const std::string near = did_you_mean(p.name, keys);
-        out_.notices.push_back(
-            world_notice(p.where, fmt::format("a wifi has no key \"{}\"; it is ignored{}{}", p.name,
-                                              near.empty() ? "" : "; ", near)));
+        out_.notices.push_back(world_notice(
+            p.where, fmt::format("a wifi has no key \"{}\", so this key is ignored{}{}", p.name,
+                                 near.empty() ? "" : "; ", near)));
     }
 }
 

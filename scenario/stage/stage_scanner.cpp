@@ -211,7 +211,7 @@ void ScannerReader::transducers(const WorldEntity& ranger, const WorldPose& pose
         has_views = has_views || each.name.starts_with("sview[");
     }
     if (has_views)
-        note(ranger.where, "sview[i] of a ranger is ignored, as in Stage; sview is read");
+        note(ranger.where, "sview[i] of a ranger is ignored, as in Stage; only sview is read");
     if (!poses.empty()) return transducers(std::move(table), ranger, poses, count);
     table.set("beams", placed(count, ranger.where));
     table.set("from", angle_value(0, ranger.where));
@@ -227,9 +227,10 @@ void ScannerReader::transducers(Table table, const WorldEntity& ranger,
         if (found == poses.end()) {
             angles_.clear();
             places_.clear();
-            return note(ranger.where, fmt::format("a ranger is left out: it has {} sonars, and no "
-                                                  "spose[{}]",
-                                                  count, i));
+            return note(ranger.where,
+                        fmt::format("a ranger is left out, because it has {} sonars and no "
+                                    "spose[{}], which is the pose of one of them",
+                                    count, i));
         }
         add_beam(world_pose(*found->second, units_), found->second->where);
     }

@@ -198,18 +198,23 @@ void Gatherer::summary(const Affected& affected, std::string_view text) {
 void Gatherer::summaries() {
     summary(nameless_, "names are generated for robots without a name");
     summary(namesakes_, "new names are generated for robots whose name is already in use");
-    summary(modelless_, "a wifi without a model uses the model in [propagation], by default friis");
-    summary(flying_, "the height z is ignored, as in the wifi model of the 2007 thesis, for");
-    summary(doubled_, "only the first wifi is used of");
+    summary(modelless_,
+            "the wifi of these robots has no model and uses the model of [propagation], by default "
+            "friis");
+    summary(flying_,
+            "the height z of these robots is ignored, as in the wifi model of the 2007 thesis");
+    summary(doubled_, "only the first wifi of these robots is used");
     summary(plain_,
             "robots without a wifi have the radio of [radio] and the model of [propagation], friis "
             "by default");
-    summary(lone_, "a wifi outside a position is ignored");
+    summary(lone_, "a wifi that belongs to no model of type position is ignored");
     std::vector<std::string> kinds;
     for (const auto& [type, number] : ignored_) {
         kinds.push_back(fmt::format("{} ({})", type, number));
     }
-    if (!kinds.empty()) note(world_notice(world_.root.where, "ignored: " + listed(kinds)));
+    if (!kinds.empty())
+        note(
+            world_notice(world_.root.where, "models of these types are ignored: " + listed(kinds)));
 }
 
 }  // namespace

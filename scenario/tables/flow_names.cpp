@@ -23,7 +23,8 @@ void name_flows(std::vector<TrafficTable>& all) {
         if (traffic.name.empty() || ++named[traffic.name] == 1) continue;
         throw InputError(
             traffic.from_where,
-            fmt::format("name: two flows are named \"{}\"; give each its own name", traffic.name));
+            fmt::format("name: two flows are named \"{}\"; give each flow a different name",
+                        traffic.name));
     }
     for (TrafficTable& traffic : all) {
         if (!traffic.name.empty()) continue;

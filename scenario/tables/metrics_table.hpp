@@ -33,8 +33,8 @@ struct MetricsTable {
     static constexpr auto fields() {
         return describe(
             field("reach", &MetricsTable::reach,
-                  "compute the metric reach; if not given, it is computed as long as this takes no "
-                  "longer than the simulation of the frames"),
+                  "compute the metric reach; if not given, reach is computed as long as this takes "
+                  "no longer than the simulation of the frames"),
             field("flows", &MetricsTable::flows,
                   "compute delivery, throughput and latency of each flow"),
             field("robots", &MetricsTable::robots,
@@ -42,7 +42,7 @@ struct MetricsTable {
             field("topology", &MetricsTable::topology,
                   "compute degree, components, mean speed and lifetime of links"),
             field("path_stretch", &MetricsTable::path_stretch,
-                  "compute the hops of routed unicasts, divided by those of the shortest path"));
+                  "compute the hops of routed unicasts, divided by the hops of the shortest path"));
     }
 };
 

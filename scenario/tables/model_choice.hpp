@@ -35,7 +35,7 @@ struct ModelChoice {
     template <class M>
     static constexpr std::size_t place_of() {
         return []<class... Each>(std::tuple<Each...>*) {
-            static_assert((std::is_same_v<Each, M> || ...), "this model is not listed");
+            static_assert((std::is_same_v<Each, M> || ...), "this model is not in the list Models");
             std::size_t at = 0;
             (void)((std::is_same_v<Each, M> || (++at, false)) || ...);
             return at;

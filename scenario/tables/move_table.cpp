@@ -23,7 +23,7 @@ void check_times(const Value& value, const std::vector<Duration>& times) {
     const bool later =
         std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
     if (times.front() >= Duration{0} && later) return;
-    throw InputError(value.where, "times: expected times >= 0 s, each later than the one before");
+    throw InputError(value.where, "times: expected times >= 0 s, each later than the time before");
 }
 
 constexpr const char* path_example = "path = [[\"5 m\", \"3 m\"], [\"5 m\", \"9 m\"]]";
@@ -35,8 +35,9 @@ void check(const WaypointsTable& waypoints, TableReader& table) {
     if (waypoints.times->size() != waypoints.path.size()) {
         throw InputError(
             times.where,
-            fmt::format("times: found {} for a path of {} places; expected one time for each place",
-                        waypoints.times->size(), waypoints.path.size()));
+            fmt::format(
+                "times: found {} times for a path of {} places; expected one time for each place",
+                waypoints.times->size(), waypoints.path.size()));
     }
     check_times(times, *waypoints.times);
 }

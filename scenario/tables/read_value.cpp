@@ -141,7 +141,10 @@ void read_value(const Value& value, std::string_view key, BitRate& out) {
 }
 
 void read_value(const Value& value, std::string_view key, Duration& out) {
-    out = from_seconds(read_quantity(value, key, Dimension::time));
+    const double s = read_quantity(value, key, Dimension::time);
+    out = from_seconds(s);
+    if (s != 0 && out == Duration{0})
+        wrong_type(value, key, "at least 1 ns, which is the resolution of times");
 }
 
 void read_value(const Value& value, std::string_view key, Bytes& out) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "scenario/tables/reader.hpp"
 
+#include "scenario/document/toml.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,6 +10,25 @@
 #include <utility>
 
 namespace rovernet {
+namespace {
+
+/// Number without a unit that a user typed for a quantity: what it was read as, and the unit to
+/// write; empty for anything else.
+std::string unit_hint(const Value& value, std::string_view key, const Range& range) {
+    const bool is_number = std::holds_alternative<double>(value.data) ||
+                           std::holds_alternative<std::int64_t>(value.data);
+    const std::string_view text = range.text;
+    const std::string_view unit = text.substr(std::min(text.rfind(' ') + 1, text.size()));
+    const bool has_unit =
+        !unit.empty() && ((unit.front() | 0x20) >= 'a' && (unit.front() | 0x20) <= 'z');
+    if (!value.where.is_option || !is_number || !has_unit) return "";
+    return fmt::format(
+        "; a number without a unit is in SI units: write the unit, such as "
+        "{}=\"{} {}\"",
+        key, plain_text(value), unit);
+}
+
+}  // namespace
 
 TableReader::TableReader(const Value& value, std::string name)
     : table_(value.table()), where_(value.where), name_(std::move(name)) {
@@ -30,10 +51,11 @@ void TableReader::reject_unknown() const {
     for (const auto& entry : table_->entries) {
         if (is_known(entry.key)) continue;
         const std::string near = did_you_mean(entry.key, known_);
-        throw InputError(
+        throw UnknownKey(
             entry.key_where,
             fmt::format("unknown key \"{}\" in {}; expected one of {}{}{}", entry.key, name_,
-                        fmt::join(known_, ", "), near.empty() ? "" : "; ", near));
+                        fmt::join(known_, ", "), near.empty() ? "" : "; ", near),
+            entry.key, name_);
     }
 }
 
@@ -62,8 +84,9 @@ void TableReader::only_one_of(std::string_view key, std::string_view other) cons
 }
 
 void throw_outside(const Value& value, std::string_view key, const Range& range) {
-    throw InputError(value.where, fmt::format("{}: found {}; expected a value {}", key,
-                                              value.description(), range.text));
+    throw InputError(value.where,
+                     fmt::format("{}: found {}; expected a value {}{}", key, value.description(),
+                                 range.text, unit_hint(value, key, range)));
 }
 
 void throw_not_given(const Location& where, std::string_view what, std::string_view model,

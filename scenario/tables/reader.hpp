@@ -29,6 +29,19 @@ namespace rovernet {
                                   std::string_view model, std::string_view key,
                                   std::string_view meaning);
 
+/// Error about an unknown key of a table.
+class UnknownKey : public InputError {
+  public:
+    /// @param table  name of the table, such as "[radio]"
+    UnknownKey(Location where, const std::string& message, std::string key, std::string table)
+        : InputError(std::move(where), message), key_(std::move(key)), table_(std::move(table)) {}
+    const std::string& key() const { return key_; }
+    const std::string& table() const { return table_; }
+
+  private:
+    std::string key_, table_;
+};
+
 /// Reader of one table of a document, key by key. The reader records the keys that callers expect
 /// or read, so that reject_unknown() finds misspelt keys. The value must outlive the reader.
 class TableReader {

@@ -30,8 +30,11 @@ void check_fan(const RangeFinder& fan, TableReader& table) {
     const Radians spread = fan.to - fan.from;
     if (spread.value >= 0 && spread.value <= whole_turn) return;
     const Value* to = table.take("to");
-    throw InputError(to ? to->where : table.where(),
-                     "scan: expected `to` from 0 to 360 degrees after `from`");
+    throw InputError(
+        to ? to->where : table.where(),
+        fmt::format(
+            "scan: expected a `to` that is 0 to 360 degrees after `from`; found {:.6g} degrees",
+            360 * spread.value / whole_turn));
 }
 
 void check_ring(const Scanner& ring, const Value& angles, TableReader& table) {
@@ -44,15 +47,15 @@ void check_ring(const Scanner& ring, const Value& angles, TableReader& table) {
     }
     if (ring.finder.kind == RangeFinderKind::laser) {
         throw InputError(angles.where,
-                         "angles: the beams of a laser are evenly spaced; expected beams, from and "
-                         "to, or kind = \"sonar\" or \"ranger\"");
+                         "angles: the beams of a laser are evenly spaced; expected the keys "
+                         "`beams`, `from` and `to`, or kind = \"sonar\" or \"ranger\"");
     }
     const Value* places = table.take("places");
     if (places && ring.places.size() != ring.angles.size()) {
-        throw InputError(places->where,
-                         fmt::format("places: found {} places; expected one for each of the {} "
-                                     "angles",
-                                     ring.places.size(), ring.angles.size()));
+        throw InputError(
+            places->where,
+            fmt::format("places: found {} places; expected one place for each of the {} `angles`",
+                        ring.places.size(), ring.angles.size()));
     }
 }
 
@@ -84,8 +87,8 @@ void add_scanner(std::vector<Scanner>& scanners, Scanner scanner, const Value& v
     if (is_taken) {
         const Value* name = value.table()->find("name");
         throw InputError(name ? name->where : value.where,
-                         fmt::format("scan: two range finders are named \"{}\"; expected a name "
-                                     "of its own for each, such as name = \"rear\"",
+                         fmt::format("scan: two range finders are named \"{}\"; expected a "
+                                     "different name for each, such as name = \"rear\"",
                                      label));
     }
     scanners.push_back(std::move(scanner));

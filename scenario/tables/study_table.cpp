@@ -154,9 +154,9 @@ const Vary& varied(const StudyTable& study, const std::string& path, const Locat
         paths.push_back(vary.path);
     }
     const std::string near = did_you_mean(path, paths);
-    throw InputError(where,
-                     fmt::format("{}: \"{}\" does not vary; expected one of \"{}\"{}{}", in, path,
-                                 fmt::join(paths, "\", \""), near.empty() ? "" : "; ", near));
+    throw InputError(
+        where, fmt::format("{}: \"{}\" is not a key of vary; expected one of \"{}\"{}{}", in, path,
+                           fmt::join(paths, "\", \""), near.empty() ? "" : "; ", near));
 }
 
 void read_zip(const Value& value, StudyTable& study) {
@@ -167,7 +167,9 @@ void read_zip(const Value& value, StudyTable& study) {
         const Location& where = (*value.array())[i].where;
         for (const std::string& path : group) {
             if (!seen.insert(path).second) {
-                throw InputError(where, fmt::format("zip: \"{}\" is listed twice", path));
+                throw InputError(
+                    where,
+                    fmt::format("zip: \"{}\" is listed twice; expected each key once", path));
             }
             const std::size_t n = varied(study, path, where, "zip").values.size();
             const std::size_t first = varied(study, group.front(), where, "zip").values.size();

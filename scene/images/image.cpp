@@ -133,7 +133,7 @@ void check_image_size(const std::string& path, std::int64_t width, std::int64_t 
                 width, height));
     if (width > max_image_pixels / height)
         image_error(path, fmt::format("image of {} x {} pixels; expected at most {} million "
-                                      "pixels; scale it down or cut it",
+                                      "pixels; scale the picture down, or cut a part out of it",
                                       width, height, max_image_pixels / 1'000'000));
 }
 

@@ -21,7 +21,10 @@ class NetpbmReader {
         }
         max_value_ = number("a maxval from 1 to 65535", 65535);
         if (max_value_ == 0)
-            fail(fmt::format("{} maxval 0; expected 1 to 65535; save the picture again", name_));
+            fail(
+                fmt::format("found the maxval 0 (largest value of a sample) in {}; expected 1 to "
+                            "65535; save the picture again",
+                            name_));
         for (std::uint8_t& sample : image.samples)
             sample = scaled(plain_ ? number_sample() : raw());
         return image;
@@ -53,8 +56,8 @@ class NetpbmReader {
         return c;
     }
     [[noreturn]] void unexpected(int c, const char* what) const {
-        fail(fmt::format("byte 0x{:02x} in {}; expected {}; save the picture again", c, name_,
-                         what));
+        fail(fmt::format("found the byte 0x{:02x} in {}; expected {}; save the picture again", c,
+                         name_, what));
     }
 
     /// Skips white space, then reads a decimal number and one white space after it.
@@ -66,8 +69,9 @@ class NetpbmReader {
             digits = true;
             value = 10 * value + (c - '0');
             if (value > limit)
-                fail(fmt::format("number above {} in {}; expected {}; save the picture again",
-                                 limit, name_, what));
+                fail(fmt::format(
+                    "found a number above {} in {}; expected {}; save the picture again", limit,
+                    name_, what));
         }
         if (!digits || !(white(c) || c == EOF)) unexpected(c, what);
         return static_cast<int>(value);
@@ -84,9 +88,10 @@ class NetpbmReader {
         const int high = max_value_ > 255 ? byte() : 0;
         const int value = 256 * high + byte();
         if (value > max_value_)
-            fail(fmt::format(
-                "{} sample {} above the maxval {}; expected at most that; save the picture again",
-                name_, value, max_value_));
+            fail(
+                fmt::format("found in {} the sample {}, which is above the maxval {} of the file's "
+                            "header; expected samples up to the maxval; save the picture again",
+                            name_, value, max_value_));
         return value;
     }
     std::uint8_t scaled(int value) const {

@@ -74,7 +74,8 @@ std::string to_png(const Image& image) {
     PngWriter writer;
     if (!writer.info) throw std::bad_alloc();
     if (!write_pixels(writer, image)) {
-        throw std::invalid_argument("to_png: a picture of that size cannot be a PNG");
+        throw std::invalid_argument(
+            "to_png: libpng cannot write a picture of this width and height");
     }
     return std::move(writer.out);
 }

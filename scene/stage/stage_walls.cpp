@@ -217,11 +217,12 @@ std::optional<std::string> Builder::picture(const WorldProperty& bitmap) {
     }
     if (options_.lenient) {
         note(bitmap.where,
-             fmt::format("bitmap \"{}\" is missing and left out; tried {}", name, found.places()));
+             fmt::format("bitmap \"{}\" is missing, so its walls are left out; tried {}", name,
+                         found.places()));
         return std::nullopt;
     }
     throw InputError(bitmap.where,
-                     fmt::format("bitmap: no file \"{}\"; expected one of {}; give its folder with "
+                     fmt::format("bitmap: no file \"{}\"; tried {}; give the file's folder with "
                                  "--world-path, or another file with --bitmap {}=NEW",
                                  name, found.places(), last));
 }
@@ -229,7 +230,7 @@ std::optional<std::string> Builder::picture(const WorldProperty& bitmap) {
 void Builder::add_outlines(std::vector<WallPolygon> outlines, const Body& body) {
     const Location where = outlines.front().where;
     if (!fit(outlines, body.size)) {
-        return note(where, "the outlines of a model have no area, so it has no walls");
+        return note(where, "the outlines of a model have no area, so the model has no walls");
     }
     for (const auto& outline : outlines) {
         const Extent extent = extent_of(outline.points);
@@ -237,9 +238,10 @@ void Builder::add_outlines(std::vector<WallPolygon> outlines, const Body& body) 
             continue;
         spend(filling_work(outline, outline_cell), outline.where);
         if (!outline.is_box() && !std::exchange(cells_noted_, true)) {
-            note(outline.where, fmt::format("walls that are no boxes along their model's axes are "
-                                            "drawn in cells of at most {} m",
-                                            outline_cell));
+            note(outline.where,
+                 fmt::format("each wall whose outline is not a box along the axes of its model is "
+                             "approximated by cells of at most {} m",
+                             outline_cell));
         }
         place(filled(outline, outline_cell), body);
     }

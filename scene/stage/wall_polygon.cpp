@@ -28,9 +28,11 @@ int count(const WorldProperty& property) {
     if (number >= 0 && number <= most && number == std::floor(number)) {
         return static_cast<int>(number);
     }
-    throw InputError(property.where, fmt::format("{}: found {}; expected a whole number from 0 to "
-                                                 "1000000; count them",
-                                                 property.name, number));
+    throw InputError(
+        property.where,
+        fmt::format(
+            "{}: found {}; expected a whole number from 0 to 1000000; write the number of points",
+            property.name, number));
 }
 
 Vec3 point(const WorldProperty& property) {
@@ -61,10 +63,11 @@ WallPolygon outline(const Properties& properties, const std::string& prefix,
     for (int i = 0; i < n; ++i) {
         const auto found = properties.find(fmt::format("{}point[{}]", prefix, i));
         if (found == properties.end()) {
-            throw InputError(polygon.where,
-                             fmt::format("{0}points: found no {0}point[{1}]; expected {2} points "
-                                         "from {0}point[0] on; add it or correct the number",
-                                         prefix, i, n));
+            throw InputError(
+                polygon.where,
+                fmt::format("{0}points: found no {0}point[{1}]; expected {2} points from "
+                            "{0}point[0] on; add this point or correct the number",
+                            prefix, i, n));
         }
         polygon.points.push_back(point(*found->second));
     }

@@ -128,7 +128,8 @@ WorldToken WorldScanner::word() {
     const std::string_view found = text_.substr(at_, end - at_);
     check_length(found);
     if (open > 0) {
-        fail(at_, fmt::format("found \"{}\"; expected a key, a blank and its value; write {} [...]",
+        fail(at_, fmt::format("found \"{}\"; expected a key and its value with a blank between "
+                              "them; write {} [...]",
                               found, found.substr(0, found.find('['))));
     }
     return piece(Kind::word, found.size());
@@ -204,10 +205,14 @@ void WorldScanner::reject_number(std::string_view found) const {
 void WorldScanner::reject_character() const {
     const char c = here();
     switch (c) {
-        case ',': fail(at_, "found \",\"; expected blanks between values; write [1 2 3]");
-        case ';': fail(at_, "found \";\"; expected a blank or a new line; remove it");
+        case ',':
+            fail(at_, "found \",\"; expected blanks between values; write for example [1 2 3]");
+        case ';': fail(at_, "found \";\"; expected a blank or a new line; remove the \";\"");
         case '\'': fail(at_, "found \"'\"; expected a text in double quotes; write \"...\"");
-        case '=': fail(at_, "found \"=\"; expected a key, a blank and its value; write power 30");
+        case '=':
+            fail(at_,
+                 "found \"=\"; expected a key and its value with only a blank between them; write "
+                 "for example power 30");
         case '{':
         case '}': fail(at_, fmt::format("found \"{}\"; expected ( and ); write model ( ... )", c));
         case '<':

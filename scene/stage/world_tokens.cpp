@@ -72,8 +72,8 @@ std::string Loader::text_of(const std::string& path, const Location& where) {
     const std::uintmax_t size = std::filesystem::file_size(path, ignored);
     if (size > most_bytes_a_file || (bytes_ += size) > most_bytes) {
         throw InputError(where,
-                         "is too large; expected at most 16 MiB a file, 64 MiB in all; is "
-                         "this a world file?");
+                         "is too large; expected at most 16 MiB in each file, and 64 MiB in the "
+                         "world and its includes together; is this a world file?");
     }
     std::string text(static_cast<std::size_t>(size), '\0');
     file.read(text.data(), static_cast<std::streamsize>(text.size()));
@@ -89,7 +89,7 @@ void Loader::enter(const std::string& path, const Location& where) {
     if (canonical.empty()) canonical = path;
     if (std::find(open_.begin(), open_.end(), canonical) != open_.end()) {
         throw InputError(where, fmt::format("{} includes itself; expected includes without a "
-                                            "circle; remove one of them",
+                                            "circle; remove one of the includes",
                                             path));
     }
     if (open_.size() > deepest_include) {
@@ -98,7 +98,8 @@ void Loader::enter(const std::string& path, const Location& where) {
                                             deepest_include));
     }
     if (out_.files.size() >= most_files) {
-        throw InputError(where, fmt::format("more than {} includes; expected fewer", most_files));
+        throw InputError(where,
+                         fmt::format("found more than {} includes; expected fewer", most_files));
     }
     open_.push_back(std::move(canonical));
 }
@@ -128,10 +129,11 @@ void Loader::add_file(const std::string& path, const Location& where) {
 
 void Loader::add(WorldToken token) {
     if (out_.tokens.size() >= most_world_tokens) {
-        throw InputError(out_.where(token),
-                         fmt::format("more than {} words, values and lines; expected "
-                                     "fewer; is this a world file?",
-                                     most_world_tokens));
+        throw InputError(
+            out_.where(token),
+            fmt::format(
+                "found more than {} words, values and lines; expected fewer; is this a world file?",
+                most_world_tokens));
     }
     out_.tokens.push_back(std::move(token));
 }
@@ -155,12 +157,13 @@ void Loader::include(WorldScanner& scanner, const WorldToken& keyword) {
     const Location where = out_.where(name);
     if (found.path) return add_file(*found.path, where);
     if (!lenient_) {
-        throw InputError(where, fmt::format("no file \"{}\" to include; expected one of {}; give "
-                                            "its folder with --world-path or in STAGEPATH",
+        throw InputError(where, fmt::format("no file \"{}\" to include; tried {}; give the "
+                                            "file's folder with --world-path or in STAGEPATH",
                                             name.text, found.places()));
     }
-    out_.notices.push_back(fmt::format("{}:{}: include \"{}\" is missing and left out; tried {}",
-                                       where.source, keyword.line, name.text, found.places()));
+    out_.notices.push_back(
+        fmt::format("{}:{}: the include file \"{}\" is missing, so it is left out; tried {}",
+                    where.source, keyword.line, name.text, found.places()));
 }
 
 }  // namespace

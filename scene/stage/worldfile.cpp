@@ -101,11 +101,11 @@ void Parser::body(std::size_t& at, WorldEntity& into, int depth, const WorldToke
             return;
         } else if (next.kind == Kind::close) {
             fail(next,
-                 "found \")\" without a \"(\"; expected a key, a model or the end of the "
-                 "file; remove it");
+                 "found \")\" without a \"(\"; expected a key, a model or the end of the file; "
+                 "remove the \")\"");
         } else if (next.kind == Kind::file_end) {
             fail(next, fmt::format("found the end of the file; expected the \")\" of the \"(\" at "
-                                   "{}; add it",
+                                   "{}; add the \")\"",
                                    where(*opened).text()));
         } else {
             fail(next, fmt::format("found {}; expected a key or the type of a model; write \"name "
@@ -175,8 +175,10 @@ void Parser::tuple(std::size_t& at, WorldProperty& into) {
 /// Value of a number, with a notice if it is followed by ignored characters.
 double Parser::number(const WorldToken& token) {
     if (token.is_cut) {
-        note(where(token), fmt::format("\"{}\" is read as {}, as in Stage; the rest is ignored",
-                                       token.text, token.number));
+        note(where(token),
+             fmt::format(
+                 "\"{}\" is read as {}, as in Stage; the characters after this number are ignored",
+                 token.text, token.number));
     }
     return token.number;
 }
@@ -201,11 +203,12 @@ void Parser::define(std::size_t& at, int depth) {
     WorldEntity ignored;
     body(at, ignored, depth + 1, &open);
     checking_ = was_checking;
-    if (checking_) fail(name, "found a define inside a define; expected it outside; move it");
+    if (checking_)
+        fail(name, "found a define inside a define; move the inner define out of the outer define");
     const auto [first, is_new] = macros_.try_emplace(name.text, macro);
     if (!is_new && first->second.where.text() != macro.where.text()) {
-        note(macro.where, fmt::format("macro \"{}\" is defined a second time; the first, at {}, "
-                                      "counts",
+        note(macro.where, fmt::format("macro \"{}\" is defined a second time; the first "
+                                      "definition, at {}, is used",
                                       name.text, first->second.where.text()));
     }
 }
@@ -251,11 +254,14 @@ void Parser::note_unknown_type(const WorldEntity& entity) {
     const std::string near = many ? "" : did_you_mean(entity.type, candidates);
     const WorldRole role = world_role(entity);
     const char* fate =
-        role == WorldRole::robot  ? "it is treated as a position, because it has a wifi"
-        : role == WorldRole::wall ? "it is treated as a model, because it has a bitmap"
-                                  : "it is ignored";
-    note(entity.where, fmt::format("unknown type \"{}\", no macro of that name; {}{}{}",
-                                   entity.type, fate, near.empty() ? "" : "; ", near));
+        role == WorldRole::robot
+            ? "this entry is treated as if its type were position, because it contains a wifi model"
+        : role == WorldRole::wall
+            ? "this entry is treated as if its type were model, because it has a bitmap"
+            : "this entry is ignored";
+    note(entity.where,
+         fmt::format("unknown type \"{}\", and there is no macro of this name; {}{}{}", entity.type,
+                     fate, near.empty() ? "" : "; ", near));
 }
 
 }  // namespace

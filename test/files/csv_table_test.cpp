@@ -48,11 +48,11 @@ TEST_CASE(
     "one") {
     CHECK(error_of("a,b\n1,2\n") == "t.csv:2:3: b: found \"2\", expected another");
     CHECK(error_of("a,b\n1\n").find("t.csv:2") == 0);
-    CHECK(error_of("a,b\n1\n").find("found 1 fields, expected 2") != std::string::npos);
-    CHECK(error_of("a,b\n1,2,\n").find("found 3 fields, expected 2") != std::string::npos);
+    CHECK(error_of("a,b\n1\n").find("found 1 fields; expected 2") != std::string::npos);
+    CHECK(error_of("a,b\n1,2,\n").find("found 3 fields; expected 2") != std::string::npos);
     CHECK(error_of("# only\n").find("no line of column names") != std::string::npos);
     CHECK(error_of("level,b\n1,2\n", "levl")
-              .find("no column \"levl\"; expected one in level, b; did you mean \"level\"?") !=
+              .find("no column \"levl\"; expected one of level, b; did you mean \"level\"?") !=
           std::string::npos);
 }
 

@@ -78,7 +78,7 @@ TEST_CASE("input file: a pipe is refused where a regular file is needed") {
 }
 
 TEST_CASE(
-    "input file: for a path of another machine, a file of the same name beside the input is "
+    "input file: if a path has a wrong folder, the file of the same name in the given folder is "
     "found") {
     const test::TemporaryFolder folder;
     const std::string here = folder.path("");

@@ -65,8 +65,7 @@ TEST_CASE("part file: the file gets its final name only when it is complete") {
 }
 
 TEST_CASE(
-    "part file: if the new file is not completed, the old file stays unchanged, and no partial "
-    "file remains") {
+    "part file: if a new file is not completed, the old file stays, and no partial file remains") {
     const TemporaryFolder folder;
     const std::string path = folder.write("f", "yesterday's");
     { PartFile(path).write("half"); }
@@ -75,8 +74,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "part file: of two files written under one name at once, the one that is completed last "
-    "remains") {
+    "part file: if two writers write one file at once, the last to complete determines its text") {
     const TemporaryFolder folder;
     PartFile first(folder.path("f")), second(folder.path("f"));
     first.write("first");
@@ -121,9 +119,10 @@ TEST_CASE("part file: a path that cannot be written is reported at once") {
     CHECK_THROWS_WITH_AS(
         PartFile(folder.path("no/f")),
         (folder.path("no/f") + ": cannot be written: No such file or directory").c_str(), RunError);
-    CHECK_THROWS_WITH_AS(PartFile("/dev/null"),
-                         "/dev/null: cannot be written: it exists and is no regular file",
-                         RunError);
+    CHECK_THROWS_WITH_AS(
+        PartFile("/dev/null"),
+        "/dev/null: cannot be written: something that is not a regular file has this name",
+        RunError);
 }
 
 }  // namespace part_file_test

@@ -89,7 +89,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "text source: other compressed files, and files without text, are refused by their kind") {
+    "text source: for other compressed files, and files without text, the error names the kind") {
     const TempFolder folder;
     const std::string tar = std::string("a.tr") + std::string(253, '\0') + "ustar  ";
     const std::vector<std::pair<std::string, std::string>> files = {

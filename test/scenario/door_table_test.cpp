@@ -58,7 +58,9 @@ at = ["8 m", "2.5 m"]
 
 }  // namespace
 
-TEST_CASE("door: a closed door has the loss of its material, by default the model's loss") {
+TEST_CASE(
+    "door: a closed door has the loss of its material, by default the propagation model's loss of "
+    "a wall") {
     const House house;
     for (const bool named : {true, false}) {
         const Scenario s =

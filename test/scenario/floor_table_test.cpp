@@ -278,7 +278,9 @@ TEST_CASE("floors: an error in a storey has line, column and what was expected")
     }
 }
 
-TEST_CASE("floors: a robot in a wall of its storey, off its map or without stairs is reported") {
+TEST_CASE(
+    "floors: a robot in a wall of its storey, and a goal off the map or without stairs to it, are "
+    "reported") {
     const Building building;
     const std::string scene = ground() + upper();
     const auto error_of = [&](const std::string& robot) -> std::string {

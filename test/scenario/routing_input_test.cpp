@@ -74,14 +74,16 @@ TEST_CASE("routing input: an unknown key is an error, and keys of other protocol
 }
 
 TEST_CASE(
-    "routing input: a key of another protocol may have each value that some protocol allows") {
-    for (const std::string protocol : {"flood", "aodv", "dsr", "managed"}) {
+    "routing input: a key that the protocol lacks may have any value another protocol allows") {
+    for (const std::string protocol : {"flood", "aodv", "dsr", "managed", "suppression"}) {
         CAPTURE(protocol);
         const std::string chosen = "[routing]\nprotocol = \"" + protocol + "\"\n";
-        CHECK(error_of(chosen + "hello = \"0 s\"\n").empty());  // valid under aodv only
+        CHECK(error_of(chosen + "hello = \"0 s\"\n").empty());  // no scheme but cluster has it
     }
-    const std::string text = error_of("[routing]\nprotocol = \"suppression\"\nhello = \"0 s\"\n");
-    CHECK(has(text, "s.toml:9:9: hello: found \"0 s\"; expected a value > 0 s, up to 10000 s"));
+    const std::string text =
+        error_of("[routing]\nprotocol = \"suppression\"\nscheme = \"cluster\"\nhello = \"0 s\"\n");
+    CHECK(has(text, "s.toml:10:9: "));
+    CHECK(has(text, "hello must be > 0 s for scheme \"cluster\", got 0"));
     CHECK(has(error_of("[routing]\nhello = \"-1 s\"\n"), "s.toml:8:9: hello: found \"-1 s\""));
 }
 
@@ -120,7 +122,8 @@ TEST_CASE("routing input: a broadcast over one hop gives a notice") {
     const std::string text = all_notices("[[traffic]]\nfrom = \"A\"\nsize = \"9 B\"\nhops = 1\n");
     CHECK(text ==
           "s.toml:10:8: hops: with hops = 1 the routing protocol does not forward these "
-          "broadcasts, so only neighbours of \"A\" hear them; without the key it forwards them\n");
+          "broadcasts, so only neighbours of \"A\" hear these broadcasts; without the key hops, "
+          "the protocol forwards them\n");
     CHECK(all_notices("[[traffic]]\nfrom = \"A\"\nsize = \"9 B\"\n").empty());
     CHECK(has(error_of("[[traffic]]\nfrom = \"A\"\nsize = \"9 B\"\nhops = 2\n"),
               "s.toml:10:8: hops: found the number 2; expected a value of 1"));
@@ -130,8 +133,8 @@ TEST_CASE("routing input: a unicast under a flood gives a notice that names a ro
     for (const std::string protocol : {"flood", "suppression", "managed"}) {
         const std::string chosen = "[routing]\nprotocol = \"" + protocol + "\"\n";
         const std::string text = all_notices(unicast("size = \"9 B\"") + chosen);
-        CHECK(has(text, "s.toml:10:6: to: the routing protocol does not route messages to one"));
-        CHECK(has(text, "[routing] protocol = \"aodv\" finds routes"));
+        CHECK(has(text, "s.toml:10:6: to: the routing protocol does not route messages to a "));
+        CHECK(has(text, "[routing] protocol = \"aodv\" to find routes"));
     }
     for (const std::string protocol : {"aodv", "dsr"}) {
         CHECK(
@@ -146,21 +149,23 @@ TEST_CASE("routing input: a broadcast under a protocol of unicasts gives a notic
         const std::string chosen = "[routing]\nprotocol = \"" + protocol + "\"\n";
         const std::string text = all_notices(broadcast + chosen);
         CHECK(text ==
-              "s.toml:8:8: from: the routing protocol does not forward broadcasts, so "
-              "those of \"A\" go over one hop; hops = 1 states this in the scenario, and "
-              "[routing] protocol = \"flood\" forwards them\n");
+              "s.toml:8:8: from: the routing protocol does not forward broadcasts, so broadcasts "
+              "of \"A\" go over one hop only; write hops = 1 to confirm this, or [routing] "
+              "protocol = \"flood\" to forward broadcasts\n");
         CHECK(all_notices(broadcast + "hops = 1\n" + chosen).empty());
         CHECK(all_notices(broadcast + "start = \"1 h\"\n" + chosen).empty());  // after the run
         CHECK(has(all_notices("on_time = { time = \"1 s\", send = \"x\" }\n" + chosen),
-                  "s.toml:7:11: send: the routing protocol does not forward broadcasts, so those "
-                  "of \"B\" go over one hop"));
+                  "s.toml:7:11: send: the routing protocol does not forward broadcasts, so "
+                  "broadcasts of \"B\" go over one hop only"));
     }
     for (const std::string protocol : {"flood", "suppression", "managed"}) {
         CHECK(all_notices(broadcast + "[routing]\nprotocol = \"" + protocol + "\"\n").empty());
     }
 }
 
-TEST_CASE("routing input: a route of more than sixteen robots gives a notice at the end") {
+TEST_CASE(
+    "routing input: a notice after the run says if dsr lost messages because a route would be too "
+    "long") {
     const auto notice_with = [](int robots) {
         std::string text =
             "[scenario]\nduration = \"60 s\"\n[propagation]\nmodel = \"disc\"\nrange = \"9 m\"\n"
@@ -180,7 +185,8 @@ TEST_CASE("routing input: a route of more than sixteen robots gives a notice at 
     };
     CHECK(notice_with(16).empty());
     CHECK(notice_with(18) ==
-          "dsr: 1 pair of robots lost messages, because a route has at most 16 robots");
+          "dsr: 1 pair of robots lost messages after a route request had reached 16 robots without "
+          "finding the destination; a route of dsr has at most 16 robots");
 }
 
 }  // namespace routing_input_test

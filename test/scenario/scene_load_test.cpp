@@ -65,8 +65,7 @@ std::pair<double, double> wall_db(const std::string& file, const ScenarioOptions
 }  // namespace
 
 TEST_CASE(
-    "scene: dark pixels of a map image are walls with the loss of the wall factor, light grey "
-    "pixels are not") {
+    "scene: dark pixels of a map are walls with the loss of `wall_factor`; light grey is free") {
     const TemporaryFolder folder;
     folder.write("m.png", picture());
     const auto [there, back] = wall_db(folder.write("s.toml", pair));
@@ -88,8 +87,8 @@ TEST_CASE(
     } catch (const InputError& error) {
         CHECK(error.where().line == 2);
         CHECK(error.message() ==
-              "map: no file \"/home/someone/maps/m.png\"; \"m.png\" lies beside "
-              "this file; write map = \"m.png\"");
+              "map: there is no file \"/home/someone/maps/m.png\", but there is \"m.png\" in the "
+              "same folder; write map = \"m.png\"");
     }
 }
 

@@ -63,27 +63,27 @@ std::string error_of(auto&& make) {
 
 }  // namespace
 
-TEST_CASE("unlikely: a usual scenario gives no notice") {
+TEST_CASE("unlikely input: a usual scenario gives no notice") {
     CHECK(notices_of(robot_a) == std::vector<std::string>{});
     CHECK(notices_of(robot_a + "off = [\"1 s\", \"5 s\"]\non = [\"2 s\"]\n").empty());
     CHECK(notices_of("[access]\nmodel = \"csma\"\nstandard = \"802.11g\"\n" + robot_a).empty());
     CHECK(notices_of("[radio]\nfrequency = \"868 MHz\"\n" + robot_a).empty());
 }
 
-TEST_CASE("unlikely: a power such as 17 W, where 17 dBm is usual, gives a notice") {
+TEST_CASE("unlikely input: a power such as 17 W, where 17 dBm is usual, gives a notice") {
     check_notice("[radio]\npower = \"17 W\"\n" + robot_a,
                  {"s.toml:2:9: power: 17 W are 42.3 dBm", "did you mean \"17 dBm\"?"});
     for (const char* power : {"37 dBm", "5 W", "100 W"})
         CHECK(notices_of("[radio]\npower = \"" + std::string(power) + "\"\n" + robot_a).empty());
 }
 
-TEST_CASE("unlikely: a frequency with a wrong unit gives a notice with a suggestion") {
+TEST_CASE("unlikely input: a frequency with a wrong unit gives a notice with a suggestion") {
     check_notice("[radio]\nfrequency = \"2.4 MHz\"\n" + robot_a,
                  {"s.toml:2:13: frequency: ", "did you mean \"2400 MHz\"?"});
     check_notice(robot_a + "radio = { frequency = \"1 Hz\" }\n", {":4:23: ", "not a frequency of"});
 }
 
-TEST_CASE("unlikely: a rate that the standard does not have gives a notice") {
+TEST_CASE("unlikely input: a rate that the standard does not have gives a notice") {
     check_notice("[radio]\nrate = \"54 Mb/s\"\n[access]\nmodel = \"csma\"\n" + robot_a,
                  {":2:8: rate: 802.11b has no rate of 54 Mb/s", "1, 2, 5.5, 11"});
     check_notice(
@@ -93,7 +93,7 @@ TEST_CASE("unlikely: a rate that the standard does not have gives a notice") {
     CHECK(notices_of("[radio]\nrate = \"54 Mb/s\"\n" + robot_a).empty());  // nobody's standard
 }
 
-TEST_CASE("unlikely: payloads that look like sizes, such as 64 B, give one notice for all") {
+TEST_CASE("unlikely input: payloads that look like sizes, such as 64 B, give one notice for all") {
     const auto traffic = [](const std::string& lines) {
         return "[[traffic]]\nfrom = \"A\"\n" + lines + "\n";
     };
@@ -109,7 +109,7 @@ TEST_CASE("unlikely: payloads that look like sizes, such as 64 B, give one notic
     CHECK(notices_of(robot_a + traffic("payload = \"64 B\"\nsize = \"64 B\"")).empty());
 }
 
-TEST_CASE("unlikely: a unicast under a flood goes one hop, with a notice unless hops = 1") {
+TEST_CASE("unlikely input: a unicast under a flood goes one hop, with a notice unless hops = 1") {
     const std::string two = robot_a + "[[robot]]\nname = \"B\"\nat = [\"4 m\", \"2 m\"]\n";
     const std::string unicast =
         "[[traffic]]\nkind = \"unicast\"\nfrom = \"A\"\nto = \"B\"\npayload = \"x\"\n";
@@ -127,15 +127,14 @@ TEST_CASE("unlikely: a unicast under a flood goes one hop, with a notice unless 
     CHECK(to_toml(to_document(scenario)).find("hops = 1\n") != std::string::npos);
 }
 
-TEST_CASE(
-    "unlikely: switching a robot on that is already on, or off that is already off, gives a "
-    "notice") {
+TEST_CASE("unlikely input: switching a robot on that is on, or off that is off, gives a notice") {
     check_notice(robot_a + "on = [\"1 s\"]\noff = [\"5 s\"]\n",
                  {":4:6: on: ", "already on at 1 s"});
     check_notice(robot_a + "off = [\"1 s\", \"2 s\"]\n", {":4:7: off: ", "already off at 2 s"});
 }
 
-TEST_CASE("unlikely: keys of a robot's motion that a movement file overrides give one notice") {
+TEST_CASE(
+    "unlikely input: keys of a robot's motion that a movement file overrides give one notice") {
     const TemporaryFolder folder;
     folder.write("m.tcl", "$node_(0) set X_ 1\n$node_(1) set X_ 2\n");
     const std::string head = "[movement]\nfile = \"m.tcl\"\n[[robot]]\nname = \"n0\"\n";
@@ -155,7 +154,7 @@ TEST_CASE("unlikely: keys of a robot's motion that a movement file overrides giv
     CHECK(notices("[[robot]]\nname = \"own\"\n" + at).empty());
 }
 
-TEST_CASE("unlikely: robots that start off the map give one notice") {
+TEST_CASE("unlikely input: robots that start off the map give one notice") {
     check_notice(on_map + "[[robot]]\nname = \"A\"\nat = [\"448 m\", \"0.5 m\"]\n",
                  {":6:6: robot \"A\" starts at (448, 0.5) m, 440 m off the map", "(8, 1) m"});
     const std::string two =
@@ -165,7 +164,7 @@ TEST_CASE("unlikely: robots that start off the map give one notice") {
 }
 
 TEST_CASE(
-    "unlikely: with the model rays, a wall drawn 1 m thick without a material gives a notice") {
+    "unlikely input: with model rays, a wall drawn 1 m thick without a material gives a notice") {
     const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n";
     const std::string rays = "[propagation]\nmodel = \"rays\"\n";
     check_notice(on_map + robot + rays,
@@ -178,7 +177,8 @@ TEST_CASE(
     CHECK(notices_of(on_map + given + robot + rays).empty());
 }
 
-TEST_CASE("unlikely: with the model multi_wall, a thick wall without a material gives a notice") {
+TEST_CASE(
+    "unlikely input: with the model multi_wall, a thick wall without a material gives a notice") {
     // A block 0.9 m thick in cells of 10 cm; on_map has cells of 1 m, and no thinner walls.
     const TemporaryFolder folder;
     test::PngPicture picture{.width = 40, .height = 20, .rows = {}};
@@ -210,7 +210,7 @@ TEST_CASE("unlikely: with the model multi_wall, a thick wall without a material 
 }
 
 TEST_CASE(
-    "unlikely: on a map, a coefficient N that already includes the loss of walls gives a notice") {
+    "unlikely input: on a map, a coefficient N that includes the loss of walls gives a notice") {
     const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n";
     const std::string own = "propagation = { model = \"raytrace_2007\" }\n";
     const std::string rays = "[propagation]\nmodel = \"raytrace_2007\"\n";
@@ -226,7 +226,7 @@ TEST_CASE(
     CHECK(notices_of(on_map + robot + "propagation = { model = \"friis\" }\n" + rays).empty());
 }
 
-TEST_CASE("unlikely: pixels of a material that are not walls give a notice") {
+TEST_CASE("unlikely input: pixels of a material that are not walls give a notice") {
     const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n";
     check_notice(
         on_map + robot + "[scene.materials]\npane = { grey = 140, per_crossing = \"3 dB\" }\n",
@@ -235,13 +235,13 @@ TEST_CASE("unlikely: pixels of a material that are not walls give a notice") {
                  {"material \"x\" matches no pixel of m.png"});
     check_notice(
         on_map + robot + "[scene.materials]\nx = { color = \"red\", per_crossing = \"3 dB\" }\n",
-        {"material \"x\" is not used, because it has no grey"});
+        {"material \"x\" is not used: in a map"});
     CHECK(notices_of(on_map + robot +
                      "[scene.materials]\nx = { grey = 100, per_crossing = \"3 dB\" }\n")
               .empty());
 }
 
-TEST_CASE("unlikely: greys between a ROS map's thresholds are not walls, and give a notice") {
+TEST_CASE("unlikely input: greys between a ROS map's thresholds are not walls, and give a notice") {
     const TemporaryFolder folder;
     const test::PngPicture picture{.width = 4, .height = 1, .rows = {{255, 0, 120, 255}}};
     folder.write("m.png", test::png_bytes(picture));
@@ -257,7 +257,8 @@ TEST_CASE("unlikely: greys between a ROS map's thresholds are not walls, and giv
     CHECK(s.notices[0].find("occupied_thresh") != std::string::npos);
 }
 
-TEST_CASE("unlikely: a robot in a wall of a Stage world gives a notice, because Stage allows it") {
+TEST_CASE(
+    "unlikely input: a robot in a wall of a Stage world gives a notice, because Stage allows it") {
     const TemporaryFolder folder;
     const std::string world =
         folder.write("w.world",
@@ -277,8 +278,8 @@ TEST_CASE("unlikely: a robot in a wall of a Stage world gives a notice, because 
 }
 
 TEST_CASE(
-    "unlikely: a clearance slightly below the radius is printed with enough digits to show the "
-    "difference") {
+    "unlikely input: an error prints a clearance slightly below the radius with enough digits to "
+    "show the difference") {
     const TemporaryFolder folder;
     folder.write("wall.png",
                  test::png_bytes({.width = 4, .height = 1, .rows = {{0, 255, 255, 255}}}));
@@ -300,7 +301,7 @@ radius = "0.01 m"
 }
 
 TEST_CASE(
-    "unlikely: a robot with a model of its own uses that model's parameters, not those of "
+    "unlikely input: a robot with a model of its own uses that model's parameters, not "
     "[propagation]") {
     const TemporaryFolder folder;
     const auto loss = [&](const std::string& own) {
@@ -319,6 +320,25 @@ TEST_CASE(
     CHECK(loss("propagation = { coefficient = 30 }\n") == office);
 }
 
+TEST_CASE(
+    "unlikely: the protocol managed with a model that has no levels, such as disc, gives a "
+    "notice") {
+    const std::string disc = "{ model = \"disc\", range = \"9 m\" }\n";
+    const std::string managed = "[routing]\nprotocol = \"managed\"\n";
+    const std::string robot_b = "[[robot]]\nname = \"B\"\nat = [\"3 m\", \"2 m\"]\n";
+    const std::string notice =
+        "model: \"disc\" computes no received levels, so under [routing] protocol = \"managed\" a "
+        "robot's delay before it relays a message does not depend on the received level; expected "
+        "a different model, such as \"friis\"";
+    check_notice("propagation = " + disc + managed + robot_a, {"s.toml:1:15: " + notice});
+    check_notice(managed + robot_a + "propagation = " + disc + robot_b, {"s.toml:6:15: " + notice});
+    CHECK(notices_of("propagation = " + disc + robot_a).empty());
+    CHECK(notices_of(managed + robot_a).empty());
+    CHECK(notices_of("propagation = " + disc + managed + robot_a +
+                     "propagation = { model = \"friis\" }\n")
+              .empty());
+}
+
 TEST_CASE("memory: more robots than fit into memory are refused before any is created") {
     Scenario s;
     s.robots.resize(1);
@@ -330,16 +350,17 @@ TEST_CASE("memory: more robots than fit into memory are refused before any is cr
     s.robots[0].count = 9'999'999;
     check_memory(s, 500'000'000'000);
     REQUIRE(s.notices.size() == 1);
-    CHECK(s.notices[0] == "s.toml:1:1: robots take about 2.8 GB of memory");
+    CHECK(s.notices[0] == "s.toml:1:1: the robots take about 2.8 GB of memory");
     const std::string refused = error_of([&] { check_memory(s, 2'000'000'000); });
     CHECK(refused ==
-          "s.toml:1:1: count: robots take about 2.8 GB of memory, but this process may use only "
-          "2.0 GB; expected fewer robots");
+          "s.toml:1:1: count: the robots take about 2.8 GB of memory, but this process may use "
+          "only 2.0 GB; expected fewer robots");
     CHECK(available_memory() > 100'000'000);
 }
 
 TEST_CASE(
-    "unlikely: a coherent sum of rays gives a notice if a wall is oblique to the map's grid") {
+    "unlikely input: a coherent sum of rays gives a notice if walls are oblique to the map's "
+    "grid") {
     // A wall of 30 cm through the middle of a room of 6 m, in cells of 5 cm.
     const auto room = [](double slope) {
         std::vector<std::string> rows(80, std::string(120, '.'));
@@ -366,9 +387,7 @@ TEST_CASE(
     CHECK(notices("power", room(0.4)).empty());
 }
 
-TEST_CASE(
-    "unlikely: the key eifs of [access] still accepts true for \"standard\" and false for "
-    "\"none\"") {
+TEST_CASE("access: the key eifs accepts true for \"standard\" and false for \"none\"") {
     const TemporaryFolder folder;
     const auto csma = [&](const std::string& keys) {
         return *loaded(folder, "[access]\nmodel = \"csma\"\n" + keys + robot_a).access.as<Csma>();
@@ -459,8 +478,7 @@ TEST_CASE("traffic: robots that send simultaneously give a notice if their frame
 }
 
 TEST_CASE(
-    "words: an error suggests a value of the right type, but not one with another number "
-    "(raytrace_2008)") {
+    "scenario errors: a suggested value has the right type; raytrace_2008 gets no suggestion") {
     const TemporaryFolder folder;
     const auto error = [&](const std::string& text) {
         return error_of([&] { loaded(folder, text + robot_a); });

@@ -141,7 +141,7 @@ TEST_CASE("ROS map: negate exchanges black and white") {
               Cells{occupied, free_cell});
 }
 
-TEST_CASE("ROS map: trinary averages red, green, blue and an alpha channel") {
+TEST_CASE("ROS map: in trinary mode, red, green, blue and an alpha channel are averaged") {
     const TemporaryFolder folder;
     // (255 + 0 + 0) / 3 = 85: occ 0.667; (255 + 255 + 60) / 3 = 190: occ 0.255
     folder.write("map.png", png_bytes({.width = 2,
@@ -179,7 +179,7 @@ TEST_CASE("ROS map: errors name line and column, and what to write instead") {
     const std::string typo = error_of(good + "ocupied_thresh: 0.65\n");
     CHECK(contains(typo, "4:1 unknown key \"ocupied_thresh\""));
     CHECK(contains(typo, "did you mean \"occupied_thresh\"?"));
-    CHECK(contains(error_of(good + "mode: trinry\n"), "4:7 mode \"trinry\""));
+    CHECK(contains(error_of(good + "mode: trinry\n"), "4:7 mode is \"trinry\""));
     CHECK(contains(error_of(good + "mode: trinry\n"), "did you mean \"trinary\"?"));
     CHECK(contains(error_of(good + "mode: [raw]\n"), "4:7 mode is a list"));
     CHECK(contains(error_of(good + "negate: maybe\n"), "4:9 negate is \"maybe\""));
@@ -205,11 +205,13 @@ TEST_CASE("ROS map: a key of another program gives a notice, a misspelt key is a
                    "2:1 unknown key \"resolutoin\""));
 }
 
-TEST_CASE("ROS map: a missing threshold that would contradict the given one is set equal to it") {
+TEST_CASE(
+    "ROS map: if the default of a missing threshold contradicts the given threshold, both get the "
+    "given value") {
     CHECK(notices_of("occupied_thresh: 0.05\n") ==
           std::vector<std::string>{
               "map.yaml:4:18: the key free_thresh is missing, and its default 0.25 contradicts "
-              "occupied_thresh 0.05: both are taken as 0.05"});
+              "occupied_thresh 0.05: both keys are taken as 0.05"});
     CHECK(notices_of("free_thresh: 0.7\n").size() == 1);
     CHECK(notices_of("occupied_thresh: 0.3\n").empty());
     CHECK(notices_of("free_thresh: 0.6\n").empty());
@@ -225,15 +227,15 @@ TEST_CASE("ROS map: for an image path of another machine, the image beside the f
         const std::string error = error_of(std::string("image: ") + path + rest);
         CHECK_MESSAGE(contains(error, "1:8 image"), error);
         CHECK_MESSAGE(contains(error,
-                               "no such file; \"map.pgm\" lies beside this file; write "
-                               "image: map.pgm"),
+                               "there is no such file, but there is \"map.pgm\" in the same "
+                               "folder; write image: map.pgm"),
                       error);
     }
     CHECK_FALSE(contains(error_of("image: ~/gone.pgm" + rest), "beside"));
     CHECK(contains(error_of("image: maps/" + rest), "no such file"));
 }
 
-TEST_CASE("ROS map: resolution and origin are checked") {
+TEST_CASE("ROS map: an invalid resolution or origin is an error with line and column") {
     const auto resolution = [](const std::string& value) {
         return error_of("image: map.pgm\nresolution: " + value + "\norigin: [0, 0, 0]\n");
     };
@@ -263,7 +265,7 @@ TEST_CASE(
     CHECK(error_of(std::string(5000, '[')) != "");
     CHECK(error_of("\xff\xfe\x00") != "");
     CHECK(contains(error_of(std::string(2'000'000, ' ')), "more than a megabyte"));
-    CHECK(contains(error_of("image: ''\nresolution: 1\norigin: [0, 0, 0]"), "1:8 image \"\""));
+    CHECK(contains(error_of("image: ''\nresolution: 1\norigin: [0, 0, 0]"), "1:8 image is empty"));
     CHECK(contains(error_of("image: gone.pgm\nresolution: 1\norigin: [0, 0, 0]"), "no such file"));
     const TemporaryFolder folder;
     CHECK_THROWS_AS(read_ros_map(folder.path("absent.yaml")), InputError);

@@ -41,7 +41,8 @@ constexpr RangeFinder all_around{.beams = 361, .from = Radians{-pi}, .to = Radia
 }  // namespace
 
 TEST_CASE(
-    "range finder: in a square room of 8 m, the walls are measured at 4 m / max(|cos|, |sin|)") {
+    "range finder: in a square room of 8 m, measured distances to the walls equal the closed "
+    "form") {
     const Scene scene(room());
     const auto ways = measured(all_around, scene, {5, 5});
     for (int i = 0; i < all_around.beams; ++i) {
@@ -71,8 +72,7 @@ TEST_CASE("range finder: beams rotate with the robot and with the map") {
     for (std::size_t i = 0; i < 3; ++i) CHECK(near(on_turned_map[i], ahead[i]));
 }
 
-TEST_CASE(
-    "range finder: another robot is measured as a disc, at D cos a - sqrt(r^2 - D^2 sin^2 a)") {
+TEST_CASE("range finder: another robot is measured as a disc, at the distance of the closed form") {
     const RangeFinder fan{.beams = 101, .from = Radians{-0.5}, .to = Radians{0.5}};
     const double distance = 3, radius = 0.4;
     const auto ways = measured(
@@ -136,7 +136,7 @@ TEST_CASE("range finder: stepping along a beam by centimetres gives the same dis
     }
 }
 
-TEST_CASE("range finder: an output of a wrong size is refused") {
+TEST_CASE("range finder: an output array of a wrong size is refused") {
     std::vector<double> out(180);
     CHECK_THROWS_AS(RangeFinder{}.measure({}, {}, Radians{0}, {}, out), std::invalid_argument);
 }

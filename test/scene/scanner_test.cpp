@@ -45,7 +45,7 @@ double way_in_room(double x, double y, double angle) {
 
 }  // namespace
 
-TEST_CASE("scanner: at the robot's centre, a scanner measures the same bits as the range finder") {
+TEST_CASE("scanner: a scanner at the robot's centre gives exactly the values of its range finder") {
     const Scanner scanner{.finder = {.beams = 77, .range = Meters{20}}};
     const Scene scene(room());
     const std::vector<RoundBody> bodies = {{{7, 6}, Meters{0.3}}};
@@ -100,8 +100,8 @@ TEST_CASE("scanner: each beam of a ring detects robots from the origin of the be
 }
 
 TEST_CASE(
-    "scanner: a scanner without a name has the name of its kind, and an output of a wrong size is "
-    "refused") {
+    "scanner: a scanner without a name has the name of its kind, and an output array of a wrong "
+    "size is refused") {
     Scanner scanner{.finder = {.kind = RangeFinderKind::ranger}};
     CHECK(scanner.label() == "ranger");
     scanner.name = "rear";

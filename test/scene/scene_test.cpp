@@ -242,7 +242,7 @@ TEST_CASE("crossings: for ends as far as 1e9 m away, crossings are finite and in
     CHECK(scene.crossings({0.5, 0.5}, {0.5, 0.5}).empty());
 }
 
-TEST_CASE("wall length: if a limit is given, a result above it is only a lower bound") {
+TEST_CASE("wall length: if a largest length is given, a result above it is only a lower bound") {
     const Scene scene(drawn_map({".#.#.#.#"}));
     CHECK(near(scene.wall_length({0, 0.5}, {8, 0.5}), 4));
     CHECK(scene.wall_length({0, 0.5}, {8, 0.5}, 4.5) == scene.wall_length({0, 0.5}, {8, 0.5}));

@@ -110,7 +110,8 @@ TEST_CASE("storeys: the length inside walls agrees with points sampled along the
     }
 }
 
-TEST_CASE("storeys: lengths and losses have equal bits in both directions") {
+TEST_CASE(
+    "storeys: wall lengths and wall losses of a link have equal bits in both of its directions") {
     test::Draw draw(25);
     const Scene scene({on_floor(test::random_map(draw, 9, 9, 15), 0),
                        on_floor(test::random_map(draw, 9, 9, 15), 2.7)},
@@ -200,8 +201,8 @@ TEST_CASE("storeys: a range finder sees the walls of its storey") {
 }
 
 TEST_CASE(
-    "storeys: a scene has a smaller scene for each storey, and its maps build the same scene "
-    "again") {
+    "storeys: each storey of a scene is a scene itself, and a new scene from the same maps has the "
+    "same storeys") {
     const Scene scene = two_storeys();
     CHECK(scene.storey_at(3).crossings({0, 1.5, 4}, {6, 1.5, 4})[0].entry == doctest::Approx(3));
     CHECK(scene.storey(0).storeys().size() == 1);

@@ -202,7 +202,8 @@ TEST_CASE("wall index: a ray from far away past the corners of tiles misses no t
     }
 }
 
-TEST_CASE("wall index: the result does not depend on the division into rectangles") {
+TEST_CASE(
+    "wall index: crossings do not depend on how the occupied cells are divided into rectangles") {
     for_random_rays(13, [](const World& world, const Ray& ray, test::Draw&) {
         std::vector<Crossing> whole, cut;
         world.index.crossings(ray.a, ray.b, length_of(ray), whole);
@@ -212,7 +213,7 @@ TEST_CASE("wall index: the result does not depend on the division into rectangle
 }
 
 TEST_CASE(
-    "wall index: both directions give mirrored crossings, with equal lengths to the last bit") {
+    "wall index: a ray and its reverse give mirrored crossings of equal lengths, bit for bit") {
     for_random_rays(14, [](const World& world, const Ray& ray, test::Draw&) {
         const double length = length_of(ray);
         std::vector<Crossing> forth, back;
@@ -232,8 +233,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "wall index: lengths up to a given limit are exact; for longer lengths, some value above the "
-    "limit is returned") {
+    "wall index: a ray's length inside walls is exact up to a given limit; for a longer one, a "
+    "lower bound above the limit is found") {
     for_random_rays(15, [](const World& world, const Ray& ray, test::Draw& draw) {
         const double all = std::numeric_limits<double>::infinity();
         const double exact = world.index.solid_length(ray.a, ray.b, length_of(ray), all);
@@ -247,7 +248,8 @@ TEST_CASE(
     });
 }
 
-TEST_CASE("wall index: the solid length is the sum of the lengths of all crossings") {
+TEST_CASE(
+    "wall index: the total length of a ray inside walls is the sum of its crossings' lengths") {
     for_random_rays(16, [](const World& world, const Ray& ray, test::Draw&) {
         if (ray.a == ray.b) return;
         std::vector<Crossing> found;

@@ -88,8 +88,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "wall thickness: the thickness outside walls is 0, and where two walls cross that of the "
-    "thinner wall") {
+    "wall thickness: 0 outside walls; where two walls cross, the thickness of the thinner one") {
     OccupancyGrid grid = with_wall(0.1, 0);
     for (std::size_t i = 0; i < grid.cells.size(); ++i) {
         if (i % side >= 90 && i % side < 110) grid.cells[i] = Cell::occupied;  // 40 cm, upright

@@ -98,8 +98,7 @@ TEST_CASE("walls: a straight wall counts as one wall, at any angle, also for gra
     CHECK(in_parts > 100);  // the cells alone would tell otherwise
 }
 
-TEST_CASE(
-    "walls: a ray along a slanted wall that only touches the steps of its cells passes no wall") {
+TEST_CASE("walls: a ray that touches only the stepped edge of a slanted wall passes no wall") {
     int touching = 0;
     for (const double angle : {7.0, 20.0, 33.0, 52.0}) {
         const double cell = 0.05, thick = 0.15;
@@ -236,8 +235,7 @@ TEST_CASE(
         }
 }
 
-TEST_CASE(
-    "walls: a ray that leaves a slanted wall at its cells' steps pays the crossing loss once") {
+TEST_CASE("walls: a ray through the stepped cells of a slanted wall pays the crossing loss once") {
     const double thick = 0.15;
     const Drawing drawing{20 * degree, {{-5.5, -thick / 2, 5.5, thick / 2}}};
     const Scene scene(drawing.map(0.05));

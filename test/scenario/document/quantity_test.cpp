@@ -165,7 +165,7 @@ TEST_CASE("quantity: a misspelt unit gets a suggestion") {
 TEST_CASE("quantity: dBW is refused, with the same power in dBm as a suggestion") {
     const std::string error = error_of("-15 dBW", Dimension::power);
     CHECK(contains(error, "found the unit \"dBW\""));
-    CHECK(contains(error, "another unit: -15 dBW is \"15 dBm\""));
+    CHECK(contains(error, "a different unit: -15 dBW is \"15 dBm\""));
 }
 
 TEST_CASE("quantity: a value that is not a finite number is an error") {
@@ -175,8 +175,11 @@ TEST_CASE("quantity: a value that is not a finite number is an error") {
         CHECK(contains(error_of(text, Dimension::length), "key: found"));
     }
     const double nan = std::nan("");
-    CHECK(contains(error_of(nan, Dimension::length), "at most"));
-    CHECK(contains(error_of(from_option(nan), Dimension::length), "at most"));
+    for (const Dimension dimension : {Dimension::length, Dimension::power}) {
+        CHECK(contains(error_of(nan, dimension), "found the number nan; expected a"));
+        CHECK(contains(error_of(from_option(nan), dimension), "found the number nan; expected a"));
+        CHECK(!contains(error_of(from_option(nan), dimension), "did you mean"));
+    }
     CHECK(contains(error_of(from_option(HUGE_VAL), Dimension::power), "at most"));
 }
 

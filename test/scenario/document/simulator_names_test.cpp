@@ -95,7 +95,9 @@ TEST_CASE("a name that is unknown, malformed, or known but for a different table
         CHECK(hint("propagation", word).empty());
 }
 
-TEST_CASE("the error for a name of another simulator in a scenario file ends with the hint") {
+TEST_CASE(
+    "the error for a name of another simulator in a scenario file ends with a hint on what to use "
+    "instead") {
     CHECK(error_of("[propagation]\nmodel = \"TwoRayGround\"\n")
               .ends_with("\"rays\"; " + meant("two_ray")));
     CHECK(error_of("[routing]\nprotocol = \"OLSR\"\n") ==

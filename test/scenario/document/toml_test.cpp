@@ -73,8 +73,84 @@ TEST_CASE("toml: a real number without a fraction is printed as a real number, s
     CHECK(to_toml(*parse_toml("a = 30.0", "").table()) == "a = 30.0\n");
 }
 
+TEST_CASE("toml: an option finds a key with dots, in quotes or without") {
+    const std::string text = "vary = { \"radio.power\" = [1], b = 2 }\n";
+    for (const char* path : {"vary.radio.power", "vary.\"radio.power\""}) {
+        CHECK(after_option(text, std::string(path) + "=[3]") ==
+              "[vary]\n\"radio.power\" = [3]\nb = 2\n");
+    }
+    CHECK(after_option("vary = { b = 2 }\n", "vary.radio.power=[3]") ==
+          "[vary]\nb = 2\nradio = { power = [3] }\n");
+}
+
+TEST_CASE("toml: an error says what is probably wrong with quotes, commas and lines") {
+    const auto error_of = [](const std::string& text) -> std::string {
+        try {
+            parse_toml(text, "f");
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "no error";
+    };
+    const auto check = [&](const std::string& text, const char* place, const char* words) {
+        const std::string error = error_of(text);
+        CAPTURE(error);
+        CHECK(error.starts_with(std::string("f:") + place + ": "));
+        CHECK(contains(error, words));
+    };
+    const std::string quotes = "need quotes: \"30 mW\"", own_line = "on its own line";
+    check("a = \"15 dBm\",\nb = 1", "1:13", "no comma after the value");
+    check("a = [1],", "1:8", "no comma after the value");
+    check("a = 2,5 m", "1:6", "write the decimal point as \".\"");
+    check("a = \"1 m\" b = \"2 m\"", "1:11", own_line.c_str());
+    check("a = 30 mW", "1:8", quotes.c_str());
+    check("a = \"1 m\nb = 2", "1:9", "closing quote of a text is missing; expected \" at");
+    check("a = \"1 m\r\nb = 2", "1:9", "closing quote of a text is missing; expected \" at");
+    check("a = '1 m\nb = 2", "1:9", "closing quote of a text is missing; expected ' at");
+    check("a = \"1 m", "1:9", "closing quote of a text is missing");
+    check("a = \u201c1 m\u201d", "1:5", "typographic quote \u201c; expected the straight quote \"");
+    check("a = [0 m, 1 m]", "1:8", "texts and quantities in quotes");
+    check("x = { bb = 1, bb = 2 }", "1:15", "the key \"bb\" occurs a second time");
+    check("a = 1979-05-27", "1:5", "a date or a time of day, which is the value of no key");
+}
+
+TEST_CASE(
+    "toml: if a key or table occurs twice, the error names it, in whatever form it is written") {
+    const auto check = [](const std::string& text, const std::string& error) {
+        CAPTURE(text);
+        try {
+            parse_toml(text, "f");
+            CHECK_MESSAGE(false, "no error");
+        } catch (const InputError& thrown) {
+            CHECK(std::string(thrown.what()) == "f:" + error);
+        }
+    };
+    const std::string once = " occurs a second time; expected the key once";
+    const std::string together = " occurs a second time; expected all its keys in one table";
+    check("r = [{ n = 1 }]\nr.x = 1", "2:1: the key \"r\"" + once);
+    check("r = { a = 1 }\nr.b = 2", "2:1: the key \"r\"" + together);
+    check("[s]\nvary.radio = [1]\nvary.radio.power = [2]", "3:6: the key \"vary.radio\"" + once);
+    check("[s]\nvary.radio.power = [1]\nvary.radio = [2]",
+          "3:1: the key \"vary.radio\"" + together);
+    check("power = 1\n\"power\" = 2", "2:1: the key \"power\"" + once);
+    check("'a b' = 1\n  'a b' = 2", "2:3: the key \"a b\"" + once);
+    check("x = { \"a,b\" = 1, \"a,b\" = 2 }", "1:18: the key \"a,b\"" + once);
+    check("a . b = 1\na . \"b\" = 2", "2:1: the key \"a.\"b\"\"" + once);
+    check("\"\u00e9\".p = 1\n\"\u00e9\".p = [2]", "2:1: the key \"\"\u00e9\".p\"" + once);
+    check("x = [1]\n[[x]]", "2:1: the key \"x\"" + once);
+    check("[[robot]]\n[ robot ]",
+          "2:1: [robot] occurs a second time; in a list of tables, write [[robot]] before each "
+          "table");
+    check("x.y = 1\n[x]", "2:1: [x] occurs a second time; expected one [x] with all its keys");
+    const std::string inside =
+        "2:1: [x.y]: a key before the last dot of this name already has a value, to which no "
+        "keys can be added; expected all keys of a table in one place";
+    check("x = 1\n[x.y]", inside);
+    check("x = { a = 1 }\n[x.y]\n", inside);
+}
+
 TEST_CASE("toml: an error has the line and column of the mistake") {
-    CHECK(place_of_error("a = 1\na = 2") == "f.toml:2:5");
+    CHECK(place_of_error("a = 1\na = 2") == "f.toml:2:1");
     CHECK(place_of_error("a = 1\nb = [1, 2\n") == "f.toml:2:11");
     CHECK(place_of_error("a = 1\nb = 12:00:00") == "f.toml:2:5");
     CHECK(place_of_error("a = 1\nb = \"\xff\"") == "f.toml:2:5");
@@ -111,7 +187,7 @@ TEST_CASE(
     CHECK(contains(after_option(text, "robot.\"a=b\".radius=2"), "name = \"a=b\"\nradius = 2\n"));
     CHECK(after_option("", "\"a.b\"=1") == "\"a.b\" = 1\n");
     CHECK(contains(error_of_option(text, "robot.flow.0.radio.power=2"),
-                   "nothing in the list is named \"flow\"; write a name with dots as \"flow.0\""));
+                   "no item of the list is named \"flow\"; write a name with dots as \"flow.0\""));
     for (const char* option : {"\"a.b=1", "\"a\"b=1", "\"\".a=1"}) {
         CAPTURE(option);
         CHECK(error_of_option(text, option).starts_with("--set " + std::string(option) + ": "));

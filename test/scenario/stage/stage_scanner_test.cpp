@@ -184,7 +184,9 @@ TEST_CASE("stage scanner: a ranger of Stage 2 becomes a ring of sonars") {
     const Read holes = carrying("ranger ( scount 3 spose[0] [0 0 0] spose[2] [0 0 0] )");
     CHECK(holes.scan().empty());
     REQUIRE(holes.notices.size() == 1);
-    CHECK(holes.notices[0] == "a.world:2: a ranger is left out: it has 3 sonars, and no spose[1]");
+    CHECK(holes.notices[0] ==
+          "a.world:2: a ranger is left out, because it has 3 sonars and no spose[1], which is the "
+          "pose of one of them");
     const Read views = carrying("ranger ( scount 1 spose[0] [0 0 0] sview[0] [0 1 5] )");
     CHECK(views.only().finder.range.value == 5);
     REQUIRE(views.notices.size() == 1);
@@ -211,7 +213,7 @@ TEST_CASE("stage scanner: a robot has all its own scanners in order, and no othe
     REQUIRE(world.robots[2].scan.size() == 1);
     CHECK(world.robots[2].scan[0].finder.beams == 9);
     CHECK(world.robots[3].scan.empty());
-    CHECK(world.notices.back() == "a.world: ignored: laser (1)");
+    CHECK(world.notices.back() == "a.world: models of these types are ignored: laser (1)");
 }
 
 TEST_CASE("stage scanner: invalid values of laser and ranger are refused, with their line") {
@@ -219,10 +221,10 @@ TEST_CASE("stage scanner: invalid values of laser and ranger are refused, with t
           "3: samples: found 0; expected a whole number from 1 to 10,000; such as samples 181");
     CHECK(mistake("laser ( samples 2.5 )").starts_with("2: samples: found 2.5"));
     CHECK(mistake("laser ( samples \"x\" )").starts_with("2: samples: found a text"));
-    CHECK(
-        mistake("laser (\nfov 400 )").starts_with("3: scan: expected `to` from 0 to 360 degrees"));
-    CHECK(
-        mistake("laser (\nfov -10 )").starts_with("3: scan: expected `to` from 0 to 360 degrees"));
+    CHECK(mistake("laser (\nfov 400 )")
+              .starts_with("3: scan: expected a `to` that is 0 to 360 degrees"));
+    CHECK(mistake("laser (\nfov -10 )")
+              .starts_with("3: scan: expected a `to` that is 0 to 360 degrees"));
     CHECK(mistake("laser (\nrange_max 0 )").starts_with("3: range"));
     CHECK(mistake("laser (\nupdate_interval 0 )").starts_with("3: every"));
     CHECK(mistake("laser ( pose 5 )").starts_with("2: pose: found a single value"));

@@ -212,8 +212,8 @@ TEST_CASE(
     CHECK(value(none.propagation(1), "coefficient") == "22.0");
     REQUIRE(none.notices.size() == 1);
     CHECK(none.notices[0] ==
-          "a.world:1: a wifi without a model uses the model in [propagation], by default friis: a, "
-          "b");
+          "a.world:1: the wifi of these robots has no model and uses the model of [propagation], "
+          "by default friis: a, b");
     CHECK(mistake(robot_with + "\nmodel \"ITU Indoor\" ) )\n") ==
           "2:1: model: found \"ITU Indoor\"; expected one of \"friis\", \"ITU indoor\", \"log "
           "distance\", \"raytrace\", \"simple\"; did you mean \"ITU indoor\"?");
@@ -222,7 +222,8 @@ TEST_CASE(
     CHECK(value(simple.propagation(0), "range") == "0 m");
     REQUIRE(simple.notices.size() == 1);
     CHECK(simple.notices[0] ==
-          "a.world:1: model \"simple\" without a range has range 0, as in Stage");
+          "a.world:1: a wifi of model \"simple\" without a range has the range 0 m, as in Stage; "
+          "to connect robots, give it a range");
 }
 
 TEST_CASE(
@@ -233,9 +234,7 @@ TEST_CASE(
           "5200 MHz");
 }
 
-TEST_CASE(
-    "stage world: link_success_rate r becomes the success rate (r + 1) / 101, because Stage draws "
-    "from 0 to 100") {
+TEST_CASE("stage world: link_success_rate r becomes (r + 1) / 101, as Stage draws from 0 to 100") {
     const auto rate = [](const std::string& given) {
         const Read world = read(robot_with + "model \"friis\" link_success_rate " + given + " ) )");
         return std::get<double>(world.radio(0).find("success_rate")->data);
@@ -275,7 +274,8 @@ TEST_CASE("stage world: poses of four numbers, unit_length and unit_angle of Sta
     CHECK(value(world.propagation(0), "range") == "2.5 m");
     REQUIRE(world.notices.size() == 1);
     CHECK(world.notices[0] ==
-          "a.world:2: the height z is ignored, as in the wifi model of the 2007 thesis, for: a");
+          "a.world:2: the height z of these robots is ignored, as in the wifi model of the 2007 "
+          "thesis: a");
 }
 
 TEST_CASE("stage world: a robot that is part of another model has the combined pose of both") {
@@ -293,7 +293,7 @@ TEST_CASE("stage world: a robot that is part of another model has the combined p
     CHECK(value(world.robot(1), "at") == "9 m, 2 m");
     CHECK(value(world.robot(1), "heading") == "60 deg");
     REQUIRE(world.notices.size() == 1);
-    CHECK(world.notices[0] == "a.world:1: only the first wifi is used of: a");
+    CHECK(world.notices[0] == "a.world:1: only the first wifi of these robots is used: a");
 }
 
 TEST_CASE(
@@ -361,7 +361,7 @@ TEST_CASE("stage world: a model whose macro is missing becomes a robot if the mo
     const Read world = read("pioneer ( name \"a\" cargo ( wifi ( model \"friis\" ) ) )\n");
     REQUIRE(world.robots().size() == 1);
     CHECK(value(world.propagation(0), "model") == "friis");
-    CHECK(world.notices.back() == "a.world: ignored: cargo (1)");
+    CHECK(world.notices.back() == "a.world: models of these types are ignored: cargo (1)");
 }
 
 TEST_CASE(
@@ -466,8 +466,9 @@ TEST_CASE("stage world: models that are neither robots nor walls are listed in o
     CHECK(world.notices[1] ==
           "a.world:4: robots without a wifi have the radio of [radio] and the model of "
           "[propagation], friis by default: b, robot2");
-    CHECK(world.notices[2] == "a.world:6: a wifi outside a position is ignored: wifi");
-    CHECK(world.notices[3] == "a.world: ignored: laser (1), window (1)");
+    CHECK(world.notices[2] ==
+          "a.world:6: a wifi that belongs to no model of type position is ignored: wifi");
+    CHECK(world.notices[3] == "a.world: models of these types are ignored: laser (1), window (1)");
 }
 
 TEST_CASE(
@@ -476,11 +477,12 @@ TEST_CASE(
     const Read world =
         read(robot_with + "model \"friis\" size [0 0]\nrange3 -35\nsensitivty -80\nwatts 2 ) )\n");
     REQUIRE(world.notices.size() == 2);
-    CHECK(world.notices[0] ==
-          "a.world:2: a wifi has no key \"range3\"; it is ignored; did you mean \"range\"?");
+    CHECK(
+        world.notices[0] ==
+        "a.world:2: a wifi has no key \"range3\", so this key is ignored; did you mean \"range\"?");
     CHECK(world.notices[1] ==
-          "a.world:3: a wifi has no key \"sensitivty\"; it is ignored; did you "
-          "mean \"sensitivity\"?");
+          "a.world:3: a wifi has no key \"sensitivty\", so this key is ignored; did you mean "
+          "\"sensitivity\"?");
 }
 
 TEST_CASE("stage world: values of a wrong type are refused, with line and column") {
@@ -528,7 +530,7 @@ TEST_CASE("stage world: a world file in the style of the 2007 thesis is read wit
     CHECK(value(out.propagation(0), "model") == "raytrace_2007");
     CHECK(read_quantity(*out.robot(0).find("radius"), "radius", Dimension::length) == 0.165);
     REQUIRE(out.notices.size() == 1);
-    CHECK(out.notices[0] == path + ": ignored: window (1)");
+    CHECK(out.notices[0] == path + ": models of these types are ignored: window (1)");
     const StageWalls walls = stage_walls(world, options);
     CHECK(walls.notices.empty());
     REQUIRE(walls.grids.size() == 5);  // the picture and its boundary
@@ -569,7 +571,7 @@ TEST_CASE("stage world: a world with a missing bitmap is refused, and loads with
     const WorldFile world = read_worldfile(*folder + "/stage-wifi/wifi_ray.world", options);
     CHECK_THROWS_WITH_AS(stage_walls(world, options),
                          doctest::Contains("wifi_ray.world:22:3: bitmap: no file "
-                                           "\"bitmaps/cave_f.png\"; expected one of "),
+                                           "\"bitmaps/cave_f.png\"; tried "),
                          InputError);
     options.bitmaps = {{"cave_f.png", "cave_filled.png"}};
     const StageWalls walls = stage_walls(world, options);

@@ -63,7 +63,7 @@ const std::vector<Misspelt> tables = {
 
 }  // namespace
 
-TEST_CASE("tables: a misspelt key is reported before a wrong value of its table") {
+TEST_CASE("tables: a misspelt key is reported before a wrong value in the same table") {
     for (const Misspelt& each : tables) {
         CAPTURE(each.toml);
         const std::string error = error_of(robot + each.toml + "\n");

@@ -105,7 +105,9 @@ TEST_CASE("models: a printed table is read back with the same model and paramete
     CHECK(whole_document(read("model = \"near\"")).entries.size() == 3);
 }
 
-TEST_CASE("access: the default radio follows the standard, and [radio] overrides it") {
+TEST_CASE(
+    "access: the chosen 802.11 standard sets the defaults of the radio, and [radio] overrides "
+    "them") {
     const std::string ofdm = "[access]\nmodel = \"csma\"\nstandard = \"802.11a\"\n";
     CHECK(scenario_of("").radio.rate == BitRate{11e6});
     const Scenario given = scenario_of(ofdm + "[radio]\npreamble = \"24 us\"\n");

@@ -75,7 +75,7 @@ TEST_CASE(
     CHECK(scanners[2].label() == "sonar");
     CHECK(scanners[3].label() == "laser2");
     CHECK(mistake("[{}, { name = \"laser\" }]") ==
-          "22: scan: two range finders are named \"laser\"; expected a name of its own for each, "
+          "22: scan: two range finders are named \"laser\"; expected a different name for each, "
           "such as name = \"rear\"");
     CHECK(mistake("[{ name = \"laser1\" }, {}]").starts_with("30: scan: two range finders"));
 }
@@ -90,7 +90,7 @@ TEST_CASE("scan: an error in a range finder has the line and column of the wrong
     CHECK(mistake("{ kind = \"sonar\", places = [] }").find("\"angles\" is missing") !=
           std::string::npos);
     CHECK(mistake("{ kind = \"sonar\", angles = [\"0 deg\"], places = [] }") ==
-          "55: places: found 0 places; expected one for each of the 1 angles");
+          "55: places: found 0 places; expected one place for each of the 1 `angles`");
     for (const char* key : {"beams = 3", "from = \"0 deg\"", "to = \"0 deg\""}) {
         CAPTURE(key);
         const std::string both =

@@ -98,7 +98,7 @@ TEST_CASE("PNG: the gray value that a file declares as transparent gets alpha 0"
     CHECK(image.samples == Samples{9, 0, 10, 255});
 }
 
-TEST_CASE("PNG: an interlaced image gives the same pixels") {
+TEST_CASE("PNG: an interlaced image gives the same pixels as the image without interlacing") {
     PngPicture picture{.width = 9, .height = 11, .rows = {}};
     for (int row = 0; row < 11; ++row) {
         picture.rows.emplace_back();
@@ -183,7 +183,7 @@ TEST_CASE("PGM: errors name what is wrong in the file") {
     CHECK(contains(picture_error("P5 2"), "truncated PGM"));
     CHECK(contains(picture_error("P2 1 1 255\n256"), "above 255"));
     CHECK(contains(picture_error("P5 1 1 100\n" + bytes_of({101})),
-                   "sample 101 above the maxval 100"));
+                   "sample 101, which is above the maxval 100"));
     CHECK(contains(picture_error("P2 1 1 255\n-1"), "expected a sample"));
     CHECK(contains(picture_error("P2 x 1 255\n1"), "expected a width"));
     CHECK(contains(picture_error("P2 1x 1 255\n1"), "expected a width"));

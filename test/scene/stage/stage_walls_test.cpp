@@ -272,8 +272,8 @@ TEST_CASE(
     REQUIRE(walls.grids.size() == 2);
     REQUIRE(walls.notices.size() == 1);
     CHECK(contains(walls.notices[0],
-                   "a.world:2: walls that are no boxes along their model's axes "
-                   "are drawn in cells of at most 0.02 m"));
+                   "a.world:2: each wall whose outline is not a box along the axes of its model is "
+                   "approximated by cells of at most 0.02 m"));
     const OccupancyGrid& triangle = walls.grids[0];
     CHECK(triangle.columns == 100);
     CHECK(triangle.rows == 51);
@@ -329,21 +329,20 @@ TEST_CASE(
     const std::string text = "model (\n bitmap \"bits/m.pgm\" size [1 1] )\n";
     const std::string places =
         world.folder.path("bits/m.pgm") + " and " + world.folder.path("m.pgm");
-    CHECK(world.mistake(text) == "2:2: bitmap: no file \"bits/m.pgm\"; expected one of " + places +
-                                     "; give its folder with --world-path, or another file with "
-                                     "--bitmap m.pgm=NEW");
+    CHECK(world.mistake(text) == "2:2: bitmap: no file \"bits/m.pgm\"; tried " + places +
+                                     "; give the file's folder with --world-path, or another "
+                                     "file with --bitmap m.pgm=NEW");
     world.options.lenient = true;
     const StageWalls walls = world.walls(text);
     CHECK(walls.grids.empty());
     REQUIRE(walls.notices.size() == 1);
-    CHECK(walls.notices[0] == world.folder.path("a.world") +
-                                  ":2: bitmap \"bits/m.pgm\" is missing and left out; tried " +
-                                  places);
+    CHECK(walls.notices[0] ==
+          world.folder.path("a.world") +
+              ":2: bitmap \"bits/m.pgm\" is missing, so its walls are left out; tried " + places);
 }
 
 TEST_CASE(
-    "stage walls: a bitmap may be replaced by an image, for its whole name or the last part of the "
-    "name") {
+    "stage walls: an image may replace a bitmap, named by its whole path or by its file name") {
     World world;
     world.draw("new.pgm", {"#.#"});
     for (const std::string old : {"bits/old.pgm", "old.pgm"}) {

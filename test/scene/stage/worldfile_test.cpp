@@ -103,7 +103,7 @@ TEST_CASE("worldfile: a line end of any kind counts as one line end") {
     }
 }
 
-TEST_CASE("worldfile: words with brackets and dots are keys") {
+TEST_CASE("worldfile: a word with brackets, dots or hyphens, such as spose[12], is a key") {
     const WorldFile world = read("polygon[0].point[3] [0.5 1]\nspose[12] [1 2 3]\nscount-a_b 4\n");
     CHECK(value(world.root, "polygon[0].point[3]") == "500 1000");
     CHECK(value(world.root, "spose[12]") == "1000 2000 3000");
@@ -146,7 +146,8 @@ TEST_CASE("worldfile: if a macro is defined twice, the first definition counts, 
     CHECK(world.root.children[0].type == "model");
     CHECK(value(world.root.children[0], "a") == "1000");
     REQUIRE(world.notices.size() == 1);
-    CHECK(contains(world.notices[0], "a.world:2: macro \"m\" is defined a second time; the first"));
+    CHECK(contains(world.notices[0],
+                   "a.world:2: macro \"m\" is defined a second time; the first definition, at"));
 }
 
 TEST_CASE(
@@ -156,11 +157,12 @@ TEST_CASE(
         "commbott ( )\ncommbott ( )\nrover ( wifi() )\nplan ( bitmap \"a.png\" )\n");
     REQUIRE(world.notices.size() == 3);
     CHECK(contains(world.notices[0],
-                   ":2: unknown type \"commbott\", no macro of that name; it is ignored; did you "
-                   "mean \"commbot\"?"));
+                   ":2: unknown type \"commbott\", and there is no macro of this name; this entry "
+                   "is ignored; did you mean \"commbot\"?"));
     CHECK(contains(world.notices[1], ":4: unknown type \"rover\""));
-    CHECK(contains(world.notices[1], "treated as a position, because it has a wifi"));
-    CHECK(contains(world.notices[2], "treated as a model, because it has a bitmap"));
+    CHECK(contains(world.notices[1],
+                   "treated as if its type were position, because it contains a wifi model"));
+    CHECK(contains(world.notices[2], "treated as if its type were model, because it has a bitmap"));
     CHECK(world_role(world.root.children[0]) == WorldRole::ignored);
     CHECK(world_role(world.root.children[2]) == WorldRole::robot);
     CHECK(world_role(world.root.children[3]) == WorldRole::wall);
@@ -175,8 +177,9 @@ TEST_CASE("worldfile: of a malformed number such as 3.75.2, the number at its be
     CHECK(world_size(world.root.children[0], {}).y == 5);
     CHECK(world.root.children[0].find("a")->number() == 6);
     REQUIRE(world.notices.size() == 5);
-    CHECK(world.notices[0].ends_with(
-        "a.world:1: \"3.75.2\" is read as 3.75, as in Stage; the rest is ignored"));
+    CHECK(
+        world.notices[0].ends_with("a.world:1: \"3.75.2\" is read as 3.75, as in Stage; the "
+                                   "characters after this number are ignored"));
 }
 
 TEST_CASE("worldfile: a tuple may continue over several lines, with comments") {
@@ -194,9 +197,9 @@ TEST_CASE("worldfile: a syntax error has line, column, what was found and what t
     CHECK(mistake("power 2.5E2\n") ==
           "1:7: found \"2.5E2\"; expected a number without an exponent; write 250");
     CHECK(mistake("size [16, 16]\n") ==
-          "1:9: found \",\"; expected blanks between values; write [1 2 3]");
+          "1:9: found \",\"; expected blanks between values; write for example [1 2 3]");
     CHECK(mistake("size [16 16];\n") ==
-          "1:13: found \";\"; expected a blank or a new line; remove it");
+          "1:13: found \";\"; expected a blank or a new line; remove the \";\"");
     CHECK(mistake("name 'a'\n") ==
           "1:6: found \"'\"; expected a text in double quotes; write \"...\"");
     CHECK(mistake("model (\n size [16 16\n pose [0 0 0]\n)\n") ==
@@ -208,10 +211,10 @@ TEST_CASE("worldfile: a syntax error has line, column, what was found and what t
           "\"]\"; put a text in quotes");
     CHECK(mistake("model (\n a 1\n")
               .starts_with("3:1: found the end of the file; expected the \")\" of the \"(\" at "));
-    CHECK(mistake("model (\n a 1\n").ends_with("a.world:1:7; add it"));
+    CHECK(mistake("model (\n a 1\n").ends_with("a.world:1:7; add the \")\""));
     CHECK(mistake("model ( a 1 ) )\n") ==
           "1:15: found \")\" without a \"(\"; expected a key, a model or the end of the file; "
-          "remove it");
+          "remove the \")\"");
     CHECK(mistake("resolution\n0.02\n") ==
           "1:11: found the end of the line; expected the value of \"resolution\" on its line: a "
           "number, a text in quotes or [values]; or a \"(\"; write resolution 1, or resolution ( "
@@ -226,7 +229,8 @@ TEST_CASE("worldfile: a syntax error has line, column, what was found and what t
           "1:6: found a text without its end; expected \" at both ends of a text, on one line; add "
           "the second \"");
     CHECK(mistake("size[16 16]\n") ==
-          "1:1: found \"size[16\"; expected a key, a blank and its value; write size [...]");
+          "1:1: found \"size[16\"; expected a key and its value with a blank between them; write "
+          "size [...]");
     CHECK(mistake("range 4m\n").starts_with("1:7: found \"4m\"; expected a number, such as -0.5"));
     CHECK(mistake("range -\n").starts_with("1:7: found \"-\"; expected a number"));
     CHECK(mistake("range +-5\n").starts_with("1:7: found \"+-5\"; expected a number"));
@@ -293,14 +297,15 @@ TEST_CASE(
     }
     const std::string places = folder.path("inc/m.inc") + ", " + folder.path("lib/inc/m.inc") +
                                ", " + folder.path("m.inc") + " and " + folder.path("lib/m.inc");
-    CHECK(message == "no file \"inc/m.inc\" to include; expected one of " + places +
-                         "; give its folder with --world-path or in STAGEPATH");
+    CHECK(message == "no file \"inc/m.inc\" to include; tried " + places +
+                         "; give the file's folder with --world-path or in STAGEPATH");
     options.lenient = true;
     const WorldFile world = read_worldfile(path, options);
     CHECK(value(world.root, "b") == "2000");
     REQUIRE(world.notices.size() == 1);
     CHECK(world.notices[0] ==
-          path + ":2: include \"inc/m.inc\" is missing and left out; tried " + places);
+          path + ":2: the include file \"inc/m.inc\" is missing, so it is left out; tried " +
+              places);
 }
 
 TEST_CASE(
@@ -383,7 +388,7 @@ TEST_CASE("worldfile: a file that is missing, too large or not a world file is r
     const std::string large = folder.path("large.world");
     folder.write("large.world", "");
     std::filesystem::resize_file(large, (16 << 20) + 1);
-    CHECK(message(large).starts_with("is too large; expected at most 16 MiB a file"));
+    CHECK(message(large).starts_with("is too large; expected at most 16 MiB in each file"));
     CHECK(message(folder.write("nul.world", std::string("a 1\n\0b", 6))) ==
           "found the byte 0x00; expected a key or a value; is this a world file?");
     CHECK(read_worldfile(folder.write("empty.world", ""), {}).root.children.empty());
