@@ -19,6 +19,18 @@
 namespace rovernet {
 namespace {
 
+/// Begins the movement of a reaction. @throws InputError at `where` if the robot cannot begin it
+void begin_move(Network& network, NodeId robot, const Movement& move, Trigger trigger,
+                const Location& where) {
+    try {
+        network.move(robot, move);
+    } catch (const std::invalid_argument& error) {
+        throw InputError(where, fmt::format("{} of robot \"{}\" at {:.9g} s: {}", name_of(trigger),
+                                            network.name(robot),
+                                            seconds(network.now() - start_of_run), error.what()));
+    }
+}
+
 /// Builds the robots of one scenario into one network.
 class Builder {
   public:
@@ -155,11 +167,13 @@ std::function<void(NodeId)> Builder::answer(const Built& robot, const ReactionTa
                                                         "expected another robot",
                                                         *reaction.to));
     }
-    return [this_ = &network_, node = robot.node, move, size, send = reaction.send, to, to_sender,
-            stop = reaction.stop, once = reaction.once, done = false](NodeId sender) mutable {
+    const Location where = reaction.move ? reaction.move->where : Location{};
+    return [this_ = &network_, node = robot.node, move, where, trigger = reaction.trigger, size,
+            send = reaction.send, to, to_sender, stop = reaction.stop, once = reaction.once,
+            done = false](NodeId sender) mutable {
         if (once && std::exchange(done, true)) return;
         if (stop) this_->stop(node);
-        if (move) this_->move(node, *move);
+        if (move) begin_move(*this_, node, *move, trigger, where);
         if (!send) return;
         this_->send(node, to_sender ? sender : to, *send, {.size = size});
     };
@@ -257,9 +271,9 @@ void Builder::add_traffic() {
                     .purpose = Purpose::traffic_source,
                     .a = name_key(table.name)}});
         if (source->from.empty()) {
-            throw InputError(
-                table.from_where,
-                "from: no robot is left that could send; expected at least two robots");
+            throw InputError(table.from_where,
+                             "from: the only robot is the destination, so no robot is left that "
+                             "could send; expected at least two robots");
         }
         if (table.start) {
             expect(table.from, *table.start, [source] { send_and_repeat(source); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/build_motion.hpp"
 
+#include "experiment/unknown_cells.hpp"
 #include "mobility/planners.hpp"
 #include "mobility/waypoints.hpp"
 #include "scenario/document/located.hpp"
@@ -53,10 +54,15 @@ Vec3 MotionBuilder::start(const RobotTable& table, const std::string& name) {
                     : table.place ? drawn_place(table, name)
                                   : place_of_model(table, name);
     if (scenario_.scene.world || fits(at, table.radius)) return at;  // as in Stage
+    const Location& where = table.place ? table.place->where : table.at_where;
+    const std::string unknown = unknown_cell_text(network_.scene(), at, table.radius, "its radius");
+    if (!unknown.empty())
+        throw InputError(where,
+                         fmt::format("robot \"{}\" at {} m {}", name, coordinates(at), unknown));
     throw InputError(
-        table.place ? table.place->where : table.at_where,
-        fmt::format("robot \"{}\" at {} m is inside a wall or nearer to one than its radius "
-                    "of {} m (clearance {} m); move it or give it a smaller radius",
+        where,
+        fmt::format("robot \"{}\" at {} m is inside a wall, or nearer to a wall than its radius of "
+                    "{} m (clearance {} m); move the robot or give it a smaller radius",
                     name, coordinates(at), table.radius.value,
                     told_apart(network_.scene().clearance(at), table.radius.value, 3)));
 }
@@ -163,9 +169,15 @@ Movement MotionBuilder::make(Model model, const MoveTable& move, const RobotTabl
                 check_way(std::exchange(at, place), place, robot, move.where);
             }
         }
-        if (plan == from_the_start) {
-            located(move.where, [&] { return first_step(model, robot, name, from); });
-        }
+        located(move.where, [&] {
+            Model tried = model;
+            // The place where a reaction begins is not known, so that a model that begins in its
+            // area is tried at a place that the model draws.
+            if constexpr (DrawnModel<Model>) {
+                if (plan != from_the_start) tried.start = decltype(tried.start)::uniform;
+            }
+            return first_step(std::move(tried), robot, name, from);
+        });
         if constexpr (SharedMovementModel<Model>) {
             const auto [known, is_new] = shared_.try_emplace(&move);
             if (is_new) known->second = std::move(model);
@@ -182,16 +194,19 @@ void MotionBuilder::check_way(Vec3 from, Vec3 to, const RobotTable& robot, const
     const bool fits_there = network_.scene().inside_map(to) && fits(to, robot.radius);
     if (fits_there && !planners.is_level(from, to)) {
         throw InputError(
-            where, fmt::format("move: no stairs from {} m to {} m for a robot of radius {} m: the "
-                               "path between two storeys is straight, and a wall is in the way; "
-                               "expected a place at the foot of the stairs from which this "
-                               "straight path is free of walls",
-                               coordinates(from), coordinates(to), robot.radius.value));
+            where,
+            fmt::format("move: no stairs from {} m to {} m for a robot of radius {} m: a wall "
+                        "blocks the straight path between the two storeys; expected a place at the "
+                        "foot of the stairs from which this straight path is free of walls",
+                        coordinates(from), coordinates(to), robot.radius.value));
     }
-    const char* const why = fits_there ? "walls enclose it"
+    const std::string unknown =
+        unknown_cell_text(network_.scene(), to, robot.radius, "the robot's radius");
+    const std::string why = fits_there         ? "walls separate the two places"
+                            : !unknown.empty() ? "the destination " + unknown
                             : network_.scene().has_border()
-                                ? "it is in a wall, too near to one, or off the map"
-                                : "it is in a wall, or too near to one";
+                                ? "the destination is in a wall, too near to a wall, or off the map"
+                                : "the destination is in a wall, or too near to a wall";
     throw InputError(where,
                      fmt::format("move: no path from {} m to {} m for a robot of radius {} "
                                  "m: {}; expected a place that can be reached",

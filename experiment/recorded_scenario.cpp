@@ -72,7 +72,9 @@ void put_file(const fs::path& path, const std::string& content) {
     fs::create_directories(path.parent_path());
     std::ofstream out(path, std::ios::binary);
     out << content;
-    if (!out.flush()) throw RunError(path.string() + ": cannot be written");
+    if (!out.flush())
+        throw RunError(path.string() +
+                       ": this file cannot be written; check the space on the disk");
 }
 
 /// Whether a file of this name stays inside its folder.
@@ -118,7 +120,10 @@ std::string ReplayedScenario::find_file(const RecordedRun& run, const std::strin
     const auto has_its_name = [&](const AttachedFile& file) { return file.name == name; };
     if (std::any_of(run.files.begin(), run.files.end(), has_its_name)) return name;
     if (std::find(run.broken.begin(), run.broken.end(), name) != run.broken.end()) {
-        throw InputError({.source = trace_}, fmt::format("the attached file {} is damaged", name));
+        throw InputError(
+            {.source = trace_},
+            fmt::format("the file {}, which this trace contains, is damaged; record the run again",
+                        name));
     }
     const fs::path beside = fs::absolute(trace_).parent_path() / name;
     std::error_code ignored;
@@ -126,14 +131,16 @@ std::string ReplayedScenario::find_file(const RecordedRun& run, const std::strin
     throw InputError(
         {.source = trace_},
         fmt::format(
-            "its scenario needs the file {}, which is neither in the trace nor in its folder",
+            "the scenario of this trace needs the file {}, but neither the trace nor the folder of "
+            "the trace contains this file; copy the file into the folder of the trace",
             name));
 }
 
 ReplayedScenario::ReplayedScenario(const RecordedRun& run, const std::string& path) : trace_(path) {
     if (run.scenario.empty()) {
         throw InputError({.source = path},
-                         "this trace has no scenario, because a C++ program built its network");
+                         "this trace has no scenario, because a C++ program built its network; "
+                         "expected a trace of rovernet run --record");
     }
     Value parsed = parse_toml(run.scenario, path);
     Table& document = *parsed.table();
@@ -143,7 +150,9 @@ ReplayedScenario::ReplayedScenario(const RecordedRun& run, const std::string& pa
             put_file(fs::path(folder_.path()) / file.name, file.content);
         } catch (const fs::filesystem_error&) {  // a file is inside where another has its folder
             throw InputError({.source = path},
-                             fmt::format("the attached file {} cannot be decompressed", file.name));
+                             fmt::format("the file {}, which this trace contains, cannot be stored "
+                                         "in a temporary folder",
+                                         file.name));
         }
     }
     constexpr std::pair<const char*, const char*> keys[] = {
@@ -194,9 +203,11 @@ void check_robots(const RecordedRun& run, const Scenario& scenario, const std::s
     std::size_t robots = 0;
     const auto expect = [&](const std::string& name) {
         if (robots == names.size()) {
-            throw InputError({.source = path},
-                             fmt::format("its scenario has a robot \"{}\", number {}; {}", name,
-                                         robots, run.names_in_words()));
+            throw InputError(
+                {.source = path},
+                fmt::format("the scenario of this trace has a robot \"{}\" with number {} (counted "
+                            "from 0), but {}",
+                            name, robots, run.names_in_words()));
         }
         if (names[robots] != name) {
             throw InputError({.source = path},
@@ -218,7 +229,8 @@ void check_robots(const RecordedRun& run, const Scenario& scenario, const std::s
     }
     if (robots == names.size()) return;
     throw InputError({.source = path},
-                     fmt::format("its scenario has {} robots; {}", robots, run.names_in_words()));
+                     fmt::format("the scenario of this trace has {} robots, but {}", robots,
+                                 run.names_in_words()));
 }
 
 }  // namespace rovernet

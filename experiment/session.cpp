@@ -4,6 +4,7 @@
 #include "experiment/build.hpp"
 #include "experiment/client_radios.hpp"
 #include "experiment/driven_robots.hpp"
+#include "experiment/unknown_cells.hpp"
 #include "scenario/document/located.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/scenario_file.hpp"
@@ -59,10 +60,11 @@ bool Session::is_stalled(NodeId robot) const { return driven_->is_stalled(robot)
 bool Session::has_no_way(NodeId robot) const { return driven_->has_no_way(robot); }
 Twist Session::twist(NodeId robot) const { return driven_->twist(robot); }
 
-bool Session::advance(Time until, std::uint64_t most_events) {
+bool Session::advance(Time until, std::uint64_t most_events, Time limit) {
     // A fault that a model finds only when its turn comes is the scenario's, too.
-    return located(Location{file_},
-                   [&] { return network_->advance(std::min(until, end_), most_events); });
+    return located(Location{file_}, [&] {
+        return network_->advance(std::min(until, end_), most_events, std::min(limit, end_));
+    });
 }
 
 bool Session::run(std::optional<double> speed, const std::function<bool(double)>& progress) {
@@ -77,7 +79,7 @@ bool Session::run(std::optional<double> speed, const std::function<bool(double)>
             const std::chrono::duration<double> wall = WallClock::now() - started;
             until = begun + from_seconds(std::min(wall.count() * *speed, seconds(end_ - begun)));
         }
-        const bool arrived = advance(until, events_a_slice);
+        const bool arrived = advance(until, events_a_slice, end_);
         const bool done = arrived && until == end_;
         const double share = seconds(network_->now()) / seconds(end_);
         if (progress && !progress(share)) return false;
@@ -131,7 +133,8 @@ std::optional<ClientId> Session::driver(NodeId robot) const {
 
 const Session::Client& Session::client_of(ClientId client) const {
     const auto found = clients_.find(client);
-    if (found == clients_.end()) throw std::invalid_argument("there is no such client");
+    if (found == clients_.end())
+        throw std::invalid_argument("no client with this id is attached to the session");
     return found->second;
 }
 
@@ -146,6 +149,9 @@ std::optional<std::uint64_t> Session::carry_out(ClientId client, NodeId robot,
                                                 const RobotCommand& command, std::uint64_t number) {
     const bool sends = std::holds_alternative<SendCommand>(command);
     if (!sends || !radios_->has(client, robot)) check_robot(client, robot);
+    // A command that cannot be carried out must not be in a log, which could not be replayed.
+    const std::string why = sends ? why_not(robot, command) : "";
+    if (!why.empty()) throw std::invalid_argument(why);
     advance(network_->now(), every_event);  // what the last command caused at this time comes first
     if (tell_) tell_({network_->now(), robot, client_of(client).name, number, command});
     std::optional<std::uint64_t> uid;
@@ -180,6 +186,10 @@ std::string Session::why_not(NodeId robot, const RobotCommand& command) const {
     if (const auto* goal = std::get_if<GoalCommand>(&command)) {
         return scene.inside_map(goal->to) ? "" : off_map_text(scene, goal->to);
     }
+    if (const auto* send = std::get_if<SendCommand>(&command); send && send->to == robot) {
+        return "a robot cannot send to itself; expected another robot, or no robot for a message "
+               "to everyone";
+    }
     const auto* place = std::get_if<PlaceCommand>(&command);
     return place ? why_not_at(robot, place->at) : "";
 }
@@ -199,9 +209,12 @@ std::string Session::why_not_at(NodeId robot, Vec3 at) const {
     }
     const double radius = network_->robot(robot).radius.value;
     if (network_->scene().clearance(at) >= radius) return "";
+    const std::string whose = fmt::format("the radius of robot {},", network_->name(robot));
+    const std::string unknown = unknown_cell_text(network_->scene(), at, {radius}, whose);
+    if (!unknown.empty()) return fmt::format("({:g}, {:g}) m {}", at.x, at.y, unknown);
     return fmt::format(
-        "({:g}, {:g}) m is in a wall, or nearer to one than the radius of robot {}, {:g} m", at.x,
-        at.y, network_->name(robot), radius);
+        "({:g}, {:g}) m is in a wall, or nearer to a wall than the radius of robot {}, {:g} m",
+        at.x, at.y, network_->name(robot), radius);
 }
 
 std::span<const Scanner> Session::range_finders(NodeId robot) const {

@@ -50,12 +50,14 @@ class Session {
     /// Simulated time at which the scenario ends.
     Time end() const { return end_; }
 
-    /// Runs until the time `until`, or until the end of the scenario if that is earlier.
+    /// Runs until the time `until`, or until the end of the scenario if that is earlier. Receptions
+    /// of one frame are processed together up to the time `limit`, even if they are later than
+    /// `until`, so that the records do not depend on `until`.
     /// @throws InputError, RunError
-    void step(Time until) { advance(until, every_event); }
+    void step(Time until, Time limit = start_of_run) { advance(until, every_event, limit); }
     /// Runs like step(), but processes at most `most_events` events. @return whether the time
     /// `until` was reached
-    bool advance(Time until, std::uint64_t most_events);
+    bool advance(Time until, std::uint64_t most_events, Time limit = start_of_run);
     /// Runs to the end of the scenario.
     /// @param speed     ratio of simulated time to real time [-]; none: as fast as possible
     /// @param progress  called repeatedly with the finished share, 0 ... 1; returning false stops
@@ -119,9 +121,9 @@ class Session {
     /// Whether the robot stands still since no path reaches the goal of its command.
     bool has_no_way(NodeId robot) const;
     /// Sentence that explains why a robot cannot carry out a command; empty if the robot can. There
-    /// are two reasons: a GoalCommand to a position [m] off the map, which no path reaches, and a
+    /// are three reasons: a GoalCommand to a position [m] off the map, which no path reaches; a
     /// PlaceCommand to a position at which the robot does not fit: off the map, in a wall, or
-    /// nearer to a wall than the robot's radius.
+    /// nearer to a wall than the robot's radius; a SendCommand to the robot itself.
     std::string why_not(NodeId robot, const RobotCommand& command) const;
     /// Velocity of a robot in the robot's coordinate frame: the commanded velocity while a drive
     /// command is active; otherwise the velocity of the current leg (piece of movement).

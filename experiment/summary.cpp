@@ -61,7 +61,8 @@ void for_each_part(const Scenario& scenario, const MetricValues& metrics, Durati
     if (scenario.metrics.flows) {
         for (std::size_t i = 0; i < scenario.traffic.size(); ++i) {
             const PartValues values = part(metrics.flows, i);
-            const bool is_routed = scenario.traffic[i].to && !scenario.traffic[i].hops;
+            const bool is_routed =
+                metrics.routed && scenario.traffic[i].to && !scenario.traffic[i].hops;
             visit("flows", scenario.traffic[i].name, values.metrics(measured),
                   is_routed ? &values : nullptr);
         }
@@ -78,7 +79,7 @@ void append_parts(Table& table, const Scenario& scenario, const RunResult& resul
                   [&](std::string_view kind, const std::string& name, const PartMetrics& metrics,
                       const PartValues* routed) {
                       Table part = metrics_table(metrics);
-                      if (routed && result.metrics.routed) append_routed(part, *routed);
+                      if (routed) append_routed(part, *routed);
                       kinds[kind].entries.push_back({name, std::move(part), {}});
                   });
     for (auto& [kind, parts] : kinds) table.set(kind, std::move(parts));

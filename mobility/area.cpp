@@ -48,8 +48,9 @@ Area::Area(const std::vector<Vec3>& corners, const Scene& scene, std::string_vie
         return;
     }
     if (corners.size() != 2) {
-        refuse(model, fmt::format("area must be two corners, lower-left and upper-right, got {}",
-                                  corners.size()));
+        refuse(model,
+               fmt::format("area must be two corners, lower-left and upper-right, got {} points",
+                           corners.size()));
     }
     const Vec3 a = corners[0], b = corners[1];
     const bool finite = any.contains(b.x - a.x) && any.contains(b.y - a.y);

@@ -32,9 +32,9 @@ struct DrivenArc {
 /// The ideal path is an arc of a circle. The robot moves along chords, straight lines whose ends
 /// lie on the arc, so that errors do not add up. No point of a chord is farther than `chord` from
 /// the arc: at 1 m/s and 1 rad/s a chord takes 89 ms. A chord ends where the robot's body meets an
-/// obstacle. A robot that touches a wall and heads into it turns in place until it heads along the
-/// wall, and then continues on an arc. Without a turn rate it stands still. Consecutive commands
-/// share one `arc`.
+/// obstacle. A robot that touches a wall and heads into the wall turns in place until its heading
+/// is along the wall, and then continues on an arc. Without a turn rate this robot stands still.
+/// Consecutive commands share one `arc`.
 struct Driven {
     static constexpr AtDoors at_doors = AtDoors::drives;
 

@@ -40,7 +40,8 @@ Step FollowWall::next_leg(Mover& mover) {
         check_fields(*this, name);
         if (mover.scene().open_field())
             throw std::invalid_argument(
-                "follow_wall: there is no map, so there is no wall to follow");
+                "follow_wall: the scene has no map, so there is no wall to follow; expected a "
+                "scene with a map");
         progress.begun = true;
     }
     const double sign = side == WallSide::left ? 1 : -1;  // of the turn to the wall

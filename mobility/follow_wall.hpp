@@ -19,8 +19,8 @@ struct EnumNames<WallSide> {
 
 /// Movement along walls by a range finder: the robot keeps the nearest wall on its `side` at the
 /// distance `keep` from its body, turns at corners and never arrives. In a passage too narrow for
-/// this distance the robot stays in the middle. Without a wall on that side within `range` it moves
-/// straight ahead until it finds a wall.
+/// this distance the robot stays in the middle. Without a wall on that side within `range`, the
+/// robot moves straight ahead until its range finder measures a wall.
 ///
 /// After each `stride` the robot measures again and moves along the wall that is nearest then,
 /// corrected by the distance error. There is no error at a straight wall. Around a convex corner
@@ -46,7 +46,7 @@ struct FollowWall {
                   "distance from the robot's body to the wall"),
             field("stride", &FollowWall::stride, positive, "distance between two measurements"),
             field("range", &FollowWall::range, positive,
-                  "longest distance that its range finder measures"));
+                  "longest distance that the robot's range finder measures"));
     }
 
     /// @throws std::invalid_argument for a parameter out of its range, or without a map

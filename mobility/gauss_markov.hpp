@@ -55,7 +55,8 @@ struct GaussMarkov {
             field("memory", &GaussMarkov::memory, share,
                   "a, correlation of one step with the next; 0: no correlation; 1: the velocity "
                   "never changes"),
-            field("step", &GaussMarkov::step, step_length, "time from one draw to the next"),
+            field("step", &GaussMarkov::step, step_length,
+                  "time between two draws of speed and direction"),
             field("start", &GaussMarkov::start,
                   "uniform: at a place drawn uniformly from the area; here: at the robot's own "
                   "place"));

@@ -11,11 +11,11 @@ namespace rovernet {
 
 /// Reference point group mobility model: a member of a group that moves with its leader.
 ///
-/// At intervals of `every`, the member moves to the leader's position at the end of the interval
-/// (predicted by the leader's current leg) + `offset` + a uniform random vector in the disc of
-/// `radius`. It arrives at the end of the interval if its top speed allows, around the walls if
-/// there are any. If 16 draws find no reachable position, the member stands for the interval. Its
-/// height is constant.
+/// At intervals of `every`, the member gets a new goal: the leader's position at the end of the
+/// interval (predicted by the leader's current leg) + `offset` + a uniform random vector in the
+/// disc of `radius`. The member arrives at the end of the interval if its top speed allows, around
+/// the walls if there are any. If 16 draws find no reachable goal, the member stands for the
+/// interval. The height of the member is constant.
 /// Source: X. Hong, M. Gerla, G. Pei, C.-C. Chiang, A group mobility model for ad hoc wireless
 /// networks, MSWiM 1999.
 struct Group {
@@ -30,7 +30,8 @@ struct Group {
         return describe(
             field("radius", &Group::radius, non_negative,
                   "radius of the disc around the reference point, in which the robot stays"),
-            field("every", &Group::every, step_length, "time from one draw to the next"),
+            field("every", &Group::every, step_length,
+                  "time between two draws of the robot's goal in the disc"),
             field("offset", &Group::offset, "offset of the reference point from the leader"));
     }
 

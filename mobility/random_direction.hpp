@@ -51,9 +51,10 @@ struct RandomDirection {
             field("area", &RandomDirection::area,
                   "lower-left and upper-right corner; the whole map if not given"),
             field("min_speed", &RandomDirection::min_speed, non_negative,
-                  "smallest speed of a leg"),
-            field("max_speed", &RandomDirection::max_speed, positive, "largest speed of a leg"),
-            field("pause", &RandomDirection::pause, rest_length, "rest after each leg"),
+                  "smallest speed of a straight trip"),
+            field("max_speed", &RandomDirection::max_speed, positive,
+                  "largest speed of a straight trip"),
+            field("pause", &RandomDirection::pause, rest_length, "rest after each straight trip"),
             field("border_turn", &RandomDirection::border_turn,
                   "distribution of the new direction at the border, by its angle to "
                   "the border's normal"),

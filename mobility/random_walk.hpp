@@ -36,7 +36,8 @@ struct RandomWalk {
                   "lower-left and upper-right corner; the whole map if not given"),
             field("min_speed", &RandomWalk::min_speed, non_negative, "smallest speed of a step"),
             field("max_speed", &RandomWalk::max_speed, positive, "largest speed of a step"),
-            field("step", &RandomWalk::step, step_length, "time from one direction to the next"),
+            field("step", &RandomWalk::step, step_length,
+                  "time between two changes of speed and direction"),
             field("start", &RandomWalk::start,
                   "uniform: at a place drawn uniformly from the area; here: at the robot's own "
                   "place"));

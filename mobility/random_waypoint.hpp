@@ -61,8 +61,9 @@ struct RandomWaypoint {
             field("max_speed", &RandomWaypoint::max_speed, positive, "largest speed of a trip"),
             field("pause", &RandomWaypoint::pause, rest_length, "rest after each trip"),
             field("start", &RandomWaypoint::start,
-                  "stationary: in the state that is reached after a long time; uniform, here: with "
-                  "a new trip, from a uniformly drawn place or from the robot's own place"));
+                  "stationary: in the state that is reached after a long time; uniform: with a new "
+                  "trip from a place drawn uniformly from the area; here: with a new trip from the "
+                  "robot's own place"));
     }
 
     /// State of one robot in this movement, for the model only.

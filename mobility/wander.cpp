@@ -54,7 +54,9 @@ Step Wander::next_leg(Mover& mover) {
     if (!begun) {
         check_fields(*this, name);
         if (mover.scene().open_field())
-            throw std::invalid_argument("wander: there is no map, so there is nothing to avoid");
+            throw std::invalid_argument(
+                "wander: the scene has no map, so there is nothing to avoid; expected a scene with "
+                "a map");
         begun = true;
     }
     if (has_turned) {

@@ -30,11 +30,12 @@ struct Wander {
 
     static constexpr auto fields() {
         return describe(field("speed", &Wander::speed, positive, "speed straight ahead"),
-                        field("turn_rate", &Wander::turn_rate, turn_rates, "turn rate on the spot"),
+                        field("turn_rate", &Wander::turn_rate, turn_rates,
+                              "turn rate while the robot turns in place"),
                         field("keep", &Wander::keep, positive,
                               "free distance that the robot keeps ahead of its body"),
                         field("range", &Wander::range, positive,
-                              "longest distance that its range finder measures"),
+                              "longest distance that the robot's range finder measures"),
                         field("run", &Wander::run, positive, "longest distance straight ahead"));
     }
 

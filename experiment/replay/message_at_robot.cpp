@@ -199,7 +199,7 @@ std::string counted(std::size_t count, std::string_view what) {
 }
 
 std::string walls_in_words(const MessageAtRobot& message, const FrameAtRobot& frame) {
-    if (!message.has_walls) return "";
+    if (!message.has_walls || !message.tells_walls) return "";
     if (frame.walls == 0) return ", with no wall between";
     return ", through " + counted(frame.walls, "wall");
 }
@@ -223,10 +223,10 @@ std::string received_in_words(const MessageAtRobot& message, const FrameAtRobot&
                           first.distance_m, first.range->value)
             : fmt::format("came at {:.2f} dBm, {:.1f} dB above the sensitivity of the receiver",
                           first.level.value, first.margin.value);
-    return fmt::format("{} got the message from {}, {:.3f} ms after it was sent: that frame {}{}.",
-                       message.robot, message.names[first.from.index()],
-                       seconds(first.end - message.sent) * 1e3, how,
-                       walls_in_words(message, first));
+    return fmt::format(
+        "{} received the message from {}, {:.3f} ms after the message was sent: the frame {}{}.",
+        message.robot, message.names[first.from.index()], seconds(first.end - message.sent) * 1e3,
+        how, walls_in_words(message, first));
 }
 
 std::string weak_in_words(const MessageAtRobot& message, const FrameList& weak) {
@@ -249,15 +249,16 @@ std::string weak_in_words(const MessageAtRobot& message, const FrameList& weak) 
                    : fmt::format("came {:.1f} dB below the sensitivity of the receiver",
                                  -best.margin.value),
         walls_in_words(message, best),
-        off > 0 ? fmt::format("; {} more came while the robot was off", off) : "");
+        off > 0 ? fmt::format("; {} of the other frames came while the robot was off", off) : "");
 }
 
 std::string lost_in_words(const MessageAtRobot& message, const FrameList& lost) {
     constexpr std::pair<Outcome, std::string_view> causes[] = {
         {Outcome::collided, "while other frames were on air"},
         {Outcome::busy, "while the robot itself was sending"},
-        {Outcome::garbled, "by wrong bits"},
-        {Outcome::not_told, "for an unknown reason, because the trace has no record of the end"}};
+        {Outcome::garbled, "because of bit errors"},
+        {Outcome::not_told,
+         "for an unknown reason, because the end of the frame is not in the trace"}};
     std::string list;
     for (const auto& [outcome, words] : causes) {
         const std::size_t count = with_outcome(message, {outcome}).size();
@@ -273,7 +274,7 @@ std::string lost_in_words(const MessageAtRobot& message, const FrameList& lost) 
 }  // namespace
 
 std::string sentence(const MessageAtRobot& message) {
-    if (message.is_origin) return message.robot + " sent it.";
+    if (message.is_origin) return message.robot + " is the origin of the message.";
     if (message.frames.empty()) return "No other robot ever sent the message.";
     const FrameList got = with_outcome(message, {Outcome::received, Outcome::duplicate});
     if (!got.empty()) return received_in_words(message, *got.front());
@@ -284,15 +285,17 @@ std::string sentence(const MessageAtRobot& message) {
     if (!weak.empty()) return weak_in_words(message, weak);
     const std::string all = counted(message.frames.size(), "frame");
     if (!with_outcome(message, {Outcome::off}).empty()) {
-        return fmt::format("{} was off: it could receive none of {}.", message.robot, all);
+        return fmt::format("{} was switched off, and could receive none of {}.", message.robot,
+                           all);
     }
     if (!with_outcome(message, {Outcome::other_network}).empty()) {
         return fmt::format(
-            "{} is in another network than the senders of the message: it could receive none "
+            "{} is in a different network than the senders of the message, and could receive none "
             "of {}.",
             message.robot, all);
     }
-    return all + (message.frames.size() == 1 ? " was" : " were") + " sent, for another robot.";
+    return fmt::format("{} {} sent, but to a robot other than {}.", all,
+                       message.frames.size() == 1 ? "was" : "were", message.robot);
 }
 
 std::string outcome_text(const FrameAtRobot& frame) {
@@ -328,8 +331,10 @@ Table frame_table(const FrameAtRobot& frame, const MessageAtRobot& message) {
         table.set("distance_m", frame.distance_m);
         table.set("range_m", frame.range->value);
     }
-    table.set("walls", static_cast<std::uint64_t>(frame.walls));
-    table.set("wall_m", frame.wall_m);
+    if (message.tells_walls) {
+        table.set("walls", static_cast<std::uint64_t>(frame.walls));
+        table.set("wall_m", frame.wall_m);
+    }
     table.set("outcome", outcome_text(frame));
     table.set("also_on_air", std::move(others));
     return table;

@@ -74,8 +74,9 @@ struct FrameAtRobot {
 struct MessageAtRobot {
     std::string robot;  ///< name of the robot
     bool is_origin = false;
-    bool has_walls = false;  ///< whether the scene has walls
-    Time sent;               ///< time when the message was sent
+    bool has_walls = false;   ///< whether the scene has walls
+    bool tells_walls = true;  ///< false: the sentence and the document leave out the walls
+    Time sent;                ///< time when the message was sent
     std::vector<FrameAtRobot> frames;
     std::vector<std::string> names;   ///< names of robots, by NodeId
     std::vector<std::string> damage;  ///< broken or missing parts of the trace, as sentences

@@ -51,8 +51,8 @@ class Ns2DayReader {
     std::string left_out() const {
         if (left_out_ == 0) return "";
         return fmt::format(
-            "{} messages are left out, because their destination is not a different robot of the "
-            "trace",
+            "{} messages are left out, because their destination is their sender, or is not a "
+            "robot of the trace",
             left_out_);
     }
     std::vector<DayLog::Said> said;
@@ -148,12 +148,15 @@ void check_places(const std::string& path, const Ns2DayOptions& options, const D
         unknown.size() == 1 ? fmt::format("robot {}", unknown[0])
                             : fmt::format("robot {} and {} more", unknown[0], unknown.size() - 1);
     if (options.movements) {
-        throw InputError({*options.movements},
-                         fmt::format("found no position of {}, which occurs in {}", names, path));
+        throw InputError(
+            {*options.movements},
+            fmt::format("found no position of {}; expected the positions of all robots of {}",
+                        names, path));
     }
-    throw InputError({path}, fmt::format("no position of {}: the old format has no position of a "
-                                         "robot that never moves; expected --movements FILE.tcl",
-                                         names));
+    throw InputError(
+        {path}, fmt::format("found no position of {}: an ns-2 trace in the old format has no "
+                            "position of a robot that never moves; expected --movements FILE.tcl",
+                            names));
 }
 
 /// Scenario with the radio that ns-2 has by default.

@@ -5,9 +5,12 @@
 #include "traces/ns2/ns2_reader.hpp"
 #include "traces/recorded/recorded_trace.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -67,6 +70,7 @@ class Writing {
             },
             record);
         to_.on(record, context);
+        if (const auto* received = std::get_if<Received>(&record)) look(*received);
         const auto* sent = std::get_if<Transmitted>(&record);
         if (!sent) return;
         to_.on(AirSent{.time = sent->time,
@@ -80,13 +84,20 @@ class Writing {
         for (; moved_ < moves_.size() && moves_[moved_].time <= time; ++moved_)
             to_.on(moves_[moved_], {legs_, no_messages});
     }
+    /// Whether the trace has lost frames, as lines of the MAC.
+    bool has_losses() const { return has_losses_; }
 
   private:
+    void look(const Received& received) {
+        for (const Reception& each : received.receptions) has_losses_ |= !is_decoded(each.fate);
+    }
+
     RecordedTrace& to_;
     std::vector<Duration> airtimes_;
     std::vector<Moved> moves_;
     Legs legs_;
     std::size_t moved_ = 0, sent_ = 0;
+    bool has_losses_ = false;
 };
 
 }  // namespace
@@ -110,12 +121,16 @@ std::vector<std::string> record_ns2_trace(const std::string& path, const std::st
     trace.close();
     std::vector<std::string> sentences = day.notices();
     sentences.emplace_back(
-        "An ns-2 trace contains no map and no radio: levels and reasons are those of ns-2's "
+        "An ns-2 trace contains no map and no radio: levels and reasons are computed for ns-2's "
         "default radio on an open field.");
-    sentences.emplace_back(
-        "An ns-2 trace contains no lost frames: which robots could have heard a lost frame is not "
-        "shown. A frame is shown as lasting until its first reception, which includes its time in "
-        "the queue.");
+    const std::string_view losses =
+        writing->has_losses() ? ""
+                              : "This trace contains no lost frames: which robots could have heard "
+                                "a lost frame is not shown. ";
+    sentences.push_back(fmt::format(
+        "{}The shown duration of a frame ends at its first reception, and includes its time in the "
+        "queue.",
+        losses));
     return sentences;
 }
 

@@ -159,9 +159,10 @@ std::string RecordedDay::starts_together(const std::vector<std::string>& set) co
     const auto met = static_cast<std::size_t>(std::count(together.begin(), together.end(), true));
     if (met == 0 || met * 10 < log_.said.size()) return "";
     return fmt::format(
-        "{} of {} messages start at the same time as a message of a different robot, or within the "
-        "duration of a frame, and access.model={} does not separate their frames: they collide. "
-        "access.model=csma with access.immediate_access=false draws a backoff first, as ns-2 does",
+        "{} of {} messages start less than the duration of a frame before or after a message of a "
+        "different robot. access.model={} does not separate the frames of these messages, so the "
+        "frames collide. access.model=csma with access.immediate_access=false draws a backoff "
+        "before each frame, as ns-2 does",
         met, log_.said.size(), scenario.access.name());
 }
 
@@ -200,12 +201,12 @@ std::string RecordedDay::hears_farther(const std::vector<std::string>& set) cons
     if (disc)
         return fmt::format(
             "{}, but the first radio of the replay reaches only {:g} m; --as "
-            "\"propagation.model=disc;propagation.range={:.0f} m\" reaches as far",
+            "\"propagation.model=disc;propagation.range={:.0f} m\" has this range",
             found, disc->range.value, std::ceil(metres));
     const double power = scenario.radio.power.value + std::ceil(missing * 10) / 10;
     return fmt::format(
-        "{}, {:.1f} dB below the sensitivity of the first radio of the replay; "
-        "--as \"radio.power={:.1f} dBm\" reaches as far",
+        "{}, but this is {:.1f} dB below the sensitivity of the first radio of the replay; --as "
+        "\"radio.power={:.1f} dBm\" is strong enough",
         found, missing, power);
 }
 

@@ -146,6 +146,7 @@ bool RecordedCounter::count(const Transmitted& r) {
 bool RecordedCounter::count_routed(const Frame& frame, Time time) {
     if (const Known* message = known(frame.message)) {
         counter_.transmitted(frame.sender, message->sending.flow, time);
+        if (context_->messages[frame.message].is_routed_unicast()) counter_.forwarded();
     } else if (const Message& packet = context_->messages[frame.message];
                packet.is_routing_packet()) {
         counter_.routed(frame.size_of(packet));
@@ -226,6 +227,8 @@ void RecordedCounter::tell(RecordedStats& told) {
             counter_.add_drops(layer, code, drops_[place]);
         }
     });
+    for (std::uint32_t i = 0; i < plain_.seen().size(); ++i)
+        if (plain_.seen()[i]) counter_.know(NodeId{i});
     TraceStats& stats = told.stats;
     stats.counts.lines = stats.counts.events = lines_ + deliveries_;
     stats.counts.dialects[static_cast<std::size_t>(Ns2Dialect::old_format)] = has_packets_;

@@ -31,15 +31,9 @@ std::string_view first_line(std::string_view& text) {
     return line;
 }
 
-/// The first lines in which two texts that differ do.
-Verification::Difference difference_of(std::string_view recorded, std::string_view now) {
-    for (;;) {
-        const std::string_view a = first_line(recorded), b = first_line(now);
-        if (a != b || (recorded.empty() && now.empty())) return {std::string(a), std::string(b)};
-    }
-}
-
-/// Compares the records of a run with those of a trace, until they differ.
+/// Compares the records of a run with those of a trace, until they differ. The trace may have the
+/// receptions of a frame in fewer or more records than the run, since a live run may stop between
+/// them. So records that are not equal are compared as lines: each reception has its own line.
 class Comparison {
   public:
     Comparison(RecordedReader& trace, bool links, Verification& result)
@@ -47,32 +41,63 @@ class Comparison {
 
     KindMask kinds() const { return links_ ? kind_all : kind_all & ~kind_links; }
     void on(const Record& record, const RecordContext& context) {
-        if (result_.difference || has_ended_) return;
-        compare(trace_.next(), &record, &context);
+        if (is_over()) return;
+        if (recorded_.empty()) {
+            const Record* recorded = next();
+            if (recorded &&
+                are_same(*recorded, trace_.context(), record, context, trace_.format())) {
+                ++result_.same;
+                return;
+            }
+            if (recorded) take(*recorded);
+        }
+        std::string now;
+        append_text(record, context, now);
+        compare(now);
     }
     void finish() {
-        if (result_.difference || has_ended_) return;
-        if (const Record* more = trace_.next()) compare(more, nullptr, nullptr);
+        if (!is_over()) read_on();
+        if (is_over() || recorded_.empty()) return;
+        result_.difference = {std::string(first_line(recorded_)), ""};
     }
 
   private:
-    /// Compares a record of the trace with one of the run; null: there is no more.
-    void compare(const Record* recorded, const Record* now, const RecordContext* context) {
-        // An incomplete trace is compared up to its end.
+    /// Whether nothing more is compared; an incomplete trace is compared up to its end.
+    bool is_over() const { return result_.difference || has_ended_; }
+
+    const Record* next() {
+        const Record* recorded = trace_.next();
         has_ended_ = !recorded && !trace_.damage().empty();
-        if (has_ended_) return;
-        if (recorded && now &&
-            are_same(*recorded, trace_.context(), *now, *context, trace_.format())) {
-            ++result_.same;
-            return;
+        return recorded;
+    }
+
+    void take(const Record& recorded) {
+        text_.clear();
+        append_text(recorded, trace_.context(), text_);
+        recorded_ = text_;
+        if (recorded_.empty()) ++result_.same;
+    }
+
+    /// Takes records of the trace until there is a line that is not compared yet.
+    void read_on() {
+        while (recorded_.empty()) {
+            const Record* recorded = next();
+            if (!recorded) return;
+            take(*recorded);
         }
-        std::string told, found;
-        if (recorded) append_text(*recorded, trace_.context(), told);
-        if (now) append_text(*now, *context, found);
-        if (recorded && told == found) {
-            ++result_.same;
-        } else {
-            result_.difference = difference_of(told, found);
+    }
+
+    /// Compares lines of the run with the next lines of the trace.
+    void compare(std::string_view now) {
+        while (!now.empty()) {
+            read_on();
+            if (is_over()) return;
+            const std::string_view found = first_line(now), told = first_line(recorded_);
+            if (told != found) {
+                result_.difference = {std::string(told), std::string(found)};
+                return;
+            }
+            if (recorded_.empty()) ++result_.same;
         }
     }
 
@@ -80,6 +105,8 @@ class Comparison {
     bool links_;
     Verification& result_;
     bool has_ended_ = false;
+    std::string text_;           // lines of the last record of the trace that was taken
+    std::string_view recorded_;  // rest of these lines, not compared yet
 };
 
 /// Compares the ns-2 text of a run with that of a trace, until they differ.

@@ -26,12 +26,13 @@ void check_same_robots(const RecordedRun& a, const std::string& name_a, const Re
         std::mismatch(a.robots.begin(), a.robots.end(), b.robots.begin(), b.robots.end());
     const std::string found =
         a.robots.size() != b.robots.size()
-            ? fmt::format("found {} robots, but {} in {}", b.robots.size(), a.robots.size(), name_a)
+            ? fmt::format("found {} robots, but {} robots in {}", b.robots.size(), a.robots.size(),
+                          name_a)
             : fmt::format("found a robot \"{}\" where {} has \"{}\"", *other, name_a, *one);
-    throw InputError({.source = name_b},
-                     found +
-                         "; two runs are compared robot by robot: expected the same names in "
-                         "the same order");
+    throw InputError(
+        {.source = name_b},
+        found +
+            "; two runs are compared robot by robot: expected the same robots in the same order");
 }
 
 std::vector<Delivery> deliveries_of(RecordedReader& trace) {

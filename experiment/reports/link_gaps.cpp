@@ -165,11 +165,12 @@ std::string link_gaps_text(const LinkGapsQuestion& question, const LinkGaps& gap
                                        question.relays.empty() ? "" : ", also over ",
                                        fmt::join(question.relays, ", "));
     if (gaps.gaps.empty()) {
-        return fmt::format("{} has a link to {}: all the time, {:.6g} s", question.robot, to,
+        return fmt::format("{} has a link to {} all the time ({:.6g} s)", question.robot, to,
                            seconds(gaps.present));
     }
     return fmt::format(
-        "{} has no link to {}: {:.3f} s of {:.6g} s ({:.1f} %), {:.2f} m of {:.2f} m of its path",
+        "{} has no link to {} for {:.3f} s of {:.6g} s ({:.1f} %), and on {:.2f} m of the {:.2f} m "
+        "of its path",
         question.robot, to, seconds(gaps.lost()), seconds(gaps.present), 100 * gaps.lost_share(),
         gaps.lost_path(), gaps.path);
 }

@@ -179,6 +179,11 @@ void add_parts(LinkReport& report, const Network& network, NodeId from, NodeId t
     if (model.shape() == LossShape::by_walls) {
         report.wall_losses = wall_losses(network, from, to, report, here, there);
     }
+    const Scene& scene = network.scene();
+    report.ignores_walls =
+        !report.walls.empty() && !report.rays && report.wall_losses.empty() &&
+        loss_by(model, scene, network, from, to, here, there) ==
+            loss_by(model, scene.with_walls_of(Scene()), network, from, to, here, there);
     for (const Wall& wall : report.walls) {
         report.materials.push_back(network.scene().materials()[wall.material].name);
     }
@@ -200,6 +205,7 @@ LinkReport report_at(const Network& network, NodeId from, NodeId to, Time at) {
                       .walls = network.scene().walls(a, b),
                       .materials = {},
                       .wall_losses = {},
+                      .ignores_walls = false,
                       .wall_m = network.scene().wall_length(a, b),
                       .ceilings = floors.ceilings,
                       .ceiling_loss = floors.ceiling_loss,
@@ -290,8 +296,13 @@ Table link_document(const LinkReport& report) {
         crossing.set("exit_m", report.walls[i].exit);
         crossing.set("length_m", report.walls[i].length);
         crossing.set("material", report.materials[i]);
-        const bool counts = !report.wall_losses.empty();
-        crossing.set("loss_db", counts ? report.wall_losses[i].value : 0.0);
+        Value loss;  // empty: the model gives no level, or no loss of a single wall
+        if (!report.wall_losses.empty()) {
+            loss = report.wall_losses[i].value;
+        } else if (report.ignores_walls && !report.range) {
+            loss = 0.0;
+        }
+        crossing.set("loss_db", std::move(loss));
         walls.emplace_back(std::move(crossing));
     }
     table.set("walls", std::move(walls));

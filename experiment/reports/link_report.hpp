@@ -27,7 +27,10 @@ struct LinkReport {
     double distance_m;
     std::vector<Wall> walls;
     std::vector<std::string> materials;  ///< name of the material of each wall on the link
-    std::vector<Db> wall_losses;         ///< loss of each wall [dB], included in the path loss
+    /// Loss of each wall [dB], included in the path loss; empty if the model has no loss of single
+    /// walls.
+    std::vector<Db> wall_losses;
+    bool ignores_walls;  ///< true if there are walls, but the path loss is the same without walls
     double wall_m;
     /// Number of ceilings between the two antennas, in a scene with several storeys.
     std::size_t ceilings;

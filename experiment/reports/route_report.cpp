@@ -44,7 +44,7 @@ void check_has_routes(const Scenario& scenario) {
         if (Router(each).has_routes()) others.push_back(P::name);
     });
     throw std::invalid_argument(
-        fmt::format("protocol {0} keeps no routes; expected a protocol that does ({1}), for "
+        fmt::format("protocol {0} keeps no routes; expected a protocol with routes ({1}), for "
                     "example by --set routing.protocol={2}",
                     scenario.routing.name(), fmt::join(others, ", "), others.front()));
 }

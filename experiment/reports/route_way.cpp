@@ -37,8 +37,8 @@ class Follower {
             const auto route = best_route(network_, at, way_.to);
             if (!route || !route->is_valid || route->next_hop == everyone) {
                 const std::string end = network_.name(way_.to);
-                break_off(at, route ? fmt::format("its route to {} is broken", end)
-                                    : fmt::format("it has no route to {}", end));
+                break_off(at, route ? fmt::format("the route of this robot to {} is broken", end)
+                                    : fmt::format("this robot has no route to {}", end));
                 break;
             }
             if (!route->path.empty()) {  // of the first robot: packets carry the path
@@ -48,7 +48,7 @@ class Follower {
             add(at, route->next_hop, *route);
             at = route->next_hop;
             if (has_left(at)) {
-                break_off(at, "its route leads back to it");
+                break_off(at, "the route leads back to this robot");
                 break;
             }
         }
@@ -62,7 +62,7 @@ class Follower {
         way_.hops.push_back({from, to, now - route.since, is_up});
         if (is_up) return;
         const bool is_on = network_.robot(to).presence == Presence::on;
-        break_off(from, network_.name(to) + (is_on ? " does not hear it" : " is off"));
+        break_off(from, network_.name(to) + (is_on ? " does not hear this robot" : " is off"));
     }
     /// The first place is the one that counts.
     void break_off(NodeId at, std::string reason) {
@@ -98,8 +98,8 @@ std::string route_way_text(const Network& network, const RouteWay& way) {
         return fmt::format("{} breaks off at {}: {}{}", text, network.name(*way.broken_at),
                            way.reason, way.hops.empty() ? "" : fmt::format(" ({})", robots));
     }
-    return fmt::format("{}: {}, {} hop{}, learnt up to {:.3g} s ago", text, robots, way.hops.size(),
-                       way.hops.size() == 1 ? "" : "s", seconds(oldest));
+    return fmt::format("{}: {}, {} hop{}, oldest part learnt {:.3g} s ago", text, robots,
+                       way.hops.size(), way.hops.size() == 1 ? "" : "s", seconds(oldest));
 }
 
 }  // namespace rovernet

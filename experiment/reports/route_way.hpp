@@ -31,8 +31,8 @@ struct RouteWay {
 /// the first robot knows. Hops after a link that is down are part of the result, too.
 RouteWay route_way(const Network& network, NodeId from, NodeId to);
 
-/// Path as a sentence, such as "route from A to B: A > r3 > B, 2 hops, learnt up to 2.3 s ago", or
-/// "route from A to B breaks off at r3: it has no route to B (A > r3)".
+/// Path as a sentence, such as "route from A to B: A > r3 > B, 2 hops, oldest part learnt 2.3 s
+/// ago", or "route from A to B breaks off at r3: it has no route to B (A > r3)".
 std::string route_way_text(const Network& network, const RouteWay& way);
 
 }  // namespace rovernet

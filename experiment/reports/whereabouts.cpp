@@ -69,7 +69,7 @@ std::string renaming_notice(const std::string& path, const std::vector<Track>& a
         changes.push_back(fmt::format("{} is {}", all[i].name, name));
     }
     if (changes.empty()) return {};
-    return fmt::format("{}: robots have numbers in this format: {}{}", path,
+    return fmt::format("{}: in this format, robots have numbers instead of names: {}{}", path,
                        fmt::join(changes, ", "),
                        count > most ? fmt::format(", and {} more", count - most) : "");
 }

@@ -45,7 +45,7 @@ class WaypointLine {
         in_line_ = 0;
         before_.reset();
         if (++nodes_ > most_file_robots) {
-            throw InputError(n.line(), fmt::format("found one node too many, expected at most {}",
+            throw InputError(n.line(), fmt::format("found more than {} nodes; expected fewer",
                                                    most_file_robots));
         }
     }
@@ -58,7 +58,7 @@ class WaypointLine {
                 .first = !before_,
                 .column = n.word().column};
         if (before_ && now_.time < before_->time) {
-            fail_at(n.line(), n.word(), "a later time than that of the previous waypoint");
+            fail_at(n.line(), n.word(), "a later time than the time of the previous waypoint");
         }
     }
     std::optional<Waypoint> complete(const BonnMotionNumbers& n) {

@@ -224,7 +224,7 @@ bool FcdReader::read_step() {
         step_where_.column = word.column;
     }
     if (step_ > 0 && time_ <= time_before_) {
-        fail_at(tags_.where(), word, "a later time than that of the timestep before");
+        fail_at(tags_.where(), word, "a later time than the time of the timestep before");
     }
     ++step_;
     read_robots();

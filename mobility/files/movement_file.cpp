@@ -65,12 +65,14 @@ std::unique_ptr<MovementFile::Reader> reader_of(const std::string& path, Movemen
 }  // namespace
 
 std::string kept_notice(const std::string& file, std::uint64_t legs) {
-    return fmt::format("{} is not in order of time: {} leg{} kept in memory", file, legs,
-                       legs == 1 ? " is" : "s are");
+    return fmt::format(
+        "{} is not sorted by time, so {} leg{} of the robots' paths {} kept in memory", file, legs,
+        legs == 1 ? "" : "s", legs == 1 ? "is" : "are");
 }
 
 void fail_changed(const std::string& file) {
-    throw InputError({.source = file}, "the file was changed while it was read");
+    throw InputError({.source = file},
+                     "another program changed this file while it was read; run the command again");
 }
 
 MovementFile::MovementFile(const std::string& path, MovementSyntax syntax)

@@ -31,7 +31,8 @@ struct Piece {
 std::vector<Piece> pieces_of(const Track& track, Time end) {
     constexpr double rounding = 1e-6;  // [m]
     if (track.legs.empty()) {
-        throw std::invalid_argument("a track needs a leg, \"" + track.name + "\" has none");
+        throw std::invalid_argument("track \"" + track.name +
+                                    "\" has no leg; expected at least one leg");
     }
     std::vector<Piece> pieces;
     Vec3 here = track.legs.front().from;

@@ -129,7 +129,8 @@ void XmlTags::skip_past(std::string_view end, std::size_t from) {
             from = 0;
         }
         if (!source_.more())
-            throw InputError(begin, fmt::format("found no end, expected \"{}\"", end));
+            throw InputError(begin,
+                             fmt::format("found no end of what begins here, expected \"{}\"", end));
     }
 }
 

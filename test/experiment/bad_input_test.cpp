@@ -86,8 +86,8 @@ const std::vector<Mistake> mistakes = {
     // Not TOML.
     {"x", "1:2", {"not TOML"}},
     {"[radio]\npower = \"5 dBm", "2:15", {"not TOML"}},
-    {"[radio]\n[radio]\n" + robot_a, "2:1", {"[radio] is there a second time", "all its keys"}},
-    {"[robot]\nname = \"A\"\n[robot]\nname = \"B\"\n", "3:1", {"expected [[robot]]"}},
+    {"[radio]\n[radio]\n" + robot_a, "2:1", {"[radio] occurs a second time", "all its keys"}},
+    {"[robot]\nname = \"A\"\n[robot]\nname = \"B\"\n", "3:1", {"write [[robot]]"}},
     {robot_a + "radius = \"\xff\"", "4:10", {"utf-8"}},
     {robot_a + "[scenario]\nseed = 99999999999999999999", "5:28", {"64 bits"}},
     {"", "", {"robot", "missing"}},
@@ -112,7 +112,7 @@ const std::vector<Mistake> mistakes = {
     {robot_a + "scan = { beams = 0 }", "4:18", {"beams", "from 1 to 10,000"}},
     {robot_a + "scan = { kind = \"lidar\" }", "4:17", {"lidar", "ranger"}},
     {robot_a + "scan = { every = \"1 us\" }", "4:18", {"every", ">= 1 ms"}},
-    {robot_a + "scan = { from = \"9 deg\", to = \"1 deg\" }", "4:31", {"from 0 to 360 degrees"}},
+    {robot_a + "scan = { from = \"9 deg\", to = \"1 deg\" }", "4:31", {"0 to 360 degrees"}},
     {robot_a + "scan = { from = \"-300 deg\" }", "4:8", {"360 degrees"}},
     {robot_a + "scan = \"laser\"", "4:8", {"table"}},
     {robot_a + "turn_rate = \"0 deg/s\"", "4:13", {">= 1e-8 rad/s"}},
@@ -125,7 +125,7 @@ const std::vector<Mistake> mistakes = {
     {robot_a + "[[robot]]\nname = \"B\"\nat = [\"1 m\", \"1 m\"]\nradio = { ip = \"1.2.3.4\" }\n"
                "[[robot]]\nname = \"C\"\nat = [\"2 m\", \"1 m\"]\nradio = { ip = \"1.2.3.4\" }",
      "11:9",
-     {"\"B\"", "\"C\"", "ip 1.2.3.4"}},
+     {"\"B\"", "\"C\"", "the same ip, 1.2.3.4"}},
     {"[radio]\nmac = \"02:00:00:00:00:07\"\n[[robot]]\nname = \"r\"\ncount = 2\nat = [\"0 m\", \"0 "
      "m\"]",
      "3:1",
@@ -160,7 +160,7 @@ const std::vector<Mistake> mistakes = {
     {"[scene.materials]\nx = { grey = 3, itu = \"brick\" }\n" + robot_a, "2:5", {"thickness"}},
     {"[scene.materials]\nx = { greys = [9, 3] }\n" + robot_a, "2:15", {"the lower first"}},
     {"[scene.materials]\nx = { per_crossing = \"3 dB\" }\n" + robot_a, "2:5", {"grey"}},
-    {robot_a + "name = \"B\"", "4:8", {"the key \"name\" is there a second time"}},
+    {robot_a + "name = \"B\"", "4:1", {"the key \"name\" occurs a second time"}},
     {"scenario:\n  duration: 5\n", "1:9", {"KEY = VALUE"}},
     {robot_a + "[medium]\npropagation_delay = True", "5:21", {"small letters"}},
     {robot_a + "radio = {\n power = \"5 dBm\"\n}", "4:10", {"on the same line"}},
@@ -170,6 +170,10 @@ const std::vector<Mistake> mistakes = {
     {robot_a + "[radio]\nfrequency = \"2.4\"", "5:13", {"did you mean \"2.4 GHz\"?"}},
     // Keys and tables nobody knows.
     {robot_a + "radus = \"1 m\"", "4:1", {"unknown key \"radus\"", "did you mean \"radius\"?"}},
+    {robot_a + "[radio]\nmodel = \"disc\"", "5:1", {"\"model\" is a key of [propagation]"}},
+    {robot_a + "[scenario]\nmap = \"m.png\"", "5:1", {"\"map\" is a key of [scene]"}},
+    {robot_a + "every = \"1 s\"", "4:1", {"\"every\" is a key of [[traffic]]"}},
+    {traffic("payload = \"F\"\nevery = \"0.4 ns\""), "7:9", {"\"0.4 ns\"", "at least 1 ns"}},
     {robot_a + "colour = \"red\"", "4:1", {"unknown key \"colour\"", "expected one of name"}},
     {"[raido]\n" + robot_a, "1:2", {"did you mean \"radio\"?"}},
     {robot_a + "radio = { powr = \"5 dBm\" }", "4:11", {"did you mean \"power\"?"}},
@@ -280,7 +284,9 @@ const std::vector<Mistake> mistakes = {
      {"\"A\", which is the sender", "another robot"}},
     {robot_a + "on_receive = { send = \"x\", to = \"A\" }", "4:33", {"cannot send to itself"}},
     {robot_a + "on_receive = { send = \"x\", to = \"Q\" }", "4:33", {"no robot \"Q\""}},
-    {robot_a + "on_arrival = { send = \"x\", to = \"sender\" }", "4:33", {"no received message"}},
+    {robot_a + "on_arrival = { send = \"x\", to = \"sender\" }",
+     "4:33",
+     {"only the table on_receive"}},
     {robot_a + "on_receive = { stop = true, to = \"sender\" }",
      "4:14",
      {"send", "key \"to\" needs"}},
@@ -353,11 +359,11 @@ const std::vector<Mistake> mistakes = {
     {robot_a + "move = { model = \"waypoints\", path = [\"5 m\", \"5 m\"] }", "4:39", {"position"}},
     {robot_a + "move = { model = \"waypoints\", path = [[\"5 m\", \"5 m\"]], times = [] }",
      "4:64",
-     {"found 0 for a path of 1"}},
+     {"found 0 times for a path of 1 places"}},
     {robot_a + "move = { model = \"waypoints\", path = [[\"5 m\", \"5 m\"], [\"1 m\", \"1 m\"]], "
                "times = [\"2 s\", \"1 s\"] }",
      "4:80",
-     {"later than the one before"}},
+     {"later than the time before"}},
     // Traffic and studies.
     {robot_a + "[[traffic]]\nfrom = \"a\"\npayload = \"F\"", "5:8", {"no robot", "\"A\"?"}},
     {"[[robot]]\nname = \"r\"\ncount = 3\nat = [\"0 m\", \"0 m\"]\n[[traffic]]\nfrom = \"r\"\n"
@@ -389,7 +395,7 @@ const std::vector<Mistake> mistakes = {
     {study("vary.a = { from = \"1 m\", to = \"9 km\", step = \"1 m\" }"), "5:10", {"units"}},
     {study("vary.a = { from = \"x\", to = 2, step = 1 }"), "5:19", {"a quantity"}},
     {study("vary.a = { from = 1, to = 2, stop = 1 }"), "5:30", {"did you mean \"step\"?"}},
-    {study("vary.a = [1]\nzip = [[\"a\", \"b\"]]"), "6:8", {"\"b\" does not vary"}},
+    {study("vary.a = [1]\nzip = [[\"a\", \"b\"]]"), "6:8", {"\"b\" is not a key of vary"}},
     {study("vary.a = [1]\nvary.b = [1, 2]\nzip = [[\"a\", \"b\"]]"), "7:8", {"1 values", "2"}},
     {study("vary.a = [1]\nzip = [[\"a\"], [\"a\"]]"), "6:15", {"listed twice"}},
     {study("vary.abc = [1]\nexclude = [{ abd = 1 }]"), "6:14", {"did you mean \"abc\"?"}},
@@ -480,7 +486,7 @@ TEST_CASE("bad input: every mistake is reported with line, column and a helpful 
 }
 
 TEST_CASE(
-    "bad input: the schema finds every mistake that is visible without other keys and files") {
+    "bad input: the JSON schema finds every mistake that is visible without other keys and files") {
     const Table schema = scenario_schema();
     const TemporaryFolder folder;
     write_maps(folder);
@@ -511,7 +517,8 @@ TEST_CASE(
     MESSAGE(seen, " mistakes seen by the schema, ", unseen, " not");
 }
 
-TEST_CASE("bad input: messages are on stderr only, exit code 3, no folder is created") {
+TEST_CASE(
+    "bad input: an error is printed on stderr only, with exit code 3, and no folder is created") {
     const TemporaryFolder folder;
     write_maps(folder);
     for (const auto& mistake : mistakes) {
@@ -575,6 +582,7 @@ TEST_CASE("bad input: unknown commands and options exit with 2") {
 
 TEST_CASE("bad input: a typing error on the command line gets a suggestion") {
     const TemporaryFolder folder;
+    folder.write("s.toml", robot_a);
     for (const auto& [arguments, expected] :
          {std::pair{
               "rnu s.toml",
@@ -584,9 +592,16 @@ TEST_CASE("bad input: a typing error on the command line gets a suggestion") {
           std::pair{"bench flood --recordde=1 x",
                     "option \"--recordde\"; did you mean \"--recorded\"?"},
           std::pair{"run s.toml --sede 3", "option \"--sede\"; did you mean \"--seed\"?"},
+          std::pair{"trace follow t.tr --message abc",
+                    "--message: found \"abc\"; expected a whole number >= 0"},
+          std::pair{"run s.toml --speed fast", "--speed: found \"fast\"; expected "},
+          std::pair{"trace cut t.tr p.tr --from 50s --to 10s",
+                    "the piece ends before it begins; expected --from before --to"},
+          std::pair{"run s.toml --set radio.antenna_beamwidth=10",
+                    "write the unit, such as antenna_beamwidth=\"10 deg\""},
           std::pair{"--verison", "option \"--verison\"; did you mean \"--version\"?"},
           std::pair{"run s.toml --xyz", "unknown option \"--xyz\"; run with --help for more"},
-          std::pair{"version extra", "rovernet: unexpected \"extra\"; run with"}}) {
+          std::pair{"version extra", "rovernet: unexpected argument \"extra\"; run with"}}) {
         const Ended ended = command(folder, arguments);
         CAPTURE(ended.err);
         CHECK(ended.exit == 2);

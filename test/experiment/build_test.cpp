@@ -46,7 +46,21 @@ TEST_CASE(
     CHECK(classic.scenario.notices[0].find("falls from 10.5 to 6.34 m/s") != std::string::npos);
 }
 
-TEST_CASE("build: count creates robots name0, name1, ... at random positions in the area") {
+TEST_CASE("build: the notice about a falling mean speed respects the robot's top_speed") {
+    const auto notices = [](const std::string& top_speed) {
+        return Built("[[robot]]\nname = \"r\"\nat = [\"1 m\", \"1 m\"]\ntop_speed = \"" +
+                     top_speed +
+                     "\"\nmove = { model = \"random_waypoint\", min_speed = \"1 m/s\", max_speed "
+                     "= \"20 m/s\", area = [[\"0 m\", \"0 m\"], [\"9 m\", \"9 m\"]] }\n")
+            .scenario.notices;
+    };
+    REQUIRE(notices("3 m/s").size() == 1);
+    CHECK(notices("3 m/s")[0].find("falls from 2 to 1.82 m/s") != std::string::npos);
+    CHECK(notices("1 m/s").empty());
+}
+
+TEST_CASE(
+    "build: the key `count` creates robots name0, name1, ... at random positions in the area") {
     Built built(three);
     CHECK_FALSE(built.network.find("r"));
     CHECK_FALSE(built.network.find("r3"));
@@ -103,7 +117,8 @@ struct Counting {
 
 }  // namespace
 
-TEST_CASE("build: a routing protocol of the user's program routes all messages without hops = 1") {
+TEST_CASE(
+    "build: a routing protocol of the user's program routes all messages, except if hops = 1") {
     const std::string two =
         "[[robot]]\nname = \"A\"\nat = [\"0 m\", \"0 m\"]\n"
         "on_receive = { payload = \"ask\", send = \"answer\", to = \"sender\" }\n"

@@ -47,7 +47,9 @@ TEST_CASE(
     CHECK_FALSE(heard[0].is_for_everyone);
 }
 
-TEST_CASE("client radios: messages received at the same time are ordered by robot, not by event") {
+TEST_CASE(
+    "client radios: a client gets simultaneous messages in the order of their receivers, not of "
+    "sending") {
     Three robots;
     ClientRadios radios(robots.net);
     radios.join(1, {robots.b, robots.c}, true);

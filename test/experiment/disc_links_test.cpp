@@ -63,7 +63,7 @@ const std::string disc = "model = \"disc\"\nrange = \"100 m\"\n";
 }  // namespace
 
 TEST_CASE(
-    "disc: a link report has distance and range, and a link exactly as long as the range is up") {
+    "disc: a link report has distance and range; a link whose length equals the range is up") {
     const Scenario scenario = line(disc);
     const LinkReport far = report_link(scenario, "A", "B", start_of_run);
     CHECK_FALSE(far.up);
@@ -99,7 +99,7 @@ TEST_CASE("disc: the link table of a robot has distances and no levels") {
     });
 }
 
-TEST_CASE("disc: a missed message is explained by the distance, and a capture has no levels") {
+TEST_CASE("disc: the reason for a missed message is the distance; a packet capture has no levels") {
     const TempFolder folder;
     run_scenario(line(disc), {.folder = folder / "run", .speed = {}});
     const std::string trace = folder / "run/trace.mcap";

@@ -60,7 +60,7 @@ double number(const Table& table, const std::vector<std::string>& path) {
 
 }  // namespace
 
-TEST_CASE("flows: a flow without a name is named by its ends, and is in the summary") {
+TEST_CASE("flows: in the summary, a flow without a name is named after its sender and receiver") {
     const Table table = summary(three + R"(
 [[traffic]]
 kind = "unicast"
@@ -99,7 +99,7 @@ TEST_CASE(
     CHECK_THROWS_AS(loaded(folder, three + flow + "\"x,y\"\n"), InputError);
 }
 
-TEST_CASE("random sources: all robots are chosen equally often, in any order of the file") {
+TEST_CASE("random sources: all robots are chosen equally often, whatever their order in the file") {
     const std::string traffic =
         "[[traffic]]\nfrom = \"random\"\npayload = \"F\"\nevery = \"10 ms\"\ncount = 300\n"
         "[metrics]\nrobots = true\n[scenario]\nduration = \"4 s\"\n";
@@ -116,6 +116,89 @@ TEST_CASE("random sources: all robots are chosen equally often, in any order of 
         CHECK(for_it == number(backwards, {"robots", name, "messages"}));
         CHECK(number(forwards, {"robots", name, "delivery_ratio"}) == 1);
     }
+}
+
+TEST_CASE(
+    "metrics by robot: `messages` of a robot includes broadcasts that it does not receive, in any "
+    "file order") {
+    const auto check = [](const std::string& robots) {
+        const Table table = summary(robots + R"(
+[scenario]
+duration = "10 s"
+[propagation]
+model = "disc"
+range = "50 m"
+[metrics]
+robots = true
+[[traffic]]
+from = "A"
+size = "64 B"
+every = "1 s"
+count = 5
+)");
+        CHECK(number(table, {"robots", "B", "delivery_ratio"}) == 1);
+        for (const std::string name : {"C", "off"}) {
+            CAPTURE(name);
+            CHECK(number(table, {"robots", name, "messages"}) == 5);
+            CHECK(number(table, {"robots", name, "deliveries"}) == 0);
+            CHECK(number(table, {"robots", name, "delivery_ratio"}) == 0);
+        }
+    };
+    const std::string near =
+        "[[robot]]\nname = \"A\"\nat = [\"0 m\", \"0 m\"]\n"
+        "[[robot]]\nname = \"B\"\nat = [\"40 m\", \"0 m\"]\n";
+    const std::string far =
+        "[[robot]]\nname = \"C\"\nat = [\"900 m\", \"0 m\"]\n"
+        "[[robot]]\nname = \"off\"\nat = [\"20 m\", \"0 m\"]\noff = [\"0 s\"]\n";
+    check(near + far);
+    check(far + near);
+}
+
+TEST_CASE("flows: a collision of a routed unicast that is sent again is no loss") {
+    const Table table = summary(R"(
+[scenario]
+duration = "5 s"
+[propagation]
+model = "disc"
+range = "250 m"
+[reception]
+model = "collision"
+[access]
+model = "aloha"
+[routing]
+protocol = "dsr"
+[[robot]]
+name = "n0"
+at = ["0 m", "0 m"]
+[[robot]]
+name = "n1"
+at = ["200 m", "0 m"]
+[[robot]]
+name = "n2"
+at = ["400 m", "0 m"]
+[[traffic]]
+name = "routed"
+kind = "unicast"
+from = "n0"
+to = "n1"
+size = "1000 B"
+start = "1 s"
+every = "100 ms"
+count = 3
+[[traffic]]
+name = "noise"
+from = "n2"
+size = "1000 B"
+start = "1.1 s"
+every = "100 ms"
+count = 3
+)");
+    CHECK(number(table, {"flows", "routed", "deliveries"}) == 3);
+    CHECK(number(table, {"data_transmissions"}) > 3);
+    const Value* drops = table.find("flows")->table()->find("routed")->table()->find("drops");
+    REQUIRE(drops);
+    CHECK(drops->table()->entries.empty());
+    CHECK(number(table, {"drops", "COL"}) == 2);  // of the noise
 }
 
 TEST_CASE("topology: metrics of a robot that passes another robot equal values computed by hand") {

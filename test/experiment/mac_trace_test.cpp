@@ -222,7 +222,8 @@ const Csma as_ns2{.rts_threshold = 0, .header = 34};
 
 }  // namespace
 
-TEST_CASE("MAC trace: sizes and durations of an exchange equal the output of ns-2.35") {
+TEST_CASE(
+    "MAC trace: sizes and times of RTS, CTS, data and ACK frames equal the output of ns-2.35") {
     const auto unicast = [](Network& net) { net.send({1}, {2}, "", {.size = 500}); };
     CHECK(row(as_ns2, unicast) ==
           "s 1.000000000 _1_ AGT  --- 0 message 500 [0 0 0 0] ------- [1:0 2:0 1 0] \n"

@@ -52,20 +52,21 @@ std::pair<std::uint64_t, std::uint64_t> through(double success_rate, bool crowd,
 
 }  // namespace
 
-TEST_CASE("gate: two radios are linked only if their essids are equal or one essid is \"any\"") {
+TEST_CASE(
+    "radio gate: two radios are linked only if their essids are equal or one essid is \"any\"") {
     CHECK(links_between({.essid = "x"}, {.essid = "x"}) == 2);
     CHECK(links_between({.essid = "x"}, {.essid = "y"}) == 0);
     CHECK(links_between({.essid = "x"}, {.essid = "any"}) == 2);
     CHECK(links_between({}, {}) == 2);
 }
 
-TEST_CASE("gate: links need the same channel and frequency") {
+TEST_CASE("radio gate: links need the same channel and frequency") {
     CHECK(links_between({.channel = 1}, {.channel = 1}) == 2);
     CHECK(links_between({.channel = 1}, {.channel = 6}) == 0);
     CHECK(links_between({.frequency = {2412e6}}, {.frequency = {2437e6}}) == 0);
 }
 
-TEST_CASE("gate: if either radio has the gate `none`, their essids and channels may differ") {
+TEST_CASE("radio gate: if either radio has the gate `none`, their essids and channels may differ") {
     CHECK(links_between({.essid = "x", .gate = Gate::none}, {.essid = "y"}) == 2);
     CHECK(links_between({.essid = "x"}, {.essid = "y", .channel = 3, .gate = Gate::none}) == 2);
 }

@@ -61,7 +61,7 @@ using Words = std::vector<std::string>;
 }  // namespace
 
 TEST_CASE(
-    "reactions: the beginning of a message, its origin or its number of hops can trigger a "
+    "reactions: the first bytes of a message, its origin or its number of hops can trigger a "
     "reaction") {
     CHECK(said(line_of_three("on_receive = { payload = \"g\", send = \"yes\" }", a_says)) ==
           Words{"a: go", "b: yes"});
@@ -99,6 +99,47 @@ TEST_CASE("reactions: a robot that loses a signal moves, sends a message or stop
         leaving + "on_link_lost = { move = { model = \"goal\", to = [\"8 m\", \"0 m\"] } }");
     CHECK(std::abs(place_of(home, "b", 8).y - 4) < 1e-4);
     CHECK(place_of(home, "b", 30).y == 0);
+}
+
+TEST_CASE(
+    "reactions: a movement that cannot begin is an error with line and column of the movement") {
+    const auto error_of = [](const std::string& movement) -> std::string {
+        const TemporaryFolder folder;
+        const std::string file = folder.write(
+            "s.toml",
+            line_of_three("on_time = { time = \"70 s\", move = { model = " + movement + " } }"));
+        try {
+            network_at(load_scenario(file, {}), start_of_run);
+        } catch (const InputError& error) {
+            return std::string(error.what()).substr(file.size());
+        }
+        return "no error";
+    };
+    // The reaction comes after the end of the run, so its movement never begins.
+    CHECK(error_of("\"wander\"").starts_with(":15:35: wander: "));
+    CHECK(error_of("\"random_direction\"").starts_with(":15:35: random_direction: area must be"));
+    const std::string area = "area = [[\"50 m\", \"0 m\"], [\"90 m\", \"9 m\"]]";
+    CHECK(error_of("\"random_waypoint\", min_speed = \"9 m/s\", max_speed = \"3 m/s\", " + area) ==
+          ":15:35: random_waypoint: max_speed must be >= min_speed = 9, got 3");
+    CHECK(error_of("\"random_walk\", " + area) == "no error");
+}
+
+TEST_CASE(
+    "reactions: if a robot is outside the area of its movement, the error names robot and time") {
+    const std::string outside = line_of_three(
+        "on_time = { time = \"1.5 s\", move = { model = \"random_walk\", "
+        "area = [[\"50 m\", \"0 m\"], [\"90 m\", \"9 m\"]] } }");
+    const TemporaryFolder folder;
+    const std::string file = folder.write("s.toml", outside);
+    std::string error = "no error";
+    try {
+        network_at(load_scenario(file, {}), start_of_run + from_seconds(2));
+    } catch (const InputError& thrown) {
+        error = std::string(thrown.what()).substr(file.size());
+    }
+    CHECK(error ==
+          ":15:36: on_time of robot \"b\" at 1.5 s: random_walk: the robot must be in the area "
+          "(50, 0) to (90, 9) m to begin, but is at (8, 0) m");
 }
 
 TEST_CASE("movement file: creates the robots that it names, and moves existing robots") {
@@ -169,7 +210,7 @@ TEST_CASE("reactions: an answer goes to the sender of the message, or to a robot
               .front() == "a: go");
 }
 
-TEST_CASE("reactions: each request gets exactly one answer") {
+TEST_CASE("reactions: a robot that answers every request sends exactly one answer per request") {
     const TemporaryFolder folder;
     const std::string scenario = line_of_three(
         "on_receive = { send = \"yes\", to = \"sender\", once = false }",
@@ -181,7 +222,7 @@ TEST_CASE("reactions: each request gets exactly one answer") {
     CHECK(result.metrics.deliveries == 10);
 }
 
-TEST_CASE("reactions: traffic started by an arrival sends nothing after its stop time") {
+TEST_CASE("reactions: traffic that starts when a robot arrives sends nothing after its stop time") {
     const std::string moving = "move = { model = \"goal\", to = [\"8 m\", \"5 m\"] }\n";
     const std::string arrives =
         "[[traffic]]\nfrom = \"b\"\npayload = \"here\"\nstart = \"arrival\"\nevery = \"1 s\"\n";

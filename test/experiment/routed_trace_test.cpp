@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "experiment/replay/trace_input.hpp"
 #include "experiment/run.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/scenario_file.hpp"
 #include "test/traces/record_stream.hpp"
+#include "traces/ns2/ns2_stats.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -59,9 +61,7 @@ std::string from_size(const std::string& line) {
 }  // namespace
 
 // The lines of ns-2.35 for its DSR are "r RTR cbr 108" and "r AGT cbr 64".
-TEST_CASE(
-    "ns-2 trace of DSR: the destination has two lines, of the packet at the router and the message "
-    "at the agent") {
+TEST_CASE("ns-2 trace of DSR: the destination has a line of the router and a line of the agent") {
     const std::string text = trace_of("protocol = \"dsr\"\n", 4);
     const auto router = lines_with(text, "^r .* _3_ RTR .* cbr "),
                agent = lines_with(text, "^r .* _3_ AGT ");
@@ -72,8 +72,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "ns-2 trace of AODV: the destination has one line, of the agent, whose size includes the "
-    "header, as in ns-2") {
+    "ns-2 trace of AODV: the destination has one line, whose size includes the IP header, as in "
+    "ns-2") {
     const std::string text = trace_of("protocol = \"aodv\"\n", 4);
     CHECK(lines_with(text, "^r .* _3_ RTR .* cbr ").empty());
     const auto agent = lines_with(text, "^r .* _3_ AGT ");
@@ -106,8 +106,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "ns-2 trace: the drop line of a message that waits at the end has its original TTL and no next "
-    "hop") {
+    "ns-2 trace: the line of a message held until the run's end has the full TTL and no next hop") {
     const std::string text = trace_of("protocol = \"dsr\"\n", 5, "off = [\"4.9 s\"]\n");
     const auto held = lines_with(text, "^D .* RTR  END ");
     REQUIRE_FALSE(held.empty());
@@ -121,6 +120,58 @@ TEST_CASE(
     const auto arp = lines_with(text, " ARP ");
     REQUIRE_FALSE(arp.empty());
     for (const std::string& line : arp) CHECK(line.back() == ']');
+}
+
+TEST_CASE("ns-2 trace: a control packet that never went on air is dropped with its own TTL") {
+    std::string text =
+        "[scenario]\nduration = \"1 s\"\n[access]\nmodel = \"csma\"\n"
+        "[trace]\nns2 = \"old\"\nrecord = true\n"
+        "[[traffic]]\nkind = \"unicast\"\nfrom = \"n2\"\nto = \"n1\"\nsize = \"0 B\"\n"
+        "start = \"1 s\"\n"
+        "[[traffic]]\nfrom = \"n0\"\nsize = \"0 B\"\nstart = \"1 s\"\n";
+    for (int i = 0; i < 3; ++i) {
+        text += fmt::format("[[robot]]\nname = \"n{}\"\nat = [\"{} m\", \"0 m\"]\n", i, 10 * i);
+    }
+    for (const auto& [rings, ttl] : {std::pair("true", 1), std::pair("false", 35)}) {
+        CAPTURE(rings);
+        const TempFolder folder;
+        testing::write_file(folder / "s.toml",
+                            text + "[routing]\nprotocol = \"aodv\"\nrings = " + rings + "\n");
+        run_scenario(load_scenario(folder / "s.toml", {}), {.folder = folder / ".", .speed = {}});
+        const std::string trace = content(folder / "trace.tr");
+        const auto lost = lines_with(trace, "^D .* AGT  END .* AODV ");
+        REQUIRE(lost.size() == 1);
+        CHECK(lost[0].find(fmt::format(" [2:255 -1:255 {} 0] ", ttl)) != std::string::npos);
+        render_recorded(folder / "trace.mcap", folder / "later.tr",
+                        {.format = Ns2Format::old_format, .mac = MacTrace::off});
+        CHECK(content(folder / "later.tr") == trace);
+    }
+}
+
+TEST_CASE("ns-2 trace: the transmissions of routed unicasts are counted as in the run") {
+    std::string text =
+        "[scenario]\nduration = \"8 s\"\n[access]\nmodel = \"csma\"\n"
+        "[propagation]\nmodel = \"disc\"\nrange = \"250 m\"\n"
+        "[trace]\nns2 = \"old\"\nmac = true\n";
+    for (int i = 0; i < 3; ++i) {
+        text += fmt::format("[[robot]]\nname = \"n{}\"\nat = [\"{} m\", \"0 m\"]\n", i, 200 * i);
+    }
+    const std::string sent = "from = \"n0\"\nsize = \"64 B\"\nstart = \"1 s\"\nevery = \"1 s\"\n";
+    text += "[[traffic]]\n" + sent;
+    text += "[[traffic]]\nkind = \"unicast\"\nto = \"n2\"\n" + sent;
+    text += "[[traffic]]\nkind = \"unicast\"\nto = \"n1\"\nhops = 1\n" + sent;
+    for (const char* protocol : {"aodv\"", "dsr\"", "suppression\"\nscheme = \"cluster\""}) {
+        CAPTURE(protocol);
+        const TempFolder folder;
+        testing::write_file(folder / "s.toml", text + "[routing]\nprotocol = \"" + protocol + "\n");
+        const RunResult run = run_scenario(load_scenario(folder / "s.toml", {}),
+                                           {.folder = folder / ".", .speed = {}});
+        REQUIRE(run.metrics.routed);
+        const TraceStats stats = ns2_stats(folder / "trace.tr");
+        CHECK(stats.routing_packets == run.metrics.routing->packets);
+        CHECK(stats.data_transmissions == run.metrics.routed->data);
+        CHECK(stats.metrics.transmissions > stats.data_transmissions);
+    }
 }
 
 }  // namespace routed_trace_test

@@ -126,8 +126,8 @@ TEST_CASE("run: a run beyond the event limit fails and leaves no files") {
 }
 
 TEST_CASE(
-    "link report: over 16 m the loss is that of free space, and the margin is level minus "
-    "sensitivity") {
+    "link report: at a distance of 16 m the loss is that of free space, and the margin is level "
+    "minus sensitivity") {
     Scenario scenario = three_robots("none");
     scenario.propagation.model = 1;
     const auto report = report_link(scenario, "A", "C", start_of_run);

@@ -282,6 +282,20 @@ at = ["300 m", "0 m"]
     CHECK(last[0].payload == "heard again");
 }
 
+TEST_CASE("session: a message from a robot to itself is refused, and listeners do not get it") {
+    std::size_t inputs = 0;
+    fingerprint_of([&](Session& s) {
+        s.on_input([&](const Input&) { ++inputs; });
+        const ClientId client = s.attach({NodeId{1}}, "pilot");
+        const SendCommand to_itself{.to = NodeId{1}, .payload = "x"};
+        CHECK(s.why_not({1}, to_itself).starts_with("a robot cannot send to itself; expected"));
+        CHECK_THROWS_AS(s.carry_out(client, {1}, to_itself), std::invalid_argument);
+        CHECK(inputs == 0);
+        s.carry_out(client, {1}, SendCommand{.to = NodeId{2}, .payload = "x"});
+        CHECK(inputs == 1);
+    });
+}
+
 TEST_CASE("session: listeners get every command, also the stop command made when a client leaves") {
     const auto driven = [](Session& s, std::vector<Input>& inputs) {
         s.on_input([&](const Input& input) { inputs.push_back(input); });
@@ -310,8 +324,7 @@ TEST_CASE("session: listeners get every command, also the stop command made when
 }
 
 TEST_CASE(
-    "session: the velocity of a robot is the commanded one while it is driven, otherwise that of "
-    "its leg") {
+    "session: a driven robot has the commanded velocity, otherwise the velocity of its movement") {
     Session session{scenario()};
     const ClientId client = session.attach({NodeId{1}});
     CHECK(session.driver({1}) == client);

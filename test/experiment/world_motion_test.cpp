@@ -54,7 +54,7 @@ struct Clients {
 
 }  // namespace
 
-TEST_CASE("world: a robot drives anywhere around the walls, and stops only at a wall") {
+TEST_CASE("Stage world: a robot drives anywhere around the walls, and stops only at a wall") {
     Clients clients;
     clients.session.drive(clients.client, clients.a, {-1}, {0});
     clients.session.drive(clients.client, clients.b, {1}, {0});
@@ -76,7 +76,8 @@ TEST_CASE("world: a robot drives anywhere around the walls, and stops only at a 
 }
 
 TEST_CASE(
-    "world: a program may send robots to, and place them at, positions far outside the walls") {
+    "Stage world: programs may send robots to, and place them at, positions far outside the "
+    "walls") {
     Clients clients;
     const auto why_not = [&](const RobotCommand& command) {
         return clients.session.why_not(clients.a, command);
@@ -96,7 +97,7 @@ TEST_CASE(
     CHECK(clients.session.has_no_way(clients.a));
 }
 
-TEST_CASE("world: every movement of a scenario leads around the walls, also far from them") {
+TEST_CASE("Stage world: every movement of a scenario leads around the walls, also far from them") {
     CHECK(place_of_a("move = { model = \"goal\", to = [\"7 m\", \"0 m\"] }\n", 10s) == Vec3{7, 0});
     CHECK(place_of_a("move = { model = \"goal\", to = [\"-3 m\", \"0 m\"] }\n", 10s) ==
           Vec3{-3, 0});
@@ -114,7 +115,8 @@ TEST_CASE("world: every movement of a scenario leads around the walls, also far 
     }
 }
 
-TEST_CASE("world: a goal inside a wall is refused, with a message that mentions no map") {
+TEST_CASE(
+    "Stage world: a goal inside a wall is refused, with an error that does not mention a map") {
     const Scenario s =
         scenario("[[robot]]\nname = \"a\"\nmove = { model = \"goal\", to = [\"2 m\", \"0 m\"] }\n");
     std::string why;
@@ -124,14 +126,15 @@ TEST_CASE("world: a goal inside a wall is refused, with a message that mentions 
         why = error.what();
     }
     CHECK(why.find("no path from (5, 0) m to (2, 0) m") != why.npos);
-    CHECK(why.find("it is in a wall, or too near to one") != why.npos);
+    CHECK(why.find("the destination is in a wall, or too near to a wall") != why.npos);
     CHECK(why.find("the map") == why.npos);
     for (const std::string& notice : scenario().notices) {
         CHECK(notice.find("off the map") == notice.npos);
     }
 }
 
-TEST_CASE("world: a door may stand anywhere on the ground, and stops robots while it is closed") {
+TEST_CASE(
+    "Stage world: a door may stand anywhere on the ground, and stops robots while it is closed") {
     const std::string door =
         "[[scene.door]]\nfrom = [\"10 m\", \"-5 m\"]\nto = [\"10 m\", \"5 m\"]\n"
         "thickness = \"0.2 m\"\ncloses = [\"0 s\"]\nopens = [\"20 s\"]\n";

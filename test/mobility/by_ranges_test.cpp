@@ -153,11 +153,13 @@ TEST_CASE("wander, follow_wall: a scene without a map is refused") {
     LoneMover robot(planners);
     Wander wander;
     FollowWall follow;
-    CHECK_THROWS_WITH_AS(robot.walk(wander),
-                         "wander: there is no map, so there is nothing to avoid",
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(
+        robot.walk(wander),
+        "wander: the scene has no map, so there is nothing to avoid; expected a scene with a map",
+        std::invalid_argument);
     CHECK_THROWS_WITH_AS(robot.walk(follow),
-                         "follow_wall: there is no map, so there is no wall to follow",
+                         "follow_wall: the scene has no map, so there is no wall to follow; "
+                         "expected a scene with a map",
                          std::invalid_argument);
 }
 

@@ -82,7 +82,8 @@ TEST_CASE("driven: the position is at most a millimetre off the arc, and the hea
     }
 }
 
-TEST_CASE("driven: at 1 m/s and 1 rad/s, an arc consists of eleven legs a second") {
+TEST_CASE(
+    "driven: at 1 m/s and 1 rad/s, an arc consists of about eleven straight legs per second") {
     Drive drive;
     drive.net.move(drive.robot, Driven{.speed = {1}, .turn_rate = {1}});
     drive.net.run_for(10s);

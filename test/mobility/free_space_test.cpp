@@ -19,7 +19,7 @@ Vec3 centre(const Scene& scene, int column, int row) {
 
 }  // namespace
 
-TEST_CASE("free space: a cell is free exactly if the robot fits at its centre") {
+TEST_CASE("free space: a cell is free exactly if the robot fits at the cell's centre") {
     test::Draw draw(21);
     for (const double radius : {0.0, 0.1, 0.25, 0.3, 0.5, 1.25, 4.0}) {
         OccupancyGrid grid = test::random_map(draw, 60, 45, 1);
@@ -75,8 +75,7 @@ TEST_CASE("free space: a robot fits into a corridor of exactly its own width, at
 }
 
 TEST_CASE(
-    "free space: free cells that steps connect form a part; parts are numbered in the order of "
-    "their first cells") {
+    "free space: free cells connected by steps are one part; parts are numbered by first cell") {
     test::Draw draw(23);
     for (int trial = 0; trial < 30; ++trial) {
         const int columns = 1 + draw.below(40), rows = 1 + draw.below(30);
@@ -105,8 +104,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "free space: on open ground a cell is free exactly if the robot fits there, so the outermost "
-    "cells are free") {
+    "free space: if robots may leave the map, cells around it are added; the outermost are free") {
     for (const double radius : {0.0, 0.2, 0.5, 3.3}) {
         OccupancyGrid grid = test::drawn_map({"#..#", ".#..", "##.#"}, 0.5);
         const FreeSpace bordered(Scene(grid), Meters{radius});

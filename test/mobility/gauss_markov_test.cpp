@@ -67,8 +67,7 @@ double standard_error(double sigma, double a, double n) {
 }  // namespace
 
 TEST_CASE(
-    "gauss_markov: speed and direction are normally distributed, with the memory as correlation of "
-    "legs") {
+    "gauss_markov: speed and direction are normally distributed; the correlation is memory^lag") {
     constexpr int legs = 40'000;
     for (const double a : {0.0, 0.5, 0.9}) {
         CAPTURE(a);
@@ -152,7 +151,7 @@ TEST_CASE("gauss_markov: a robot that moves backward also turns at a border") {
     CHECK(backwards > 0);
 }
 
-TEST_CASE("gauss_markov: a robot turns near a border, before it reaches it") {
+TEST_CASE("gauss_markov: a robot near a border turns before it reaches the border") {
     const Scene field;
     Planners planners(field);
     LoneMover robot(planners, 4);

@@ -29,7 +29,8 @@ constexpr double tolerance = 1e-9;  // [m]
 }  // namespace
 
 TEST_CASE(
-    "group: at the end of each interval the positions of the members are uniform in their discs") {
+    "group: at the end of each interval, members are uniform in discs around leader position plus "
+    "offset") {
     Network net;
     net.add({.name = "A", .at = {50, 0}, .move = ToGoal{.to = {1e4, 5e3}, .speed = {3}}});
     for (int i = 0; i < 20; ++i) {
@@ -54,7 +55,7 @@ TEST_CASE(
     CHECK(net.events() < 2200);
 }
 
-TEST_CASE("group: members expect the leader to stop at the end of its current leg") {
+TEST_CASE("group: members expect the leader to stop at the end of its current piece of movement") {
     Network net;
     net.add({.name = "A", .at = {0, 0}, .move = ToGoal{.to = {7, 0}, .speed = {1}}});
     net.add({.name = "B", .at = {0, 0}, .move = Group{.radius = {0}, .every = 5s}});
@@ -76,7 +77,7 @@ TEST_CASE("group: members know the random start position of their leader") {
     CHECK(distance(net.position({0}), net.position({1})) < 1 + tolerance);
 }
 
-TEST_CASE("group: a member whose top speed is too low arrives later") {
+TEST_CASE("group: a member whose top speed is too low arrives after the end of the interval") {
     Network net;
     net.add({.name = "A", .at = {60, 0}});
     net.add({.name = "B", .at = {0, 0}, .move = Group{.radius = {2}}, .top_speed = {1}});

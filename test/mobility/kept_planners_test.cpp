@@ -22,7 +22,7 @@ std::shared_ptr<const Scene> empty_map(std::size_t columns, std::size_t rows) {
 }  // namespace
 
 TEST_CASE(
-    "kept planners: each scene has its own planners, and repeated calls return the same ones") {
+    "kept planners: each scene has its own planners, and repeated calls return the same planners") {
     KeptPlanners kept;
     const auto one = empty_map(3, 2), other = empty_map(3, 2);
     const auto planners = kept.of(one);
@@ -40,9 +40,7 @@ TEST_CASE("kept planners: a new scene at the address of a freed one gets its own
     }
 }
 
-TEST_CASE(
-    "kept planners: planners of scenes that were not used recently are removed, those of a scene "
-    "in use stay") {
+TEST_CASE("kept planners: only planners of scenes in use, or of scenes used recently, are kept") {
     KeptPlanners kept(35);  // three maps of 10 cells, not four
     std::vector<std::weak_ptr<const Scene>> seen;
     const auto in_use = empty_map(5, 2);

@@ -120,7 +120,7 @@ int robots_with_too_many_legs(const Scene& scene, int robots, double* worst = nu
 }  // namespace
 
 TEST_CASE(
-    "liveness: an arc that meets walls has at most 4 legs more than its chords for each contact") {
+    "liveness: on an arc, each contact with a wall adds at most 4 straight legs to the path") {
     for (const double yaw : {0.0, 0.4, std::numbers::pi}) {
         CAPTURE(yaw);
         const Scene scene(rooms(0.5, yaw));
@@ -130,7 +130,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "liveness: on an arc a robot stops at a wall, waits until it is parallel to it, and leaves") {
+    "liveness: on an arc, a robot stops at a wall, turns until parallel to the wall, and leaves") {
     const Scene scene(test::drawn_map({"..........", "..........", "..........", "##########"}));
     Planners planners(scene);
     // 0.5 m/s at -0.3 rad from a millimetre before contact, 1 rad/s to the left.
@@ -183,9 +183,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "liveness: in follow_wall and wander a stride makes at most one leg, also with a range below "
-    "the distance kept") {
+TEST_CASE("liveness: follow_wall and wander make at most 11 straight legs a second, at any range") {
     const Scene scene(rooms(0.5, 0.0));
     Planners planners(scene);
     test::Draw draw(11);
@@ -209,7 +207,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "liveness: a robot that starts at a wall arrives at its goal, with no more legs than cells") {
+    "liveness: a robot at a wall reaches its goal in fewer straight legs than the map has cells") {
     const Scene scene(rooms(0.5, 0.4));
     Planners planners(scene);
     for (std::uint64_t i = 0; i < 100; ++i) {

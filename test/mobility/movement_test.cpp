@@ -58,14 +58,15 @@ TEST_CASE("movement: a moved-from movement (after std::move) stands still, as Fi
     CHECK(leg_of(taken).to == Vec3{5, 2, 0});
 }
 
-TEST_CASE("movement: a copy continues independently") {
+TEST_CASE("movement: after a copy is made, the original continues without any effect on the copy") {
     Movement goal = Waypoints{.path = {{9, 2, 0}, {9, 9, 0}}};
     Movement copy = goal;
     CHECK(leg_of(goal).to == Vec3{9, 2, 0});
     CHECK(leg_of(copy).to == Vec3{9, 2, 0});
 }
 
-TEST_CASE("movement: a leg that would end after the largest time has the right speed") {
+TEST_CASE(
+    "movement: a motion that would end after the largest time of the clock has the given speed") {
     const MetersPerSecond slow{0.1};
     for (const double metres : {1e7, 1e9}) {  // 3 and 317 years
         CAPTURE(metres);

@@ -166,7 +166,8 @@ TEST_CASE("planner: from open ground there is a path into a room exactly if it h
     }
 }
 
-TEST_CASE("planner: inside of closed walls, paths are the same with and without open ground") {
+TEST_CASE(
+    "planner: inside closed walls, paths are the same whether or not robots may leave the map") {
     test::Draw draw(32);
     for (int trial = 0; trial < 20; ++trial) {
         OccupancyGrid grid = test::random_map(draw, 30, 20, 20);

@@ -72,7 +72,7 @@ TEST_CASE("random_direction: with border_turn uniform, robots gather along the b
 }
 
 TEST_CASE(
-    "random_direction: the mean length of a leg is pi times area over border length (Cauchy)") {
+    "random_direction: the mean length of a trip is pi times area over border length (Cauchy)") {
     const Scene field;
     Planners planners(field);
     LoneMover robot(planners);
@@ -86,7 +86,7 @@ TEST_CASE(
     CHECK(lengths.errors_off(3.141592653589793 * 6000 / 320, lengths.deviation()) < most_errors);
 }
 
-TEST_CASE("random_direction: a robot rests after each leg") {
+TEST_CASE("random_direction: a robot rests after each straight trip") {
     const Scene field;
     Planners planners(field);
     LoneMover robot(planners, 5, {20, 30});

@@ -94,7 +94,7 @@ TEST_CASE("random_walk: borders reflect like mirrors, without loss of time") {
     CHECK(bounces > 500);
 }
 
-TEST_CASE("random_walk: legs are continuous, stay in area and map, and cross no wall") {
+TEST_CASE("random_walk: straight legs join without gaps, stay in area and map, and cross no wall") {
     const Scene map(test::drawn_map({"......", "..##..", "......", "......"}));
     Planners planners(map);
     LoneMover robot(planners, 2, {}, 0.4_m);

@@ -89,19 +89,19 @@ double stationary_density(double x, double y) {
 
 }  // namespace
 
-TEST_CASE("random_waypoint: the mean length of a leg is 0.5214 of the side of a square") {
+TEST_CASE("random_waypoint: the mean length of a trip is 0.5214 of the side of a square") {
     const Sample legs = every_other_leg(200, 200, 40'000);
     CHECK(legs.errors_off(200 * 0.5214054331647207, 200 * 0.247931) < most_errors);
     CHECK(std::abs(legs.deviation() / (200 * 0.247931) - 1) < 0.02);  // 4 / sqrt(2 n)
 }
 
-TEST_CASE("random_waypoint: the mean length of a leg in 1500 m x 300 m is 524.639 m") {
+TEST_CASE("random_waypoint: the mean length of a trip in 1500 m x 300 m is 524.639 m") {
     const double deviation = std::sqrt((1500. * 1500 + 300. * 300) / 6 - 524.639 * 524.639);
     CHECK(every_other_leg(1500, 300, 40'000).errors_off(524.639, deviation) < most_errors);
 }
 
 TEST_CASE(
-    "random_waypoint: legs follow each other without gaps, within the given area and speeds") {
+    "random_waypoint: trips follow each other without gaps, within the given area and speeds") {
     const Scene field;
     Planners planners(field);
     LoneMover robot(planners);
@@ -162,7 +162,8 @@ TEST_CASE(
     CHECK(speeds.errors_off(mean, std::sqrt(square - mean * mean)) < most_errors);
 }
 
-TEST_CASE("random_waypoint: after a classic start, the mean speed falls to the stationary mean") {
+TEST_CASE(
+    "random_waypoint: without a stationary start, the mean speed falls to the stationary mean") {
     const double low = 0.1, high = 20, nominal = 10.05, stationary = 3.755909399773321;
     for (const StartState start : {StartState::uniform, StartState::here}) {
         const RandomWaypoint model{
@@ -203,7 +204,8 @@ TEST_CASE("random_waypoint: positions have the exact stationary density, at the 
     }
 }
 
-TEST_CASE("random_waypoint: the stationary state in 1000 m x 600 m passes the test of ns-3") {
+TEST_CASE(
+    "random_waypoint: in 1000 m x 600 m, speeds and positions pass ns-3's steady-state test") {
     // ns-3's test of its steady-state random waypoint model, with its tolerances.
     const RandomWaypoint model{.area = box(1000, 600), .min_speed = {0.01}, .max_speed = {20}};
     for (const Duration t : {Duration{1ms}, Duration{1000s}}) {

@@ -27,7 +27,7 @@ Leg leg(Duration start, Duration end, Vec3 from, Vec3 velocity) {
 }  // namespace
 
 TEST_CASE(
-    "recorded legs: a robot follows the legs with rests between them, and then the movement ends") {
+    "recorded legs: a robot follows its legs (pieces of movement) and rests, until the last ends") {
     const Scene scene;
     Planners planners(scene);
     LoneMover robot(planners);
@@ -43,7 +43,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "recorded legs: a leg that was replaced before its end is cut where the next leg starts") {
+    "recorded legs: a movement that was replaced before its end is cut where the next one starts") {
     const Scene scene;
     Planners planners(scene);
     LoneMover robot(planners);
@@ -55,9 +55,7 @@ TEST_CASE(
                     std::invalid_argument);
 }
 
-TEST_CASE(
-    "recorded legs: a robot follows the legs at their times, whatever its turn rate and top "
-    "speed") {
+TEST_CASE("recorded legs: a robot moves as recorded, whatever its turn rate and top speed") {
     Network net;
     const NodeId robot =
         net.add({.name = "r",

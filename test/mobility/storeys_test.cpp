@@ -131,7 +131,7 @@ TEST_CASE(
     CHECK(near(net.position(robot), {1 + 1.6, 1, 1.2}));
 }
 
-TEST_CASE("storeys: a movement that looks for walls sees those of the robot's storey") {
+TEST_CASE("storeys: the range finder of a movement model sees the walls of the robot's storey") {
     const auto scene = building();
     Planners planners(*scene);
     const Legs none;

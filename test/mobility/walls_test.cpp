@@ -149,21 +149,21 @@ std::shared_ptr<const Scene> world(const std::string& picture, Meters width, Met
 
 }  // namespace
 
-TEST_CASE("movement models: in an office none of 10,000 legs crosses a wall") {
+TEST_CASE("movement models: in an office none of 10,000 pieces of movement crosses a wall") {
     check_models(office(), {{1, 1}, {18, 8}, {2, 8}, {19, 1}}, 10'000);
 }
 
-TEST_CASE("movement models: on the rescue example's map no leg crosses a wall") {
+TEST_CASE("movement models: on the rescue example's map no piece of movement crosses a wall") {
     const auto map =
         std::make_shared<Scene>(read_ros_map(std::string(ROVERNET_EXAMPLES) + "/rescue/map.yaml"));
     check_models(map, {}, 100);
 }
 
-TEST_CASE("movement models: in the hospital none of 14,000 legs crosses a wall") {
+TEST_CASE("movement models: in the hospital none of 14,000 pieces of movement crosses a wall") {
     if (const auto map = world("hospital_section", {40}, {18})) check_models(map, {}, 2000);
 }
 
-TEST_CASE("movement models: in the cave none of 14,000 legs crosses a wall") {
+TEST_CASE("movement models: in the cave none of 14,000 pieces of movement crosses a wall") {
     if (const auto map = world("cave", {16}, {16})) check_models(map, {}, 2000);
 }
 

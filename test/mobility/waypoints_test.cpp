@@ -109,7 +109,8 @@ TEST_CASE("waypoints: a position whose time has already passed is skipped") {
     CHECK(walk.at(4s) == Vec3{4, 0, 0});
 }
 
-TEST_CASE("waypoints: after the last position with a time, the path continues at its speed") {
+TEST_CASE(
+    "waypoints: after the last position with a time, the robot continues at the path's `speed`") {
     Walk walk(Waypoints{.timed = {{2s, {1, 0, 0}}}, .path = {{1, 4, 0}}, .speed = {4}});
     CHECK(walk.at(2s) == Vec3{1, 0, 0});
     CHECK(near(walk.at(2500ms), {1, 2, 0}));
@@ -117,7 +118,8 @@ TEST_CASE("waypoints: after the last position with a time, the path continues at
 }
 
 TEST_CASE(
-    "waypoints: each leg starts where the previous one ended, and ends where its velocity leads") {
+    "waypoints: a straight leg starts where the last one ended; start, velocity and duration give "
+    "its end") {
     test::Draw draw(17);
     for (int run = 0; run < 30; ++run) {
         Waypoints way{.speed = {draw.uniform(0.1, 30)}};
@@ -202,8 +204,7 @@ TEST_CASE("waypoints: a goal inside a wall or off the map is refused") {
     }
 }
 
-TEST_CASE(
-    "waypoints: with an empty path, or a path to its position, a robot rests and has arrived") {
+TEST_CASE("waypoints: if the path is empty or ends where the robot is, the robot arrives at once") {
     for (const auto& path : {std::vector<Vec3>{}, {{3, 4, 0}}, {{3, 4, 0}, {3, 4, 0}}}) {
         Walk walk(Waypoints{.path = path}, {3, 4, 0});
         CHECK(walk.at(1min) == Vec3{3, 4, 0});
@@ -228,7 +229,7 @@ TEST_CASE("waypoints: a speed that is not > 0 is refused") {
     }
 }
 
-TEST_CASE("waypoints: a leg lasts at least a nanosecond at any speed") {
+TEST_CASE("waypoints: a piece of movement lasts at least a nanosecond at any speed") {
     Walk walk(Waypoints{.path = {{1e-6, 0, 0}, {2e-6, 0, 0}}, .speed = {1e9}});
     CHECK(walk.at(1s) == Vec3{2e-6, 0, 0});
     for (const auto& move : walk.diary->moves) CHECK(move.leg.end > move.leg.start);

@@ -355,7 +355,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "dsr 6.7, 8.3.6: the field segments left decreases along a route, and along a salvaged route") {
+    "dsr 6.7, 8.3.6: the field `Segments Left` counts down along a route, also along a salvaged "
+    "route") {
     const CapturedRun run(two_ways, {"routing.protocol=dsr"});
     std::map<std::string, int> found;
     lines_of(run.trace, [&](const SentFrame& of) -> std::string {

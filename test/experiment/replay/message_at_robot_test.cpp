@@ -83,15 +83,15 @@ TEST_CASE(
 
 TEST_CASE("message at a robot: a received message is described by sender, time and level") {
     const Run run({0, 100, 400}, one_message);
-    CHECK(run.says(0, 0) == "A sent it.");
+    CHECK(run.says(0, 0) == "A is the origin of the message.");
     CHECK(run.says(0, 1).starts_with(
-        "B got the message from A, 0.193 ms after it was sent: that "
-        "frame came at -63.70 dBm, 11.3 dB above the sensitivity of the receiver."));
+        "B received the message from A, 0.193 ms after the message was sent: the frame came at "
+        "-63.70 dBm, 11.3 dB above the sensitivity of the receiver."));
     const MessageAtRobot there = run.look(0, 2);
     REQUIRE(there.frames.size() >= 2);
     CHECK(there.frames[0].outcome == Outcome::too_weak);  // A's, over 400 m
     CHECK(there.frames[1].outcome == Outcome::received);
-    CHECK(sentence(there).starts_with("C got the message from B"));
+    CHECK(sentence(there).starts_with("C received the message from B"));
     const MessageAtRobot back = run.look(0, 0);
     REQUIRE_FALSE(back.frames.empty());
     CHECK(back.frames[0].outcome == Outcome::duplicate);
@@ -103,12 +103,12 @@ TEST_CASE(
                                 "[[robot]]\nname = \"X\"\nat = [\"50 m\", \"0 m\"]\n"
                                 "off = [\"0.5 s\"]\n");
     CHECK(off.look(0, 2).frames.at(0).outcome == Outcome::off);
-    CHECK(off.says(0, 2) == "X was off: it could receive none of 2 frames.");
+    CHECK(off.says(0, 2) == "X was switched off, and could receive none of 2 frames.");
     const Run gated({0, 100}, one_message +
                                   "[[robot]]\nname = \"X\"\nat = [\"50 m\", \"0 m\"]\n"
                                   "radio = { channel = 7 }\n");
     CHECK(gated.look(0, 2).frames.at(0).outcome == Outcome::other_network);
-    CHECK(gated.says(0, 2).starts_with("X is in another network"));
+    CHECK(gated.says(0, 2).starts_with("X is in a different network"));
 }
 
 TEST_CASE("message at a robot: a collision names the other frames on air and their levels") {
@@ -142,8 +142,8 @@ TEST_CASE("message at a robot: a message is lost because the receiver was sendin
 }
 
 TEST_CASE(
-    "message at a robot: each attempt of a unicast is a frame; other robots report a frame for "
-    "another robot") {
+    "message at a robot: each attempt of a unicast is listed; at other robots it is marked as sent "
+    "to another robot") {
     const Run run({0, 100, 200},
                   "[access]\nmodel = \"csma\"\n[[traffic]]\nkind = \"unicast\"\nfrom = \"A\"\nto = "
                   "\"B\"\npayload = \"x\"\nstart = \"1 s\"\n"
@@ -152,7 +152,7 @@ TEST_CASE(
                   "[[robot]]\nname = \"D\"\nat = [\"5000 m\", \"0 m\"]\n");
     CHECK(run.look(0, 1).frames.at(0).outcome == Outcome::received);
     CHECK(run.look(0, 2).frames.at(0).outcome == Outcome::for_another);
-    CHECK(run.says(0, 2) == "1 frame was sent, for another robot.");
+    CHECK(run.says(0, 2) == "1 frame was sent, but to a robot other than C.");
     const MessageAtRobot far = run.look(1, 3);
     CHECK(far.frames.size() == 7);  // the attempts at a short frame
     CHECK(run.says(1, 3).starts_with("D was never in range: the strongest of 7 frames"));

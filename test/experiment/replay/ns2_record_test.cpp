@@ -17,7 +17,8 @@ namespace ns2_record_test {
 using namespace rovernet;
 using namespace rovernet::testing;
 
-TEST_CASE("an ns-2 trace read as records has the same metrics, positions and airtimes") {
+TEST_CASE(
+    "an ns-2 trace converted to records keeps metrics, and positions and airtimes of the run") {
     const TempFolder folder;
     RunOptions to;
     to.folder = folder / ".";
@@ -57,6 +58,24 @@ TEST_CASE("an ns-2 trace read as records has the same metrics, positions and air
         ++frames;
     }
     CHECK(frames == a.transmissions);
+}
+
+TEST_CASE(
+    "an ns-2 trace whose MAC lines contain lost frames does not get the notice that it contains "
+    "none") {
+    for (const bool mac : {false, true}) {
+        CAPTURE(mac);
+        const TempFolder folder;
+        RunOptions to;
+        to.folder = folder / ".";
+        run_scenario(load_scenario(ROVERNET_EXAMPLES "/rescue/rescue.toml",
+                                   {.set = {"trace.ns2=old", "reception.model=collision",
+                                            mac ? "trace.mac=true" : "trace.mac=false"}}),
+                     to);
+        const auto notices = record_ns2_trace(folder / "trace.tr", folder / "ns2.mcap", {});
+        REQUIRE(notices.size() == 2);
+        CHECK((notices[1].find("contains no lost frames") == std::string::npos) == mac);
+    }
 }
 
 }  // namespace ns2_record_test

@@ -119,8 +119,8 @@ TEST_CASE("replay of a recorded trace: robots keep their roles in the routing pr
 }
 
 TEST_CASE(
-    "replay of a recorded trace: a robot without recorded legs stands at its start in the "
-    "scenario") {
+    "replay of a recorded trace: a robot without recorded movements stands where the scenario puts "
+    "it") {
     const TemporaryFolder folder;
     RecordedReader trace(record(folder, busy_day));
     RecordedRun run = trace.run();

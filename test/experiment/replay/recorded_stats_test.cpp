@@ -250,7 +250,8 @@ size = "900 B"
 
 }  // namespace
 
-TEST_CASE("recorded trace: counts and paths from records equal those from its text: real runs") {
+TEST_CASE(
+    "recorded trace: for real runs, counts and message paths from records and text are equal") {
     for (const std::string access : {"csma\"\nrts_threshold = \"300 B", "csma", "aloha"}) {
         CAPTURE(access);
         const TempFolder folder;
@@ -264,8 +265,7 @@ TEST_CASE("recorded trace: counts and paths from records equal those from its te
     }
 }
 
-TEST_CASE(
-    "recorded trace: counts and paths from records equal those from its text: random records") {
+TEST_CASE("recorded trace: for random records, counts and paths from records and text are equal") {
     const TempFolder folder;
     for (unsigned seed = 0; seed < 6; ++seed) {
         CAPTURE(seed);
@@ -295,7 +295,8 @@ TEST_CASE(
     CHECK(recorded_stats(folder / "trace.mcap").stats.counts.refused == 1);
 }
 
-TEST_CASE("recorded trace: counts equal those of its text if chunks are damaged") {
+TEST_CASE(
+    "recorded trace: if chunks are damaged, records and text still give equal counts and paths") {
     const TempFolder folder;
     const std::string path = folder / "trace.mcap";
     record(path, [](Stream& stream) { OddRecords(stream, 1, 0).run(900); });
@@ -310,6 +311,42 @@ TEST_CASE("recorded trace: counts equal those of its text if chunks are damaged"
         write_file(path, whole.substr(0, at));
         check_both_ways(path, 3);
     }
+}
+
+TEST_CASE(
+    "recorded trace: the table by robot has a row also for a robot at which nothing happened") {
+    const TempFolder folder;
+    testing::write_file(folder / "s.toml", R"([scenario]
+name = "far"
+duration = "3 s"
+[propagation]
+model = "disc"
+range = "50 m"
+[trace]
+record = true
+ns2 = "old"
+[[robot]]
+name = "A"
+at = ["0 m", "0 m"]
+[[robot]]
+name = "C"
+at = ["900 m", "0 m"]
+[[traffic]]
+from = "A"
+payload = "F"
+)");
+    run_scenario(load_scenario(folder / "s.toml", {}), {.folder = folder / "out", .speed = {}});
+    const auto rows_of = [](const TraceStats& stats) {
+        std::vector<std::string> names;
+        for (const TraceRow& row : stats.rows) names.push_back(row.name);
+        return names;
+    };
+    const std::vector<std::string> both{"0", "1"};
+    const auto tolerant = Ns2Strictness::tolerant;
+    const std::string recorded = folder / "out/trace.mcap", text = folder / "out/trace.tr";
+    CHECK(rows_of(recorded_stats(recorded, tolerant, TraceRows::robot).stats) == both);
+    CHECK(rows_of(ns2_stats(text, tolerant, TraceRows::robot)) == both);
+    check_both_ways(recorded, 1);
 }
 
 }  // namespace recorded_stats_test

@@ -3,6 +3,7 @@
 
 #include "experiment/recorded_scenario.hpp"
 #include "experiment/run.hpp"
+#include "experiment/session.hpp"
 #include "experiment/summary.hpp"
 #include "scenario/document/json.hpp"
 #include "scenario/scenario_file.hpp"
@@ -122,6 +123,28 @@ TEST_CASE("a run is repeatable with each model of propagation, reception and acc
         CHECK_FALSE(again.difference);
         CHECK(again.same > 500);
     }
+}
+
+TEST_CASE("a run that stopped between the receptions of a frame can be repeated from its trace") {
+    TempFolder folder;
+    testing::write_file(folder / "busy.toml", busy);
+    const RecordedRunOf whole(folder / "busy.toml", {});
+    std::vector<Time> firsts;
+    RecordedReader reader(whole.trace);
+    std::uint64_t records = 0;
+    for (; const Record* record = reader.next(); ++records) {
+        const auto* received = std::get_if<Received>(record);
+        if (received) firsts.push_back(received->receptions[0].time);
+    }
+    const Scenario scenario = load_scenario(folder / "busy.toml", {.set = {"trace.record=true"}});
+    ScenarioRun run(scenario);
+    run.write_to(folder / "stopped");
+    for (const Time time : firsts) run.session().step(time);
+    run.session().step(run.session().end());
+    run.finish();
+    const Verification again = verify_replay(folder / "stopped/trace.mcap", {});
+    CHECK_FALSE(again.difference);
+    CHECK(again.same > records);
 }
 
 TEST_CASE("a trace of format 3, without the bit rates of its frames, can be repeated") {

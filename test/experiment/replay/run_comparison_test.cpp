@@ -81,8 +81,8 @@ TEST_CASE("run comparison: a run does not differ from itself") {
 }
 
 TEST_CASE(
-    "run comparison: for a lost delivery, the outcome in the other run is that of the message's "
-    "last frame") {
+    "run comparison: a delivery missing in one run has the outcome of the message's last frame in "
+    "this run") {
     const test::TemporaryFolder folder;
     const std::string trace = record(folder, "relay/routes.toml", "run");
     const std::string other = folder.path("other.mcap");
@@ -101,8 +101,8 @@ TEST_CASE("run comparison: traces of runs with different robots are refused") {
     const std::string rescue = record(folder, "rescue/rescue.toml", "rescue");
     const std::string patrol = record(folder, "patrol/patrol.toml", "patrol");
     CHECK_THROWS_WITH_AS(compare(rescue, patrol),
-                         "other: found 9 robots, but 5 in one; two runs are compared robot by "
-                         "robot: expected the same names in the same order",
+                         "other: found 9 robots, but 5 robots in one; two runs are compared robot "
+                         "by robot: expected the same robots in the same order",
                          InputError);
 }
 

@@ -79,8 +79,8 @@ TEST_CASE("link gaps: a turn of the path does not divide a gap") {
 }
 
 TEST_CASE(
-    "link gaps: a relay closes a gap only if it is named as a relay, and only if it reaches the "
-    "partner") {
+    "link gaps: a relay closes a gap only if it is named as a relay and is linked to an access "
+    "point") {
     const test::TemporaryFolder folder;
     const auto with_relay = [&](const std::string& x) {
         return read(folder,
@@ -94,7 +94,7 @@ TEST_CASE(
     CHECK(near(seconds(link_gaps(with_relay("50"), mesh).lost()), 200 - 2 * heard));
 }
 
-TEST_CASE("link gaps: a link in one direction only does not count") {
+TEST_CASE("link gaps: where only one direction of a link works, the robot has a gap") {
     const test::TemporaryFolder folder;
     const Scenario s =
         read(folder, corridor + "propagation = { model = \"disc\", range = \"10 m\" }\n");
@@ -103,7 +103,9 @@ TEST_CASE("link gaps: a link in one direction only does not count") {
     CHECK(near(gaps.gaps[0].from.x, std::sqrt(10.0 * 10.0 - 3.0 * 3.0)));
 }
 
-TEST_CASE("link gaps: a gap continues while the robot is off, and ends when the robot leaves") {
+TEST_CASE(
+    "link gaps: a gap continues while the robot is off, and ends when the robot leaves the "
+    "scenario") {
     const test::TemporaryFolder folder;
     const Scenario off = read(folder, corridor + "off = [\"10 s\"]\non = [\"15 s\"]\n");
     const LinkGaps gaps = link_gaps(off, {.robot = "rover", .partners = {"west"}});
@@ -144,7 +146,8 @@ TEST_CASE("link gaps: a gap begins and ends at the times and positions in the hi
     CHECK(rows[2].to_at == gaps.gaps[0].to);
 }
 
-TEST_CASE("link gaps: a partner that is unknown, named twice or the robot itself is an error") {
+TEST_CASE(
+    "link gaps: an access point that is unknown, named twice or the robot itself is an error") {
     const test::TemporaryFolder folder;
     const Scenario s = read(folder, corridor);
     CHECK_THROWS_AS(link_gaps(s, {.robot = "rover", .partners = {"wst"}}), std::invalid_argument);

@@ -43,8 +43,8 @@ struct ThreeRobots {
 }  // namespace
 
 TEST_CASE(
-    "routes: unknown fields are empty in CSV and null in JSON, and a path lists the names of its "
-    "robots") {
+    "routes: values that a route does not have are empty in CSV and null in JSON, and a path lists "
+    "its robots by name") {
     const ThreeRobots robots;
     const Network& net = robots.net;
     std::string csv, json;

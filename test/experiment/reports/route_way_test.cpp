@@ -56,9 +56,7 @@ RouteState broken(RouteState route) {
 
 }  // namespace
 
-TEST_CASE(
-    "route path: each hop comes from the routing table of the robot there, with the age of the "
-    "route") {
+TEST_CASE("route path: each hop and its age come from the routing table of the hop's sender") {
     const Row row({{0, {route(3, 1, 3)}}, {1, {route(3, 2, 2, 1s)}}, {2, {route(3, 3, 1)}}});
     const RouteWay way = row.way(3);
     REQUIRE(way.hops.size() == 3);
@@ -68,17 +66,19 @@ TEST_CASE(
     CHECK(way.hops[1].age == 4s);
     CHECK(way.hops[2].is_up);
     CHECK_FALSE(way.broken_at);
-    CHECK(row.text(3) == "route from r0 to r3: r0 > r1 > r2 > r3, 3 hops, learnt up to 4 s ago");
+    CHECK(row.text(3) ==
+          "route from r0 to r3: r0 > r1 > r2 > r3, 3 hops, oldest part learnt 4 s ago");
 }
 
 TEST_CASE("route path: the path ends at a robot without a route, or with a broken route") {
-    CHECK(Row({}).text(3) == "route from r0 to r3 breaks off at r0: it has no route to r3");
+    CHECK(Row({}).text(3) == "route from r0 to r3 breaks off at r0: this robot has no route to r3");
     const Row none({{0, {route(3, 1, 3)}}, {1, {route(4, 2, 3)}}});
     CHECK(none.way(3).broken_at == NodeId{1});
-    CHECK(none.text(3) == "route from r0 to r3 breaks off at r1: it has no route to r3 (r0 > r1)");
+    CHECK(none.text(3) ==
+          "route from r0 to r3 breaks off at r1: this robot has no route to r3 (r0 > r1)");
     const Row old({{0, {route(3, 1, 3)}}, {1, {broken(route(3, 2, 2))}}});
     CHECK(old.way(3).hops.size() == 1);
-    CHECK(old.text(3).find("at r1: its route to r3 is broken") != std::string::npos);
+    CHECK(old.text(3).find("at r1: the route of this robot to r3 is broken") != std::string::npos);
     // Of several routes the shortest valid one is taken.
     const Row two({{0, {route(1, 4, 1), broken(route(2, 4, 1)), route(2, 3, 3), route(2, 1, 2)}},
                    {1, {route(2, 2, 1)}}});
@@ -86,15 +86,15 @@ TEST_CASE("route path: the path ends at a robot without a route, or with a broke
 }
 
 TEST_CASE(
-    "route path: the path is broken at the first hop that is not heard; later hops still come from "
-    "routing tables") {
+    "route path: the path breaks at the first sender that its next hop does not hear; later hops "
+    "follow routing tables") {
     const Row far({{0, {route(4, 2, 2)}}, {2, {route(4, 3, 2)}}, {3, {route(4, 4, 1)}}});
     const RouteWay way = far.way(4);
     REQUIRE(way.hops.size() == 3);
     CHECK_FALSE(way.hops[0].is_up);
     CHECK(way.hops[1].is_up);
     CHECK(way.broken_at == NodeId{0});
-    CHECK(way.reason == "r2 does not hear it");
+    CHECK(way.reason == "r2 does not hear this robot");
     const Row off({{0, {route(2, 1, 2)}}, {1, {route(2, 2, 1)}}}, 1);
     CHECK(off.way(2).reason == "r1 is off");
     CHECK(off.way(2).broken_at == NodeId{0});
@@ -105,7 +105,7 @@ TEST_CASE("route path: a path in a routing loop ends where the loop closes") {
     const RouteWay way = loop.way(4);
     CHECK(way.hops.size() == 3);
     CHECK(way.broken_at == NodeId{1});
-    CHECK(way.reason == "its route leads back to it");
+    CHECK(way.reason == "the route leads back to this robot");
 }
 
 TEST_CASE("route path: a source route is followed, whatever the tables contain") {

@@ -73,7 +73,8 @@ TEST_CASE("whereabouts: the answers are in the order of the requested times") {
     CHECK(all[2].robots[0].position == Vec3{10, 0, 0});
 }
 
-TEST_CASE("network: take_away() switches a robot's radio off until switch_on() is called") {
+TEST_CASE(
+    "network: take_away() switches a robot's radio off and stores the reason, until switch_on()") {
     Network net;
     const NodeId a = net.add({.name = "a", .at = {}, .radius = {0.7}});
     CHECK(net.robot(a).presence == Presence::on);

@@ -83,7 +83,7 @@ TEST_CASE(
     CHECK(order == "0:0 0:1 10:0 15:0 ");
     REQUIRE(p.file.notices().size() == 1);
     CHECK(p.file.notices()[0].ends_with(
-        "scen.movements is not in order of time: 4 legs are kept in memory"));
+        "scen.movements is not sorted by time, so 4 legs of the robots' paths are kept in memory"));
 }
 
 TEST_CASE(
@@ -203,7 +203,7 @@ TEST_CASE("bonnmotion: an invalid list of waypoints is refused, with line and co
           "scen.movements:1:14: found a line of 7 numbers, expected \"time x y z\" once or more: a "
           "multiple of 4, or of 3");
     CHECK(error_of("0 1 1 5 1 1 4 2 1\n") ==
-          "scen.movements:1:13: found \"4\", expected a later time than that of the previous "
+          "scen.movements:1:13: found \"4\", expected a later time than the time of the previous "
           "waypoint");
     CHECK(error_of("0 1 1 5 1 1 5 2 1\n") ==
           "scen.movements:1:13: found a different place at the time of the previous waypoint, "
@@ -276,8 +276,7 @@ TEST_CASE("bonnmotion: an endless line is refused, compressed or not") {
 }
 
 TEST_CASE(
-    "bonnmotion: a file with one line for each time, not each node, is refused; nodes at rest are "
-    "accepted") {
+    "bonnmotion: a file with one line per time, not per node, is refused; resting nodes are not") {
     for (const char* track : {"0 0.5 1.5\n1 1.5 1.5\n2 2.5 1.5\n", "0.0 1 2 0\n0.1 1 3 0\n",
                               "0 1 1\n0 5 5\n1 1 2\n1 5 6\n", "3 1 1\n4 1 1\n"}) {
         CAPTURE(track);

@@ -137,7 +137,7 @@ TEST_CASE("fcd: content that is invalid in an FCD file is refused, with line and
     CHECK(body(step("0", at("a", "0", "0")) + step("1", at("a", "0", "0") + at("a", "1", "0"))) ==
           "fcd.xml:5:76: found \"a\", expected each id only once in a timestep");
     CHECK(body(step("2", "") + step("2", "")) ==
-          "fcd.xml:5:17: found \"2\", expected a later time than that of the timestep before");
+          "fcd.xml:5:17: found \"2\", expected a later time than the time of the timestep before");
     CHECK(body(step("-1", "")) == "fcd.xml:4:17: found \"-1\", expected a time from 0 to 9e9 [s]");
     CHECK(body(step("0", "<vehicle id=\"a\"\n  x=\"1\"\n y=\"1,5\"/>")) ==
           "fcd.xml:6:5: found \"1,5\", expected a coordinate from -1e9 to 1e9 [m]");
@@ -162,7 +162,7 @@ TEST_CASE("fcd: XML that is not well-formed is refused, with line and column") {
     CHECK(body("text") == "fcd.xml:4:1: found \"text\", expected a tag (<)");
     CHECK(body("<!DOCTYPE x>") == "fcd.xml:4:1: found \"<!DOCTYPE\", expected an element");
     CHECK(body("<![CDATA[x]]>") == "fcd.xml:4:1: found \"<![CDATA[\", expected an element");
-    CHECK(body("<!-- x") == "fcd.xml:4:1: found no end, expected \"-->\"");
+    CHECK(body("<!-- x") == "fcd.xml:4:1: found no end of what begins here, expected \"-->\"");
     CHECK(body("<timestep time=\"0") == "fcd.xml:4:1: the file ends inside a tag, expected \">\"");
     CHECK(body("<timestep time=0>") == "fcd.xml:4:16: found \"0>\", expected a value in quotes");
     CHECK(body("<timestep time>") ==
@@ -230,7 +230,7 @@ TEST_CASE(
     CHECK(wrong == 0);
 }
 
-TEST_CASE("fcd: the end of a comment may lie across two blocks") {
+TEST_CASE("fcd: the end of a comment may cross two of the blocks in which the file is read") {
     const std::size_t portion = 64 * 1024;
     for (std::size_t n = portion - 100; n < portion + 3; ++n) {
         const std::string comment = "<!--" + std::string(n, 'x') + "-->\n";

@@ -235,7 +235,7 @@ TEST_CASE("writer: an endless motion without an end time is refused") {
     CHECK(setdest_text({}, at(3)).starts_with("# nodes: 0"));
 }
 
-TEST_CASE("writer: between two legs and after the last a robot rests") {
+TEST_CASE("writer: a robot rests between two legs (pieces of movement), and after the last leg") {
     const std::vector<Track> tracks = {
         {"a", {leg(1, 3, {1, 1, 0}, {5, 1, 0}), leg(7, 9, {5, 1, 0}, {5, 9, 0})}}};
     CHECK(bonnmotion_text(tracks, at(10)) ==
@@ -249,7 +249,7 @@ TEST_CASE("writer: between two legs and after the last a robot rests") {
     CHECK(distance(p.position("n0", 8), {5, 5, 0}) < setdest_tolerance);
 }
 
-TEST_CASE("writer: a jump is written as a jump in both file formats") {
+TEST_CASE("writer: a robot's jump is written as a jump in files for setdest and BonnMotion") {
     const std::vector<Track> tracks = {
         {"a",
          {leg(0, 10, {1, 1, 0}, {11, 1, 0}), leg(5, 10, {50, 60, 7}, {55, 60, 7}),

@@ -102,7 +102,7 @@ TEST_CASE("setdest: a node moves around a square") {
     CHECK(near(p.velocity("n0", 5), {}));
 }
 
-TEST_CASE("setdest: start positions may follow the motions in the file, and then take no memory") {
+TEST_CASE("setdest: start positions may follow the motions in the file, without a notice") {
     const std::string moves =
         "$ns_ at 1.0 \"$node_(0) setdest 10 2 1\"\n"
         "$ns_ at 2.0 \"$node_(1) setdest 1 1 1\"\n";
@@ -152,7 +152,8 @@ TEST_CASE("setdest: an invalid line is refused with its line number, or in toler
         {"$node_(10000000) set X_ 4", "1: found \"$node_(10000000)\", expected a node"},
         {"$node_(0) setX_ 5", "11: found \"setX_\", expected set; did you mean \"set\"?"},
         {"$node_(0) set Q_ 5", "15: found \"Q_\", expected X_, Y_ or Z_"},
-        {"$node_(0) set X_", "17: the line ends, expected a coordinate from -1e9 to 1e9 [m]"},
+        {"$node_(0) set X_",
+         "17: found the end of the line, expected a coordinate from -1e9 to 1e9 [m]"},
         {"$node_(0) set X_ 1 2", "20: found \"2\", expected the end of the command"},
         {"$node_(0) set X_ 1; $node_(0) set Y_ 2", "18: found \"1;\", expected a coordinate"},
         {"$node_(0) setdest 1 2 3", "11: found \"setdest\", expected set; a setdest needs a time"},
@@ -163,7 +164,7 @@ TEST_CASE("setdest: an invalid line is refused with its line number, or in toler
          "1: found \"$ns_at\", expected $node_(0) set ..."},
         {"$ns_ in 4.0 \"$node_(0) setdest 4 4 1\"", "6: found \"in\", expected at"},
         {"$ns_ at 5.0 \"$node_(0) setdest 5 5\"",
-         "35: the line ends, expected a speed from 0 to 1e9 "
+         "35: found the end of the line, expected a speed from 0 to 1e9 "
          "[m/s]"},
         {"$ns_ at 5.0 \"$node_(0) setdst 5 5 5\"",
          "24: found \"setdst\", expected setdest or set; did "
@@ -172,9 +173,9 @@ TEST_CASE("setdest: an invalid line is refused with its line number, or in toler
          "13: found \"$node_(0)\", expected a command in "
          "quotes (\")"},
         {"$ns_ at 5.0 \"$node_(0) setdest 5 5 5",
-         "37: the line ends, expected a closing quote (\")"},
-        {"$ns_ at 5.0 \"", "14: the line ends, expected a closing quote (\")"},
-        {"$ns_ at 5.0 \"\"", "14: the line ends, expected a node"},
+         "37: found the end of the line, expected a closing quote (\")"},
+        {"$ns_ at 5.0 \"", "14: found the end of the line, expected a closing quote (\")"},
+        {"$ns_ at 5.0 \"\"", "14: found the end of the line, expected a node"},
         {"$ns_ at 5.0 \"$node_(0) setdest 5 5 5 5\"",
          "38: found \"5\", expected the end of the "
          "command"},
@@ -195,7 +196,7 @@ TEST_CASE("setdest: an invalid line is refused with its line number, or in toler
     }
 }
 
-TEST_CASE("setdest: for a node without brackets the error shows how to write it") {
+TEST_CASE("setdest: for a node named $n0, the error shows the expected form $node_(0)") {
     const std::string course_script =
         "set ns [new Simulator]\n"
         "$ns node-config -adhocRouting AODV\n"
@@ -331,7 +332,7 @@ TEST_CASE("setdest: a target at the current position causes no motion (ns-3 bug 
     CHECK(p.file.end() == start_of_run + from_seconds(5));
 }
 
-TEST_CASE("setdest: after six motions, end position and height are right (ns-3 bug 1316)") {
+TEST_CASE("setdest: six motions, some cut short, give the calculated positions (ns-3 bug 1316)") {
     const auto p = played(
         "$node_(0) set X_ 200\n$node_(0) set Y_ 100\n$node_(0) set Z_ 7\n"
         "$ns_ at 20 \"$node_(0) setdest 500 100 2\"\n"
@@ -361,7 +362,8 @@ TEST_CASE("setdest: commands to ns-2's object god are ignored") {
 }
 
 TEST_CASE(
-    "setdest: a file out of order is kept in memory, causes one notice and gives the same motion") {
+    "setdest: lines that are not in order of time cause one notice, and the same motion as sorted "
+    "lines") {
     std::mt19937 draw(3);
     const auto below = [&](unsigned n) { return static_cast<double>(draw() % n); };
     std::vector<std::string> lines;
@@ -389,7 +391,7 @@ TEST_CASE(
     CHECK(a.file.notices().empty());
     REQUIRE(b.file.notices().size() == 1);
     CHECK(b.file.notices()[0].ends_with(
-        "scen.tcl is not in order of time: 300 legs are kept in memory"));
+        "scen.tcl is not sorted by time, so 300 legs of the robots' paths are kept in memory"));
     REQUIRE(a.commands.size() == b.commands.size());
     int differences = 0;
     for (std::size_t i = 0; i < a.commands.size(); ++i) {
