@@ -68,14 +68,15 @@ class Served {
             const std::string_view said = line.data();
             if (said.starts_with(words)) return std::atoi(line.data() + words.size());
         }
-        throw std::runtime_error("the command listens on nothing");
+        throw std::runtime_error(
+            "the measured command printed no line \"listening on 127.0.0.1:PORT\"");
     }
     void interrupt() const { kill(pid_, SIGINT); }
     /// Waits for the end of the command. @return CPU time of the command [s]
     double end() {
         const auto [status, usage] = wait();
         if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-            throw std::runtime_error("the command failed");
+            throw std::runtime_error("the measured command failed");
         }
         const auto seconds = [](const timeval& time) {
             return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);

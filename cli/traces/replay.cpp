@@ -56,10 +56,11 @@ void print_verification(const ReplayArguments& a, const Verification& v) {
         fmt::print("identical: {} {}\n", v.same, v.unit);
     } else if (!v.difference) {
         fmt::print(
-            "incomplete: the first {} {} are equal, and the rest of the trace cannot be read\n",
+            "incomplete: the first {} {} of the trace and of the new run are equal; the rest of "
+            "the trace cannot be read\n",
             v.same, v.unit);
     } else {
-        fmt::print("different after {} {}\nrecorded  {}\nnow       {}\n", v.same, v.unit,
+        fmt::print("different after {} equal {}\nrecorded  {}\nnow       {}\n", v.same, v.unit,
                    or_nothing(v.difference->recorded), or_nothing(v.difference->now));
     }
     if (is_other_version) {
@@ -83,7 +84,7 @@ void verify(const ReplayArguments& a) {
     if (!v.is_identical()) {
         throw CommandEnd(failed, a.file +
                                      ": the trace is damaged or incomplete, so it is unknown "
-                                     "whether the run is the same");
+                                     "whether the new run equals the recorded run");
     }
 }
 
@@ -265,14 +266,13 @@ void print_radios(const ReplayArguments& a, const Radios& radios, const std::vec
     print_rows(radios, rows);
     print_robots(radios.day, rows);
     fmt::print(
-        "\nRobots move and send as in the trace; they do not react to the messages of the new "
-        "radio.\n");
+        "\nRobots move and send as in the trace, whatever the new radio receives.\nThe columns "
+        "difference, gained and lost compare each row with the row \"{}\".\n",
+        radios.first);
     if (!radios.plays_first) return;
     fmt::print(
-        "{}: the protocol of the trace is not simulated. Differences are relative to the row "
-        "\"{}\".\n",
-        a.routing == "direct" ? "Messages go directly to their destinations" : "Messages flood",
-        radios.first);
+        "The protocol of the trace is not simulated: {}.\n",
+        a.routing == "direct" ? "messages go directly to their destinations" : "messages flood");
 }
 
 /// The command of these rows, but for what makes each of them.
@@ -387,13 +387,13 @@ void add_replay(Command app) {
     };
     add("--map", a.map, "map (.yaml, .png) to use instead of the recorded map");
     add("--as", a.as,
-        "for an ns-2 trace: radio with which the radios of --with are compared, given in the same "
-        "form");
+        "for an ns-2 trace: radio with which the radios of --with are compared, given as KEY=VALUE "
+        "like --with");
     add("--routing", a.routing,
         "for an ns-2 trace: routing of its messages, flood or direct (default: flood)")
         .one_of({"flood", "direct"});
     add("--movements", a.movements, "for an ns-2 trace: movement file of its robots");
-    add("--store", a.store, "also write the rows to this store, for rovernet results and plot");
+    add("--store", a.store, "also write the rows to this store, which results and plot read");
     add_json(replay, a.json);
 }
 

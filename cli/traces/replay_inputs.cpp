@@ -26,11 +26,14 @@ void print_inputs(const ReplayArguments& a, const InputReplay& replay) {
     } else if (is_identical) {
         fmt::print("identical: {} inputs, fingerprint {}\n", replay.inputs, replay.now);
     } else if (replay.recorded.empty()) {
-        fmt::print("the log is cut after {} inputs; fingerprint up to there {}\n", replay.inputs,
-                   replay.now);
+        fmt::print(
+            "the log ends after {} inputs, without the fingerprint of the run; the replay up to "
+            "the last input has the fingerprint {}\n",
+            replay.inputs, replay.now);
     } else {
-        fmt::print("different\nrecorded  {}\nnow       {}\nrecorded by {}; this is {}\n",
-                   replay.recorded, replay.now, replay.recorded_by, code_version());
+        fmt::print(
+            "the fingerprints differ\nrecorded  {}\nnow       {}\nrecorded by {}; this is {}\n",
+            replay.recorded, replay.now, replay.recorded_by, code_version());
     }
 }
 
@@ -49,12 +52,12 @@ void tell_of_log(const InputReplay& replay) {
     }
     if (replay.recorded.empty()) {
         notice(replay.log +
-               ": the run of this log did not end; it is replayed up to the last input");
+               ": the run of this log did not end; the log is replayed up to the last input");
     }
     for (const std::string& other : replay.others) {
         notice(other +
-               ": the log of a different run, which did not end, is in this folder; give the name "
-               "of the log to replay it");
+               ": this folder contains the log of a different run that did not end; to replay that "
+               "log, give the name of the log");
     }
 }
 
@@ -71,7 +74,9 @@ void verify_inputs(const ReplayArguments& a) {
     tell_of_log(replay);
     print_inputs(a, replay);
     if (!replay.recorded.empty() && replay.recorded != replay.now) {
-        throw CommandEnd(failed, a.file + ": the run differs from its fingerprint");
+        throw CommandEnd(
+            failed,
+            a.file + ": the replayed run has a different fingerprint than the recorded run");
     }
 }
 

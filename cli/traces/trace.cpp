@@ -133,7 +133,7 @@ Table stats_table(const ToldStats& stats, const std::string& by) {
         table.set("routing_bytes", stats.routing_bytes);
         table.set("routing_load", per(stats.routing_packets, stats.metrics.deliveries));
         table.set("routing_load_bytes", per(stats.routing_bytes, stats.delivered_bytes));
-        table.set("data_transmissions", stats.metrics.transmissions);
+        table.set("data_transmissions", stats.data_transmissions);
     }
     table.set("jitter_mean_s", stats.jitter_mean);
     table.set("jitter_rfc3550_s", stats.jitter_rfc3550);

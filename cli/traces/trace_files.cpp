@@ -71,7 +71,7 @@ void convert_to_capture(const TraceConvertArguments& a) {
 void trace_convert(const TraceConvertArguments& a) {
     if (a.to == "pcapng") return convert_to_capture(a);
     if (a.to == "foxglove") {
-        check_is_recorded(a, "the map and the bodies of robots are those of the scenario");
+        check_is_recorded(a, "the map and the bodies of robots are taken from the scenario");
         return tell_damage(a.in, convert_to_foxglove(a.in, a.out));
     }
     TraceInput::Lines lines;
@@ -92,6 +92,10 @@ void trace_cut(const TraceCutArguments& a) {
     TraceCut cut;
     if (a.from) cut.from = start_of_run + option_time("--from", *a.from);
     if (a.to) cut.to = start_of_run + option_time("--to", *a.to);
+    if (a.from && a.to && cut.from >= cut.to) {
+        throw InputError({fmt::format("--from {} --to {}", *a.from, *a.to), 0, 0, true},
+                         "the piece ends before it begins; expected --from before --to");
+    }
     if (a.robot) cut.robot = NodeId{*a.robot};
     cut.message = a.message;
     const TraceInput trace(a.in, {});
@@ -100,7 +104,7 @@ void trace_cut(const TraceCutArguments& a) {
     tell_damage(a.in, trace.damage());
     if (made.written > 0) return;
     const bool is_by_time = !a.robot && !a.message;
-    notice(fmt::format("{}: {} has no event {}", a.out, a.in,
+    notice(fmt::format("{} contains no event, because {} has no event {}", a.out, a.in,
                        is_by_time ? "between --from and --to" : "that matches the options"));
 }
 

@@ -101,7 +101,7 @@ void print_robot(const FollowedRobot& r, const FollowedMessage& way, const Trace
 }
 
 void print_losses(const FollowedMessage& way, const TraceNames& names) {
-    if (!way.lost.empty()) fmt::print("\ncopies that went no further:\n");
+    if (!way.lost.empty()) fmt::print("\ncopies that were lost or not forwarded:\n");
     for (const LostCopy& lost : way.lost) {
         const std::string from = lost.from ? " from " + names.of(*lost.from) : "";
         fmt::print("  after {:>12}  {} {}  at {}{}\n", milliseconds(lost.time - way.sent),
@@ -158,7 +158,7 @@ Table robot_table(const FollowedRobot& r, const FollowedMessage& way, const Trac
     for (const Time t : r.on_air) on_air.emplace_back(seconds(t - way.sent));
     Table table;
     table.set("robot", names.of(r.robot));
-    table.set("hops", r.depth);
+    table.set("hops", r.hops);
     table.set("from", r.depth > 0 ? Value(names.of(r.from.value_or(way.origin))) : Value());
     table.set("after_s", seconds(r.time - way.sent));
     table.set("delivered", r.is_delivered);
@@ -227,7 +227,7 @@ std::optional<MessageAtRobot> frames_there(const TraceFollowArguments& a, NodeId
     try {
         return message_at_robot(a.file, a.message, goal);
     } catch (const InputError& error) {
-        notice(fmt::format("the levels of frames are left out: {}", error.what()));
+        notice(fmt::format("the table of frames and their levels is left out: {}", error.what()));
         return std::nullopt;
     }
 }

@@ -100,9 +100,10 @@ void add_trace_follow(Command trace) {
                          "rovernet trace follow runs/rescue-s1/trace.mcap --message 0 --robot E"});
     follow.add_option("FILE", a.file, any_trace).required().transform(trace_of_run);
     follow.add_option("--message", a.message, "id of the message").required();
-    follow.add_option("--robot", a.robot,
-                      "name or number of a robot: print only the message's path to this robot; "
-                      "from a recorded trace also print what became of each frame there");
+    follow.add_option(
+        "--robot", a.robot,
+        "name or number of a robot: print only the message's path to this robot; for a recorded "
+        "trace also print whether this robot received each frame, and why not");
     add_strict(follow, a.strict);
     add_json(follow, a.json);
 }

@@ -28,8 +28,10 @@
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace rovernet::cli {
@@ -60,8 +62,13 @@ class TraceToView {
             path_ = (fs::path(file) / "trace.mcap").string();
             if (fs::exists(path_)) return;
             throw InputError(Location{file},
-                             "no trace.mcap in this folder; make one with `rovernet run FILE "
-                             "--record`, or name a scenario, which is run first");
+                             "no trace.mcap in this folder; record a trace with `rovernet run FILE "
+                             "--record`, or name a scenario, which is then run first");
+        }
+        if (is_page(file)) {
+            throw InputError(Location{file},
+                             "this is a page, which a browser opens; expected the folder of a run, "
+                             "a trace or a scenario file");
         }
         if (is_ns2_name(file)) {
             read_ns2(file, a);
@@ -85,11 +92,20 @@ class TraceToView {
     /// Sentences about what the input does not tell.
     const std::vector<std::string>& missing() const { return missing_; }
 
-  private:
     /// Whether a file has the name of an ns-2 trace: NAME.tr, also packed.
     static bool is_ns2_name(const std::string& file) {
         const fs::path name = fs::path(file).filename();
         return name.extension() == ".tr" || name.stem().extension() == ".tr";
+    }
+
+  private:
+    /// Whether a file is a page for a browser, such as `rovernet view -o` writes.
+    static bool is_page(const std::string& file) {
+        constexpr std::string_view doctype = "<!doctype html";
+        if (!fs::is_regular_file(file)) return false;
+        std::string begin(doctype.size(), ' ');
+        std::ifstream(file).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+        return begin == doctype;
     }
     void read_ns2(const std::string& file, const ViewArguments& a) {
         folder_ = std::make_unique<TemporaryDirectory>();
@@ -102,6 +118,7 @@ class TraceToView {
         given.file = file;
         given.options.set.emplace_back("trace.record=true");
         const Scenario scenario = scenario_of(given);
+        check_viewable(scenario, file);
         folder_ = std::make_unique<TemporaryDirectory>();
         Waiting waiting("running " + file);
         run_scenario(scenario,
@@ -124,7 +141,7 @@ ViewChoice choice_of(const ViewArguments& a, std::size_t page) {
     if (a.to) choice.frames.to = start_of_run + option_time("--to", *a.to);
     if (choice.frames.to < choice.frames.from) {
         throw InputError(Location{"--to " + *a.to, 0, 0, true},
-                         "expected a time after that of --from, " + *a.from);
+                         "expected a time later than --from, " + *a.from);
     }
     if (a.no_payloads) choice.frames.payload_bytes = 0;
     choice.map = !a.no_map;
@@ -190,6 +207,11 @@ std::array<std::string, 2> names_of(const ViewArguments& a, const std::string& t
             fmt::format("{} ({})", second, short_name(*a.other))};
 }
 
+/// Number of objects in words: "1 robot", "2 robots".
+std::string counted(std::size_t number, std::string_view what) {
+    return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
+}
+
 void write_page(const ViewArguments& a, const ViewedRun& run, const Beside& beside) {
     const std::string page = page_with(run.bytes, beside.bytes());
     PartFile file(*a.out);
@@ -198,15 +220,15 @@ void write_page(const ViewArguments& a, const ViewedRun& run, const Beside& besi
     const auto size = static_cast<double>(page.size()) / 1e3;
     if (beside.run) {
         const RunComparison& result = beside.comparison->result;
-        fmt::print(
-            "{}: {} robots; A: {} messages, {} frames; B: {} messages, {} frames; {:.0f} kB\n",
-            *a.out, run.robots, run.messages, run.frames, beside.run->messages, beside.run->frames,
-            size);
+        fmt::print("{}: {}; A: {}, {}; B: {}, {}; {:.0f} kB\n", *a.out,
+                   counted(run.robots, "robot"), counted(run.messages, "message"),
+                   counted(run.frames, "frame"), counted(beside.run->messages, "message"),
+                   counted(beside.run->frames, "frame"), size);
         fmt::print("deliveries: {} gained in B, {} lost in B, {} in both\n", result.gained,
                    result.lost, result.same);
     } else {
-        fmt::print("{}: {} robots, {} messages, {} frames; {:.0f} kB\n", *a.out, run.robots,
-                   run.messages, run.frames, size);
+        fmt::print("{}: {}, {}, {}; {:.0f} kB\n", *a.out, counted(run.robots, "robot"),
+                   counted(run.messages, "message"), counted(run.frames, "frame"), size);
     }
     if (!a.limit || page.size() <= option_size(*a.limit)) return;
     notice(fmt::format(
@@ -219,6 +241,7 @@ void serve_page(const ViewArguments& a, const std::string& trace, ViewedRun run,
                 const Beside& beside) {
     ViewerAnswers answers({trace, run.index},
                           {beside.path(), beside.run ? beside.run->index : nullptr});
+    if (a.no_map) answers.hide_map();
     Address address = read_loopback(a.address);
     if (a.listen) address.host = read_host(*a.listen);
     ViewServer server(
@@ -234,15 +257,32 @@ void serve_page(const ViewArguments& a, const std::string& trace, ViewedRun run,
     server.serve([] { return stops_asked() == 0; });
 }
 
-}  // namespace
-
-void view(const ViewArguments& a) {
+/// @throws CommandEnd for options that exclude each other
+void check_options(const ViewArguments& a) {
     if (a.other && !a.with.empty()) {
         throw CommandEnd(usage,
                          fmt::format("view: found a second run, {}, and --with {}; expected one of "
                                      "them: --with makes the second run from the first",
                                      *a.other, a.with[0]));
     }
+    if (a.out && (a.listen || a.address != ViewArguments().address)) {
+        throw CommandEnd(usage, fmt::format("view: found -o and {}; expected one of them: -o "
+                                            "writes the page to a file, without a server",
+                                            a.listen ? "--listen" : "--address"));
+    }
+    const bool has_ns2 =
+        TraceToView::is_ns2_name(a.file) || (a.other && TraceToView::is_ns2_name(*a.other));
+    if (a.movements && !has_ns2) {
+        throw CommandEnd(
+            usage, fmt::format("view: --movements is for an ns-2 trace, such as run.tr; found {}",
+                               a.file));
+    }
+}
+
+}  // namespace
+
+void view(const ViewArguments& a) {
+    check_options(a);
     ViewChoice choice =
         choice_of(a, page_with("", a.other || !a.with.empty() ? "other" : "").size());
     const std::size_t most_bytes = choice.most_bytes;

@@ -37,6 +37,26 @@ bool has_member(const JsonElement& object, std::string_view key) {
     return object.object()[key].get(value) == simdjson::SUCCESS;
 }
 
+/// Link report as `rovernet link --json` prints it, with all terms of the budget: the power and all
+/// gains and losses add up to the received power.
+Table budget_document(const LinkReport& report) {
+    const Table link = link_document(report);
+    if (report.range) return link;
+    Table all;
+    for (const auto& [key, value, where] : link.entries) {
+        if (key == "path_loss_db") {
+            all.set("power_dbm", report.sender.power.value);
+            all.set("sender_gain_db", report.sender.antenna_gain.value);
+            all.set("sender_cable_loss_db", report.sender.cable_loss.value);
+            all.set("receiver_gain_db", report.receiver.antenna_gain.value);
+            all.set("receiver_cable_loss_db", report.receiver.cable_loss.value);
+        }
+        if (key == "margin_db") all.set("sensitivity_dbm", report.receiver.sensitivity.value);
+        all.set(key, value);
+    }
+    return all;
+}
+
 }  // namespace
 
 ViewerAnswers::ViewerAnswers(IndexedTrace trace, const IndexedTrace& other)
@@ -55,14 +75,24 @@ ViewerAnswers::ViewerAnswers(std::shared_ptr<const Network> network, History his
 
 ViewerAnswers::~ViewerAnswers() = default;
 
+void ViewerAnswers::hide_map() {
+    hides_map_ = true;
+    if (other_) other_->hide_map();
+}
+
 std::string ViewerAnswers::answer(std::string_view question, const Others& others) {
     Table answer;
     Value id;
     try {
-        if (question.size() > longest_question)
-            throw RequestError("too_long", "", "expected a question of at most 64 KiB");
         const JsonElement asked{parser_->parse(question), {}};
         id = Value(member(asked, "id").whole_number(0, 1U << 31U));
+        if (question.size() > longest_question) {
+            throw RequestError(
+                "too_long", "",
+                fmt::format(
+                    "found a question of {} bytes from a page; expected at most {} bytes (64 KiB)",
+                    question.size(), longest_question));
+        }
         const std::string_view op = member(asked, "op").text();
         const bool is_other =
             has_member(asked, "run") && member(asked, "run").whole_number(0, other_ ? 1 : 0) == 1;
@@ -78,6 +108,11 @@ std::string ViewerAnswers::answer(std::string_view question, const Others& other
 }
 
 Table ViewerAnswers::answer_of(std::string_view op, const JsonElement& question) {
+    if (hides_map_ && (op == "pair" || op == "coverage" || op == "svg")) {
+        throw RequestError("hidden", "op",
+                           "the server does not show the map (--no-map), and this answer would "
+                           "show walls");
+    }
     if (op == "why") return why(question);
     if (op == "air") return air(question);
     if (op == "pair") return pair(question);
@@ -113,11 +148,14 @@ Table ViewerAnswers::why(const JsonElement& question) {
     const IndexedTrace trace = running_ ? history_.of_message(uid) : trace_;
     if (trace.path.empty()) {
         throw RequestError("not_kept", "uid",
-                           fmt::format("there are no records of message {}: it was sent "
+                           fmt::format("there are no records of message {}: the message was sent "
                                        "before a page was connected, or too long ago",
                                        uid));
     }
-    return document_of(message_at_robot(trace.path, loaded(trace), uid, node, trace.index.get()));
+    MessageAtRobot message =
+        message_at_robot(trace.path, loaded(trace), uid, node, trace.index.get());
+    message.tells_walls = !hides_map_;
+    return document_of(message);
 }
 
 Table ViewerAnswers::air(const JsonElement& question) const {
@@ -130,7 +168,7 @@ Table ViewerAnswers::air(const JsonElement& question) const {
 Table ViewerAnswers::pair(const JsonElement& question) const {
     const NodeId a = robot(question, "a"), b = robot(question, "b");
     const auto link = [&](NodeId from, NodeId to) {
-        return link_document(
+        return budget_document(
             running_ ? report_link(*running_, from, to)
                      : report_link(run_->scenario, name_of(from), name_of(to), time(question)));
     };
@@ -162,14 +200,24 @@ Table ViewerAnswers::link_table(const JsonElement& question) {
     const NodeId node = robot(question, "robot");
     const Network& network = this->network(question);
     Table answer;
-    for_each_link_table(network, name_of(node),
-                        [&](const LinkTable& table) { answer = link_table_document(table); });
+    for_each_link_table(network, name_of(node), [&](const LinkTable& table) {
+        answer = link_table_document(table);
+        Array& links = *answer.find("links")->array();
+        for (std::size_t i = 0; i < links.size(); ++i) {
+            const std::optional<NodeId> from = network.find(table.rows[i].neighbour.robot);
+            if (table.rows[i].range || !from) continue;
+            const Db margin =
+                network.medium().links().margin(*from, node, network.now(), network.legs());
+            links[i].table()->set("margin_db", margin.value);
+        }
+    });
     return answer;
 }
 
 Table ViewerAnswers::svg(const JsonElement& question) const {
     if (running_)
-        throw RequestError("not_recorded", "op", "the SVG of a run can be made only after its end");
+        throw RequestError("not_recorded", "op",
+                           "the SVG of a run can be made only after the end of the run");
     const std::size_t storeys = 1000;
     PictureOptions options{
         .at = time(question),
@@ -187,7 +235,8 @@ std::optional<Propagation> ViewerAnswers::other_model(const JsonElement& questio
     if (!has_member(question, "with")) return {};
     if (running_) {
         throw RequestError("not_recorded", "with",
-                           "a different model can be shown only for a recorded run, after its end");
+                           "a different propagation model can be shown only for a recorded run, "
+                           "after the end of this run");
     }
     const std::string with(member(question, "with").text());
     if (!with.starts_with("propagation."))

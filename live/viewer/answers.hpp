@@ -50,6 +50,10 @@ class ViewerAnswers {
     ViewerAnswers(std::shared_ptr<const Network> network, History history);
     ~ViewerAnswers();
 
+    /// From now on, refuses questions whose answers show walls (`pair`, `coverage` and `svg`), and
+    /// leaves out the walls in answers to `why`.
+    void hide_map();
+
     /// Function that answers further questions; returns an empty result for an unknown question.
     using Others =
         std::function<std::optional<Table>(std::string_view op, const JsonElement& question)>;
@@ -85,6 +89,7 @@ class ViewerAnswers {
     std::unique_ptr<Network> network_;
     std::unique_ptr<JsonParser> parser_;
     std::unique_ptr<ViewerAnswers> other_;  // answers about the second run; null: none
+    bool hides_map_ = false;
 };
 
 }  // namespace rovernet

@@ -85,7 +85,10 @@ void ViewFront::observe() {
 
 /// @throws RequestError if nothing was kept
 ViewHistory& ViewFront::history() {
-    if (!history_) throw RequestError("over", "op", "no page was open when the run ended");
+    if (!history_)
+        throw RequestError(
+            "over", "op",
+            "the run has ended, and nothing was kept of it, because no page was open at its end");
     return *history_;
 }
 
@@ -125,7 +128,10 @@ std::size_t ViewFront::received(Connection from, std::string_view question) {
 
 /// Series for the page's charts, and the metrics of a run that is over.
 Table ViewFront::series() const {
-    if (!stream_) throw RequestError("over", "op", "no page was open when the run ended");
+    if (!stream_)
+        throw RequestError(
+            "over", "op",
+            "the run has ended, and nothing was kept of it, because no page was open at its end");
     Table answer;
     answer.set("from_ns", (stream_->begin() - start_of_run).count());
     answer.set("series", stream_->series());
@@ -195,7 +201,7 @@ void ViewFront::check_control(bool is_allowed, std::string_view what) const {
     if (!is_allowed) {
         throw RequestError(
             "not_allowed", "op",
-            fmt::format("the page may not {}; the option --view-control allows it", what));
+            fmt::format("the page may not {}; the option --view-control allows this", what));
     }
     if (is_over_) throw RequestError("over", "op", "the run has ended");
 }
@@ -235,7 +241,8 @@ ClientId ViewFront::client_of(NodeId robot, bool drives) {
     if (!drives) return sends_[robot] = session_->attach_radios({robot}, "viewer", false);
     if (session_->driver(robot)) {
         throw RequestError("taken", "robot",
-                           "robot " + network_->name(robot) + " is driven by another program");
+                           "robot " + network_->name(robot) +
+                               " is driven by another program, so this page cannot drive it");
     }
     return drives_[robot] = session_->attach({robot}, "viewer", false);
 }
@@ -271,7 +278,7 @@ void ViewFront::ended(std::string_view fingerprint, const Table& metrics) {
 
 FrontListeners view_listener(const Address& at, const ViewControl& control) {
     WebPages pages;
-    pages["/"] = {"text/html; charset=utf-8", live_page(), true};
+    pages["/"] = {"text/html; charset=utf-8", live_page(), true, served_policy()};
     return {.entries = {{.at = at, .is_web = true}},
             .make =
                 [control](Front::Carrier carrier) {

@@ -33,7 +33,7 @@ struct ViewControl {
 
 /// Front of a live run for the viewer's page: sends the run's events as parts of a view file,
 /// answers questions about the current state, and lets pages control the run as far as ViewControl
-/// permits (docs/formats/view-format.md, "A run that goes on").
+/// permits (docs/formats/view-format.md, "A run in progress").
 ///
 /// The front observes the run while pages are connected, and for some seconds after the last page
 /// has left. Without pages it costs the run nothing.
@@ -49,6 +49,7 @@ class ViewFront : public Front {
     void closed(Connection gone) override;
     Time next() const override;
     void tell() override;
+    bool is_exact() const override { return false; }
     Time limit() const override;
     void held(std::chrono::nanoseconds waited) override;
     void ended(std::string_view fingerprint, const Table& metrics) override;

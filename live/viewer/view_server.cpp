@@ -28,7 +28,7 @@ ViewServer::ViewServer(const Address& address, std::string view_file,
         return std::size_t{1};
     };
     WebPages pages;
-    pages["/"] = {"text/html; charset=utf-8", served_page(!other.empty()), true};
+    pages["/"] = {"text/html; charset=utf-8", served_page(!other.empty()), true, served_policy()};
     pages["/run.rvw"] = {"application/octet-stream", std::move(view_file)};
     if (!other.empty()) pages["/other.rvw"] = {"application/octet-stream", std::move(other)};
     state_->address = state_->sockets.listen(address, std::move(users), std::move(pages));

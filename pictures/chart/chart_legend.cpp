@@ -77,8 +77,8 @@ Legend chart_legend(const Chart& chart, const ChartView& view, bool marks, doubl
         if (!sign.text.empty()) legend.add(std::move(sign));
     }
     if (chart.series.size() > most) {
-        legend.add(
-            {fmt::format("and {} more", chart.series.size() - most), 0, [](Svg&, PicturePoint) {}});
+        legend.add({fmt::format("and {} more, not listed", chart.series.size() - most), 0,
+                    [](Svg&, PicturePoint) {}});
     }
     return legend;
 }

@@ -106,7 +106,7 @@ class FitDrawing {
         svg.text(FitStyle::margin, top + 26, panel.title, {.size = 16, .bold = true});
         svg.text(FitStyle::left, top + 26, "compared with " + panel.reference,
                  {.color = FitStyle::quiet});
-        svg.text(FitStyle::cost_begin, top + 26, "cost, of the reference",
+        svg.text(FitStyle::cost_begin, top + 26, "cost (reference = 1)",
                  {.color = FitStyle::quiet});
         for (std::size_t i = 0; i < panel.rows.size(); ++i)
             if (panel.rows[i].best)

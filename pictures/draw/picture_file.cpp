@@ -31,7 +31,9 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 /// A file without a name, to hand to the program.
 File unnamed_file() {
     File file(std::tmpfile());
-    if (!file) throw RunError("no temporary file can be made; check the space on the disk");
+    if (!file)
+        throw RunError(
+            "cannot create a temporary file for the picture; check the space on the disk");
     return file;
 }
 
@@ -112,7 +114,9 @@ std::string converted(const std::string& svg, const std::string& format, const s
     const File in = unnamed_file(), out = unnamed_file(), errors = unnamed_file();
     const bool written = std::fwrite(svg.data(), 1, svg.size(), in.get()) == svg.size() &&
                          std::fflush(in.get()) == 0;
-    if (!written) throw RunError("the picture cannot be stored; check the space on the disk");
+    if (!written)
+        throw RunError(
+            "the picture cannot be written to a temporary file; check the space on the disk");
     std::rewind(in.get());
     const int status = convert(in.get(), format, out.get(), errors.get());
     if (status == 127) {

@@ -18,7 +18,7 @@ namespace {
 /// A map with its cells laid out, levels to be filled in.
 CoverageMap empty_map(Vec3 low, Vec3 high, int cells) {
     if (!(low.x < high.x && low.y < high.y)) {
-        throw std::invalid_argument("coverage: the rectangle is empty");
+        throw std::invalid_argument("coverage: the rectangle of the picture has no area");
     }
     if (cells < 1 || cells > most_coverage_cells) {
         throw std::invalid_argument(fmt::format("coverage: cells must be from 1 to {}, got {}",

@@ -234,7 +234,7 @@ void MapLayer::append_to(Legend& legend, bool on_colors) const {
     }
     for (std::size_t n = 0; n < used.size() && used.size() > 1; ++n) {
         if (n == most_listed) {
-            legend.add(swatch(fmt::format("and {} more", used.size() - n), "#ffffff"));
+            legend.add(swatch(fmt::format("and {} more materials", used.size() - n), "#ffffff"));
             break;
         }
         legend.add(

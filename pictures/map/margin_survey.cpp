@@ -156,7 +156,7 @@ std::vector<std::string> MarginSurvey::gap_texts() const {
         question.robot = shortened(network_.name(node), longest_station_name);
         texts.push_back(link_gaps_text(question, gaps));
     }
-    if (moved > most_texts) texts.push_back(fmt::format("and {} robots more", moved - most_texts));
+    if (moved > most_texts) texts.push_back(fmt::format("and {} more robots", moved - most_texts));
     return texts;
 }
 

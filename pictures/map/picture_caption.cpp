@@ -21,7 +21,7 @@ std::string time_text(Time at, Time end) {
     return text;
 }
 
-/// Number of robots that are not there: "3 robots not departed, 1 left".
+/// Number of robots that are not there: "of 9 robots, 3 not departed yet, 1 already left".
 std::string absent_text(const Network& network) {
     std::size_t to_come = 0, left = 0;
     for (std::uint32_t i = 0; i < network.size(); ++i) {
@@ -31,9 +31,9 @@ std::string absent_text(const Network& network) {
     }
     if (to_come + left == 0) return "";
     std::string text;
-    if (to_come > 0) text = fmt::format("{} not departed", to_come);
-    if (left > 0) text += fmt::format("{}{} left", text.empty() ? "" : ", ", left);
-    return fmt::format("of {} robots {}", network.size(), text);
+    if (to_come > 0) text = fmt::format("{} not departed yet", to_come);
+    if (left > 0) text += fmt::format("{}{} already left", text.empty() ? "" : ", ", left);
+    return fmt::format("of {} robots, {}", network.size(), text);
 }
 
 /// The robots' models, each once.
@@ -124,12 +124,13 @@ std::vector<std::string> picture_caption(const Network& network, Time at, Time e
     const auto shown = static_cast<std::ptrdiff_t>(std::min(models.size(), most_models));
     parts.insert(parts.end(), models.begin(), models.begin() + shown);
     if (models.size() > most_models) {
-        parts.push_back(fmt::format("and {} models more", models.size() - most_models));
+        parts.push_back(fmt::format("and {} more models", models.size() - most_models));
     }
     if (sources.empty()) return parts;
     append_coverage(parts, network, sources, receiver);
     if (models.size() > 1 && sources.size() == 1) {
-        parts.push_back("its model is " + model_text(network.robot(sources[0]).propagation));
+        parts.push_back(name_text(network, sources[0]) + " has the model " +
+                        model_text(network.robot(sources[0]).propagation));
     }
     return parts;
 }

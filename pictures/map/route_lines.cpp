@@ -107,7 +107,7 @@ void RouteLines::append_to(Legend& legend) const {
         return std::ranges::any_of(way_.hops, [&](const auto& hop) { return hop.is_up == is_up; });
     };
     if (has(true)) legend.add(sample("hop of the route, with the route's age", true));
-    if (has(false)) legend.add(sample("hop whose next robot does not hear it", false));
+    if (has(false)) legend.add(sample("hop whose next robot does not hear the sender", false));
     if (!way_.broken_at) return;
     legend.add({"the route breaks off here", 22, [](Svg& svg, PicturePoint p) {
                     draw_break(svg, {p.x + 11, p.y}, 3);

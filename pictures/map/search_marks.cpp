@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/map/search_marks.hpp"
 
+#include "routing/aodv/aodv_packets.hpp"
+#include "routing/dsr/dsr_packets.hpp"
+
 #include <fmt/format.h>
+
+#include <variant>
 
 namespace rovernet {
 namespace {
@@ -25,29 +30,43 @@ void LastSearch::on(const Record& record, const RecordContext& context) {
     const auto* sent = std::get_if<Transmitted>(&record);
     if (!sent) return;
     const Message& message = context.messages[sent->frame.message];
-    if (!message.kind.ends_with("REQUEST") || (origin_ && message.origin != *origin_)) return;
-    if (senders_.empty() || message.uid > uid_) {
-        uid_ = message.uid;
-        from_ = message.origin;
+    if (!message.kind.ends_with("REQUEST")) return;
+    const NodeId sender = sent->frame.sender;
+    const Request request = request_of(message);
+    if (!sent->heard_from && (!origin_ || sender == *origin_)) {
+        last_ = request;
         begin_ = sent->time;
         senders_.clear();
     }
-    if (message.uid != uid_) return;
+    if (request != last_) return;
     end_ = sent->time;
-    senders_.push_back(sent->frame.sender);
+    senders_.push_back(sender);
+}
+
+LastSearch::Request LastSearch::request_of(const Message& message) {
+    if (message.kind == aodv::request_kind) {
+        const aodv::Packet packet = aodv::packet_of(message.payload);
+        if (const auto* request = std::get_if<aodv::Request>(&packet))
+            return {request->originator, request->id};
+    } else if (message.kind == dsr::request_kind) {
+        if (const auto request = dsr::packet_of(message).request)
+            return {request->path.front(), request->id};
+    }
+    return {everyone, message.uid};
 }
 
 std::string LastSearch::text(const Network& network) const {
     if (senders_.empty()) {
-        return origin_ ? fmt::format("no request of {} so far", network.name(*origin_))
-                       : "no request so far";
+        return origin_ ? fmt::format("no route request of {} so far", network.name(*origin_))
+                       : "no route request so far";
     }
     if (senders_.size() == 1) {
-        return fmt::format("last request of {}: forwarded by no robot, sent at {:.2f} s",
-                           network.name(from_), seconds(begin_));
+        return fmt::format("last route request of {}: forwarded by no robot, sent at {:.2f} s",
+                           network.name(senders_.front()), seconds(begin_));
     }
-    return fmt::format("last request of {}: sent by {} robots from {:.2f} s to {:.2f} s",
-                       network.name(from_), senders_.size(), seconds(begin_), seconds(end_));
+    return fmt::format("last route request of {}: sent by {} robots from {:.2f} s to {:.2f} s",
+                       network.name(senders_.front()), senders_.size(), seconds(begin_),
+                       seconds(end_));
 }
 
 void add_rings(RobotMarks& robots, const LastSearch& search) {

@@ -70,6 +70,7 @@ const blocks = (() => {
             /** Latest end of the blocks up to each. @type {number[]} */
             this.until = [];
             for (const info of this.info) this.until.push(Math.max(info.end_ns, this.until.at(-1) ?? 0));
+            /** Whether frames of the run are left out. */ this.cut = this.info.reduce((n, info) => n + info.flights, 0) < r.head.counts.flights;
         }
 
         /** @param {number} number @returns {Promise<Block>} */
@@ -81,15 +82,20 @@ const blocks = (() => {
                 return Promise.resolve(there);
             }
             const coming = this.coming.get(number) ?? read(this.run, number).then(block => {
-                this.kept.set(number, block);
-                this.version++;
-                for (const kind of block.kind) this.kinds.add(kind);
+                this.keep(number, block);
                 const oldest = this.kept.keys().next().value;
                 if (this.kept.size > most_kept && oldest !== undefined) this.kept.delete(oldest);
                 return block;
             }).finally(() => this.coming.delete(number));
             this.coming.set(number, coming);
             return coming;
+        }
+
+        /** @param {number} number @param {Block} block */
+        keep(number, block) {
+            this.kept.set(number, block);
+            this.version++;
+            for (const kind of block.kind) this.kinds.add(kind);
         }
 
         /** Adds the next frames of a run that goes on. The oldest ones go when there are too many. @param {Block} block */
@@ -106,9 +112,7 @@ const blocks = (() => {
             this.begins[number] = block.start[0] ?? 0;
             this.info[number] = { begin_ns: this.begins[number], end_ns: end, flights: block.flights, receptions: block.robot.length };
             this.until[number] = Math.max(end, this.until[number - 1] ?? 0);
-            this.kept.set(number, block);
-            for (const kind of block.kind) this.kinds.add(kind);
-            this.version++;
+            this.keep(number, block);
             this.grown += block.robot.length - (last?.number === number ? last.robot.length : 0);
             for (let n = 0; this.grown > most_grown && n < number; n++) {
                 this.grown -= this.kept.get(n)?.robot.length ?? 0;

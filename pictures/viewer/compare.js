@@ -36,7 +36,7 @@ const compare = (() => {
     /** @param {Changes} all @param {number} i */
     function row(all, i) {
         const gained = all.gained[i], mark = dom.icon(16, c => sign(c, 8, 8, gained)), { run: r } = sides.own.all[gained];
-        const other = all.outcome[i] === no_frame ? "no frame in reach" : signs.kinds[signs.of(all.outcome[i])].text, both = gained ? [other, "delivered"] : ["delivered", other];
+        const other = all.outcome[i] === no_frame ? "no frame in range" : signs.kinds[signs.of(all.outcome[i])].text, both = gained ? [other, "delivered"] : ["delivered", other];
         const name = `${r.message_text(all.message[gained][i])} at ${r.label(all.robot[i])}`;
         return dom.make("li", "", mark, dom.make("span", "", dom.button(name, "link", () => go(all, i)), dom.make("span", "muted", ` ${words.seconds(all.time[i], 3)} s`),
             dom.make("p", "muted", `run A: ${both[0]}, run B: ${both[1]}`)));
@@ -57,8 +57,7 @@ const compare = (() => {
         const code = line => dom.make("code", "", line ? words.visible(line) : "the trace ends");
         dom.by_id("compare-panel").replaceChildren(dom.make("h2", "", "Deliveries in run B against run A"),
             dom.facts([["gained", `${words.count(told.gained)} in run B only`], ["lost", `${words.count(told.lost)} in run A only`], ["same", `${words.count(told.same)} in both`]]),
-            dom.make("p", "muted", "A delivery is one message at one robot."),
-            dom.make("h3", "", told.gained + told.lost > rows.length ? `The first ${rows.length} differences` : "Differences"), dom.make("ul", "plain", ...rows),
+            ...rows.length ? [dom.make("h3", "", told.gained + told.lost > rows.length ? `The first ${rows.length} differences` : "Differences"), dom.make("ul", "plain", ...rows)] : [],
             dom.make("h3", "", "First record that differs"),
             ...(first ? [dom.make("p", "", `It differs in: ${first.field}`), dom.facts([["run A", code(first.a)], ["run B", code(first.b)]])] : [dom.make("p", "", "None: all records are equal.")]),
             dom.make("h3", "", "Runs"), dom.facts(sides.own.all.map(side => [side.label, sides.counts(side.run.head).join(", ")])));

@@ -42,7 +42,7 @@ const coverage = (() => {
             own.say("");
             own.changed();
         } catch (error) {
-            own.say(error instanceof Error ? error.message : String(error));
+            own.say(/** @type {Error} */ (error).message);
         }
     }
 

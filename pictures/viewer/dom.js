@@ -4,11 +4,7 @@ const dom = (() => {
     "use strict";
 
     /** Element that the page has. @param {string} id @returns {HTMLElement} */
-    function by_id(id) {
-        const out = document.getElementById(id);
-        if (!out) throw new Error(`the page has no ${id}`);
-        return out;
-    }
+    function by_id(id) { return /** @type {HTMLElement} */ (document.getElementById(id)); }
 
     /** @param {string} id @returns {HTMLCanvasElement} */
     function canvas(id) { return /** @type {HTMLCanvasElement} */ (by_id(id)); }

@@ -18,11 +18,11 @@ const drive = (() => {
     /** Buttons and fields of the commands to a robot. @param {number} robot @returns {HTMLElement[]} */
     function parts(robot) {
         if (!live.state()?.controls_robots) return [];
-        const goal = field("goal of the robot, x and y in metres", "x, y"), text = field("message to everyone", "message");
+        const goal = field("goal of the robot, x, y and z in metres", "x, y"), text = field("message to everyone", "message");
         const go = () => {
             const place = goal.value.split(/[\s,;]+/).filter(Boolean).map(Number);
-            if (place.length === 2 && place.every(Number.isFinite)) command(robot, { goal: place });
-            else controls.say("A goal is two numbers, such as 3, 4.");
+            if (place.length > 1 && place.every(Number.isFinite)) command(robot, { goal: place });
+            else controls.say("A goal is two or three numbers, such as 3, 4.");
         };
         goal.addEventListener("keydown", event => event.key === "Enter" && go());
         text.addEventListener("keydown", event => event.key === "Enter" && command(robot, { data: text.value }));
@@ -41,10 +41,10 @@ const drive = (() => {
     /** Takes a click on the map as a goal, if one is wanted. @param {number} px @param {number} py */
     function takes(px, py) {
         if (own.aims < 0) return false;
-        const robot = own.aims;
-        own.aims = -1;
+        const { floors } = sides.own.all[0].run.head.map;
         dom.by_id("map").classList.remove("aims");
-        command(robot, { goal: [camera.from_x(px), camera.from_y(py)] });
+        command(own.aims, { goal: [camera.from_x(px), camera.from_y(py), ...floors[1] === undefined ? [] : [floors[selection.state.storey]]] });
+        own.aims = -1;
         return true;
     }
 

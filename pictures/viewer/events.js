@@ -5,7 +5,7 @@ const events = (() => {
     "use strict";
     const sent = 0, door = 1, state = 2, frame = 3, reception = 4, loss = 5;
     const kind_names = ["message sent", "door", "robot", "frame", "reception", "loss"];
-    const state_words = ["switched off", "switched on", "arrived", "found no way"];
+    const state_words = ["switched off", "switched on", "arrived", "found no way", "has not departed", "left"];
 
     /** @param {Block} block @param {number} lo @param {number} hi @returns {{time: Float64Array, what: Uint32Array, flight: Uint32Array}} receptions that end in [lo, hi) */
     function receptions(block, lo, hi) {
@@ -16,7 +16,7 @@ const events = (() => {
         }
         let sorted = true;
         for (let i = 1; i < order.length && sorted; i++) sorted = block.end(order[i - 1]) <= block.end(order[i]);
-        if (!sorted) order.sort((a, b) => block.end(a) - block.end(b) || a - b);
+        if (!sorted) order.sort((a, b) => block.end(a) - block.end(b));
         let count = 0;
         for (const i of order) count += block.first[i + 1] - block.first[i];
         const time = new Float64Array(count), what = new Uint32Array(count), flight = new Uint32Array(count);
@@ -35,7 +35,7 @@ const events = (() => {
     function indexes(times, lo, hi) {
         const out = [];
         for (let i = 0; i < times.length; i++) if (times[i] >= lo && times[i] < hi) out.push(i);
-        out.sort((a, b) => times[a] - times[b] || a - b);
+        out.sort((a, b) => times[a] - times[b]);
         return { time: Float64Array.from(out, i => times[i]), what: Uint32Array.from(out), flight: new Uint32Array(out.length) };
     }
 
@@ -61,18 +61,23 @@ const events = (() => {
     function merged(streams, part) {
         const count = streams.reduce((sum, s) => sum + s[2].what.length, 0), at = streams.map(() => 0);
         const out = { ...part, time: new Float64Array(count), kind: new Uint8Array(count), what: new Uint32Array(count), flight: new Uint32Array(count), of: new Uint8Array(count) };
-        for (let n = 0; n < count; n++) {
-            let best = -1, earliest = Infinity;
+        for (let n = 0; n < count;) {
+            let best = -1, earliest = Infinity, next = Infinity;  // the earliest time of the other streams
             for (let s = 0; s < streams.length; s++) {
-                const { time, what } = streams[s][2];
-                if (at[s] < what.length && (best < 0 || time[at[s]] < earliest)) [best, earliest] = [s, time[at[s]]];
+                const { time, what } = streams[s][2], first = at[s] < what.length ? time[at[s]] : Infinity;
+                if (first < earliest || best < 0 && at[s] < what.length) [best, earliest, next] = [s, first, earliest];
+                else if (first < next) next = first;
             }
-            const [kind, of, stream] = streams[best], i = at[best]++;
-            out.time[n] = earliest;
-            out.kind[n] = kind;
-            out.of[n] = of;
-            out.what[n] = stream.what[i];
-            out.flight[n] = stream.flight[i];
+            const [kind, of, { time, what, flight }] = streams[best];
+            let i = at[best];
+            do {
+                out.time[n] = time[i];
+                out.kind[n] = kind;
+                out.of[n] = of;
+                out.what[n] = what[i];
+                out.flight[n++] = flight[i++];
+            } while (i < what.length && time[i] < next);
+            at[best] = i;
         }
         return out;
     }
@@ -92,11 +97,11 @@ const events = (() => {
 
     /** Rows of the window that a filter lets through. @param {Run} r @param {EventList} w @param {Filter} filter */
     function filtered(r, w, filter) {
-        const out = new Uint32Array(w.time.length);
+        const out = new Uint32Array(w.time.length), one = filter.robot >= 0 || filter.message >= 0, some = filter.signs !== selection.everything;
         let n = 0;
         for (let i = 0; i < out.length; i++) {
             if (!(filter.kinds >> w.kind[i] & 1)) continue;
-            if (filter.robot >= 0 || filter.message >= 0 || w.kind[i] === reception) {
+            if (one || some && w.kind[i] === reception) {
                 const { who, other, message, sign } = about(r, w, i);
                 if (filter.robot >= 0 && who !== filter.robot && (w.kind[i] !== reception || other !== filter.robot)) continue;
                 if (filter.message >= 0 && message !== filter.message) continue;

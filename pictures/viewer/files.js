@@ -2,7 +2,7 @@
 // Files that the page saves: the map as a picture, the events as a table.
 const files = (() => {
     "use strict";
-    const most_rows = 1000000, margin = 16, heading = 52;
+    const margin = 16, heading = 52;
 
     /** Name of a file from the run's. @param {Run} r @param {string} end */
     function name(r, end) { return `${r.head.name.replace(/[^A-Za-z0-9._-]+/g, "_").slice(0, 60) || "run"}${end}`; }
@@ -36,25 +36,27 @@ const files = (() => {
         return /[\x22,\n\r]/.test(safe) ? `\x22${safe.replaceAll("\x22", "\x22\x22")}\x22` : safe;
     }
 
-    /** Events of the whole run that the filter lets through. @param {Run} r @param {Blocks} all @param {Filter} filter */
+    /** Events of the whole run that the filter lets through, after a heading. @param {Run} r @param {Blocks} all @param {Filter} filter */
     async function rows(r, all, filter) {
         const out = ["time_s,event,robot,other,message,outcome,text\n"];
-        for (let n = 0; n < Math.max(1, all.info.length) && out.length <= most_rows; n++) {
+        for (let n = 0; n < Math.max(1, all.info.length) && out.length <= files.most_rows; n++) {
             const block = all.info[n]?.flights ? await all.load(n) : null, before = n > 0 ? await all.load(n - 1) : null;
             const w = events.window_of(r, n, block, before);
-            for (const i of events.filtered(r, w, filter)) {
-                const { who, other, message, sign } = events.about(r, w, i), ns = w.time[i];
-                const time = `${Math.floor(ns / 1e9)}.${String(ns % 1e9).padStart(9, "0")}`;
-                out.push([time, events.kind_names[w.kind[i]], who >= 0 ? cell(r.name(who)) : "", other >= 0 && other < r.robots ? cell(r.name(other)) : "",
+            for (const i of events.filtered(r, w, filter).subarray(0, files.most_rows + 1 - out.length)) {
+                const { who, other, message, sign } = events.about(r, w, i);
+                out.push([words.plain(w.time[i]), events.kind_names[w.kind[i]], who >= 0 ? cell(r.name(who)) : "", other >= 0 && other < r.robots ? cell(r.name(other)) : "",
                     message >= 0 && message < r.messages ? String(r.col("messages.uid")[message]) : "", sign >= 0 ? cell(signs.kinds[sign].text) : "", cell(events.text(r, w, i))].join(",") + "\n");
-                if (out.length > most_rows) break;
             }
         }
         return out;
     }
 
     /** @param {Run} r @param {Blocks} all @param {State} state */
-    async function table(r, all, state) { dom.save(name(r, "-events.csv"), new Blob(await rows(r, all, state.filter), { type: "text/csv" })); }
+    async function table(r, all, state) {
+        const out = await rows(r, all, state.filter);
+        controls.say(out.length > files.most_rows ? "The table ends after 1,000,000 events." : "");
+        dom.save(name(r, "-events.csv"), new Blob(out, { type: "text/csv" }));
+    }
 
     /** The whole map as the server draws it. @param {Run} r @param {State} state */
     function drawing(r, state) {
@@ -66,5 +68,5 @@ const files = (() => {
         }, error => controls.say(error.message));
     }
 
-    return { picture, drawing, table };
+    return { picture, drawing, table, most_rows: 1000000 };
 })();

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Way of a message: who had it from whom, and what became of it elsewhere.
 /** @typedef {{at: number, from: number, hops: number, sign: number}} Copy */
-/** @typedef {{message: number, first: Map<number, Copy>, lost: Map<number, Copy[]>, frames: number, whole: boolean}} Flood */
+/** Whole: all blocks that may tell of it were read. Left out: its frames that the page has not. @typedef {{message: number, first: Map<number, Copy>, lost: Map<number, Copy[]>, frames: number, whole: boolean, left_out: number}} Flood */
 const floods = (() => {
     "use strict";
-    const most_blocks = 6, most_lost = 20;
+    const most_blocks = 32, most_lost = 20;
 
-    /** Adds what a block tells of a message; true if it tells something. @param {Flood} flood @param {Block} block */
+    /** Adds what a block tells of a message. @param {Flood} flood @param {Block} block */
     function add(flood, block) {
-        let some = false;
         for (let i = 0; i < block.flights; i++) {
             if (block.message[i] !== flood.message) continue;
-            some = true;
             flood.frames++;
             const sender = block.sender[i];
             for (let k = block.first[i]; k < block.first[i + 1]; k++) {
@@ -25,22 +23,19 @@ const floods = (() => {
                 flood.lost.set(robot, lost);
             }
         }
-        return some;
     }
 
-    /** Reads on from the block in which the message was made until none tells of it. @param {Run} r @param {Blocks} all @param {number} message @returns {Promise<Flood>} */
+    /** Reads from the first block with a frame of the message until all of its frames are known; of a run that goes on, all blocks since it was made. @param {Run} r @param {Blocks} all @param {number} message @returns {Promise<Flood>} */
     async function of(r, all, message) {
         /** @type {Flood} */
-        const flood = { message, first: new Map(), lost: new Map(), frames: 0, whole: true };
-        const begin = all.at(r.col("messages.created")[message]);
-        let silent = 0;
-        for (let n = begin; n < all.info.length && silent < 2; n++) {
-            if (n - begin >= most_blocks) {
-                flood.whole = false;
-                break;
-            }
-            silent = add(flood, await all.load(n)) ? 0 : silent + 1;
+        const flood = { message, first: new Map(), lost: new Map(), frames: 0, whole: true, left_out: 0 };
+        const [frames, begin] = ["frames", "block"].map(name => r.columns[`messages.${name}`]?.[message]);
+        for (let n = begin ?? all.at(r.col("messages.created")[message]); n < all.info.length && flood.frames !== frames; n++) {
+            flood.whole = !(n - begin >= most_blocks);
+            if (!flood.whole) break;
+            add(flood, await all.load(n));
         }
+        if (flood.whole) flood.left_out = frames - flood.frames || 0;
         flood.first.delete(r.col("messages.origin")[message]);
         return flood;
     }

@@ -2,7 +2,6 @@
 #include "pictures/viewer/frame_columns.hpp"
 
 #include "pictures/viewer/column.hpp"
-#include "pictures/viewer/view_file.hpp"
 
 #include <fmt/format.h>
 
@@ -40,9 +39,8 @@ constexpr std::string_view words_of(DropReason reason) {
 }
 
 std::uint8_t up_to_255(unsigned n) { return static_cast<std::uint8_t>(std::min(n, 255U)); }
-std::uint32_t up_to_4_s(Duration d) {
-    return static_cast<std::uint32_t>(std::min<std::int64_t>(d.count(), no_index));
-}
+// Longest propagation delay of a reception [ns]: light travels 3,000 km.
+constexpr std::int64_t longest_delay = 10'000'000;
 
 }  // namespace
 
@@ -67,6 +65,10 @@ void FrameColumns::on(const Record& record, const RecordContext& context) {
     }
 }
 
+std::size_t FrameColumns::messages() const {
+    return static_cast<std::size_t>(std::count(messages_.kind.begin(), messages_.kind.end(), 0));
+}
+
 std::size_t FrameColumns::last_flow() const {
     const auto& flows = messages_.flow;
     return flows.empty() ? 0 : *std::max_element(flows.begin(), flows.end());
@@ -77,7 +79,7 @@ std::uint32_t FrameColumns::index_of(MessageId id, const RecordContext& context)
     if (id.index() >= known_.size()) known_.resize(id.index() + 1);
     Known& known = known_[id.index()];
     if (known.uid == message.uid) return known.index;
-    MessageColumns& m = messages_;
+    auto& m = messages_;
     known = {message.uid, forgotten_ + static_cast<std::uint32_t>(m.uid.size())};
     m.uid.push_back(static_cast<double>(message.uid));
     m.created.push_back(static_cast<double>(whole_ns(message.created)));
@@ -94,32 +96,34 @@ std::uint32_t FrameColumns::index_of(MessageId id, const RecordContext& context)
 void FrameColumns::take(const AirSent& sent, const RecordContext& context) {
     const AirFrame& air = sent.air;
     const std::size_t sender = air.frame.sender.index();
-    if (sender >= last_flights_.size()) last_flights_.resize(sender + 1, no_index);
+    if (sender >= senders_.size()) senders_.resize(sender + 1);
+    auto& [last_flight, longest] = senders_[sender];
     flights_.push_back({.start = whole_ns(sent.time),
-                        .airtime = up_to_4_s(sent.airtime),
+                        .airtime = sent.airtime.count(),
                         .sender = air.frame.sender.value,
                         .to = air.frame.next_hop.value,
                         .message = air.control ? no_index : index_of(air.frame.message, context),
-                        .before = last_flights_[sender],
+                        .before = last_flight,
                         .kind = frame_kinds_.index_of(air.kind()),
                         .ttl = air.control ? std::uint8_t{0} : up_to_255(air.frame.ttl),
                         .hops = air.control ? std::uint8_t{0} : up_to_255(air.frame.hops),
                         .queue = up_to_255(sent.queue)});
     has_queues_ |= sent.queue > 0;
-    last_flights_[sender] = static_cast<std::uint32_t>(flights_.size() - 1);
+    last_flight = static_cast<std::uint32_t>(flights_.size() - 1);
+    longest = std::max(longest, sent.airtime.count());
 }
 
-/// Flight of a sender with a message, whose reception ends at a given time; no_index: none, as in a
-/// damaged trace.
+/// Last flight of a sender with a message that was over when the message was received; no_index:
+/// none, as in a damaged trace. Flights of one sender may overlap, and may end in another order
+/// than they start.
 std::uint32_t FrameColumns::flight_of(NodeId sender, std::uint32_t message, Time received) const {
-    constexpr std::int64_t longest_delay = 10'000'000;  // [ns]: light travels 3,000 km
-    if (sender.index() >= last_flights_.size()) return no_index;
-    std::uint32_t flight = last_flights_[sender.index()];
-    while (flight != no_index && flights_[flight].message != message) {
-        const bool is_over = flights_[flight].end() + longest_delay < whole_ns(received);
-        flight = is_over ? no_index : flights_[flight].before;
-    }
-    return flight;
+    if (sender.index() >= senders_.size()) return no_index;
+    const std::int64_t now = whole_ns(received);
+    const std::int64_t earliest = now - longest_delay - senders_[sender.index()].longest;
+    std::uint32_t i = senders_[sender.index()].last_flight;
+    while (i != no_index && (flights_[i].message != message || flights_[i].end() > now))
+        i = flights_[i].start < earliest ? no_index : flights_[i].before;
+    return i;
 }
 
 void FrameColumns::take(std::uint32_t flight, const Reception& reception) {
@@ -185,7 +189,6 @@ void FrameColumns::write(ViewFile& file, Table& head, std::size_t robots, Time e
 
 std::size_t FrameColumns::write_part(ViewDraft& rest, ViewDraft& frames, std::size_t robots,
                                      Time end, Time now) {
-    constexpr std::int64_t longest_delay = 1'000'000;  // [ns]: light travels 300 km
     const std::int64_t past =
         now == never ? std::numeric_limits<std::int64_t>::max() : whole_ns(now) - longest_delay;
     const auto on_air = std::find_if(flights_.begin(), flights_.end(),
@@ -218,7 +221,7 @@ void FrameColumns::forget(std::size_t flights) {
     };
     flights_.erase(flights_.begin(), flights_.begin() + static_cast<std::ptrdiff_t>(flights));
     for (Flight& flight : flights_) shift(flight.before);
-    for (std::uint32_t& flight : last_flights_) shift(flight);
+    for (Sender& each : senders_) shift(each.last_flight);
     for (RobotReception& reception : receptions_) shift(reception.flight);
     forgotten_ += static_cast<std::uint32_t>(messages_.uid.size());
     messages_ = {};
@@ -307,9 +310,24 @@ void FrameColumns::write_counts(Table& head, std::size_t flights, std::size_t re
     Table counts;
     counts.set("flights", std::uint64_t{flights});
     counts.set("receptions", std::uint64_t{receptions});
-    counts.set("messages", std::uint64_t{messages_.uid.size()});
+    counts.set("messages", std::uint64_t{messages()});
     counts.set("outcomes", Array(all.begin(), all.end()));
     head.set("counts", std::move(counts));
+}
+
+/// Writes for each message the number of its frames in the run, and the block of its first frame.
+void FrameColumns::write_places(ViewFile& file, const std::vector<Block>& blocks) const {
+    std::vector<std::uint32_t> frames(messages_.uid.size()), block(frames.size(), no_index);
+    for (const Flight& flight : flights_)
+        if (flight.message != no_index) ++frames[flight.message];
+    for (std::uint32_t number = 0; number < blocks.size(); ++number) {
+        for (std::size_t f = blocks[number].begin; f < blocks[number].end; ++f) {
+            const std::uint32_t message = flights_[f].message;
+            if (message != no_index && block[message] == no_index) block[message] = number;
+        }
+    }
+    file.add("messages.frames", frames);
+    file.add("messages.block", block);
 }
 
 /// Writes the chosen frames as blocks, one behind the other.
@@ -327,12 +345,15 @@ void FrameColumns::write_frames(ViewFile& file, Table& head, std::size_t robots,
     to = std::max(from, to);
     if (to - from > choice.most_frames) to = from + choice.most_frames;
     Array blocks;
+    std::vector<Block> ranges;
     for (std::size_t begin = from, end = from; begin < to; begin = end) {
         do ++end;
         while (end < to && first[end + 1] - first[begin] <= block_size);
         const std::string name = fmt::format("{}/", blocks.size());
-        blocks.emplace_back(write_block(file, name, {begin, end}, first, robots));
+        ranges.push_back({begin, end});
+        blocks.emplace_back(write_block(file, name, ranges.back(), first, robots));
     }
+    write_places(file, ranges);
     head.set("blocks", std::move(blocks));
     left_out_ = flights_.size() - (to - from);
 }
@@ -348,7 +369,7 @@ Table FrameColumns::write_block(ViewFile& file, const std::string& name, const B
     constexpr std::uint32_t index = 0;
     constexpr std::uint8_t small = 0;
     file.add_times(name + "flights.start", of(std::int64_t{}, &Flight::start));
-    file.add(name + "flights.airtime", of(index, &Flight::airtime));
+    file.add(name + "flights.airtime", of(0.0, &Flight::airtime));
     file.add_indices(name + "flights.sender", of(index, &Flight::sender), robots);
     file.add_indices(name + "flights.to", of(index, &Flight::to), robots);
     file.add(name + "flights.message", of(index, &Flight::message));
@@ -368,7 +389,9 @@ Table FrameColumns::write_block(ViewFile& file, const std::string& name, const B
              column<std::uint8_t>(heard, [](const RobotReception& r) { return r.outcome; }));
     Table entry;
     entry.set("begin_ns", flights_[block.begin].start);
-    entry.set("end_ns", flights_[block.end - 1].end());
+    std::int64_t end = 0;
+    for (const Flight& each : flights) end = std::max(end, each.end());
+    entry.set("end_ns", end);
     entry.set("flights", std::uint64_t{block.end - block.begin});
     entry.set("receptions", std::uint64_t{heard.size()});
     return entry;

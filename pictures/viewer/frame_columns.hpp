@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "pictures/viewer/view_file.hpp"
 #include "scenario/document/value.hpp"
 #include "sim/record.hpp"
 #include "sim/sink.hpp"
@@ -14,9 +15,6 @@
 #include <vector>
 
 namespace rovernet {
-
-class ViewFile;
-struct ViewDraft;
 
 /// Limits for the frames that a view file contains.
 struct FrameChoice {
@@ -51,7 +49,8 @@ class FrameColumns {
 
     std::size_t frames() const { return flights_.size(); }
     std::size_t receptions() const { return receptions_.size(); }
-    std::size_t messages() const { return messages_.uid.size(); }
+    /// Number of messages of applications, without control packets.
+    std::size_t messages() const;
     /// Largest number of a message's flow; 0 without messages.
     std::size_t last_flow() const;
     /// Identity of each message (MessageName), by the message's index in the columns.
@@ -94,11 +93,15 @@ class FrameColumns {
     };
     /// Frame on air.
     struct Flight {
-        std::int64_t start;  // start of the transmission [ns]
-        std::uint32_t airtime, sender, to, message;
+        std::int64_t start, airtime;  // start and duration of the transmission [ns]
+        std::uint32_t sender, to, message;
         std::uint32_t before;  // index of the sender's previous flight; no_index: none
         std::uint8_t kind, ttl, hops, queue;
         std::int64_t end() const { return start + airtime; }
+    };
+    struct Sender {
+        std::uint32_t last_flight = no_index;  // index of the robot's last flight
+        std::int64_t longest = 0;              // longest airtime of the robot's flights [ns]
     };
     struct RobotReception {
         std::uint32_t flight, robot;
@@ -144,6 +147,7 @@ class FrameColumns {
     void write_losses(ViewFile& file, Table& head, std::size_t robots) const;
     void write_density(ViewFile& file, Table& head, Time end, Bins bins) const;
     void write_counts(Table& head, std::size_t flights, std::size_t receptions) const;
+    void write_places(ViewFile& file, const std::vector<Block>& blocks) const;
     void write_frames(ViewFile& file, Table& head, std::size_t robots, const FrameChoice& choice,
                       const std::vector<std::uint32_t>& first);
     Table write_block(ViewFile& file, const std::string& name, const Block& block,
@@ -155,8 +159,7 @@ class FrameColumns {
     std::uint32_t forgotten_ = 0;
     std::vector<Known> known_;  // messages in use, by MessageId
     std::vector<Flight> flights_;
-    // last flight of each robot, by NodeId; no_index: none
-    std::vector<std::uint32_t> last_flights_;
+    std::vector<Sender> senders_;  // by NodeId
     std::vector<RobotReception> receptions_;
     std::vector<Loss> losses_;
     std::vector<Reason> reasons_;  // reasons in losses_, in the order of first use

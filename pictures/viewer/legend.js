@@ -68,10 +68,10 @@ const legend = (() => {
                 pen.take(c, flights.kind_color(kind), 1.5);
                 pen.circle(c, 9, 8, 6);
                 c.stroke();
-            }, `${name} on air`, "The ring grows from the sender while the frame is on the air"));
+            }, `${name} on air`));
         }
         counts.forEach((n, sign) => {
-            if (n > 0) out.push(item(16, c => signs.draw(c, sign, 8, 8, 4), signs.kinds[sign].text, `${words.count(n)} receptions of the run`));
+            if (n > 0) out.push(item(16, c => signs.draw(c, sign, 8, 8, 4), signs.kinds[sign].text, `${words.count(n)} copies in the run`));
         });
         return out;
     }

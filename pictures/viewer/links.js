@@ -42,7 +42,7 @@ const links = (() => {
         } catch (error) {
             of.lines = [];
             [of.key, of.failed] = ["", key];
-            own.say(error instanceof Error ? error.message : String(error));
+            own.say(/** @type {Error} */ (error).message);
         }
         of.busy = false;
         own.version++;
@@ -144,8 +144,8 @@ const links = (() => {
         const maps = sides.shown(), { t } = lines_on(maps[0]), traced = maps.some(i => by_trace(lines_on(i)));
         if (!server.is_served() && !traced) return [];
         const all = maps.flatMap(i => shown(state, i)), out = [], some = all.find(l => l.margin === null), single = all.find(l => !l.two_way);
-        const when = traced ? "up by the trace" : t < 0 ? "asked \u2026" : `at ${words.seconds(t, 3)} s`;
-        if (!traced && (!some || all.some(l => l.margin !== null))) out.push(item(scale * 5 + 16, scale_of, `link margin [dB] ${when}`, "Level above the receiver's sensitivity, of the weaker direction"));
+        const when = traced ? "up in the trace" : t < 0 ? "asked \u2026" : `at ${words.seconds(t, 3)} s`;
+        if (!traced && (!some || all.some(l => l.margin !== null))) out.push(item(scale * 5 + 16, scale_of, `link margin [dB] ${when}`));
         if (some) out.push(item(24, c => line(c, 0, 8, 24, 8, 0, { from: 0, to: 0, margin: null, two_way: true }), `link ${when}`));
         if (single) out.push(item(30, c => line(c, 0, 8, 30, 8, 0, single), "one way only"));
         if (own.away) out.push(item(1, () => {}, words.counted(own.away, "link") + " to other storeys"));
@@ -161,7 +161,7 @@ const links = (() => {
     /** Shows links, or takes them away. */
     function toggle() {
         const on = !selection.state.links;
-        if (on && !server.is_served() && !sides.shown().some(i => by_trace(lines_on(i)))) own.say(`The trace has no links: record it with \u201c--set trace.links=true\u201d, or open it by \u201crovernet view\u201d.`);
+        if (on && !server.is_served() && !sides.shown().some(i => by_trace(lines_on(i)))) own.say(`The trace has no links: record it with \u201c--set trace.links=true\u201d, or open the run by \u201crovernet view RUN\u201d.`);
         else own.say("");
         for (const of of own.of) if (of) of.failed = "";
         selection.set({ links: on });

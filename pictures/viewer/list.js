@@ -53,6 +53,12 @@ const list = (() => {
         return true;
     }
 
+    /** Events of the block before, if its data are there. @param {EventList} w */
+    function before({ number }) {
+        const n = number - 1, block = n >= 0 && own.blocks.get(n), earlier = n > 0 ? own.blocks.get(n - 1) : null;
+        return own.kept.get(n) ?? (block && earlier !== undefined ? keep(events.window_of(own.run, n, block, earlier)) : null);
+    }
+
     /** Index of the last row until a time, -1 if there is none. @param {number} t */
     function row_at(t) {
         const { rows, window: w } = own;
@@ -199,5 +205,5 @@ const list = (() => {
         return current < 0 || !w || w.number !== own.blocks.at(selection.state.t) ? null : { time: w.time[own.rows[current]], text: events.text(own.run, w, own.rows[current]), rows: own.rows.length };
     }
 
-    return { begin, show, play, step, renew, seen, own };
+    return { begin, show, play, step, before, renew, seen, own };
 })();

@@ -9,11 +9,8 @@ const main = (() => {
 
     /** @param {string} text @returns {Uint8Array} */
     function from_base64(text) {
-        const plain = text.trim(), native = /** @type {any} */ (Uint8Array).fromBase64;
-        if (native) return native(plain);
-        const characters = atob(plain), out = new Uint8Array(characters.length);
-        for (let i = 0; i < out.length; i++) out[i] = characters.charCodeAt(i);
-        return out;
+        const native = /** @type {any} */ (Uint8Array).fromBase64;
+        return native ? native(text) : Uint8Array.from(atob(text), c => c.charCodeAt(0));
     }
 
     /** View file inside the page, or of the server. @param {string} name @returns {Promise<Uint8Array>} */
@@ -35,8 +32,9 @@ const main = (() => {
     function show_error(error) {
         const notice = dom.by_id("notice");
         notice.hidden = false;
-        notice.textContent = error instanceof rvw.ViewError ? error.message : `The run cannot be shown: ${error instanceof Error ? error.message : error}`;
+        notice.textContent = error instanceof rvw.ViewError ? error.message : `The run cannot be shown: ${error}`;
         hooks.error = notice.textContent;
+        if (!own.run) dom.by_id("caption").textContent = "";
     }
 
     function resize() {
@@ -120,7 +118,7 @@ const main = (() => {
         dom.by_id("caption").textContent = [words.counted(head.robots.length, "robot"), `${words.number(duration / run.nanoseconds)} s`,
             ...(is_one ? sides.counts(head) : []), `rovernet ${head.version.split(" ")[0]}`].join(" \u00b7 ");
         const told = all.flatMap(side => [...side.run.head.thinned, ...side.run.head.damage].map(text => of_run(side, text))), state = live.state();
-        if (state?.left_out) told.push(`The first ${words.counted(state.left_out, "frame")} of the run ${state.left_out === 1 ? "is" : "are"} left out.`);
+        if (state?.left_out) told.push(`Left out: ${words.counted(state.left_out, "frame")} of the begin of the run.`);
         dom.by_id("notice").hidden = told.length === 0;
         dom.by_id("notice").textContent = told.join(" ");
     }
@@ -179,7 +177,7 @@ const main = (() => {
 
     /** What tests see and do. */
     const hooks = {
-        parts: { antennas, camera, clock, coverage, floods, links, live, robots, server, sides, signs, theme },
+        parts: { antennas, camera, clock, coverage, files, floods, links, live, robots, server, sides, signs, theme },
         ready: false, error: "",
         get t() { return selection.state.t; },
         get state() { return selection.state; },

@@ -53,16 +53,11 @@ const map = (() => {
     function door(c, x0, y0, x1, y1, closed) {
         const length = Math.hypot(x1 - x0, y1 - y0) || 1, half = 3;
         const nx = -(y1 - y0) / length * half, ny = (x1 - x0) / length * half;
-        c.beginPath();
-        c.moveTo(x0 + nx, y0 + ny);
-        c.lineTo(x1 + nx, y1 + ny);
-        c.lineTo(x1 - nx, y1 - ny);
-        c.lineTo(x0 - nx, y0 - ny);
-        c.closePath();
+        const outline = new Path2D(`M${x0 + nx} ${y0 + ny}L${x1 + nx} ${y1 + ny} ${x1 - nx} ${y1 - ny} ${x0 - nx} ${y0 - ny}Z`);
         c.fillStyle = theme.colors().paper;
-        c.fill();
+        c.fill(outline);
         pen.take(c, theme.readable(signs.look.colors.door), closed ? 2.2 : 1, closed ? [] : [3, 2]);
-        c.stroke();
+        c.stroke(outline);
     }
 
     /** Stairs from foot to head [px]. @param {CanvasRenderingContext2D} c @param {number} x0 @param {number} y0 @param {number} x1 @param {number} y1 */
@@ -88,8 +83,9 @@ const map = (() => {
     function grid(c) {
         const { width, height, scale } = camera.now, step = camera.round_number(160 / scale);
         c.fillStyle = theme.colors().faint;
-        for (let x = Math.ceil(camera.from_x(0) / step) * step; x <= camera.from_x(width); x += step) c.fillRect(Math.round(camera.to_x(x)), 0, 1, height);
-        for (let y = Math.ceil(camera.from_y(height) / step) * step; y <= camera.from_y(0); y += step) c.fillRect(0, Math.round(camera.to_y(y)), width, 1);
+        const left = Math.ceil(camera.from_x(0) / step), top = Math.floor(camera.from_y(0) / step);
+        for (let i = 0; i * step * scale <= width; i++) c.fillRect(Math.round(camera.to_x((left + i) * step)), 0, 1, height);
+        for (let i = 0; i * step * scale <= height; i++) c.fillRect(0, Math.round(camera.to_y((top - i) * step)), width, 1);
     }
 
     /** @param {CanvasRenderingContext2D} c @param {Run} r @param {number} storey @param {boolean[]} closed */

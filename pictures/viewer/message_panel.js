@@ -16,7 +16,7 @@ const message_panel = (() => {
         const told = own.run.head.follow.find(a => a.message === flood.message && a.robot === robot);
         if (told) return told.text;
         const lost = flood.lost.get(robot) ?? [];
-        if (lost.length === 0) return "No frame of it reached this robot.";
+        if (lost.length === 0) return `No frame of it reached this robot${flood.left_out ? " in the part that is shown" : ""}.`;
         const parts = lost.slice(0, 3).map(copy => `${signs.kinds[copy.sign].text} at ${words.seconds(copy.at)} s, from ${words.visible(own.run.name(copy.from))}`);
         return parts.join("; ") + (lost.length > 3 ? `; and ${lost.length - 3} more` : "") + ".";
     }
@@ -89,9 +89,10 @@ const message_panel = (() => {
             children.set(copy.from, list);
         }
         const origin = r.col("messages.origin")[message], budget = { left: most_rows, seen: new Set([origin]) };
+        const whole = flood.whole && !(live.state()?.left_out && r.col("messages.created")[message] < own.blocks.begins[0]);
         const parts = [dom.make("h2", "", r.message_text(message)), facts(message),
-            dom.make("p", "", `${wanted.length - missing.length} of ${words.counted(wanted.length, "robot")} have it, after ${words.counted(flood.frames, "frame")}` +
-                (flood.whole ? "." : ", in the part of the run that was read."))];
+            dom.make("p", "", `${wanted.length - missing.length} of ${words.counted(wanted.length, "robot")} got it, after ${words.counted(flood.frames, "frame")}` +
+                (whole ? "." : ", in the part that was read.") + (flood.left_out ? ` Left out: ${words.counted(flood.left_out, "frame")} of it.` : ""))];
         if (flood.first.size) parts.push(dom.make("h3", "", "Who got it from whom"), dom.make("div", "tree", robot_button(origin), branch(flood, children, origin, budget)));
         if (budget.left < 0) parts.push(dom.make("p", "muted", `The first ${most_rows} are shown.`));
         if (missing.length) {
@@ -132,7 +133,7 @@ const message_panel = (() => {
         if (some.length === 0) return [dom.make("p", "", "No message was sent in this run.")];
         const rows = some.map(message => dom.make("li", "", dom.button(`${r.message_text(message)} of ${r.label(r.col("messages.origin")[message])}`, "link",
             () => selection.set({ message, t: r.col("messages.created")[message] })), dom.make("span", "muted", ` at ${words.seconds(r.col("messages.created")[message], 3)} s`)));
-        return [dom.make("p", "", "Choose a message: by a double click in the list of events, or by its number in the search."),
+        return [dom.make("p", "", "Choose a message: by a double click on an event, or by its number in the search."),
             dom.make("h3", "", missed.length ? "Messages that somebody missed" : "The first messages"), dom.make("ul", "plain", ...rows)];
     }
 

@@ -8,12 +8,27 @@
 #include <variant>
 
 namespace rovernet {
+namespace {
+
+constexpr std::uint8_t not_departed = 4, left = 5;  // states
+
+}  // namespace
+
+void MotionColumns::begin(NodeId robot, Presence presence) {
+    if (presence == Presence::on) return;
+    const std::uint8_t what = presence == Presence::off    ? 0
+                              : presence == Presence::left ? left
+                                                           : not_departed;
+    states_.push_back({whole_ns(start_of_run), robot.value, what});
+}
 
 void MotionColumns::on(const Record& record, const RecordContext&) {
     if (const auto* moved = std::get_if<Moved>(&record)) {
         legs_.push_back({moved->node.value, moved->leg});
     } else if (const auto* switched = std::get_if<Switched>(&record)) {
-        states_.push_back({whole_ns(switched->time), switched->node.value, switched->on});
+        const bool leaves = !switched->on && leaves_ && leaves_(switched->node, switched->time);
+        const std::uint8_t what = leaves ? left : switched->on ? 1 : 0;
+        states_.push_back({whole_ns(switched->time), switched->node.value, what});
     } else if (const auto* arrived = std::get_if<Arrived>(&record)) {
         states_.push_back({whole_ns(arrived->time), arrived->node.value, 2});
     } else if (const auto* no_way = std::get_if<NoWay>(&record)) {
@@ -36,6 +51,16 @@ MotionColumns::Bounds MotionColumns::bounds() const {
         }
     }
     return all;
+}
+
+std::vector<NodeId> MotionColumns::without_leg(std::size_t robots) const {
+    std::vector<bool> has_leg(robots);
+    for (const RobotLeg& each : legs_)
+        if (each.robot < robots) has_leg[each.robot] = true;
+    std::vector<NodeId> missing;
+    for (NodeId robot{0}; robot.index() < robots; ++robot.value)
+        if (!has_leg[robot.index()]) missing.push_back(robot);
+    return missing;
 }
 
 void MotionColumns::write(ViewFile& file, std::size_t robots) {

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "network/robot.hpp"
 #include "sim/record.hpp"
 #include "sim/sink.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <utility>
 #include <vector>
 
 namespace rovernet {
@@ -18,8 +21,13 @@ class ViewFile;
 /// Memory: 104 bytes for each leg, 16 for each change of a state, 24 for each link change.
 class MotionColumns {
   public:
+    /// Function that tells whether a robot that is switched off at a time leaves the simulation
+    /// (Presence::left).
+    using Leaves = std::function<bool(NodeId robot, Time time)>;
     /// @param with_links  whether the sink wants link changes, which a network must search for
-    explicit MotionColumns(bool with_links = true) : with_links_(with_links) {}
+    /// @param leaves      empty: no robot leaves
+    explicit MotionColumns(bool with_links = true, Leaves leaves = {})
+        : with_links_(with_links), leaves_(std::move(leaves)) {}
 
     KindMask kinds() const {
         const KindMask motion =
@@ -27,6 +35,9 @@ class MotionColumns {
         return with_links_ ? motion | kind_of<LinkUp>() | kind_of<LinkDown>() : motion;
     }
     void on(const Record& record, const RecordContext& context);
+    /// Adds the state of a robot at the start of the run, which no record tells. Must be called
+    /// before on() gets a record of a later time. Does nothing for a robot that is on.
+    void begin(NodeId robot, Presence presence);
 
     /// Writes the columns `legs`, `states` and `links`. @param robots  number of robots
     void write(ViewFile& file, std::size_t robots);
@@ -39,6 +50,8 @@ class MotionColumns {
     };
     /// Rectangle around the start and end of all legs; zeros without legs.
     Bounds bounds() const;
+    /// Robots below `robots` that have no leg, as in a trace that is cut off.
+    std::vector<NodeId> without_leg(std::size_t robots) const;
 
   private:
     /// Leg of a robot.
@@ -46,7 +59,8 @@ class MotionColumns {
         std::uint32_t robot;
         Leg leg;
     };
-    /// Change of a robot's state: 0 off, 1 on, 2 arrived at its goal, 3 found no path to its goal.
+    /// Change of a robot's state: 0 off, 1 on, 2 arrived at its goal, 3 found no path to its goal,
+    /// 4 not yet departed, 5 has left.
     struct State {
         std::int64_t time;
         std::uint32_t robot;
@@ -63,6 +77,7 @@ class MotionColumns {
     void write_links(ViewFile& file, std::size_t robots) const;
 
     bool with_links_;
+    Leaves leaves_;
     std::vector<RobotLeg> legs_;
     std::vector<State> states_;
     std::vector<LinkChange> links_;

@@ -58,7 +58,8 @@ const pair_panel = (() => {
     function draw(c, i, state) {
         const link = own.links[i]?.[0];
         if (!link || state.panel !== "pair") return;
-        const [a, b] = own.robots.map(robot => sides.own.all[i].run.pose(robot, own.t));
+        const { run: r } = sides.own.all[i], [a, b] = own.robots.map(robot => r.pose(robot, own.t));
+        const [low, high] = [a, b].map(({ z }, end) => z + r.head.robots[own.robots[end]].antenna_z);  // antennas [m]
         const x0 = camera.to_x(a.x), y0 = camera.to_y(a.y), x1 = camera.to_x(b.x), y1 = camera.to_y(b.y);
         const color = theme.readable(theme.on_scale(signs.look.colors.ember, 0.5));
         /** @param {number} from @param {number} to shares of the way @param {number} width */
@@ -70,6 +71,7 @@ const pair_panel = (() => {
         own.losses = [];
         for (const { entry_m, exit_m, loss_db } of link.walls ?? []) {
             const from = entry_m / link.distance_m, to = exit_m / link.distance_m, middle = (from + to) / 2;
+            if (r.storey(low + middle * (high - low)) !== state.storey) continue;
             part(from, to, 7);
             if (loss_db) own.losses.push({ text: `${words.number(loss_db, 3)} dB`, x: x0 + middle * (x1 - x0), y: y0 + middle * (y1 - y0) });
         }

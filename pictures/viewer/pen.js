@@ -6,7 +6,7 @@ const pen = (() => {
     /** Boxes that texts do not cover: left, top, right, bottom [px]. @type {number[][]} */ let taken = [];
 
     /** @param {number} size [px] */
-    function font(size) { return `${size}px 'DejaVu Sans', Verdana, Helvetica, Arial, sans-serif`; }
+    function font(size) { return `${size}px "DejaVu Sans",Verdana,sans-serif`; }
 
     /** The next lines have this look. @param {CanvasRenderingContext2D} c @param {string} color @param {number} width @param {number[]} [dash] */
     function take(c, color, width, dash = []) {

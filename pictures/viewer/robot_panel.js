@@ -23,14 +23,14 @@ const robot_panel = (() => {
 
     /** @param {number} robot @param {State} state @returns {[string, Node|string][]} */
     function place(robot, state) {
-        const r = own.run, { on, word } = r.state(robot, state.t);
+        const r = own.run, { on, there, word } = r.state(robot, state.t);
         r.pose(robot, state.t, pose);
         const speed = Math.hypot(pose.vx, pose.vy), degrees = ((pose.heading * 180 / Math.PI) % 360 + 360) % 360;
         const out = /** @type {[string, Node|string][]} */ ([
             ["place", [pose.x, pose.y, ...(r.legs.z ? [pose.z] : [])].map(v => `${words.fixed(v, 2)} m`).join(", ")],
             ["heading", `${degrees.toFixed(0)}\u00b0`],
             ["speed", `${speed.toFixed(2)} m/s`],
-            ["state", [on ? "on" : "off", word].filter(Boolean).join(", ")]
+            ["state", [there && (on ? "on" : "off"), word].filter(Boolean).join(", ")]
         ]);
         const queue = on && own.blocks.queue(robot, state.t);
         if (queue) out.push(["queue", `${words.counted(queue.frames, "frame")}${queue.frames < 255 ? "" : " or more"}, as it sent at ${words.seconds(queue.since, 6)} s`]);
@@ -60,12 +60,12 @@ const robot_panel = (() => {
 
     /** Messages that this robot sent or got until now, the last first. @param {number} robot @param {number} t @returns {number[]} */
     function recent(robot, t) {
-        const w = list.own.window;
-        if (!w) return [];
         const out = new Set();
-        for (let i = run.count_until(w.time, t) - 1; i >= 0 && out.size < most_messages; i--) {
-            const { who, message } = events.about(own.run, w, i);
-            if (who === robot && message >= 0 && message < own.run.messages) out.add(message);
+        for (let w = list.own.window, n = 2; w && n > 0 && out.size < most_messages; w = list.before(w), n--) {
+            for (let i = run.count_until(w.time, t) - 1; i >= 0 && out.size < most_messages; i--) {
+                const { who, message } = events.about(own.run, w, i);
+                if (who === robot && message >= 0 && message < own.run.messages) out.add(message);
+            }
         }
         return [...out];
     }
@@ -78,7 +78,7 @@ const robot_panel = (() => {
         const r = own.run, rows = some.map(message => dom.make("li", "",
             dom.button(r.message_text(message), "link", () => selection.set({ message, panel: "message" })),
             dom.make("span", "muted", ` of ${r.label(r.col("messages.origin")[message], 20)}, ${words.seconds(r.col("messages.created")[message], 3)} s`)));
-        dom.by_id("robot-messages").replaceChildren(...(rows.length ? rows : [dom.make("li", "muted", "none until now")]));
+        dom.by_id("robot-messages").replaceChildren(...(rows.length ? rows : [dom.make("li", "muted", "none in this part of the run")]));
     }
 
     /** The air at a robot in the last second, as the server tells it. @param {Record<string, any>} air @returns {[string, Node|string][]} */
@@ -116,7 +116,7 @@ const robot_panel = (() => {
             own.covers = dom.button("coverage", "", () => coverage.toggle(robot)));
         if (server.is_served()) actions.append(coverage.choice());
         dom.by_id("robot-panel").replaceChildren(dom.make("h2", "", own.run.label(robot, 60)), place, actions,
-            ...drive.parts(robot), dom.make("h3", "", live.is_live() ? "Until now" : "In the whole run"), counters(robot),
+            ...drive.parts(robot), dom.make("h3", "", live.is_live() ? "Until now" : own.blocks.cut ? "In the part that is shown" : "In the whole run"), counters(robot),
             dom.make("h3", "", "Radio"), dom.facts(radio(robot)), ...asked("Neighbours", "robot-neighbours", "robot", robot, neighbours),
             ...asked("Air", "robot-air", "air", robot, answer => dom.facts(facts_of_air(answer))),
             dom.make("h3", "", `Last messages until now`), found);

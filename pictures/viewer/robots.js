@@ -4,7 +4,7 @@ const robots = (() => {
     "use strict";
     const least_radius = 4, beyond = 5;                 // [px]
     const most_named = 400, most_trails = 200, many = 1500;
-    const trail_ns = 10e9;
+    const trail_ns = 10e9, nowhere = 255;  // storey of a robot that has not departed, or has left
     /** @type {Pose} */ const pose = { x: 0, y: 0, z: 0, vx: 0, vy: 0, heading: 0 };
 
     /** Places of all robots [px] at the time of the last call of `place`. */
@@ -28,7 +28,11 @@ const robots = (() => {
             at.storey[i] = storeys ? r.storey(pose.z) : 0;
         }
         at.on.fill(1);
-        for (const robot of r.states.keys()) at.on[robot] = r.state(robot, t).on ? 1 : 0;
+        for (const robot of r.states.keys()) {
+            const { on, there } = r.state(robot, t);
+            at.on[robot] = Number(on);
+            if (!there) at.storey[robot] = nowhere;
+        }
         at.t = t;
     }
 
@@ -125,7 +129,7 @@ const robots = (() => {
         const color = theme.colors().muted;
         let named = 0;
         for (let i = 0; i < r.robots; i++) {
-            if (at.storey[i] === storey || !in_view(i, 40)) continue;
+            if (at.storey[i] === storey || at.storey[i] === nowhere || !in_view(i, 40)) continue;
             const corners = at.storey[i] + 3, size = radius(r, i) + 2, reach = size + 4;
             c.beginPath();
             for (let k = 0; k < corners; k++) {
@@ -163,7 +167,7 @@ const robots = (() => {
     function near(r, px, py, storey) {
         let best = -1, nearest = Infinity;
         for (let i = 0; i < at.x.length; i++) {
-            if (at.storey[i] !== storey && !others.shown) continue;
+            if (at.storey[i] !== storey && (!others.shown || at.storey[i] === nowhere)) continue;
             const away = Math.hypot(at.x[i] - px, at.y[i] - py);
             if (away < nearest && away <= radius(r, i) + 6) [best, nearest] = [i, away];
         }

@@ -29,7 +29,7 @@ const run = (() => {
     /** Columns of each part of the run; those behind a bar need not be there. @type {Record<string, string>} */
     const columns_of = {
         walls: "x y material storey", legs: "first start end x y vx vy heading turning|z vz", states: "time robot what", doors: "time door closed",
-        messages: "uid created origin to size flow kind", drops: "time robot message reason", links: "|time from to up"
+        messages: "uid created origin to size flow kind|frames block", drops: "time robot message reason", links: "|time from to up"
     };
     const [needed, optional] = [0, 1].map(i => Object.entries(columns_of).flatMap(([part, names]) => (names.split("|")[i] || "").split(" ").filter(Boolean).map(name => `${part}.${name}`)));
 
@@ -114,14 +114,16 @@ const run = (() => {
             return out;
         }
 
-        /** What became of a robot until a time. @param {number} robot @param {number} t */
+        /** What became of a robot until a time: an arrival counts until it drives on. @param {number} robot @param {number} t */
         state(robot, t) {
-            let on = true, word = "";
+            const { start, end, vx, vy } = this.legs, leg = this.leg(robot, t);
+            let what = 1, word = 0, since = 0;
             for (const change of this.states.get(robot) ?? []) {
                 if (change.at > t) break;
-                if (change.what <= 1) on = change.what === 1; else word = change.what === 2 ? "arrived" : "found no way";
+                if (change.what === 2 || change.what === 3) [word, since] = [change.what, change.at]; else what = change.what;
             }
-            return { on, word };
+            if (start[leg] > since || t < end[leg] && (vx[leg] || vy[leg])) word = 0;
+            return { on: what === 1, there: what < 4, word: ["", "", "arrived", "found no way", "not departed", "left"][what < 4 ? word : what] };
         }
 
         /** @param {number} z */
@@ -170,7 +172,7 @@ const run = (() => {
             if (first[i] >= first[i + 1] || first[i + 1] > legs) rvw.broken("legs.first");
         }
         /** @type {[string, number][]} */
-        const limits = [["walls.material", r.head.map.materials.length], ["states.robot", r.robots], ["doors.door", r.head.map.doors.length], ["messages.origin", r.robots],
+        const limits = [["walls.material", r.head.map.materials.length], ["states.robot", r.robots], ["states.what", 6], ["doors.door", r.head.map.doors.length], ["messages.origin", r.robots],
             ["messages.kind", r.head.message_kinds.length], ["messages.flow", r.head.flows.length], ["links.from", r.robots], ["links.to", r.robots], ["drops.robot", r.robots]];
         for (const [name, below] of limits) check_below(r.columns[name] ?? [], below, name);
         for (const { message, robot } of r.head.follow) {

@@ -8,7 +8,7 @@ const server = (() => {
 
     const how = "This page is a file without a server. To ask, open the run by \u201crovernet view RUN\u201d.";
 
-    const token_hint = "Open the address with ?token= that it printed at its start.";
+    const token_hint = "Open the address with ?token= that the server printed.";
 
     /** @param {string|ArrayBuffer} data */
     function receive(data) {

@@ -50,7 +50,7 @@ const sides = (() => {
 
     /** How much a run has. @param {Head} head */
     function counts({ seed, replication, counts: { messages, flights, receptions } }) {
-        return [`seed ${seed}`, ...(replication ? [`replication ${replication}`] : []), words.counted(messages, "message"), words.counted(flights, "frame"), words.counted(receptions, "reception")];
+        return [`seed ${seed}`, ...(replication ? [`replication ${replication}`] : []), words.counted(messages, "message"), words.counted(flights, "frame"), words.counted(receptions, "copy", "copies")];
     }
 
     /** What the map shows, in words. */

@@ -14,10 +14,10 @@ const tables = (() => {
 
     /** @param {any} value @returns {string} */
     function text(value) {
-        if (value === null || value === undefined) return "-";
-        if (typeof value === "number") return words.number(value, 4);
+        if (value == null) return "-";
+        if (typeof value === "number") return words.number(value, 7);
         if (typeof value === "boolean") return value ? "yes" : "no";
-        if (Array.isArray(value)) return value.length ? value.map(text).join(", ") : "-";
+        if (Array.isArray(value)) return value.map(text).join(", ") || "-";
         if (typeof value === "object") return Object.values(value).map(text).join(" ");
         return words.visible(String(value));
     }

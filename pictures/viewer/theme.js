@@ -9,7 +9,7 @@ const theme = (() => {
     const dark = { paper: "#16181c", ink: "#f0f0f0", muted: "#a9afb8", line: "#7a818c", faint: "#2a2e35", chosen: "#c46a10", off: "#6e747e", accent: "#56b4e9" };
     const least_contrast = { light: 3, dark: 4.5 };  // thin lines need more on dark paper
 
-    const [dark_wanted, still_wanted] = ["color-scheme: dark", "reduced-motion: reduce"].map(wish => typeof matchMedia === "function" ? matchMedia(`(prefers-${wish})`) : null);
+    const [dark_wanted, still_wanted] = ["color-scheme: dark", "reduced-motion: reduce"].map(wish => globalThis.matchMedia?.(`(prefers-${wish})`));
 
     /** The wishes, kept: asking the browser for each frame on air takes a millisecond. */
     const now = { dark: false, still: false };

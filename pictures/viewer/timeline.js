@@ -85,7 +85,7 @@ const timeline = (() => {
             found.push([block, i]);
             return found.length <= most_bars;
         });
-        if (!whole || found.length > most_bars) return whole ? false : true;
+        if (!whole || found.length > most_bars) return !whole;
         found.sort((a, b) => a[0].start[a[1]] - b[0].start[b[1]]);
         const rows = [0], height = 14, room = Math.floor((own.height - axis - own.top) / height);
         for (const [block, i] of found) {

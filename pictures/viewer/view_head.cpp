@@ -109,7 +109,8 @@ Table view_head(const Scenario& scenario, const std::vector<std::string>& robots
     head.set("name", scenario.scenario.name);
     head.set("seed", scenario.scenario.seed);
     head.set("replication", scenario.scenario.replication);
-    head.set("duration_ns", std::int64_t{scenario.scenario.duration.count()});
+    constexpr std::int64_t longest = (std::int64_t{1} << 53U) - 1;  // exact in JavaScript
+    head.set("duration_ns", std::min<std::int64_t>(scenario.scenario.duration.count(), longest));
     Array antennas;
     head.set("robots", robot_list(robots, scenario, antennas));
     head.set("antennas", std::move(antennas));

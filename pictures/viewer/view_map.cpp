@@ -21,12 +21,12 @@ namespace rovernet {
 namespace {
 
 void add_walls(const Scene& scene, ViewFile& file) {
-    std::vector<float> x, y;
+    std::vector<double> x, y;
     std::vector<std::uint8_t> material, storey;
     for (const WallRectangle& wall : scene.wall_rectangles()) {
         for (const Vec3 corner : wall.corners) {
-            x.push_back(static_cast<float>(corner.x));
-            y.push_back(static_cast<float>(corner.y));
+            x.push_back(corner.x);
+            y.push_back(corner.y);
         }
         material.push_back(static_cast<std::uint8_t>(std::min<std::size_t>(wall.material, 255)));
         storey.push_back(static_cast<std::uint8_t>(scene.storeys().number_at(wall.corners[0].z)));

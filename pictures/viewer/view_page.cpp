@@ -26,15 +26,19 @@ std::string base64(std::string_view bytes) {
     return out;
 }
 
+/// Policy of a page. @param connect  what the page may connect to
+std::string policy(std::string_view connect) {
+    return fmt::format("{}; connect-src {}", viewer_policy, connect);
+}
+
 /// The page with a policy about connections, and with data.
 std::string page(std::string_view connect, std::string_view data) {
     std::string html(viewer_html);
     const auto put = [&](std::string_view mark, std::string_view text) {
         html.replace(html.find(mark), mark.size(), text);
     };
-    put("<!--CSP-->",
-        fmt::format("<meta http-equiv=\"Content-Security-Policy\" content=\"{}; connect-src {}\">",
-                    viewer_policy, connect));
+    put("<!--CSP-->", fmt::format("<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">",
+                                  policy(connect)));
     put("<!--DATA-->", data);
     return html;
 }
@@ -56,6 +60,7 @@ std::string page_with(std::string_view view_file, std::string_view other) {
 std::string served_page(bool has_other) {
     return page("'self'", has_other ? element("other", "") : "");
 }
+std::string served_policy() { return policy("'self'"); }
 std::string live_page() { return page("'self'", "<i id=\"goes-on\" hidden></i>"); }
 
 }  // namespace rovernet

@@ -18,6 +18,8 @@ std::string page_with(std::string_view view_file, std::string_view other = {});
 /// Page of the viewer for a server: it loads the view file from the server's path /run.rvw.
 /// @param has_other  true: the page also loads a second view file, from /other.rvw
 std::string served_page(bool has_other = false);
+/// Content-Security-Policy of the pages for a server, as in their <meta>.
+std::string served_policy();
 /// Page of the viewer for a live run: the page gets the run's view files by a WebSocket.
 std::string live_page();
 

@@ -13,11 +13,12 @@
 namespace rovernet {
 
 class RecordedIndex;
+struct Scenario;
 
 /// Choice of the content of a view file.
 struct ViewChoice {
     FrameChoice frames = {};
-    bool map = true;    ///< true: the file contains walls, doors and stairs
+    bool map = true;    ///< true: the file contains walls, doors and stairs, and reasons with walls
     bool packs = true;  ///< whether the columns are compressed
     /// Largest size of the view file [bytes]: later frames are left out. Robots, legs and messages
     /// are always complete, so that a file without frames may be larger.
@@ -41,9 +42,17 @@ struct ViewedRun {
     std::shared_ptr<const RecordedIndex> index = nullptr;
 };
 
+/// Checks that a page can show the times of a scenario: the duration is at most 2^53 - 1 ns, about
+/// 104 days.
+/// @param path  file of the scenario or of its trace
+/// @throws InputError if the duration is longer
+void check_viewable(const Scenario& scenario, const std::string& path);
+
 /// Makes a view file of a recorded trace.
 /// @param path  recorded trace with a scenario
-/// @throws InputError if the file is no recorded trace, or its scenario cannot be loaded
+/// @throws InputError if the file is no recorded trace, its scenario cannot be loaded, or the run
+/// is
+///         too long for a page (check_viewable)
 ViewedRun view_of_trace(const std::string& path, const ViewChoice& choice);
 
 }  // namespace rovernet

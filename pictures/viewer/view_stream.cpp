@@ -2,11 +2,11 @@
 #include "pictures/viewer/view_stream.hpp"
 
 #include "experiment/version.hpp"
-#include "models/medium/medium.hpp"
 #include "pictures/viewer/view_file.hpp"
 #include "pictures/viewer/view_head.hpp"
 #include "pictures/viewer/view_map.hpp"
 #include "scenario/scenario.hpp"
+#include "sim/legs.hpp"
 #include "sim/message.hpp"
 
 #include <utility>
@@ -16,6 +16,11 @@ namespace rovernet {
 ViewStream::ViewStream(const Scenario& scenario, std::shared_ptr<Network> network)
     : scenario_(scenario),
       network_(std::move(network)),
+      motion_(std::make_shared<MotionColumns>(false,
+                                              [network = network_.get()](NodeId robot, Time) {
+                                                  return network->robot(robot).presence ==
+                                                         Presence::left;
+                                              })),
       series_(std::make_shared<ViewSeries>(start_of_run + scenario.scenario.duration, false)),
       begin_(network_->now()) {
     for (std::uint32_t i = 0; i < network_->size(); ++i)
@@ -35,8 +40,7 @@ std::string ViewStream::start(Table live) const {
     for (NodeId robot{0}; robot.index() < robots_.size(); ++robot.value) {
         const Leg leg = network_->legs().leg(robot);
         now.on(Moved{leg.start, robot, leg}, context);
-        if (!network_->medium().stations().is_on(robot))
-            now.on(Switched{start_of_run, robot, false}, context);
+        now.begin(robot, network_->robot(robot).presence);
     }
     ViewDraft draft{ViewFile(false)}, no_frames;
     ViewFile& file = draft.file;

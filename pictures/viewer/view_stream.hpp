@@ -54,7 +54,7 @@ class ViewStream {
     const Scenario& scenario_;
     std::shared_ptr<Network> network_;
     std::vector<std::string> robots_;
-    std::shared_ptr<MotionColumns> motion_ = std::make_shared<MotionColumns>(false);
+    std::shared_ptr<MotionColumns> motion_;
     std::shared_ptr<FrameColumns> frames_ = std::make_shared<FrameColumns>();
     std::shared_ptr<ViewSeries> series_;
     Time begin_;

@@ -16,6 +16,9 @@ const words = (() => {
         return (ns < 0 ? minus : "") + text;
     }
 
+    /** Seconds of a time [ns] with all nanoseconds, for programs. @param {number} ns */
+    function plain(ns) { return seconds(ns, 9).replaceAll(thin, ""); }
+
     /** Length of time [ns] in a unit that fits. @param {number} ns */
     function span(ns) {
         const units = /** @type {[number, string][]} */ ([[1e9, "s"], [1e6, "ms"], [1e3, "\u00b5s"], [1, "ns"]]);
@@ -26,7 +29,7 @@ const words = (() => {
     /** @param {number} v @param {number} digits that count */
     function number(v, digits = 6) {
         if (!Number.isFinite(v)) return String(v);
-        return String(Number(v.toPrecision(digits))).replace("-", minus);
+        return String(Number.isInteger(v) ? v : Number(v.toPrecision(digits))).replace("-", minus);
     }
 
     /** @param {number} v @param {number} decimals */
@@ -38,10 +41,10 @@ const words = (() => {
     /** @param {number} n @param {string} one @param {string} [many] */
     function counted(n, one, many = one + "s") { return `${count(n)} ${n === 1 ? one : many}`; }
 
-    /** @param {string} text @param {number} most */
+    /** Begin and end of a long text: names often begin alike. @param {string} text @param {number} most even */
     function shortened(text, most) {
         const points = [...text];
-        return points.length <= most ? text : points.slice(0, most - 1).join("") + "\u2026";
+        return points.length <= most ? text : [...points.slice(0, most / 2), "\u2026", ...points.slice(1 - most / 2)].join("");
     }
 
     /** Text without characters that cannot be seen or that turn the direction around. @param {string} text */
@@ -52,5 +55,5 @@ const words = (() => {
     /** A foreign name, as it is shown. @param {string} name @param {number} most */
     function short(name, most) { return shortened(visible(name), most); }
 
-    return { seconds, span, number, fixed, count, counted, shortened, visible, short };
+    return { seconds, plain, span, number, fixed, count, counted, shortened, visible, short };
 })();

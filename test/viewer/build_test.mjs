@@ -27,13 +27,13 @@ function rules(text) {
 const files = fs.readFileSync(path.join(source, "order.txt"), "utf8").trim().split("\n").map(name => fs.readFileSync(path.join(source, name), "utf8")).join("");
 const script_of = page => /<script>([^]*?)<\/script>/.exec(page)[1], style_of = page => /<style>([^]*?)<\/style>/.exec(page)[1];
 
-test("build: without minify, the script of the page is the code of all its files, in one function", () => {
+test("page build: without minify, the script of the page is the code of all its files, in one function", () => {
     const script = script_of(made_page("whole", ""));
     assert.deepEqual(tree(script), tree(`(() => {${files}})();`));
     assert.ok(script.startsWith('"use strict";'));
 });
 
-test("build: without minify, the style of the page has the rules of page.css", () => {
+test("page build: without minify, the style of the page has the rules of page.css", () => {
     assert.equal(rules(style_of(made_page("whole", ""))), rules(fs.readFileSync(path.join(source, "page.css"), "utf8")));
 });
 
@@ -49,7 +49,7 @@ function words(text) {
     return found;
 }
 
-test("build: the minified script keeps all texts and names of members of its files", { skip: !is_short && "the page was built without minify" }, () => {
+test("page build: the minified script keeps all texts and names of members of its files", { skip: !is_short && "the page was built without minify" }, () => {
     const script = script_of(html("rescue")), short = words(script), all = [...short].join("\n");
     assert.ok(script.startsWith('"use strict";'));
     assert.ok(script.length < 0.55 * files.length);

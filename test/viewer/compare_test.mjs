@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import fs from "node:fs";
 import path from "node:path";
 import test from "node:test";
-import { drawn, folder, scenario, told, trace, with_command, with_page, with_served } from "./page.mjs";
+import { drawn, folder, printed, scenario, told, trace, with_command, with_page, with_served } from "./page.mjs";
 import { sections, view_file } from "./run_file.mjs";
 
 const radio = "propagation.model=friis";
@@ -33,7 +33,7 @@ function of_color(page, from, to, color) {
     return pixels(page, from, to, (0xff000000 | b << 16 | g << 8 | r) >>> 0);
 }
 
-test("V9: the numbers of gained and lost deliveries equal the output of replay --with", () => with_page("both", {}, async page => {
+test("view page, two runs: the numbers of gained and lost deliveries equal those of replay --with", () => with_page("both", {}, async page => {
     const [{ gained, lost }] = told("replay", trace("rescue"), "--with", radio, "--json").radios;
     const text = await page.locator("#compare-panel").innerText();
     assert.equal(gained, 53);
@@ -43,7 +43,13 @@ test("V9: the numbers of gained and lost deliveries equal the output of replay -
     assert.deepEqual(await page.locator("#labels span").allInnerTexts(), ["A: rescue", `B: rescue, with ${radio}`]);
 }));
 
-test("V9: buttons and keys show both maps side by side, or one of them alone", () => with_page("both", { hash: "#t=10.0002" }, async page => {
+test("view page, two runs: two equal runs have no list of differences", async () => {
+    const file = path.join(folder, "equal.html");
+    printed("view", path.join(folder, "rescue"), path.join(folder, "rescue"), "-o", file);
+    await with_page("equal", {}, async page => assert.deepEqual(await page.locator("#compare-panel h3").allInnerTexts(), ["First record that differs", "Runs"]));
+});
+
+test("view page, two runs: buttons and keys show both maps side by side, or one of them alone", () => with_page("both", { hash: "#t=10.0002" }, async page => {
     assert.ok(await colors(page, 0, 0.49) >= 5 && await colors(page, 0.51, 1) >= 5);
     // Lines of receptions that are delivered: two in A, four in B.
     const delivered = "#009e73", [a, b] = [await of_color(page, 0, 0.5, delivered), await of_color(page, 0.5, 1, delivered)];
@@ -64,7 +70,7 @@ test("V9: buttons and keys show both maps side by side, or one of them alone", (
     }
 }));
 
-test("V9: a click on a difference selects its time, robot and message, and marks the robot on both maps", () => with_page("both", {}, async page => {
+test("view page, two runs: a click on a difference selects its time, robot and message, and marks the robot on both maps", () => with_page("both", {}, async page => {
     const button = page.locator("#compare-panel li button").first();
     assert.equal(await button.innerText(), "message 0 at D");
     await button.click();
@@ -83,7 +89,7 @@ test("V9: a click on a difference selects its time, robot and message, and marks
     assert.match(await page.locator("#legend").innerText(), /gained: in run B only/);
 }));
 
-test("V9: a copied address restores the shown run, time, panel and message", async () => {
+test("view page, two runs: a copied address restores the shown run, time, panel and message", async () => {
     let hash = "";
     await with_page("both", {}, async page => {
         await page.keyboard.press("b");
@@ -94,15 +100,15 @@ test("V9: a copied address restores the shown run, time, panel and message", asy
     await with_page("both", { hash }, async page => {
         const { runs, panel, message, t } = await state(page);
         assert.deepEqual({ runs, panel, message, t }, { runs: "B", panel: "message", message: 2, t: 16e9 });
-        await page.waitForFunction(() => document.getElementById("message-panel").textContent.includes("4 of 4 robots have it"));
+        await page.waitForFunction(() => document.getElementById("message-panel").textContent.includes("4 of 4 robots got it"));
         await page.keyboard.press("a");
         await page.keyboard.press("a");
         await page.keyboard.press("a");
-        await page.waitForFunction(() => document.getElementById("message-panel").textContent.includes("3 of 4 robots have it"));
+        await page.waitForFunction(() => document.getElementById("message-panel").textContent.includes("3 of 4 robots got it"));
     });
 });
 
-test("V9: after a switch to the other run the same message is selected, even if it has another number there", () => with_page("routes-both", {}, async page => {
+test("view page, two runs: after a switch to the other run the same message is selected, even if it has another number there", () => with_page("routes-both", {}, async page => {
     const kinds = [...sections(view_file("routes-both")).unpacked.get("messages.kind")], last = kinds.lastIndexOf(0), facts = page.locator("#message-panel .facts").first();
     await page.evaluate(message => window.rovernet.select({ runs: "A", panel: "message", message }), last);
     const told = await facts.innerText();
@@ -115,7 +121,7 @@ test("V9: after a switch to the other run the same message is selected, even if 
 }));
 
 for (const colorScheme of ["light", "dark"]) {
-    test(`V9: a page of two runs in ${colorScheme} colours violates no accessibility rule of WCAG 2 A or AA`, () => with_page("both", { context: { colorScheme, bypassCSP: true }, hash: "#t=10.0002&robots=0,4&message=0&panel=compare" }, async page => {
+    test(`view page, two runs: in ${colorScheme} colours no accessibility rule of WCAG 2 A or AA is violated`, () => with_page("both", { context: { colorScheme, bypassCSP: true }, hash: "#t=10.0002&robots=0,4&message=0&panel=compare" }, async page => {
         await page.evaluate(fs.readFileSync(path.join(folder, "node_modules/axe-core/axe.min.js"), "utf8"));
         for (const panel of ["compare", "message"]) {
             await page.evaluate(chosen => window.rovernet.select({ panel: chosen }), panel);
@@ -126,7 +132,7 @@ for (const colorScheme of ["light", "dark"]) {
     }));
 }
 
-test("V9: at 1024 x 640 a page of two runs needs no scrolling, and no text is cut off", () => with_page("both", { context: { viewport: { width: 1024, height: 640 } } }, async page => {
+test("view page, two runs: at 1024 x 640 the page needs no scrolling, and no text is cut off", () => with_page("both", { context: { viewport: { width: 1024, height: 640 } } }, async page => {
     const { wide, high } = await page.evaluate(() => ({ wide: document.documentElement.scrollWidth, high: document.documentElement.scrollHeight }));
     assert.ok(wide <= 1024 && high <= 640, `${wide} x ${high}`);
     const [label, zooms] = await Promise.all(["#labels span:last-child", "#zooms"].map(place => page.locator(place).boundingBox()));
@@ -136,7 +142,7 @@ test("V9: at 1024 x 640 a page of two runs needs no scrolling, and no text is cu
     assert.deepEqual(cut, []);
 }));
 
-test("links: each of the two maps shows the links of its own run", () => with_command(["view", path.join(folder, "rescue"), "--with", radio], address => with_served(address, {}, async page => {
+test("view page, two runs: each of the two maps shows the links of its own run", () => with_command(["view", path.join(folder, "rescue"), "--with", radio], address => with_served(address, {}, async page => {
     await page.evaluate(() => window.rovernet.select({ t: 10e9, links: true }));
     await page.waitForFunction(() => links_shown(0).length > 0 && links_shown(1).length > 0);
     for (const [i, set] of [[0, []], [1, ["--set", radio]]]) {

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import test from "node:test";
 import { drawn, with_page } from "./page.mjs";
 
-test("list: a slow double click selects the message in the row of the first click, even if the rows have moved", () => with_page("rescue", {}, async page => {
+test("view page, list of events: a slow double click selects the message in the row of the first click, even if the rows have moved", () => with_page("rescue", {}, async page => {
     const { x, y } = await page.locator("#events .row").nth(9).boundingBox();
     const wanted = /message \d+/.exec(await page.locator("#events .row").nth(9).textContent())[0];
     await page.mouse.move(x + 60, y + 10);

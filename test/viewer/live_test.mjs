@@ -15,7 +15,7 @@ const state = page => page.evaluate(() => rovernet.parts.live.state());
 function until(page, passes, argument) { return page.waitForFunction(passes, argument); }
 const exact = text => Number(text.replace(/\s/g, ""));
 
-test("V10: a page pauses and steps a run, sets the speed of the run, and shows its past and its present", () =>
+test("live view page: a page pauses and steps a run, sets the speed of the run, and shows its past and its present", () =>
     with_command(run(scenario("rescue")), address => with_served(address, {}, async page => {
         await until(page, () => rovernet.parts.live.state().now_ns > 5e8);
         assert.equal(await page.textContent("#present"), "live");
@@ -45,20 +45,20 @@ test("V10: a page pauses and steps a run, sets the speed of the run, and shows i
     })));
 
 for (const name of ["rescue", "csma", "storeys"]) {
-    test(`V14: ${name} has the same fingerprint with and without a page, and the page counts all receptions`, () =>
+    test(`live view page: the run ${name} has the same fingerprint with and without a page, and the page counts all copies`, () =>
         with_command(run(scenario(name), "--speed", "200"), address => with_served(address, {}, async page => {
             await until(page, () => rovernet.parts.live.state().ended);
             const { fingerprint, receptions } = told("run", scenario(name), "--json", "--out", path.join(folder, `plain${++number}`));
             assert.equal((await state(page)).fingerprint, fingerprint);
             await drawn(page);
             const counts = await page.evaluate(() => ({ all: document.getElementById("caption").textContent, shown: window.rovernet.density().reduce((a, column) => a + column.reduce((x, y) => x + y, 0), 0) }));
-            const told_count = exact(/([\d\s]+) receptions/.exec(counts.all)[1]);
+            const told_count = exact(/([\d\s]+) copies/.exec(counts.all)[1]);
             assert.equal(counts.shown, told_count);
             assert.ok(told_count >= receptions);
         })));
 }
 
-test("V10: Ctrl-C ends the run within 3 s with its results, and the page keeps what it has received", () =>
+test("live view page: Ctrl-C ends the run within 3 s with its results, and the page keeps what it has received", () =>
     with_command(run(scenario("rescue"), "--speed", "10"), (address, server, ended) => with_served(address, {}, async page => {
         await until(page, () => rovernet.parts.live.state().now_ns > 11e9);
         const begin = Date.now();
@@ -71,7 +71,7 @@ test("V10: Ctrl-C ends the run within 3 s with its results, and the page keeps w
         assert.ok(fs.existsSync(path.join(folder, `live${number}`, "summary.json")));
     })));
 
-test("V13: a reloaded page, and a page that is opened late, show the whole run", () =>
+test("live view page: a reloaded page, and a page that is opened late, show the whole run", () =>
     with_command(run(scenario("rescue"), "--speed", "50"), address => with_served(address, {}, async (page, context) => {
         await until(page, () => rovernet.parts.live.state().now_ns > 30e9);
         await page.reload();
@@ -105,6 +105,23 @@ test("live --view-control: a page moves a robot and sends a message, and its com
     }));
 });
 
+test("live --view-control: the goal of a robot is on the storey on whose map the page was clicked", () => {
+    const out = path.join(folder, `live${++number}`);
+    return with_command(["live", scenario("storeys"), "--view", "--view-control", "--out", out], (address, server, ended) => with_served(address, {}, async page => {
+        await until(page, () => rovernet.parts.live.state().now_ns > 3e8);
+        await page.evaluate(() => rovernet.select({ robots: [0], panel: "robot", storey: 1 }));
+        await page.getByRole("button", { name: "drive to the place" }).click();
+        const { x, y } = await page.locator("#map").boundingBox(), [px, py] = await page.evaluate(() => [rovernet.parts.camera.to_x(10), rovernet.parts.camera.to_y(8.5)]);
+        await page.mouse.click(x + px, y + py);
+        await until(page, () => document.getElementById("robot-place").textContent.includes("found no way"));  // walls are between
+        server.kill("SIGINT");
+        await ended;
+        const [, goal] = /"goal":\[([^\]]*)\]/.exec(fs.readFileSync(path.join(out, "inputs.jsonl"), "utf8"));
+        const [at_x, at_y, at_z] = goal.split(",").map(Number);
+        assert.ok(Math.hypot(at_x - 10, at_y - 8.5) < 0.1 && at_z === 3, goal);
+    }));
+});
+
 test("live --view: without --view-control a page cannot pause the run", () =>
     with_command(["live", scenario("rescue"), "--view", "--out", path.join(folder, `live${++number}`)], address => with_served(address, {}, async page => {
         await until(page, () => rovernet.parts.live.state().now_ns > 3e8);
@@ -117,7 +134,7 @@ test("live --view: without --view-control a page cannot pause the run", () =>
         assert.equal(await page.textContent("#present"), "to the present");
     })));
 
-test("V13: a page whose server was killed shows the run of the next server on the same port", () =>
+test("live view page: a page whose server was killed shows the run of the next server on the same port", () =>
     with_command(run(scenario("rescue")), (address, server, ended) => with_served(address, { faults: /ERR_CONNECTION_(REFUSED|RESET)/ }, async page => {
         await until(page, () => rovernet.parts.live.state().now_ns > 2e8);
         server.kill("SIGKILL");

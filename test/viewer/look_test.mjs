@@ -5,7 +5,7 @@ import path from "node:path";
 import test from "node:test";
 import { drawn, folder, with_page, with_served, with_server } from "./page.mjs";
 
-test("small window: at 1024 x 640 the page needs no scrolling, and its map is at least 250 pixels high", () => with_page("csma", { context: { viewport: { width: 1024, height: 640 } } }, async page => {
+test("view page, small window: at 1024 x 640 the page needs no scrolling, and its map is at least 250 pixels high", () => with_page("csma", { context: { viewport: { width: 1024, height: 640 } } }, async page => {
     const { wide, high, map } = await page.evaluate(() => ({
         wide: document.documentElement.scrollWidth, high: document.documentElement.scrollHeight, map: document.getElementById("map").clientHeight
     }));
@@ -13,7 +13,7 @@ test("small window: at 1024 x 640 the page needs no scrolling, and its map is at
 }));
 
 for (const [scheme, least] of [["light", 3], ["dark", 4.5]]) {
-    test(`colours of robots, outcomes and doors have enough contrast with the ${scheme} background`, () => with_page("csma", { context: { colorScheme: scheme } }, async page => {
+    test(`view page: colours of robots, outcomes and doors have enough contrast with the ${scheme} background`, () => with_page("csma", { context: { colorScheme: scheme } }, async page => {
         const contrasts = await page.evaluate(() => {
             const luminance = color => {
                 const [r, g, b] = rovernet.parts.theme.channels(color).map(v => v / 255).map(v => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
@@ -49,13 +49,13 @@ function check_apart(texts) {
     }
 }
 
-test("names of robots do not cover each other", () => with_page("csma", { hash: "#t=5", context: { viewport: { width: 1024, height: 640 } } }, async page => {
+test("view page: names of robots do not cover each other", () => with_page("csma", { hash: "#t=5", context: { viewport: { width: 1024, height: 640 } } }, async page => {
     const texts = await written(page, 5.000001e9);
     assert.ok(texts.length > 5);
     check_apart(texts);
 }));
 
-test("names of robots and losses of walls do not cover each other on a small map", () => with_server(path.join(folder, "rescue"), address => with_served(address, {}, async page => {
+test("view page: names of robots and losses of walls do not cover each other on a small map", () => with_server(path.join(folder, "rescue"), address => with_served(address, {}, async page => {
     const bounds = await page.evaluate(() => rovernet.parts.sides.own.all[0].run.head.map.bounds), [left, bottom, right, top] = bounds;
     await page.evaluate(state => window.rovernet.select(state), { t: 10e9, robots: [0, 4], panel: "pair", view: { x: (left + right) / 2, y: (bottom + top) / 2, scale: 6 } });
     await drawn(page);
@@ -66,7 +66,7 @@ test("names of robots and losses of walls do not cover each other on a small map
     check_apart(texts);
 })));
 
-test("a swarm at rest is drawn completely again after a zoom to one of its robots", () => with_page("swarm", {}, async page => {
+test("view page: a swarm at rest is drawn completely again after a zoom to one of its robots", () => with_page("swarm", {}, async page => {
     /** Picture of the map as it is drawn first in that view: what is drawn later may mend it. */
     const map = view => page.evaluate(async state => {
         rovernet.select({ t: 0.31e9, ...state });

@@ -22,7 +22,7 @@ function pixels_of(page, color) {
     }, color);
 }
 
-test("V8: at the pointer the page shows the level of the coverage cell; for two models, both levels and their difference", () => of_run("rescue", "#t=10&robots=1&panel=robot", async page => {
+test("view page, coverage: the page shows the level at the pointer; for two models, both levels and their difference", () => of_run("rescue", "#t=10&robots=1&panel=robot", async page => {
     await page.keyboard.press("c");
     await page.waitForFunction(() => document.getElementById("legend").textContent.includes("coverage of B"));
     const box = await page.locator("#map").boundingBox();
@@ -48,7 +48,7 @@ test("V8: at the pointer the page shows the level of the coverage cell; for two 
     assert.match(await hover(4), /^\u2212[\d.]+ dBm, friis \u2212[\d.]+ dBm \(\+[\d.]+ dB\)$/);
 }));
 
-test("links: the map shows as many links as rovernet links prints, with lines by margin, also after a change of time", () => of_run("rescue", "#t=10", async page => {
+test("view page, links: the map shows as many links as rovernet links prints, in line widths by margin, also after a change of time", () => of_run("rescue", "#t=10", async page => {
     await page.keyboard.press("l");
     for (const at of [10, 40]) {
         const tables = told("links", scenario("rescue"), "--at", String(at), "--json"), pairs = new Set();
@@ -69,14 +69,14 @@ test("links: the map shows as many links as rovernet links prints, with lines by
     await page.waitForFunction(() => links_shown().every(l => l.from === 0 || l.to === 0));
 }));
 
-test("links: a page without a server shows the links recorded in the trace, and its legend says so", () => with_page("linked", { hash: "#t=20&links=1" }, async page => {
+test("view page, links: a page without a server shows the links recorded in the trace, and its legend says so", () => with_page("linked", { hash: "#t=20&links=1" }, async page => {
     const tables = told("links", scenario("linked"), "--at", "20", "--json"), pairs = new Set();
     for (const { robot, links } of tables.robots) for (const link of links) pairs.add([robot, link.robot].sort().join());
     assert.equal((await page.evaluate(() => links_shown())).length, pairs.size);
-    assert.match(await page.locator("#legend").textContent(), /link up by the trace/);
+    assert.match(await page.locator("#legend").textContent(), /link up in the trace/);
 }));
 
-test("charts: the curve of the delivery ratio ends at the run's metric; a cursor marks the current time, a click seeks, a drag zooms", () => with_page("linked", { hash: "#panel=charts" }, async page => {
+test("view page, charts: the curve of the delivery ratio ends at the run's metric; a cursor marks the current time, a click seeks, a drag zooms", () => with_page("linked", { hash: "#panel=charts" }, async page => {
     const { metrics, duration_ns } = sections(view_file("linked")).head;
     const at = t => page.evaluate(ns => window.rovernet.charts(ns), t), value = (all, chart) => all.find(c => c.chart === chart).values[0].value;
     assert.equal(value(await at(duration_ns), "Delivery ratio"), metrics.delivery_ratio);
@@ -104,7 +104,7 @@ test("charts: the curve of the delivery ratio ends at the run's metric; a cursor
     assert.ok(Math.abs(span.from - 0.25 * duration_ns) < duration_ns / 100 && Math.abs(span.to - 0.5 * duration_ns) < duration_ns / 100);
 }));
 
-test("storeys: a click selects a robot of another storey only after the button All is pressed", () => with_page("storeys", { hash: "#t=10" }, async page => {
+test("view page, storeys: a click selects a robot of another storey only after the button All is pressed", () => with_page("storeys", { hash: "#t=10" }, async page => {
     const box = await page.locator("#map").boundingBox(), [x, y] = await page.evaluate(() => pixel(1));
     const click = async () => {
         await page.mouse.click(box.x + x, box.y + y);

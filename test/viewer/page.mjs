@@ -7,8 +7,8 @@ import path from "node:path";
 import { chromium } from "playwright-core";
 
 export const { FOLDER: folder, COMMAND: command, CHROMIUM: chromium_path } = process.env;
-const idle_ms = 3000;
-let shared = null, closing;
+const idle_ms = 3000, viewport = { width: 1280, height: 720 };
+let shared = null, emptied = null, closing;
 
 /** A browser with further arguments. */
 export function launched(...args) {
@@ -25,7 +25,7 @@ function close_later() {
     clearTimeout(closing);
     closing = setTimeout(() => {
         shared?.close();
-        shared = null;
+        shared = emptied = null;
     }, idle_ms);
 }
 
@@ -41,18 +41,12 @@ export function scenario(name) { return fs.readFileSync(path.join(folder, name, 
 /** Recorded trace of a run. */
 export function trace(name) { return path.join(folder, name, "trace.mcap"); }
 
-/** Opens an address, does something, and holds the page to be free of errors and of foreign requests. */
-async function watched(url, options, act) {
-    const browser = options.browser ?? await browser_of_all();
-    const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, offline: url.startsWith("file:"), ...options.context });
+/** A tab in a new window of the browser, with helpers for tests in each page that it shows. */
+async function new_tab(browser, context_options = {}) {
+    const context = await browser.newContext({ viewport, ...context_options });
     context.setDefaultTimeout(15000);
-    const page = await context.newPage(), faults = [], requests = [];
-    page.on("console", message => { if (["error", "warning"].includes(message.type()) && !options.faults?.test(message.text())) faults.push(message.text()); });
-    page.on("pageerror", error => faults.push(error.message));
-    page.on("dialog", dialog => { faults.push("a dialog"); dialog.dismiss(); });
-    page.on("request", request => requests.push(request.url()));
-    await page.addInitScript(() => document.addEventListener("securitypolicyviolation", event => console.error(`violates ${event.violatedDirective}`)));
-    await page.addInitScript(() => {
+    await context.addInitScript(() => document.addEventListener("securitypolicyviolation", event => console.error(`violates ${event.violatedDirective}`)));
+    await context.addInitScript(() => {
         /** Place of a robot on the map [px]. */
         window.pixel = robot => ["x", "y"].map(axis => rovernet.parts.robots.at[axis][robot]);
         /** Links that the map of a run shows. */
@@ -71,15 +65,48 @@ async function watched(url, options, act) {
             return heat ? heat.dbm.map((dbm, i) => ({ dbm, x: camera.to_x(heat.left + (i % heat.columns + 0.5) * heat.cell_width), y: camera.to_y(heat.bottom + (Math.floor(i / heat.columns) + 0.5) * heat.cell_height) })) : [];
         };
     });
+    return { context, page: await context.newPage() };
+}
+
+/** Tab for a test: a new one if the test has options for it, otherwise the emptied tab of the test before. To open a tab takes most of a second. */
+async function tab_for({ browser, context, fresh }) {
+    const in_browser = browser ?? await browser_of_all();
+    if (browser || context || fresh) return new_tab(in_browser, context);
+    const tab = emptied ?? { ...await new_tab(in_browser), is_shared: true };
+    emptied = null;
+    return tab;
+}
+
+/** Empties a tab for the next test. */
+async function empty({ context, page }) {
+    page.removeAllListeners();
+    for (const other of context.pages()) if (other !== page) await other.close();
+    await page.setViewportSize(viewport);
+    await page.mouse.move(0, 0);
+    await page.goto("about:blank");
+}
+
+/** Opens an address, does something, and holds the page to be free of errors and of foreign requests. */
+async function watched(url, options, act) {
+    const tab = await tab_for(options), { context, page } = tab, faults = [], requests = [];
+    await context.setOffline(url.startsWith("file:"));
+    page.on("console", message => { if (["error", "warning"].includes(message.type()) && !options.faults?.test(message.text())) faults.push(message.text()); });
+    page.on("pageerror", error => faults.push(error.message));
+    page.on("dialog", dialog => { faults.push("a dialog"); dialog.dismiss(); });
+    page.on("request", request => requests.push(request.url()));
     try {
         await page.goto(url);
         await page.waitForFunction(() => window.rovernet && (window.rovernet.error || window.rovernet.ready && window.rovernet.frames > 0));
         await act(page, context);
         assert.match(await page.evaluate(() => window.rovernet.error), options.error ?? /^$/);
         assert.deepEqual(faults, []);
+        if (tab.is_shared) {
+            await empty(tab);
+            emptied = tab;
+        }
         return requests.filter(request => !request.startsWith("blob:"));
     } finally {
-        await context.close();
+        if (emptied !== tab) await context.close();
         close_later();
     }
 }
@@ -150,7 +177,7 @@ export async function most_apart(page, name, duration_ns, count) {
     }), truth.map((row, i) => ({ t: times[i], count: row.robots.length })));
     let most = 0;
     truth.forEach((row, i) => row.robots.forEach((robot, k) => {
-        if (robot.presence === "not departed" || robot.presence === "left") return;
+        if (robot.presence === "not_departed" || robot.presence === "left") return;
         most = Math.max(most, Math.hypot(robot.x_m - found[i][k].x, robot.y_m - found[i][k].y, robot.z_m - found[i][k].z));
     }));
     return most;

@@ -48,7 +48,7 @@ for (const [name, state] of [
     ["storeys", { t: 13.1e9, storey: 1, trails: true }],
     ["csma", { t: 5.0211e9, robots: [3], trails: false }]
 ]) {
-    test(`V25: the map of ${name} equals a stored picture, in at least 99 % of the pixels`, () => with_page(name, { context: { colorScheme: "light" } }, async page => {
+    test(`view page: the map of ${name} equals a stored picture, in at least 99 % of the pixels`, () => with_page(name, { context: { colorScheme: "light" } }, async page => {
         await page.evaluate(chosen => window.rovernet.select(chosen), state);
         await drawn(page);
         await resize(page);

@@ -32,7 +32,7 @@ async function queue_of(page, robot, t) {
     });
 }
 
-test("queue: the length of a robot's queue is the messages made, minus those sent and those dropped by the full queue", () => with_page("queue", {}, async page => {
+test("view page, queue: the length of a robot's queue is the number of messages made, minus those sent and those dropped by the full queue", () => with_page("queue", {}, async page => {
     const frames = sent_frames("queue"), longest = Math.max(...frames.map(frame => frame.queue));
     assert.equal(longest, 20);  // it was full
     for (const { time_s, robot, queue } of frames) {
@@ -42,6 +42,6 @@ test("queue: the length of a robot's queue is the messages made, minus those sen
     assert.equal(await queue_of(page, 2, 1e9), "");  // it never sent
 }));
 
-test("queue: the panel of a robot that sends without waiting shows no queue", () => with_page("rescue", {}, async page => {
+test("view page, queue: the panel of a robot that sends without waiting shows no queue", () => with_page("rescue", {}, async page => {
     assert.equal(await queue_of(page, 0, 10.5e9), "");
 }));

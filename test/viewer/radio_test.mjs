@@ -28,7 +28,7 @@ function union(spans) {
     return length;
 }
 
-test("air: the busy time of the last second at a robot is the time covered by frames that it sent or heard", () => with_server(path.join(folder, "many"), address => with_served(address, {}, async page => {
+test("view page, air at a robot: the busy time of the last second is the time covered by frames that the robot sent or heard", () => with_server(path.join(folder, "many"), address => with_served(address, {}, async page => {
     const all = await frames("many"), at = 3e9, from = at - 1e9;
     for (const robot of [7, 500]) {
         await page.evaluate(([i, t]) => window.rovernet.select({ t, robots: [i], panel: "robot" }), [robot, at]);
@@ -46,7 +46,7 @@ test("air: the busy time of the last second at a robot is the time covered by fr
     }
 })));
 
-test("antenna: the pattern of a selected robot has the gains that the command link prints for the same directions", () => with_page("antennas", {}, async page => {
+test("view page, antenna: the pattern of a selected robot has the gains that the command link prints for the same directions", () => with_page("antennas", {}, async page => {
     const file = scenario("antennas"), seen = new Set();
     const pattern = await page.evaluate(() => rovernet.parts.antennas.gains(rovernet.parts.sides.own.all[0].run, 0));
     assert.equal(pattern.length, 72);

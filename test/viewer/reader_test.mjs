@@ -27,13 +27,13 @@ async function read_all(bytes) {
     return { opened, receptions, shown };
 }
 
-test("types: the TypeScript compiler accepts the page's JavaScript files", () => {
+test("view page, types: the TypeScript compiler accepts the page's JavaScript files", () => {
     const files = fs.readdirSync(page).filter(file => file.endsWith(".js")).map(file => path.join(page, file));
     execFileSync(process.execPath, [path.join(folder, "node_modules/typescript/bin/tsc"), "--checkJs", "--noEmit", "--strict",
         "--target", "es2022", "--lib", "es2022,dom,dom.iterable", ...files], { stdio: "inherit" });
 });
 
-test("files: order.txt lists each script once, and no script has more than 300 lines or writes HTML markup", () => {
+test("view page, files: order.txt lists each script once, and no script has more than 300 lines or writes HTML markup", () => {
     const files = fs.readdirSync(page).filter(file => file.endsWith(".js"));
     const order = fs.readFileSync(path.join(page, "order.txt"), "utf8").trim().split("\n");
     assert.deepEqual([...order].sort(), files.sort());
@@ -45,7 +45,7 @@ test("files: order.txt lists each script once, and no script has more than 300 l
     }
 });
 
-test("size: the page has at most 150 kB, or 45 kB compressed; with the run rescue at most 250 kB", { skip: !is_short && "the page was built without minify" }, () => {
+test("view page, size: the page has at most 150 kB, or 45 kB compressed; with the run rescue at most 250 kB", { skip: !is_short && "the page was built without minify" }, () => {
     const whole = html("rescue"), bare = whole.replace(/(<script[^>]*id="run"[^>]*>)[^<]*/, "$1"), packed = zlib.gzipSync(bare, { level: 9 });
     assert.ok(bare.length <= 150_000, `${bare.length} bytes`);
     assert.ok(packed.length <= 45_000, `${packed.length} bytes packed`);
@@ -53,7 +53,7 @@ test("size: the page has at most 150 kB, or 45 kB compressed; with the run rescu
 });
 
 for (const name of ["rescue", "storeys", "routes", "patrol", "csma"]) {
-    test(`sums: the blocks and each density level of ${name} contain all receptions`, async () => {
+    test(`view file: in the file of ${name}, all data blocks together, and each zoom level of the time line, count every reception`, async () => {
         const bytes = view_file(name), { head, unpacked } = sections(bytes), { receptions, shown, opened } = await read_all(bytes);
         assert.ok(head.counts.receptions > 0);
         assert.equal(receptions, head.counts.receptions);
@@ -90,7 +90,7 @@ function changed_head(bytes, random) {
     return Buffer.concat([begin, head, bytes.subarray(8 + length)]);
 }
 
-test("damage: each of 10,000 damaged files is read, or refused with a sentence, within a second", async () => {
+test("view file: each of 10,000 damaged files is read, or refused with a sentence, within a second", async () => {
     const bytes = view_file("storeys");
     let seed = 1, refused = 0, slowest = 0;
     const random = () => (seed = (seed * 48271) % 2147483647) / 2147483647;

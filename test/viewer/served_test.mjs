@@ -13,7 +13,7 @@ const shown = { view: { x: 24, y: 12, scale: 15 } };
 function pixel(box, x, y) { return [box.width / 2 + (x - shown.view.x) * shown.view.scale, box.height / 2 - (y - shown.view.y) * shown.view.scale]; }
 
 /** Number as the page writes it, with 4 digits that count. */
-function written(value) { return String(Number(value.toPrecision(4))).replace("-", "\u2212"); }
+function written(value) { return String(Number(value.toPrecision(7))).replace("-", "\u2212"); }
 
 /** Colours of places of the map, as numbers. */
 function colors_at(page, places) {
@@ -27,7 +27,7 @@ function colors_at(page, places) {
     }, places);
 }
 
-test("V7: the link budget of two robots equals the output of the command link, and each wall between them is highlighted", () => with_server(path.join(folder, "rescue"), address => with_served(address, {}, async page => {
+test("served view page: the link budget of two robots equals the output of the command link, and each wall between them is highlighted", () => with_server(path.join(folder, "rescue"), address => with_served(address, {}, async page => {
     const links = [["A", "E"], ["E", "A"]].map(pair => told("link", scenario("rescue"), ...pair, "--at", "10s", "--json"));
     await page.evaluate(state => window.rovernet.select({ ...state, t: 10e9, robots: [0, 4], trails: false, panel: "pair" }), shown);
     await drawn(page);
@@ -57,7 +57,7 @@ test("V7: the link budget of two robots equals the output of the command link, a
     });
 })));
 
-test("V8: the level shown at the pointer equals the coverage computed by the server", () => with_server(path.join(folder, "rescue"), address => with_served(address, {}, async page => {
+test("served view page: the level shown at the pointer equals the coverage computed by the server", () => with_server(path.join(folder, "rescue"), address => with_served(address, {}, async page => {
     await page.evaluate(state => window.rovernet.select({ ...state, t: 10e9, robots: [1], panel: "robot" }), shown);
     await page.getByRole("button", { name: "coverage", exact: true }).click();
     await page.waitForFunction(() => document.getElementById("legend").textContent.includes("coverage of B"));
@@ -91,7 +91,7 @@ test("V8: the level shown at the pointer equals the coverage computed by the ser
     assert.ok(Math.abs(level - link.rx_power_dbm) < 3, `${level} dBm in the coverage, ${link.rx_power_dbm} in the link`);
 })));
 
-test("V3: on a served page, the button why? shows the sentence that trace follow prints", () => with_server(path.join(folder, "rescue"), address => with_served(address, {}, async page => {
+test("served view page: the button why? shows the sentence that the command trace follow prints", () => with_server(path.join(folder, "rescue"), address => with_served(address, {}, async page => {
     const { head } = sections(view_file("rescue")), uids = [...new Set(head.follow.map(row => row.message))].slice(0, 3);
     let asked = 0;
     for (const uid of uids) {
@@ -127,7 +127,7 @@ function answer_to(port, request) {
     });
 }
 
-test("V17: the server answers valid requests, and refuses foreign hosts and pages, other methods and unknown paths", () => with_server(path.join(folder, "rescue"), async address => {
+test("view server: valid requests are answered; foreign hosts and pages, other methods and unknown paths are refused", () => with_server(path.join(folder, "rescue"), async address => {
     const port = Number(new URL(address).port), own = `127.0.0.1:${port}`;
     const request = (line, ...fields) => `${line} HTTP/1.1\r\n${fields.map(field => field + "\r\n").join("")}\r\n`;
     const upgrade = ["Upgrade: websocket", "Connection: Upgrade", "Sec-WebSocket-Version: 13"], key = "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==";
@@ -139,8 +139,8 @@ test("V17: the server answers valid requests, and refuses foreign hosts and page
         [request("GET /run.rvw", `Host: ${own}`, `Origin: http://${own}`), 200, "RVW1"],
         [request("GET /", `Host: rebound.example:${port}`), 403, `expected ${own}`],
         [request("GET /", "Host: 127.0.0.1"), 403, "Host: found \"127.0.0.1\""],
-        [request("GET /"), 400, "expected one Host"],
-        [request("GET /", `Host: ${own}`, `Host: ${own}`), 400, "expected one Host"],
+        [request("GET /"), 400, "expected one header Host"],
+        [request("GET /", `Host: ${own}`, `Host: ${own}`), 400, "expected one header Host"],
         [request("GET /run.rvw", `Host: ${own}`, "Origin: http://page.example"), 403, "a page needs the token"],
         [request("GET /run.rvw", `Host: ${own}`, "Origin: null"), 403, "a page needs the token"],
         [request("GET /run.rvw?token=0123", `Host: ${own}`, "Origin: http://page.example"), 403, "a page needs the token"],
@@ -161,7 +161,7 @@ test("V17: the server answers valid requests, and refuses foreign hosts and page
     }
 }));
 
-test("server: two tabs get separate answers, and a page reports that its server has ended", () => with_server(path.join(folder, "rescue"), (address, server) => with_served(address, {}, async (page, context) => {
+test("view server: two tabs get separate answers, and a page reports that its server has ended", () => with_server(path.join(folder, "rescue"), (address, server) => with_served(address, {}, async (page, context) => {
     const other = await context.newPage();
     await other.goto(address);
     await other.waitForFunction(() => window.rovernet?.ready);

@@ -7,25 +7,21 @@
 #include "experiment/reports/link_table.hpp"
 #include "experiment/reports/network_at.hpp"
 #include "experiment/run.hpp"
-#include "live/viewer/view_server.hpp"
 #include "pictures/map/coverage.hpp"
 #include "pictures/map/picture.hpp"
 #include "scenario/document/json.hpp"
 #include "scenario/scenario_file.hpp"
-#include "test/live/web_client.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <map>
 #include <random>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -65,7 +61,8 @@ std::string json(const Value* value) { return to_json(*value); }
 
 }  // namespace
 
-TEST_CASE("viewer answers: answers equal the output of the command line") {
+TEST_CASE(
+    "viewer answers: link budgets and reasons of missed messages equal those of the command line") {
     const Recorded run;
     ViewerAnswers answers({run.path()});
     const Scenario scenario = load_scenario(rescue, {});
@@ -73,8 +70,15 @@ TEST_CASE("viewer answers: answers equal the output of the command line") {
         ask(answers, R"({"id": 7, "op": "pair", "a": 0, "b": 4, "t_ns": 10000000000})");
     const Array& links = *pair.table()->find("links")->array();
     REQUIRE(links.size() == 2);
-    CHECK(json(&links[0]) == json(link_document(report_link(scenario, "A", "E", Time(10s)))));
-    CHECK(json(&links[1]) == json(link_document(report_link(scenario, "E", "A", Time(10s)))));
+    const auto equals = [](const Value& link, const Table& expected) {
+        return std::all_of(expected.entries.begin(), expected.entries.end(),
+                           [&](const Entry& entry) {
+                               return json(link.table()->find(entry.key)) == json(&entry.value);
+                           });
+    };
+    CHECK(equals(links[0], link_document(report_link(scenario, "A", "E", Time(10s)))));
+    CHECK(equals(links[1], link_document(report_link(scenario, "E", "A", Time(10s)))));
+    CHECK_FALSE(equals(links[0], link_document(report_link(scenario, "A", "E", Time(9s)))));
     CHECK(json(&links[0]) != json(&links[1]));
     CHECK(json(pair.table()->find("id")) == "7\n");
 
@@ -99,7 +103,7 @@ TEST_CASE("viewer answers: answers equal the output of the command line") {
           static_cast<std::size_t>(number("columns") * number("rows")));
 }
 
-TEST_CASE("viewer answers: links equal the link tables, also at earlier times") {
+TEST_CASE("viewer answers: links equal the robots' link tables, also at earlier times") {
     const Recorded run;
     ViewerAnswers answers({run.path()});
     const Scenario scenario = load_scenario(rescue, {});
@@ -135,6 +139,61 @@ TEST_CASE("viewer answers: links equal the link tables, also at earlier times") 
     const Value one = ask(answers, R"({"id": 1, "op": "links", "t_ns": 10000000000, "robot": 0})");
     CHECK(one.table()->find("from")->array()->size() == 2);
     CHECK(error_of(answers, R"({"id": 1, "op": "links", "t_ns": 0, "robot": 5})") != "");
+}
+
+TEST_CASE("viewer answers: the terms of a budget add up to the received power and the margin") {
+    const Recorded run({"radio.antenna_gain=2.1 dB", "radio.cable_loss=0.7 dB"});
+    ViewerAnswers answers({run.path()});
+    const Value pair =
+        ask(answers, R"({"id": 7, "op": "pair", "a": 0, "b": 4, "t_ns": 10000000000})");
+    for (const Value& link : *pair.table()->find("links")->array()) {
+        const auto of = [&](const char* key) {
+            return std::get<double>(link.table()->find(key)->data);
+        };
+        CHECK(of("sender_gain_db") == 2.1);
+        CHECK(of("receiver_cable_loss_db") == 0.7);
+        const double received = of("power_dbm") + of("sender_gain_db") -
+                                of("sender_cable_loss_db") - of("path_loss_db") +
+                                of("receiver_gain_db") - of("receiver_cable_loss_db");
+        CHECK(std::abs(received - of("rx_power_dbm")) < 1e-9);
+        CHECK(std::abs(received - of("sensitivity_dbm") - of("margin_db")) < 1e-9);
+    }
+}
+
+TEST_CASE(
+    "viewer answers: neighbours of a robot have margins, which equal those of rovernet link") {
+    const Recorded run;
+    ViewerAnswers answers({run.path()});
+    const Scenario scenario = load_scenario(rescue, {});
+    const Value robot =
+        ask(answers, R"({"id": 9, "op": "robot", "robot": 0, "t_ns": 10000000000})");
+    const Array& links = *robot.table()->find("links")->array();
+    REQUIRE(!links.empty());
+    for (const Value& link : links) {
+        const LinkReport report =
+            report_link(scenario, *link.table()->find("robot")->string(), "A", Time(10s));
+        const double margin = std::get<double>(link.table()->find("margin_db")->data);
+        CHECK(std::abs(margin - report.margin.value) < 1e-9);
+    }
+}
+
+TEST_CASE("viewer answers: without the map, answers that show walls are refused") {
+    const Recorded run;
+    ViewerAnswers answers({run.path()}, {run.path()});
+    answers.hide_map();
+    for (const char* question :
+         {R"({"id": 1, "op": "pair", "a": 0, "b": 4, "t_ns": 0})",
+          R"({"id": 1, "op": "pair", "a": 0, "b": 4, "t_ns": 0, "run": 1})",
+          R"({"id": 1, "op": "svg", "t_ns": 0, "storey": 0})",
+          R"({"id": 1, "op": "coverage", "robot": 1, "t_ns": 0, "storey": 0, "cells": 100})"}) {
+        CAPTURE(question);
+        CHECK(error_of(answers, question).find("--no-map") != std::string::npos);
+    }
+    const char* const why = R"({"id": 1, "op": "why", "uid": 0, "robot": 4})";
+    CHECK(answers.answer(why).find("wall") == std::string::npos);
+    CHECK(ViewerAnswers({run.path()}).answer(why).find("wall_m") != std::string::npos);
+    CHECK(error_of(answers, R"({"id": 1, "op": "links", "t_ns": 0})").empty());
+    CHECK(error_of(answers, R"({"id": 1, "op": "robot", "robot": 1, "t_ns": 0})").empty());
 }
 
 TEST_CASE("viewer answers: links under the model disc have neither level nor margin") {
@@ -233,7 +292,8 @@ TEST_CASE("viewer answers: the drawing equals that of the command draw") {
     CHECK(error_of(answers, R"({"id": 1, "op": "svg", "t_ns": 0, "storey": 1})") != "");
 }
 
-TEST_CASE("viewer answers: an invalid question gets an error with its id, and the next an answer") {
+TEST_CASE(
+    "viewer answers: an invalid question gets an error with its id, the next question an answer") {
     const Recorded run;
     ViewerAnswers answers({run.path()});
     CHECK(error_of(answers, "no json") != "");
@@ -250,6 +310,9 @@ TEST_CASE("viewer answers: an invalid question gets an error with its id, and th
     CHECK(error_of(answers, many) != "");
     CHECK(error_of(answers, "{\"id\": 1, \"op\": \"" + std::string(70'000, 'x') + "\"}")
               .find("64 KiB") != std::string::npos);
+    const Value too_long = ask(
+        answers, "{\"id\": 5, \"op\": \"command\", \"do\": \"" + std::string(70'000, 'x') + "\"}");
+    CHECK(json(too_long.table()->find("id")) == "5\n");
     const Value last = ask(answers, R"({"id": 3, "op": "robot", "robot": 9, "t_ns": 0})");
     CHECK(json(last.table()->find("id")) == "3\n");
     CHECK(error_of(answers, R"({"id": 1, "op": "robot", "robot": 0, "t_ns": 0})").empty());
@@ -288,61 +351,6 @@ TEST_CASE("viewer answers: any input of a page gets an answer in JSON") {
     CHECK(errors > rounds / 2);
     CHECK(errors < rounds);
     CHECK(error_of(answers, questions[0]).empty());
-}
-
-TEST_CASE("view server: the server gives the page, the view file and answers, and nothing else") {
-    const std::string file("RVW1\0\xff data", 12);
-    ViewServer server(
-        {"127.0.0.1", 0}, file,
-        [](std::string_view question) { return "to " + std::string(question); }, "RVW1 other");
-    const std::string url = server.url();
-    const int port = std::stoi(url.substr(url.rfind(':') + 1));
-    std::atomic<bool> goes_on = true;
-    std::thread serving([&] { server.serve([&] { return goes_on.load(); }); });
-    const auto get = [&](const std::string& path, const std::string& host) {
-        test::LineClient client(port);
-        client.send_bytes("GET " + path + " HTTP/1.1\r\nHost: " + host +
-                          "\r\nConnection: close\r\n\r\n");
-        return client.bytes(1 << 20);
-    };
-    const std::string own = "127.0.0.1:" + std::to_string(port);
-    const std::string page = get("/", own);
-    CHECK(page.find("HTTP/1.1 200") == 0);
-    CHECK(page.find("connect-src 'self'") != page.npos);
-    CHECK(get("/run.rvw", own).find(file) != std::string::npos);
-    CHECK(page.find("id=\"other\"") != page.npos);
-    CHECK(get("/other.rvw", own).find("RVW1 other") != std::string::npos);
-    CHECK(get("/etc/passwd", own).find("HTTP/1.1 404") == 0);
-    CHECK(get("/", "example.org").find("HTTP/1.1 403") == 0);
-    test::WebClient client(port);
-    REQUIRE(client.is_in());
-    client.send("{}");
-    CHECK(client.message() == "to {}");
-    goes_on = false;
-    serving.join();
-}
-
-TEST_CASE("view server: other machines need the token, which is in the address") {
-    ViewServer server({"0.0.0.0", 0}, "RVW1", [](std::string_view) { return "{}"; });
-    const std::string url = server.url();
-    const std::size_t token = url.find("/?token=");
-    REQUIRE(token != url.npos);
-    const int port = std::stoi(url.substr(url.rfind(':', token) + 1));
-    std::atomic<bool> goes_on = true;
-    std::thread serving([&] { server.serve([&] { return goes_on.load(); }); });
-    const auto get = [&](const std::string& path) {
-        test::LineClient client(port);
-        client.send_bytes("GET " + path + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) +
-                          "\r\nConnection: close\r\n\r\n");
-        return client.bytes(1 << 20).substr(9, 3);
-    };
-    CHECK(get("/") == "200");  // the page alone: loaded again, it has the token from its tab
-    CHECK(get("/run.rvw") == "403");
-    CHECK(get("/run.rvw?token=0") == "403");
-    CHECK(get(url.substr(token)) == "200");
-    CHECK(get("/run.rvw" + url.substr(token + 1)) == "200");
-    goes_on = false;
-    serving.join();
 }
 
 }  // namespace answers_test

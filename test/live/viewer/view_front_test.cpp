@@ -117,7 +117,7 @@ std::map<std::size_t, Numbers> starts_of_legs(const std::vector<std::string>& fi
 }  // namespace
 
 TEST_CASE(
-    "view front: the parts that a page gets during a run add up to the view of the run's trace") {
+    "live view: the parts that a page gets during a run add up to the view of the run's trace") {
     Viewed viewed(rescue());
     viewed.front.opened(1, {});
     viewed.go(viewed.run.session().end());
@@ -140,7 +140,7 @@ TEST_CASE(
     CHECK(is(viewed.live(), "ended"));
 }
 
-TEST_CASE("view front: a run is observed only after a page has been opened") {
+TEST_CASE("live view: a run is observed only after a page has been opened") {
     Viewed viewed(rescue(), {});
     CHECK(viewed.front.next() == never);
     CHECK(viewed.front.limit() == never);
@@ -151,7 +151,7 @@ TEST_CASE("view front: a run is observed only after a page has been opened") {
 }
 
 TEST_CASE(
-    "view front: a run with --view waits for its page, which can pause and step it and change its "
+    "live view: a run with --view waits for its page, which can pause and step it and set its "
     "speed") {
     Viewed viewed(rescue(), {.of_time = true, .is_for_page = true, .speed = 1});
     viewed.go(Time(5s));
@@ -176,7 +176,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "view front: pages need permission to change a run, and their commands are logged as inputs") {
+    "live view: pages need permission to change a run, and their commands are logged as inputs") {
     Viewed looking(rescue(), {});
     looking.front.opened(1, {});
     CHECK(looking.ask(R"({"id": 1, "op": "pace", "paused": true})").find("--view-control") !=
@@ -201,6 +201,8 @@ TEST_CASE(
     CHECK(std::get<SendCommand>(inputs[1].command).payload == "hi");
     CHECK(std::get<SendCommand>(inputs[1].command).to == NodeId{2});
     CHECK(viewed.ask(R"({"id": 3, "op": "command", "robot": 9, "do": {"stop": true}})") != "");
+    CHECK(viewed.ask(R"({"id": 3, "op": "command", "robot": 2, "do": {"data": "hi", "to": "C"}})")
+              .starts_with("a robot cannot send to itself"));
     CHECK(viewed.ask(R"({"id": 3, "op": "command", "robot": 0, "do": {}})") != "");
     CHECK(viewed.ask(R"({"id": 3, "op": "command", "robot": 0, "do": {"stp": true}})") != "");
     viewed.run.session().attach({NodeId{3}}, "another");
@@ -212,8 +214,7 @@ TEST_CASE(
     CHECK(std::holds_alternative<StopCommand>(inputs[2].command));
 }
 
-TEST_CASE(
-    "view front: during a run, answers are for the current time, whatever time is requested") {
+TEST_CASE("live view: during a run, answers are for the current time, whatever time is requested") {
     Viewed viewed(rescue());
     viewed.front.opened(1, {});
     viewed.go(Time(10s));
@@ -237,8 +238,7 @@ std::string plain(std::string_view answer) {
 }
 
 TEST_CASE(
-    "view front: during the run, the requests `why` and `air` get the same answers as from the "
-    "recorded trace") {
+    "live view: during the run, requests `why` and `air` get the answers of the recorded trace") {
     Viewed viewed(rescue());
     viewed.front.opened(1, {});
     viewed.go(Time(30s));
@@ -262,8 +262,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "view history: records are kept from the first page on, in two files, and older records are "
-    "deleted") {
+    "view history: the records of a recent message are found, those of an old message are not") {
     ScenarioRun run(rescue());
     Session& session = run.session();
     session.step(Time(11s));
@@ -281,7 +280,7 @@ TEST_CASE(
           to_json_line(document_of(message_at_robot(last.path, newest, NodeId{1}))));
 }
 
-TEST_CASE("view front: chart values of completed intervals equal those of the recorded trace") {
+TEST_CASE("live view: chart values of completed intervals equal those of the recorded trace") {
     Viewed viewed(rescue());
     viewed.front.opened(1, {});
     viewed.go(Time(30s));
@@ -308,9 +307,7 @@ TEST_CASE("view front: chart values of completed intervals equal those of the re
     CHECK(compared > 50);
 }
 
-TEST_CASE(
-    "view front: a page that reads slowly gets the rest later; a page opened late gets the whole "
-    "run") {
+TEST_CASE("live view: a slow page gets all events later; a page opened late gets the whole run") {
     Viewed viewed(rescue());
     viewed.front.opened(1, {});
     viewed.front.opened(2, {});
@@ -327,7 +324,9 @@ TEST_CASE(
     CHECK(viewed.files[3] == viewed.files[1]);
 }
 
-TEST_CASE("view log: beyond the limit of the log, only its oldest frames are removed") {
+TEST_CASE(
+    "view log: if radio frames exceed the size limit of the log, only the oldest frames are "
+    "removed") {
     ViewLog log;
     log.begin("start");
     const std::size_t size = ViewLog::most_frame_bytes / 2 - 10;

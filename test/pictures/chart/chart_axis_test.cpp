@@ -101,7 +101,8 @@ TEST_CASE("chart axis: an axis is extended to values beyond the natural limits o
     CHECK((axis.low <= -0.3 && axis.high >= 1.2));
 }
 
-TEST_CASE("chart axis: a value is placed linearly between the ends") {
+TEST_CASE(
+    "chart axis: values are placed linearly between the ends of the axis, or by their logarithms") {
     const ChartAxis linear = number_axis(range({-10, 30}), false, 6);
     CHECK(std::abs(linear.share(0) - 0.25) < rounding);
     CHECK((linear.share(-1e9) == 0 && linear.share(1e9) == 1));
@@ -113,8 +114,7 @@ TEST_CASE("chart axis: a value is placed linearly between the ends") {
 }
 
 TEST_CASE(
-    "chart axis: a logarithmic axis has labels at powers of ten, a short axis also at 2 and 5 "
-    "times these powers") {
+    "chart axis: a log axis has labels at powers of ten, a short axis also at 2 and 5 times them") {
     CHECK(texts(number_axis(range({0.001, 1e4}), true, 8)) == Texts{"0.001", "0.01", "0.1", "1",
                                                                     "10", "100", "1000",
                                                                     "10\xc2\xa0"
@@ -153,7 +153,7 @@ TEST_CASE("chart axis: equal values, no values and the largest numbers give a va
     CHECK((log.low < 7 && log.high > 7));
 }
 
-TEST_CASE("chart axis: labels of ticks have the digits of their step") {
+TEST_CASE("chart axis: labels of ticks have as many digits as the distance of the ticks requires") {
     CHECK(texts(number_axis(range({0, 50'000}), false, 6)) == Texts{"0",
                                                                     "10\xc2\xa0"
                                                                     "000",

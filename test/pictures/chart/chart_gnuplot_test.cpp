@@ -63,7 +63,7 @@ Drawn drawn(const std::string& script) {
 
 }  // namespace
 
-TEST_CASE("gnuplot: a script contains the values and intervals of each series") {
+TEST_CASE("gnuplot: a script contains the values and the error bars of each series") {
     Chart chart = three_points(ChartKind::scatter, "t");
     chart.series.pop_back();
     const std::string text = chart_gnuplot(chart);
@@ -72,7 +72,7 @@ TEST_CASE("gnuplot: a script contains the values and intervals of each series") 
     CHECK(has(text, "set title 't'"));
 }
 
-TEST_CASE("gnuplot: a missing value breaks the line, and a missing interval is written as NaN") {
+TEST_CASE("gnuplot: a missing value breaks the line, and a missing error bar is written as NaN") {
     Chart chart{.series = {{"s", {{.x = 1, .y = 1}, {.x = 2, .y = no_number}, {.x = 3, .y = 3}}}}};
     CHECK(has(chart_gnuplot(chart), "1 1 NaN NaN 0\n\n3 3 NaN NaN 0\n"));
 }

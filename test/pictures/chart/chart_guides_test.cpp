@@ -46,7 +46,7 @@ TEST_CASE(
     CHECK(line[0].attributes.at("stroke-dasharray") != "none");
 }
 
-TEST_CASE("chart: an interval of x values is a horizontal whisker to both sides of its mark") {
+TEST_CASE("chart: an error bar of x values is a horizontal whisker to both sides of its mark") {
     const auto svg = svg_elements(drawn(two_points()));
     const auto whisker = corners(of_class(svg, "whisker").at(0)).at(0);
     const PicturePoint mark = middle(of_class(svg, "mark").at(0));

@@ -137,7 +137,7 @@ TEST_CASE(
     CHECK(near(p.y, (y_tick(svg, "0.01") + y_tick(svg, "100")) / 2));
 }
 
-TEST_CASE("chart: a band contains the line, and its edges are the ends of the intervals") {
+TEST_CASE("chart: a band contains the line, and its edges are the ends of the error bars") {
     const auto svg = svg_elements(drawn(ramp(ChartKind::lines, 10)));
     const auto line = corners(of_class(svg, "line").at(0)).at(0);
     const auto band = corners(of_class(svg, "band").at(0)).at(0);
@@ -153,7 +153,8 @@ TEST_CASE("chart: a band contains the line, and its edges are the ends of the in
     CHECK(of_class(svg, "whisker").empty());
 }
 
-TEST_CASE("chart: a chart with few points draws whiskers from low to high, and no band") {
+TEST_CASE(
+    "chart: with few points, each error bar is a whisker from end to end, and there is no band") {
     const auto svg = svg_elements(drawn(ramp(ChartKind::lines, 4)));
     CHECK(of_class(svg, "band").empty());
     const auto found = stems(of_class(svg, "whisker").at(0));
@@ -169,7 +170,7 @@ TEST_CASE("chart: a chart with few points draws whiskers from low to high, and n
     }
 }
 
-TEST_CASE("chart: a band ends where an interval is missing; a single interval is a whisker") {
+TEST_CASE("chart: a band ends where an error bar is missing; a single error bar is a whisker") {
     Chart lines = ramp(ChartKind::lines, 9);
     lines.series[0].points[3].low.reset();
     lines.series[0].points[5].high.reset();
@@ -217,7 +218,8 @@ TEST_CASE("chart: bands, whiskers and axis end at the limits of the quantity, su
     }
 }
 
-TEST_CASE("chart: overlapping whiskers are drawn side by side, with their lines") {
+TEST_CASE(
+    "chart: overlapping whiskers are drawn side by side, each on the line of its own series") {
     Chart lines = ramp(ChartKind::lines, 4);
     lines.series.push_back({"second", lines.series[0].points});
     const auto svg = svg_elements(drawn(lines));
@@ -262,7 +264,9 @@ TEST_CASE("chart: overlapping points of a scatter are drawn side by side") {
     }
 }
 
-TEST_CASE("chart: bars begin at 0 and end at their values, whiskers at the ends of the intervals") {
+TEST_CASE(
+    "chart: a bar extends from 0 to its value, a whisker to the ends of the interval around the "
+    "value") {
     Chart bars = one_series(ChartKind::bars, {{.category = "up", .y = 20, .low = 15, .high = 30},
                                               {.category = "down", .y = -10, .low = -12}});
     bars.series.push_back({"second", {{.category = "up", .y = 5}}});
@@ -342,7 +346,7 @@ TEST_CASE(
     CHECK(has(text, "no value"));
 }
 
-TEST_CASE("chart: a heat map in which every cell has a value draws and mentions no missing cell") {
+TEST_CASE("chart: if every cell of a heat map has a value, no missing cell is drawn or mentioned") {
     const std::string text =
         drawn(one_series(ChartKind::heat_map, {{.x = 1, .y = 0}, {.x = 2, .y = 1}}));
     CHECK_FALSE(has(text, "no value"));
@@ -356,7 +360,7 @@ TEST_CASE("chart: values are printed in cells that are large enough, and only th
     CHECK_FALSE(has(drawn(heat), ">0.250</text>"));
 }
 
-TEST_CASE("chart: a value is dark on light cells and white on dark cells") {
+TEST_CASE("chart: a heat map prints values in dark on light cells, and in white on dark cells") {
     for (const auto& each : svg_elements(
              drawn(one_series(ChartKind::heat_map, {{.x = 1, .y = 0}, {.x = 2, .y = 1}})))) {
         if (each.group != "cells" || each.name != "text") continue;
@@ -464,7 +468,8 @@ TEST_CASE("chart: a mark has a tooltip with its values") {
 }
 
 TEST_CASE(
-    "chart: points given beside a curve are hollow marks in its colour, not joined by a line") {
+    "chart: points of a series that belongs to a curve are hollow marks in the curve's colour, "
+    "without a line") {
     Chart chart = one_series(ChartKind::lines, {{.x = 0, .y = 1}, {.x = 5, .y = 2}});
     chart.series.push_back({"beside", {{.x = 2, .y = 1.5}, {.x = 3, .y = 1.2}}, 0});
     const auto svg = svg_elements(drawn(chart));
@@ -484,9 +489,7 @@ TEST_CASE(
     CHECK(count("fill", color) == 2);
 }
 
-TEST_CASE(
-    "chart: marks without intervals are drawn at their x even if they overlap; marks with "
-    "intervals are moved apart") {
+TEST_CASE("chart: overlapping marks are moved apart only if they have intervals") {
     Chart chart{.kind = ChartKind::lines,
                 .series = {{"a", {{.x = 1, .y = 1}, {.x = 2, .y = 2}}},
                            {"b", {{.x = 1, .y = 1}, {.x = 2, .y = 3}}}}};

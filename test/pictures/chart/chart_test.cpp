@@ -104,7 +104,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("chart: the legend has the varied key as its title, in SVG and in gnuplot") {
+TEST_CASE(
+    "chart: the legend has its title, such as the key that a study varies, in SVG and in gnuplot") {
     Chart lines = one_series(ChartKind::lines, {{.x = 1, .y = 1}, {.x = 2, .y = 2}});
     lines.legend_title = "ttl";
     const auto svg = svg_elements(drawn(lines));
@@ -118,7 +119,7 @@ TEST_CASE("chart: the legend has the varied key as its title, in SVG and in gnup
     CHECK(has(chart_gnuplot(lines), "title 'ttl'"));
 }
 
-TEST_CASE("chart: axes in gnuplot end at the limits of the quantity") {
+TEST_CASE("chart: axes in gnuplot end at the limits of the plotted quantity, such as 0 and 1") {
     Chart lines = one_series(ChartKind::lines, {{.x = 1, .y = 0.1, .low = -0.3, .high = 0.5},
                                                 {.x = 2, .y = 0.9, .low = 0.6, .high = 1.3}});
     lines.y_limits = {.low = 0, .high = 1};
@@ -132,7 +133,8 @@ TEST_CASE("chart: equal charts give equal bytes") {
     CHECK(chart_svg(charts) == chart_svg(gallery("twice")));
 }
 
-TEST_CASE("chart: one point, equal values, many series and many points give finite charts") {
+TEST_CASE(
+    "chart: charts of one point, equal values, many series or many points contain no inf or nan") {
     for (const ChartKind kind : chart_kinds) {
         Chart one = one_series(kind, {{.x = 3, .y = 3}}), same = one_series(kind, {}),
               many{.kind = kind}, large = one_series(kind, {});
@@ -203,7 +205,7 @@ TEST_CASE(
     CHECK(panels(chart_svg(charts))[2].y > titled[2].y + 10);
 }
 
-TEST_CASE("chart: a layout out of its range is refused") {
+TEST_CASE("chart: a layout whose width, height or number of columns is out of range is refused") {
     const Chart nothing;
     for (const ChartLayout& bad : {ChartLayout{.width = 100}, ChartLayout{.height = 0},
                                    ChartLayout{.height = no_number}, ChartLayout{.columns = 0}}) {

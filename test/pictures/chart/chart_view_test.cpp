@@ -52,8 +52,7 @@ TEST_CASE("chart view: values and ends of intervals that are not finite are left
 }
 
 TEST_CASE(
-    "chart view: a logarithmic axis omits points that are not above 0, but keeps whiskers whose "
-    "low end is not") {
+    "chart view: a logarithmic axis omits points <= 0, but keeps whiskers with a low end <= 0") {
     Chart scatter =
         chart(ChartKind::scatter,
               {{.x = 0, .y = 1}, {.x = 1, .y = -1}, {.x = 2, .y = 2, .low = -1, .high = 3}});
@@ -68,8 +67,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "chart view: on an axis of words, numbers come first in ascending order, then the words in "
-    "their order") {
+    "chart view: on an axis of words, numbers come first in ascending order, then the words in the "
+    "order of the points") {
     const Chart bars = chart(ChartKind::bars, {{.category = "b", .y = 1},
                                                {.x = 20, .y = 2},
                                                {.category = "a", .y = 3},
@@ -132,7 +131,7 @@ TEST_CASE("chart view: series with few points, or with words as x, have no band"
     CHECK_FALSE(has_band(view_of(lines), 0));
 }
 
-TEST_CASE("chart view: bars of one word are side by side, centred at the word") {
+TEST_CASE("chart view: bars at the same word of the x axis are side by side, centred at the word") {
     CHECK(std::abs(bar_offset(0, 1)) < rounding);
     CHECK(std::abs(bar_offset(0, 2) + 0.2) < rounding);
     CHECK(std::abs(bar_offset(1, 2) - 0.2) < rounding);

@@ -70,7 +70,8 @@ TEST_CASE("dot plot: any number of dots stays within its row") {
     }
 }
 
-TEST_CASE("dot plot: intervals have an entry in the legend") {
+TEST_CASE(
+    "dot plot: if dots have intervals around them, the legend has an entry for the intervals") {
     DotPlot plot = crowded(2);
     plot.whisker_label = "95 % interval";
     const std::string svg = drawn(plot);
@@ -80,7 +81,7 @@ TEST_CASE("dot plot: intervals have an entry in the legend") {
     CHECK(count(drawn(plot), ">95 % interval</text>") == 0);
 }
 
-TEST_CASE("dot plot: the numbers of both scales do not overlap") {
+TEST_CASE("dot plot: the numbers below the main scale and below the second scale do not overlap") {
     DotPlot plot = crowded(1);
     plot.series = {""};
     for (const double most : {0.5, 9.0, 80.0, 100.0, 1200.0, 25000.0}) {
@@ -136,7 +137,7 @@ TEST_CASE("dot plot: a value of 0 is at the left end of a logarithmic scale") {
     CHECK(first == (*++at)[1]);
 }
 
-TEST_CASE("dot plot: a band has an entry in the legend, and plots are in rows") {
+TEST_CASE("dot plot: a grey band has an entry in the legend, and several plots are drawn in rows") {
     DotPlot plot = crowded(2);
     CHECK(count(drawn(plot), "class=\"limit\"") == 0);
     plot.band = 2;

@@ -45,8 +45,8 @@ std::vector<double> places(const std::string& svg, const std::string& kind) {
 }  // namespace
 
 TEST_CASE(
-    "fit chart: costs are printed with one digit, as fractions or multiples of the reference's "
-    "cost") {
+    "fit chart: a model's cost is printed with one digit, as a fraction or multiple of the "
+    "reference model's cost") {
     CHECK(cost_text(2.4e-4) == "1/4,000");
     CHECK(cost_text(3e-5) == "1/30,000");
     CHECK(cost_text(1.0 / 1'600'000) == "1/2,000,000");
@@ -58,8 +58,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "fit chart: the least error of a row is the smaller of its two errors, or the only error that "
-    "it has") {
+    "fit chart: the least error of a row is the smaller of its errors as given and after the fit, "
+    "or its only error") {
     CHECK(FitRow{"a", 0.4, {}}.least_error() == 0.4);
     CHECK(FitRow{"a", {}, 0.3}.least_error() == 0.3);
     CHECK(FitRow{"a", 0.1, 0.3}.least_error() == 0.1);

@@ -37,14 +37,14 @@ TEST_CASE("color: luminance is 0 for black, 1 for white, and 0.2126 for red") {
     CHECK(std::abs(luminance({128, 128, 128}) - 0.2159) < half_a_digit);
 }
 
-TEST_CASE("color: the scale for areas gets steadily lighter") {
+TEST_CASE("color: the scale for areas gets steadily lighter from its low to its high end") {
     CHECK(least_rise(lagoon, 1, colors) >= 0);
     CHECK(least_rise(lagoon, 1, fine) > -one_unit);
     CHECK(luminance(lagoon.at(0)) < 0.07);
     CHECK(luminance(lagoon.at(1)) > 0.8);
 }
 
-TEST_CASE("color: the scale for lines gets steadily darker") {
+TEST_CASE("color: the scale for lines gets steadily darker from its low to its high end") {
     CHECK(least_rise(ember, -1, colors) >= 0);
     CHECK(least_rise(ember, -1, fine) > -one_unit);
     CHECK(luminance(ember.at(0)) > 0.5);

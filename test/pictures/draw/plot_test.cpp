@@ -118,7 +118,9 @@ TEST_CASE(
     CHECK(legend.height(10) == 6 * 20);
 }
 
-TEST_CASE("legend: captions are broken between parts, and a long part between words") {
+TEST_CASE(
+    "legend: a caption is broken between the parts that dots separate, and a long part between "
+    "words") {
     const std::string dot = " \xc2\xb7 ";
     CHECK(wrapped({"one", "two"}, 1000, 12) == std::vector<std::string>{"one" + dot + "two"});
     CHECK(wrapped({"one", "two"}, 30, 12) == std::vector<std::string>{"one", "two"});

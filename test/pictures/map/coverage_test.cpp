@@ -51,7 +51,8 @@ constexpr NodeId first{0};
 }  // namespace
 
 TEST_CASE(
-    "coverage: the level of a cell equals the level at a robot placed there, including walls") {
+    "coverage: the level of a cell equals the power that a robot there receives, also behind "
+    "walls") {
     const Scenario alone = office("");
     Built built(alone);
     const Transmitter a = transmitter(built.network, first, start_of_run);

@@ -101,7 +101,7 @@ TEST_CASE(
     }
     CHECK(has(svg, "link margin to west:"));
     CHECK(has(svg, ">no link to west<"));
-    CHECK(has(svg, "rover has no link to west: 1.0"));
+    CHECK(has(svg, "rover has no link to west for 1.0"));
     const std::size_t margins = svg.find("class=\"margins\"");
     REQUIRE(margins != svg.npos);
     const std::string lines = svg.substr(margins, svg.find("</g>", margins) - margins);
@@ -126,10 +126,10 @@ TEST_CASE(
         draw_svg(read(text), {.at = start_of_run + 100s, .trails = true, .margin_to = {"west"}});
     CHECK(has(svg, ">link to west<"));
     CHECK_FALSE(has(svg, "link margin"));
-    CHECK(has(svg, "and 2 robots more"));
+    CHECK(has(svg, "and 2 more robots"));
 }
 
-TEST_CASE("margins: partners and relays that are unknown or named twice are refused") {
+TEST_CASE("margins: a partner in --margin-to that is unknown or named twice is refused") {
     const PictureOptions unknown{.trails = true, .margin_to = {"wst"}};
     CHECK_THROWS_WITH_AS(draw_svg(read(road), unknown), doctest::Contains("\"west\""),
                          std::invalid_argument);

@@ -91,7 +91,9 @@ TEST_CASE("picture: robots of a movement file are drawn, with and without [[robo
     }
 }
 
-TEST_CASE("picture: the coverage of a robot of a movement file is drawn for a radio like its own") {
+TEST_CASE(
+    "picture: the coverage of a robot of a movement file is drawn for receivers with the same "
+    "radio") {
     Files files;
     const std::string svg = draw_svg(files.beside(1), {.coverage = {"n1"}, .cells = 400});
     CHECK(has(svg, "coverage of n1: level for a radio like its own"));
@@ -103,12 +105,12 @@ TEST_CASE("picture: vehicles that are not present are counted and not drawn") {
     const Scenario s = load_scenario(files.vehicles, {});
     const std::string before = draw_svg(s, {.at = start_of_run + 500ms});
     CHECK(circles(before) == 1);
-    CHECK(has(before, "of 2 robots 1 not departed"));
+    CHECK(has(before, "of 2 robots, 1 not departed yet"));
     CHECK(has(before, ">early</text>"));
     CHECK_FALSE(has(before, ">late</text>"));
     const std::string after = draw_svg(s, {.at = start_of_run + 2500ms, .trails = true});
     CHECK(circles(after) == 1);
-    CHECK(has(after, "of 2 robots 1 left"));
+    CHECK(has(after, "of 2 robots, 1 already left"));
     CHECK(has(after, "<title>early</title>"));  // its trail stays
     CHECK_FALSE(has(after, ">early</text>"));
 }

@@ -151,7 +151,7 @@ TEST_CASE("picture: the caption names each model that robots use, once") {
     const std::string mixed = draw_svg(scenario(robot("a", 0, 0, disc) + robot("b", 9, 0)),
                                        {.coverage = {"a"}, .cells = 9});
     CHECK(has(mixed, "disc: range 5 m \xc2\xb7 friis"));
-    CHECK(has(mixed, "its model is disc"));
+    CHECK(has(mixed, "has the model disc"));
 }
 
 TEST_CASE("picture: names are escaped, in labels and in the title") {
@@ -268,7 +268,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "picture: the coverage of several robots may show ranges of disc or levels, but not both") {
+    "picture: the coverage of several robots with model disc shows ranges, and disc beside other "
+    "models is refused") {
     const auto disc = [](int range) {
         return fmt::format("propagation = {{ model = \"disc\", range = \"{} m\" }}\n", range);
     };
@@ -329,7 +330,7 @@ TEST_CASE("picture: the caption has shadowing and its sigma beside the model, ex
     }
 }
 
-TEST_CASE("picture: trails keep corners and positions at equal time steps") {
+TEST_CASE("picture: a trail has the corners of the robot's path, and marks at equal time steps") {
     Network network;
     const auto trails = std::make_shared<Trails>();
     network.add_sink(trails);
@@ -425,8 +426,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "picture: of a building with several storeys, one storey is drawn, with its walls, robots, "
-    "links and trails") {
+    "picture: of a building with storeys, one storey is drawn, with its walls, robots and links") {
     Scenario s = scenario(robot("low", 1.5, 0.5) + robot("stays", 2.5, 0.5) +
                           "[[robot]]\nname = \"high\"\nat = [\"1.5 m\", \"0.5 m\", \"3 m\"]\n"
                           "move = { model = \"goal\", to = [\"4.5 m\", \"0.5 m\", \"3 m\"] }\n" +
@@ -554,7 +554,7 @@ TEST_CASE("picture: the width changes only the number of pixels") {
     CHECK(std::abs(number(large, "height") - 2.5 * number(usual, "height")) < rounding);
 }
 
-TEST_CASE("picture: a larger font leaves less room for the rest at the same width") {
+TEST_CASE("picture: doubling the font size halves the view box, at the same width in pixels") {
     const std::string svg = draw_svg(rescue(), {.width = 600, .font_size = 24});
     CHECK(number(svg, "width") == 600);
     CHECK(has(svg, "viewBox=\"0 0 600 "));

@@ -20,14 +20,16 @@ using namespace std::chrono_literals;
 namespace {
 
 /// Five robots in a row, each in range of its neighbours; n3 is switched off at 6.9 s.
-Scenario row() {
+/// @param more  further tables of the scenario file
+Scenario row(const std::string& protocol = "aodv", const std::string& more = "") {
     std::string text = R"([scenario]
 duration = "9 s"
 [propagation]
 model = "disc"
 range = "250 m"
 [routing]
-protocol = "aodv"
+protocol = ")" + protocol +
+                       R"("
 [[traffic]]
 kind = "unicast"
 from = "n0"
@@ -40,7 +42,7 @@ every = "250 ms"
         text += fmt::format("[[robot]]\nname = \"n{}\"\nat = [\"{} m\", \"0 m\"]\n{}", i, 200 * i,
                             i == 3 ? "off = [\"6.9 s\"]\n" : "");
     }
-    return read_scenario(parse_toml(text, "s.toml"), "s.toml");
+    return read_scenario(parse_toml(text + more, "s.toml"), "s.toml");
 }
 
 std::string drawn(Duration at, bool route, bool search) {
@@ -69,7 +71,9 @@ bool has(const std::string& text, const std::string& word) {
 
 }  // namespace
 
-TEST_CASE("route lines: a route is drawn as an arrow for each hop, with its age") {
+TEST_CASE(
+    "route lines: a route is drawn as an arrow for each hop, with the age of the route at this "
+    "hop") {
     const std::string svg = drawn(5s, true, false);
     const auto paths = in_group(svg, "route", "path");
     CHECK(paths.size() == 4 * 3);  // a white line, a line and a head
@@ -82,27 +86,66 @@ TEST_CASE("route lines: a route is drawn as an arrow for each hop, with its age"
     CHECK(std::ranges::none_of(paths, is_dashed));
 }
 
-TEST_CASE("route lines: a hop that is not heard is dashed, and ends the route") {
+TEST_CASE(
+    "route lines: a hop whose receiver does not hear the sender is dashed, and the route is drawn "
+    "no further") {
     const std::string svg = drawn(6950ms, true, false);  // before anybody has noticed
     CHECK(has(svg, "breaks off at n2: n3 is off"));
     const auto paths = in_group(svg, "route", "path");
     CHECK(std::ranges::count_if(paths, is_dashed) == 1);
     CHECK(in_group(svg, "route", "circle").size() == 1);
-    CHECK(has(svg, "hop whose next robot does not hear it"));
+    CHECK(has(svg, "hop whose next robot does not hear the sender"));
     CHECK(has(svg, "the route breaks off here"));
 }
 
-TEST_CASE("route lines: a search is a ring around each robot that sent the last request") {
+TEST_CASE(
+    "route lines: a search is drawn as a ring around each robot that sent the last route request") {
     const std::string early = drawn(500ms, false, true);
     CHECK(in_group(early, "search", "circle").empty());
-    CHECK(has(early, "no request so far"));
+    CHECK(has(early, "no route request so far"));
     const std::string svg = drawn(5s, false, true);
     // n3 answers for n4, or n4 itself does: it sends no request.
     const auto rings = in_group(svg, "search", "circle");
     CHECK(rings.size() >= 3);
     CHECK(rings.size() <= 4);
-    CHECK(has(svg, fmt::format("last request of n0: sent by {} robots from ", rings.size())));
+    CHECK(has(svg, fmt::format("last route request of n0: sent by {} robots from ", rings.size())));
     CHECK(has(svg, "sent the last request"));
+}
+
+TEST_CASE(
+    "route lines: a DSR search is one search, although each robot sends a packet of its own") {
+    PictureOptions options{.at = start_of_run + 5s, .search = true};
+    const std::string svg = draw_svg(row("dsr"), options);
+    CHECK(in_group(svg, "search", "circle").size() == 4);  // all but the target
+    CHECK(has(svg, "last route request of n0: sent by 4 robots from "));
+}
+
+// Requests of n0 and of n4 for n5, which nobody reaches, cross in the middle of the row.
+TEST_CASE("route lines: two searches at the same time are kept apart") {
+    for (const char* protocol : {"aodv", "dsr"}) {
+        CAPTURE(protocol);
+        PictureOptions options{.at = start_of_run + 3500ms, .search = true};
+        options.route = PictureOptions::Route{"n0", "n5"};
+        const std::string svg = draw_svg(row(protocol, R"(
+[[traffic]]
+kind = "unicast"
+from = "n0"
+to = "n5"
+size = "64 B"
+start = "1 s"
+[[traffic]]
+kind = "unicast"
+from = "n4"
+to = "n5"
+size = "64 B"
+start = "1 s"
+[[robot]]
+name = "n5"
+at = ["9 km", "0 m"]
+)"),
+                                         options);
+        CHECK(has(svg, "last route request of n0: sent by 5 robots from "));
+    }
 }
 
 TEST_CASE("route lines: a route to an unknown robot is refused") {

@@ -17,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <random>
@@ -31,14 +32,14 @@ using namespace rovernet;
 
 namespace {
 
-/// Recorded trace of an example.
+/// Recorded trace of a scenario file, which is an example if its path is relative.
 struct Recorded {
-    explicit Recorded(const std::string& example, std::vector<std::string> set = {}) {
+    explicit Recorded(const std::filesystem::path& file, std::vector<std::string> set = {}) {
         set.emplace_back("trace.record=true");
         ScenarioOptions options;
         options.set = std::move(set);
         const Scenario scenario =
-            load_scenario(std::string(ROVERNET_EXAMPLES) + "/" + example, options);
+            load_scenario((std::filesystem::path(ROVERNET_EXAMPLES) / file).string(), options);
         RunOptions run;
         run.folder = folder.path("run");
         run_scenario(scenario, run);
@@ -90,13 +91,18 @@ std::vector<SeenFrame> frames_of(const test::ViewReader& view) {
     return frames;
 }
 
-/// The same from the records. Every reception belongs to the last frame of its sender and message.
+/// The same from the records. Every reception belongs to the last frame of its sender and message
+/// that was over.
 std::vector<SeenFrame> frames_of(const std::string& trace) {
     std::vector<SeenFrame> frames;
-    std::map<std::pair<double, double>, std::size_t> last;
+    std::vector<Time> ends;
+    std::map<std::pair<double, double>, std::vector<std::size_t>> sent;
     RecordedReader reader(trace);
     const auto take = [&](NodeId sender, double uid, const Reception& r) {
-        frames[last.at({sender.value, uid})].outcomes[r.node.value] =
+        const auto& all = sent.at({sender.value, uid});
+        const auto over = std::find_if(all.rbegin(), all.rend(),
+                                       [&](std::size_t frame) { return ends[frame] <= r.time; });
+        frames[*over].outcomes[r.node.value] =
             2 * static_cast<int>(r.fate) + static_cast<int>(r.delivered);
     };
     while (const Record* record = reader.next()) {
@@ -106,7 +112,8 @@ std::vector<SeenFrame> frames_of(const std::string& trace) {
         if (const auto* air = std::get_if<AirSent>(record)) {
             const double message = air->air.control ? -1 : uid(air->air.frame.message);
             const double sender = air->air.frame.sender.value;
-            last[{sender, message}] = frames.size();
+            sent[{sender, message}].push_back(frames.size());
+            ends.push_back(air->time + air->airtime);
             const auto start = static_cast<double>((air->time - start_of_run).count());
             frames.push_back({start, sender, message, {}});
         } else if (const auto* got = std::get_if<Received>(record)) {
@@ -149,7 +156,8 @@ TEST_CASE("view of a run: frames and outcomes of receptions equal the records") 
     }
 }
 
-TEST_CASE("view of a run: positions of robots follow from their legs at any time") {
+TEST_CASE(
+    "view of a run: the positions of robots at any time follow from their recorded movements") {
     for (const char* example : examples) {
         CAPTURE(example);
         const Recorded run(example);
@@ -177,8 +185,7 @@ TEST_CASE("view of a run: positions of robots follow from their legs at any time
     }
 }
 
-TEST_CASE(
-    "view of a run: the counts of each density level add up to the receptions, for each outcome") {
+TEST_CASE("view of a run: at each zoom level of the time line, outcomes add up to the receptions") {
     const Recorded run("detour/detour.toml");
     const test::ViewReader view(view_of_trace(run.trace(), {}).bytes);
     std::map<double, double> expected;
@@ -232,7 +239,8 @@ std::map<std::string, std::vector<Series>> series_of(const test::ViewReader& vie
 }  // namespace
 
 TEST_CASE(
-    "view of a run: the series of a chart end at the run's metrics, or add up to its counts") {
+    "view of a run: the last or largest value of a chart equals the run's metric, and receptions "
+    "add up to their counts") {
     for (const char* example : {"rescue/rescue.toml", "detour/detour.toml", "patrol/patrol.toml"}) {
         CAPTURE(example);
         const Recorded run(example, {"trace.links=true"});
@@ -262,7 +270,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "view of a run: the series of channel and topology equal values computed from the records") {
+    "view of a run: chart series of channel and topology equal values computed from the records") {
     const Recorded run("patrol/patrol.toml", {"trace.links=true"});
     const test::ViewReader view(view_of_trace(run.trace(), {}).bytes);
     auto series = series_of(view);
@@ -296,6 +304,54 @@ TEST_CASE(
     const Recorded without("patrol/patrol.toml");
     CHECK(series_of(test::ViewReader(view_of_trace(without.trace(), {}).bytes))
               .count("Neighbours of a robot mean") == 0);
+}
+
+// While a sends a long message, it begins to send a short message and another long message.
+TEST_CASE("view of a run: frames of one robot that overlap keep their receptions and airtimes") {
+    for (const auto& [rate, long_ms, short_ms] :
+         {std::tuple{"250 kb/s", 48.192, 0.224}, std::tuple{"100 b/s", 120'000.192, 80.192}}) {
+        CAPTURE(rate);
+        const test::TemporaryFolder folder;
+        const std::string file = folder.write("overlap.toml", fmt::format(R"(
+[scenario]
+name = "overlap"
+duration = "200 s"
+[radio]
+rate = "{}"
+[[robot]]
+name = "a"
+at = ["0 m", "0 m"]
+[[robot]]
+name = "b"
+at = ["20 m", "0 m"]
+[routing]
+ttl = 1
+[[traffic]]
+from = "a"
+size = "1500 B"
+start = "0 s"
+every = "1 s"
+count = 1
+[[traffic]]
+from = "a"
+size = "1 B"
+start = "1 ms"
+every = "1 s"
+count = 1
+[[traffic]]
+from = "a"
+size = "1500 B"
+start = "2 ms"
+every = "1 s"
+count = 1
+)",
+                                                                          rate));
+        const Recorded run(file);
+        const test::ViewReader view(view_of_trace(run.trace(), {}).bytes);
+        CHECK(view.numbers("0/flights.count") == std::vector<double>{1, 1, 1});
+        CHECK(view.numbers("0/flights.airtime") ==
+              std::vector<double>{long_ms * 1e6, short_ms * 1e6, long_ms * 1e6});
+    }
 }
 
 TEST_CASE("view of a run: options leave out frames, payloads and the map") {
