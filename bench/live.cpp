@@ -277,7 +277,7 @@ void echo() {
 
 int main(int argc, char** argv) {
     if (argc != 2) {
-        fmt::print(stderr, "live COMMAND: the rovernet command to measure\n");
+        fmt::print(stderr, "usage: live COMMAND, with the rovernet command to measure\n");
         return 2;
     }
     try {

@@ -31,7 +31,8 @@ Duration logged_time(const JsonElement& element) {
 
 NodeId logged_robot(const JsonElement& element, const Network& network) {
     const auto robot = network.find(element.text());
-    if (!robot) element.fail("unknown_robot", fmt::format("no robot {}", element.text()));
+    if (!robot)
+        element.fail("unknown_robot", fmt::format("the scenario has no robot {}", element.text()));
     return *robot;
 }
 
@@ -143,7 +144,8 @@ class Replayed {
         }
         const Input input = input_in(line, session_.network(), format_);
         if (input.time < session_.network().now()) {
-            line.fail("out_of_range", "the time of this input is before that of the input above");
+            line.fail("out_of_range",
+                      "the time of this input is earlier than the time of the input before");
         }
         run_to(input.time);
         session_.carry_out(driver_of(input.robot), input.robot, input.command);
@@ -178,7 +180,8 @@ class LogLines {
   public:
     explicit LogLines(const std::string& path)
         : path_((need_file(path), path)), file_(path, std::ios::binary) {
-        if (!file_) throw InputError({.source = path}, "cannot be read");
+        if (!file_)
+            throw InputError({.source = path}, "this file cannot be read; check its permissions");
     }
 
     /// The next line; nothing at the end, or if the line is the last one and torn.
@@ -269,7 +272,10 @@ InputReplay replay_inputs(const std::string& path, const std::function<bool(doub
     LogLines lines(result.log);
     try {
         const auto head = lines.next();
-        if (!head) throw InputError(lines.where(), "expected the first line of a log of inputs");
+        if (!head)
+            throw InputError(lines.where(),
+                             "the file is empty; expected a log of inputs (inputs.jsonl), which "
+                             "rovernet live writes");
         const fs::path folder = log.has_parent_path() ? log.parent_path() : ".";
         std::uint64_t format = 1;
         const Scenario scenario = load_scenario(read_head(*head, folder, result, format));

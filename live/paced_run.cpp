@@ -237,16 +237,16 @@ class PacedServer {
 
     /// Time up to which the run can go before a front has something to say.
     Time next_stop() {
-        Time stop = std::min(session_->end(), limit());
+        Time stop = exact_stop_ = std::min(session_->end(), limit());
         for (ServedFront& each : open_) {
             each.due = each.front->next();
             stop = std::min(stop, each.due);
+            if (each.front->is_exact()) exact_stop_ = std::min(exact_stop_, each.due);
         }
         return stop;
     }
 
-    /// Sets the clock back to the limit of the fronts, so that the run does not catch up after a
-    /// pause.
+    /// Sets the clock back to the limit of the fronts: the run does not catch up after a pause.
     void hold_clock() {
         if (clock_.paces() && by_clock() > limit()) clock_.set(limit());
     }
@@ -278,8 +278,8 @@ class PacedServer {
     void catch_up() {
         look();
         const Time until = std::min(next_stop(), by_clock());
-        is_behind_ = until > now() && !session_->advance(until, events_a_slice);
-        if (is_behind_) session_->step(now());
+        is_behind_ = until > now() && !session_->advance(until, events_a_slice, exact_stop_);
+        if (is_behind_) session_->step(now(), exact_stop_);
         for (ServedFront& each : open_) {
             if (each.due > now()) continue;
             note_lateness();
@@ -287,8 +287,7 @@ class PacedServer {
         }
     }
 
-    /// Runs up to the current time of the clock, so that a message of a client takes effect at its
-    /// arrival.
+    /// Runs up to the current time of the clock, at which a client's message takes effect.
     /// @return false after the run
     bool reach_present() {
         if (!session_) return false;
@@ -330,12 +329,12 @@ class PacedServer {
     /// @param at  simulated time
     void judge(Duration behind, Time at) {
         if (!options_.most_late || behind <= *options_.most_late || !fault_.empty()) return;
-        const std::string text = fmt::format("{:.1f} ms behind the clock at {:.6f} s",
-                                             1e3 * seconds(behind), seconds(at));
+        const auto text = fmt::format("the run is {:.1f} ms behind real time at t = {:.6f} s",
+                                      1e3 * seconds(behind), seconds(at));
         if (options_.late_ends) {
             fault_ = text;
         } else if (!std::exchange(has_told_late_, true)) {
-            options_.say(text + ": programs see this as an additional delay of the radio");
+            options_.say(text + ", so programs receive their messages later by this delay");
         }
     }
 
@@ -367,6 +366,7 @@ class PacedServer {
     Session* session_ = nullptr;  // while it is served
     std::optional<std::uint64_t> new_seed_;
     Time promised_ = start_of_run;  // time of the clock by which it looks again
+    Time exact_stop_ = never;       // next time at which the run must stop exactly
     bool is_behind_ = false;        // the time of the clock
     Lateness lateness_;
     bool has_told_late_ = false;

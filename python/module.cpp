@@ -111,20 +111,21 @@ void add_heard(py::module_& m) {
         return heard.message.level ? std::optional(heard.message.level->value) : std::nullopt;
     };
     py::class_<HeardObject>(m, "Heard", "Message that a robot heard.")
-        .def_property_readonly("at", name(&HeardMessage::at), "Robot that heard it.")
+        .def_property_readonly("at", name(&HeardMessage::at), "Robot that heard the message.")
         .def_property_readonly("t_ns", t_ns, "Time [ns] since the start.")
-        .def_property_readonly("origin", name(&HeardMessage::from), "Robot that sent it first.")
+        .def_property_readonly("origin", name(&HeardMessage::from),
+                               "Robot that sent the message first.")
         .def_property_readonly("last_hop", name(&HeardMessage::last_hop),
                                "Robot that sent the frame in which the message arrived.")
         .def_property_readonly(
             "hops", [](const HeardObject& heard) { return heard.message.hops; },
-            "Number of hops that it crossed.")
+            "Number of hops that the message crossed.")
         .def_property_readonly(
             "port", [](const HeardObject& heard) { return heard.message.port; },
-            "Port to which it was sent.")
+            "Port to which the message was sent.")
         .def_property_readonly(
             "rssi", rssi,
-            "Level [dBm] at the robot of the frame in which the message arrived; None: not known.")
+            "Received level [dBm] of the frame in which the message arrived; None: not known.")
         .def_property_readonly(
             "noise", [](const HeardObject& heard) { return heard.noise; },
             "Noise at the robot [dBm].")
@@ -172,7 +173,7 @@ SessionClass session_class(py::module_& m) {
         "step:    simulated time of a step [s], 1 us or more\n"
         "robots:  names of the robots that the program drives, in the order of the rows of all\n"
         "         arrays; None: all. Other robots move as in the scenario\n"
-        "out:     folder for results and inputs, which finish() writes; None: nothing is written\n"
+        "out:     folder to which finish() writes results and the log of inputs; None: no files\n"
         "records: kinds of records to keep for records()\n\n"
         "At its end, a with-statement calls finish().",
         py::custom_type_setup([](PyHeapTypeObject* type) {
@@ -222,8 +223,7 @@ void add_commands(SessionClass& session) {
              "timeout: the robots stop after this time [s]; None: never")
         .def("go_to", &go_to, "robot"_a, "to"_a, "speed"_a = 1.0,
              "Sends a robot to a place (x, y) or (x, y, z) [m], around the walls, at a speed "
-             "[m/s].\n"
-             "Without z it stays at its height.")
+             "[m/s].\nWithout z the robot stays at its height.")
         .def("place", &place, "robot"_a, "x"_a, "y"_a, "heading"_a = py::none(), "z"_a = py::none(),
              "Moves a robot to (x, y, z) [m] with a heading [rad] when the next step begins;\n"
              "there it is at rest. None: the current height or heading.")
@@ -282,8 +282,8 @@ void add_robots(SessionClass& session) {
              "Range finders of a robot, as dicts: name, kind, range [m], and for each beam its\n"
              "angle from the robot's heading [rad] and its begin (x ahead, y to the left) [m].")
         .def("links", &links,
-             "(N, N), all robots by number: level [dBm] at which the robot of the row now hears\n"
-             "the robot of the column; nan: it does not hear it.")
+             "(N, N), all robots by number: level [dBm] at which the robot of the row now "
+             "hears\nthe robot of the column; nan: it does not hear that robot.")
         .def("neighbors", &neighbors, "robot"_a,
              "Structured array of the robots that a robot's radio hears now: name, rssi [dBm],\n"
              "noise [dBm], quality from 0 to 100.");

@@ -26,8 +26,10 @@ inline std::size_t scanner_of(SessionObject& session, NodeId robot, const py::ob
     const std::string name = session.network().name(robot);
     const auto all = session.run().session().range_finders(robot);
     if (all.empty()) {
-        throw py::value_error(fmt::format(
-            "robot {} has no range finder; expected a scan of it in the scenario", name));
+        throw py::value_error(
+            fmt::format("robot {} has no range finder; expected scan = {{ ... }} for this robot in "
+                        "the scenario",
+                        name));
     }
     if (py::isinstance<py::str>(scanner)) {
         const auto label = scanner.cast<std::string>();
@@ -63,10 +65,11 @@ inline py::array_t<double> scan(SessionObject& session, const OptionalRobotArgum
     for (std::size_t row = 0; row < robots.size(); ++row) {
         const auto ranges = ranges_of(robots[row]);
         if (row > 0 && ranges.size() != beams) {
-            throw py::value_error(fmt::format(
-                "scan: robot {} has {} beams and robot {} {}; expected the name of one robot",
-                session.network().name(robots[0]), beams, session.network().name(robots[row]),
-                ranges.size()));
+            throw py::value_error(
+                fmt::format("scan: robot {} has {} beams, but robot {} has {}; expected the name "
+                            "of a single robot",
+                            session.network().name(robots[0]), beams,
+                            session.network().name(robots[row]), ranges.size()));
         }
         beams = ranges.size();
         all.insert(all.end(), ranges.begin(), ranges.end());

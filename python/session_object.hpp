@@ -9,8 +9,11 @@
 #include "python/run_object.hpp"
 #include "python/values.hpp"
 
+#include <fmt/format.h>
+
 #include <map>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,6 +31,14 @@ struct HeardObject {
         return message == other.message && noise == other.noise;
     }
 };
+
+/// Step of a session. @throws std::invalid_argument if the step is too short, also if it is below
+/// the resolution of a Duration
+inline Duration step_of(double s) {
+    const Duration step = from_seconds(s);
+    if (step >= shortest_step) return step;
+    throw std::invalid_argument(fmt::format("a step must be 1 us or more, got {} s", s));
+}
 
 /// Sink that calls a Python function with each record of one kind.
 class RecordCallback {
@@ -66,7 +77,7 @@ class SessionObject {
         : kinds_(records.value),
           run_(to_scenario(scenario, set, seed),
                {.robots = robots.value,
-                .step = from_seconds(step.value),
+                .step = step_of(step.value),
                 .folder = folder_in(out),
                 .client = "python",
                 .prepare = [this](Network& network) { prepare(network); }}) {
@@ -137,7 +148,7 @@ class SessionObject {
         const auto found = rows_.find(robot_named(network(), robot));
         if (found != rows_.end()) return found->second;
         throw py::value_error(
-            fmt::format("robot {} is not among those that the session drives", robot));
+            fmt::format("robot {} is not among the robots that the session drives", robot));
     }
     const py::tuple& names() const { return names_; }
     py::array records(const std::string& name) {
@@ -168,7 +179,7 @@ class SessionObject {
     class Working {
       public:
         explicit Working(SessionObject& session) : session_(session) {
-            if (session_.works_) throw RunError("the session is in a step already");
+            if (session_.works_) throw RunError("another call is still in a step of this session");
             session_.works_ = true;
         }
         ~Working() { session_.works_ = false; }
@@ -178,7 +189,7 @@ class SessionObject {
     };
     void check_idle() const {
         if (works_ && !interruption_.is_calling()) {
-            throw RunError("the session is in a step; expected a call between two steps");
+            throw RunError("the session is in a step; expected this call between two steps");
         }
     }
     void prepare(Network& network) {

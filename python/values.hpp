@@ -72,7 +72,10 @@ inline Value to_value(py::handle given, const std::string& place, int depth = 0)
     constexpr int deepest = 32;
     const Location where{.source = place, .is_option = true};
     if (depth > deepest) {
-        throw InputError(where, fmt::format("expected {} levels at most", deepest));
+        throw InputError(
+            where,
+            fmt::format("found dicts and lists nested too deeply; expected {} levels at most",
+                        deepest));
     }
     if (is_from_numpy(given)) return to_value(plain(given), place, depth + 1);
     if (py::isinstance<py::dict>(given)) {

@@ -29,7 +29,8 @@ inline boost::asio::ip::tcp::acceptor listen_on(boost::asio::io_context& io,
     try {
         return {io, asio::ip::tcp::endpoint(asio::ip::make_address(address.host), address.port)};
     } catch (const boost::system::system_error& fault) {
-        throw RunError(fmt::format("{}: {}", address.text(), fault.code().message()));
+        throw RunError(
+            fmt::format("cannot listen on {}: {}", address.text(), fault.code().message()));
     }
 }
 
@@ -41,8 +42,9 @@ inline boost::asio::local::stream_protocol::acceptor listen_on_path(boost::asio:
                                                                     const std::string& path) {
     using boost::asio::local::stream_protocol;
     if (path.empty() || path.size() >= sizeof(sockaddr_un::sun_path)) {
-        throw std::invalid_argument(fmt::format("{}: expected a path of 1 to {} bytes", path,
-                                                sizeof(sockaddr_un::sun_path) - 1));
+        throw std::invalid_argument(
+            fmt::format("{}: expected a path of 1 to {} bytes for the Unix socket", path,
+                        sizeof(sockaddr_un::sun_path) - 1));
     }
     const stream_protocol::endpoint endpoint(path);
     struct stat found {};
@@ -50,7 +52,10 @@ inline boost::asio::local::stream_protocol::acceptor listen_on_path(boost::asio:
         stream_protocol::socket probe(io);
         boost::system::error_code error;
         probe.connect(endpoint, error);
-        if (!S_ISSOCK(found.st_mode) || !error) throw RunError(path + ": already exists");
+        if (!S_ISSOCK(found.st_mode) || !error)
+            throw RunError(path +
+                           ": a file or a socket in use has this path already; expected a "
+                           "different path for the Unix socket");
         unlink(path.c_str());
     }
     const mode_t mask = umask(0077);
@@ -60,7 +65,7 @@ inline boost::asio::local::stream_protocol::acceptor listen_on_path(boost::asio:
         return acceptor;
     } catch (const boost::system::system_error& fault) {
         umask(mask);
-        throw RunError(fmt::format("{}: {}", path, fault.code().message()));
+        throw RunError(fmt::format("cannot listen on {}: {}", path, fault.code().message()));
     }
 }
 

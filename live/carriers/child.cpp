@@ -89,9 +89,9 @@ bool Child::has_ended() {
     has_ended_ = found.si_pid == pid_;
     if (!has_ended_) return false;
     if (found.si_code != CLD_EXITED) {
-        fault_ = fmt::format("{} ended by signal {}", command_, found.si_status);
+        fault_ = fmt::format("{} was ended by signal {}", command_, found.si_status);
     } else if (found.si_status != 0) {
-        fault_ = fmt::format("{} ended with {}", command_, found.si_status);
+        fault_ = fmt::format("{} ended with exit code {}", command_, found.si_status);
     }
     return true;
 }

@@ -27,8 +27,8 @@ class Child {
     int take_socket();
     /// Waits until the program ends, at most until `most`. Other processes of the program's group
     /// may continue.
-    /// @return error: "python3 x.py ended with 1"; empty after success, or if the program still
-    /// runs
+    /// @return error: "python3 x.py ended with exit code 1"; empty after success, or if the program
+    /// still runs
     std::string wait_until(std::chrono::steady_clock::time_point most);
     /// Ends the process groups of all programs in `children`, see end_groups().
     static void end(std::vector<Child>& children);

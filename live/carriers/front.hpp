@@ -76,6 +76,9 @@ class Front {
     virtual Time next() const = 0;
     /// Sends messages to clients. Called when simulated time has reached next().
     virtual void tell() = 0;
+    /// Whether the simulated time in tell() must be exactly next(). Otherwise tell() may be called
+    /// some microseconds later, so that the receptions of a frame are not separated.
+    virtual bool is_exact() const { return true; }
 
     /// Simulated time at which the run stops and waits until clients have sent the messages that
     /// the front needs; `never`: no limit.

@@ -96,6 +96,7 @@ std::string_view JsonElement::text() const {
 }
 
 double JsonElement::seconds() const {
+    if (!value.is_string()) expected("a time in quotes with its unit, such as \"0.5 s\"");
     const std::string quantity(text());
     try {
         return read_quantity(Value(quantity), path.key, Dimension::time);

@@ -294,7 +294,8 @@ Listeners::~Listeners() { Child::end(state_->children); }
 
 std::optional<Listeners::Connection> Listeners::start(const std::string& command, Streams streams) {
     if (state_->children.size() >= most_connections) {
-        throw RunError(fmt::format("{}: expected {} programs at most", command, most_connections));
+        throw RunError(fmt::format("{}: cannot start this program; expected {} programs at most",
+                                   command, most_connections));
     }
     Child child(command);
     Socket socket(state_->io);

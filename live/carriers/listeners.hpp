@@ -108,7 +108,7 @@ class Listeners {
     /// Sends all remaining data, then closes all connections. Sending ends after `soon` for clients
     /// of byte streams, and after `most` for clients of lines. Then waits at most `most` for
     /// started programs, and ends those that still run. No handler is called any more.
-    /// @return errors of programs: "python3 x.py ended with 1"
+    /// @return errors of programs: "python3 x.py ended with exit code 1"
     std::vector<std::string> close(std::chrono::milliseconds soon, std::chrono::milliseconds most);
 
   private:

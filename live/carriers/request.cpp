@@ -51,6 +51,11 @@ class Robots : public CommandReader {
         return *robot;
     }
     NodeId own_robot(const JsonElement& at, NodeId robot) const {
+        if (own.empty()) {
+            at.fail("hello_first",
+                    fmt::format("send a message of type hello first, which lists robot {}",
+                                network.name(robot)));
+        }
         if (!std::binary_search(own.begin(), own.end(), robot)) {
             at.fail("not_yours", fmt::format("robot {} is not among the robots in your hello",
                                              network.name(robot)));
@@ -109,13 +114,14 @@ HelloRequest read_hello(const JsonElement& line, const Robots& robots) {
     HelloRequest hello;
     const JsonElement& version = needed(protocol, line, "protocol", "\"protocol\":1");
     if (version.whole_number(0, largest_count) != 1) {
-        version.fail("bad_protocol", "this is protocol 1");
+        version.fail("bad_protocol", "expected protocol 1, the only one of this server");
     }
     if (name) {
         hello.name = name->text();
         if (hello.name.empty() || hello.name.size() > longest_name) {
             name->fail("out_of_range",
-                       fmt::format("expected a name of 1 to {} bytes", longest_name));
+                       fmt::format("found a name of {} bytes; expected 1 to {} bytes",
+                                   hello.name.size(), longest_name));
         }
     }
     const JsonElement& list = needed(listed, line, "robots", "\"robots\":[\"A\"]");

@@ -5,6 +5,7 @@
 #include "live/carriers/acceptor.hpp"
 #include "live/carriers/admission.hpp"
 #include "live/carriers/input_rate.hpp"
+#include "live/carriers/page_fields.hpp"
 
 #include <boost/asio.hpp>
 #include <boost/beast/core.hpp>
@@ -69,11 +70,11 @@ std::string fault_of(const Request& request) {
     // RFC 9112, 3.2: exactly one Host. RFC 6455, 11.3: neither field of the handshake twice; 10.2
     // trusts the one Origin.
     const std::size_t hosts = fields.count(http::field::host);
-    if (hosts > 1 || (hosts == 0 && request.version() >= 11)) return "expected one Host";
+    if (hosts > 1 || (hosts == 0 && request.version() >= 11)) return "expected one header Host";
     for (const http::field each : {http::field::origin, http::field::sec_websocket_key,
                                    http::field::sec_websocket_version}) {
         if (fields.count(each) <= 1) continue;
-        return fmt::format("expected one {}", text_of(http::to_string(each)));
+        return fmt::format("expected one header {}", text_of(http::to_string(each)));
     }
     if (!websocket::is_upgrade(request)) return {};
     // RFC 6455, 4.1: the base64 of 16 bytes.
@@ -192,9 +193,9 @@ struct WebSockets::State {
             client->response.set(http::field::allow, "GET, HEAD");
             return refuse(client, http::status::method_not_allowed, "expected GET or HEAD");
         }
-        const WebPage absent{"text/plain", "there is no such page\n"};
-        const WebPage* page = page_of(client);
-        respond(client, page ? http::status::ok : http::status::not_found, page ? *page : absent,
+        if (const WebPage* page = page_of(client))
+            return respond(client, http::status::ok, *page, is_head);
+        respond(client, http::status::not_found, {"text/plain", "there is no such page\n"},
                 is_head);
     }
 
@@ -209,7 +210,7 @@ struct WebSockets::State {
         auto& response = client->response;
         response.result(status);
         response.set(http::field::content_type, page.type);
-        response.set(http::field::connection, "close");
+        set_page_fields(response, page.policy);
         response.content_length(page.text.size());
         if (!is_head) response.body() = page.text;
         client->stream.next_layer().expires_after(timeouts.request);
@@ -391,9 +392,8 @@ void WebSockets::close(std::chrono::milliseconds most) {
     for (const auto& [id, client] : clients)
         client->is_open ? state_->leave(client, close_code::going_away) : state_->remove(client);
     const auto until = Clock::now() + most;
-    while (!state_->clients.empty() && Clock::now() < until) {
+    while (!state_->clients.empty() && Clock::now() < until)
         state_->io.run_one_for(std::chrono::milliseconds(10));
-    }
     for (const auto& [id, client] : clients) state_->remove(client);
 }
 

@@ -16,7 +16,8 @@ namespace rovernet {
 struct WebPage {
     std::string type;  ///< media type: "text/html; charset=utf-8"
     std::string text;
-    bool is_public = false;  ///< whether no token is needed: the page has no data of the run
+    bool is_public = false;   ///< whether no token is needed: the page has no data of the run
+    std::string policy = {};  ///< Content-Security-Policy of the page; empty: none
 };
 /// Web pages by path, such as "/". The server serves no other path, and reads no file.
 using WebPages = std::map<std::string, WebPage, std::less<>>;

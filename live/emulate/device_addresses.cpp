@@ -94,9 +94,11 @@ class DeviceAddresses {
                              const std::string& what) {
         const auto [first, added] = known.emplace(key, each);
         if (added) return;
-        each.fail(place,
-                  fmt::format("found the {}, which robot {} also has; expected a different one",
-                              what, first->second.device.robot));
+        each.fail(
+            place,
+            fmt::format(
+                "found the {}, but robot {} has the same address; expected a different address",
+                what, first->second.device.robot));
     }
 
     std::map<std::string, const Addressed> macs_;
@@ -128,11 +130,10 @@ void DeviceAddresses::check_ip(const Addressed& each) {
     const auto mask = read_ip(text);
     const bool is_mask = mask && std::countl_one(*mask) == std::popcount(*mask) && *mask != 0;
     if (!is_mask) {
-        each.fail(
-            each.places().netmask,
-            fmt::format("found the netmask \"{}\"; expected one to 32 ones and then zeros only, "
-                        "such as 255.255.255.0",
-                        text));
+        each.fail(each.places().netmask, fmt::format("found the netmask \"{}\"; expected 1 to 32 "
+                                                     "bits that are 1, then only bits that are 0, "
+                                                     "such as 255.255.255.0",
+                                                     text));
     }
     check_unique(ips_, *ip, each, each.places().ip, "ip " + each.device.ip);
     check_host(each, {*ip, *mask});
@@ -147,7 +148,8 @@ void DeviceAddresses::check_host(const Addressed& each, Network4 network) {
                                          is_first ? "the address" : "the broadcast address",
                                          ip_text(network.first()), network.bits());
     const RadioPlaces& places = each.places();
-    const std::string mend = "expected the address of a host in it, or a netmask with fewer ones";
+    const std::string mend =
+        "expected the address of a host in this network, or a netmask with fewer ones";
     if (!places.ip.source.empty()) each.fail(places.ip, what + "; " + mend);
     if (!places.netmask.source.empty()) each.fail(places.netmask, what + "; " + mend);
     if (has_told_made_) return;
@@ -175,8 +177,8 @@ void DeviceAddresses::tell_outsiders() {
         const std::size_t more = outside.size() - 1;
         const std::string before = place.source.empty() ? "" : place.text() + ": ";
         notices_.push_back(fmt::format(
-            "{}the network {}/{} of robot {} does not contain robot {}, {}{}: these robots reach "
-            "each other only by routes of their programs",
+            "{}the network {}/{} of robot {} does not contain robot {}, {}{}: packets between "
+            "these robots need routes that you set (ip route)",
             before, ip_text(from.network.first()), from.network.bits(), from.robot.device.robot,
             one.device.robot, one.device.ip, more == 0 ? "" : fmt::format(", and {} more", more)));
         return;

@@ -52,9 +52,9 @@ void enter_user_namespace() {
 /// Moves this process into a new network namespace. @return a descriptor of that
 int enter_new_namespace() {
     if (unshare(CLONE_NEWNET) != 0) {
-        if (errno != EPERM) fail("network namespace");
+        if (errno != EPERM) fail("cannot create a network namespace for a robot");
         enter_user_namespace();
-        if (unshare(CLONE_NEWNET) != 0) fail("network namespace");
+        if (unshare(CLONE_NEWNET) != 0) fail("cannot create a network namespace for a robot");
     }
     const int descriptor = open("/proc/self/ns/net", O_RDONLY | O_CLOEXEC);
     if (descriptor < 0) fail("/proc/self/ns/net");

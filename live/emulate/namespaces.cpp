@@ -20,7 +20,10 @@
 namespace rovernet {
 namespace {
 
-[[noreturn]] void fail() { throw RunError(fmt::format("namespaces: {}", std::strerror(errno))); }
+[[noreturn]] void fail() {
+    throw RunError(fmt::format("cannot create the network namespaces of the robots: {}",
+                               std::strerror(errno)));
+}
 
 }  // namespace
 

@@ -115,7 +115,8 @@ class Search {
     [[noreturn]] void fail_of_several(const std::vector<Visit>& found) const {
         std::string runs;
         for (const Visit& each : found) runs += (runs.empty() ? "" : " or ") + run_text(each);
-        throw std::invalid_argument(fmt::format("several runs have a robot {}: {}", robot_, runs));
+        throw std::invalid_argument(fmt::format(
+            "several runs have a robot {}; expected one of the options {}", robot_, runs));
     }
 
     /// Runs of the user, one visit each, and the names of the robots.
@@ -158,8 +159,9 @@ std::string Search::other_users() const {
         fmt::format("; run {} of user {} has a robot {}", run, user_name(owner), robot_);
     if (geteuid() != 0) return words + ": only this user and root may enter the run";
     return fmt::format(
-        "{}: with --user {}, that user can read and change all packets of the program", words,
-        owner);
+        "{}: --user {} enters this run, but then its user can read and change all packets of the "
+        "program that you start there",
+        words, owner);
 }
 
 void Search::fail_of_folder(const Known& all, const std::string& going_on) const {
@@ -181,7 +183,7 @@ void Search::fail_of_folder(const Known& all, const std::string& going_on) const
 }
 
 void Search::fail(bool was_there) const {
-    if (was_there && !wanted_.folder) throw RunError("the run has ended");
+    if (was_there && !wanted_.folder) throw RunError("the run of this robot has ended");
     const Known all = known();
     std::string names, runs;
     constexpr std::size_t most_told = 20;

@@ -43,9 +43,9 @@ class Devices {
         sockaddr_in address{};
         address.sin_family = AF_INET;
         if (inet_pton(AF_INET, ip.c_str(), &address.sin_addr) != 1) {
-            throw RunError(
-                fmt::format("robot {}: found the {} \"{}\"; expected one of IPv4, such as 10.0.0.1",
-                            robot_, key, ip));
+            throw RunError(fmt::format(
+                "robot {}: found the {} \"{}\"; expected four numbers as in IPv4, such as 10.0.0.1",
+                robot_, key, ip));
         }
         std::memcpy(&device.ifr_addr, &address, sizeof address);
         set(what, device, key);

@@ -55,7 +55,7 @@ UdpPort::UdpPort(const Address& own, std::string robot) : robot_(std::move(robot
     if (socket_ < 0 || bind(socket_, as_address(address), size) != 0) {
         const std::string why = std::strerror(errno);
         if (socket_ >= 0) ::close(socket_);
-        throw RunError(fmt::format("{} (robot {}): {}", own.text(), robot_, why));
+        throw RunError(fmt::format("cannot listen on {} (robot {}): {}", own.text(), robot_, why));
     }
     where_ = {own.host, port_of(socket_)};
 }

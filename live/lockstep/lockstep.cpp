@@ -85,10 +85,10 @@ bool Lockstep::come_back(Connection from, const HelloRequest& hello) {
     Controller* controller = controllers_.named(hello.name);
     if (!controller || controller->connection) return false;
     if (controller->hello.robots != hello.robots || controller->hello.step != hello.step) {
-        throw RequestError(
-            "taken", "name",
-            fmt::format("{} had different robots or a different step before it disconnected",
-                        hello.name));
+        throw RequestError("taken", "name",
+                           fmt::format("expected the same robots and the same step as before {} "
+                                       "disconnected, or a different name",
+                                       hello.name));
     }
     controller->connection = from;
     controller->hello = hello;
@@ -118,14 +118,17 @@ void Lockstep::check_claims(const HelloRequest& hello) {
         !has_started_ && std::none_of(controllers_.begin(), controllers_.end(),
                                       [](const auto& each) { return each.hello.seed; });
     if (hello.seed && *hello.seed != seed_ && !is_free) {
-        throw RequestError("other_seed", "seed",
-                           fmt::format("found {}; the seed of the run is {}", *hello.seed, seed_));
+        throw RequestError(
+            "other_seed", "seed",
+            fmt::format(
+                "found {}, but the run already has the seed {}; expected this seed, or no key seed",
+                *hello.seed, seed_));
     }
 }
 
 void Lockstep::handle(Connection from, HelloRequest& hello) {
     if (controllers_.of(from)) {
-        throw RequestError("hello_again", "type", "you have already sent hello");
+        throw RequestError("hello_again", "type", "you have already sent a message of type hello");
     }
     if (hello.name.empty()) hello.name = session_->network().name(hello.robots.front());
     if (!come_back(from, hello)) join(from, hello);
@@ -161,14 +164,17 @@ void Lockstep::start_if_complete() {
 /// Controller that sent a request.
 Controller& Lockstep::asking(Connection from) {
     Controller* controller = controllers_.of(from);
-    if (!controller) throw RequestError("hello_first", "type", "expected a hello first");
+    if (!controller)
+        throw RequestError("hello_first", "type", "expected a message of type hello first");
     if (!has_started_) {
-        throw RequestError("too_early", "",
-                           fmt::format("{} of {} controllers are connected; wait for the welcome",
-                                       controllers_.size(), settings_.wait_for));
+        throw RequestError(
+            "too_early", "",
+            fmt::format("{} of {} controllers are connected; wait for the message of type welcome",
+                        controllers_.size(), settings_.wait_for));
     }
     if (controller->state != Controller::State::owes) {
-        throw RequestError("too_early", "", "the last request is not answered yet");
+        throw RequestError("too_early", "",
+                           "the previous request is not answered yet; wait for its answer");
     }
     return *controller;
 }
@@ -198,7 +204,8 @@ void Lockstep::handle(Connection from, ResetRequest& reset) {
     for (const Controller& each : controllers_) {
         if (each.state != Controller::State::wants_reset || each.reset_seed == reset.seed) continue;
         throw RequestError("other_seed", "seed",
-                           "a different controller requests a different seed");
+                           "another controller has requested a reset with a different seed; "
+                           "expected the same seed from all controllers");
     }
     controller.state = Controller::State::wants_reset;
     controller.reset_seed = reset.seed;
@@ -248,10 +255,12 @@ void Lockstep::lose(Connection gone) {
     controllers_.remove(gone);
     if (is_expected && !(has_started_ && controllers_.empty())) return;
     if (!is_expected && settings_.on_loss == OnLoss::stop && !controllers_.empty()) return;
-    end_run(is_expected ? "done" : "lost",
-            is_expected ? ""
-                        : fmt::format("controller {} has disconnected at {} s without bye", name,
-                                      seconds(session_->network().now())));
+    end_run(
+        is_expected ? "done" : "lost",
+        is_expected
+            ? ""
+            : fmt::format("controller {} has disconnected at {} s without a message of type bye",
+                          name, seconds(session_->network().now())));
 }
 
 void Lockstep::answer(Controller& controller) {
@@ -299,7 +308,7 @@ void Lockstep::catch_up() {
 void Lockstep::held(std::chrono::nanoseconds waited) {
     const std::size_t present = controllers_.size(), wanted = settings_.wait_for;
     if (!has_started_ && settings_.programs && *settings_.programs < wanted) {
-        return end_run("lost", "a controller has ended before its hello");
+        return end_run("lost", "a controller has ended before it sent a message of type hello");
     }
     if (!has_started_ && told_present_ != present) {
         told_present_ = present;

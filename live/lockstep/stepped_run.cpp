@@ -73,12 +73,7 @@ void SteppedRun::command(std::size_t row, RobotCommand command) {
     check(command, name(row));
     const std::string why = session().why_not(robots_[row], command);
     if (!why.empty()) throw std::invalid_argument(fmt::format("{}: {}", name_of(command), why));
-    if (const auto* send = std::get_if<SendCommand>(&command)) {
-        if (send->to == robots_[row]) {
-            throw std::invalid_argument(
-                "send: a robot cannot send to itself; expected another robot, or none for "
-                "everyone");
-        }
+    if (std::holds_alternative<SendCommand>(command)) {
         messages_.emplace_back(robots_[row], std::move(command));
     } else {
         movements_[row] = std::move(command);

@@ -107,7 +107,7 @@ void DriversReader::join(const WorldEntity& driver, std::string_view name) {
     const auto opaque = std::find_if(provides.begin(), provides.end(),
                                      [](const auto& each) { return each.interface == "opaque"; });
     if (opaque == provides.end()) {
-        throw InputError(driver.where, fmt::format("{}: found no opaque device in its provides; "
+        throw InputError(driver.where, fmt::format("{}: provides has no opaque device; "
                                                    "expected provides [ \"6665:opaque:1\" ]",
                                                    name));
     }
@@ -189,8 +189,8 @@ std::vector<std::string> mapping_notices(const PlayerConfig& config,
         if (!missing.empty()) {
             notices.push_back(world_notice(
                 robot.comdriver->where,
-                fmt::format("mapping leaves out {}; but every robot in range receives "
-                            "a radio message, so these robots also receive the messages of {}",
+                fmt::format("mapping leaves out {}; these robots nevertheless receive the radio "
+                            "messages of {}, because every robot in range receives a message",
                             fmt::join(missing, ", "), robot.model)));
         }
     }

@@ -75,7 +75,9 @@ double XdrReader::f64_within(double most) {
 
 std::string_view XdrReader::bytes() {
     const std::uint32_t elements = u32();
-    if (u32() != elements) throw MalformedMessage("the two counts of an array differ");
+    if (u32() != elements)
+        throw MalformedMessage(
+            "the message gives the length of an array twice, and the two lengths differ");
     const std::string_view bytes = take(elements);
     take(padding(elements));
     return bytes;

@@ -88,7 +88,8 @@ class RosSend : public CommandReader {
     NodeId robot(const JsonElement& name) const override {
         const NodeId found = read_robot(name, network_);
         if (found == sender_) {
-            name.fail("bad_value", "expected another robot, or \"*\" for all");
+            name.fail("bad_value",
+                      "found the sender itself; expected a different robot, or \"*\" for all");
         }
         return found;
     }

@@ -59,7 +59,7 @@ RosTopic input_of(const JsonElement& operation, Session& session) {
     const std::string name = text_of(operation, "topic", R"("topic":"/A/cmd_vel")");
     const RosTopic topic = topic_of(operation, name, session);
     if (!topic.type->is_input) {
-        member(operation, "topic")->fail("bad_value", "this topic is published by rovernet");
+        member(operation, "topic")->fail("bad_value", "only rovernet publishes this topic");
     }
     return topic;
 }
@@ -68,7 +68,7 @@ RosEncoding encoding_of(const JsonElement& compression) {
     const std::string_view name = compression.text();
     if (name == "none") return RosEncoding::json;
     if (name == "cbor") return RosEncoding::cbor;
-    compression.fail("bad_value", fmt::format("found \"{}\"; expected none or cbor", name));
+    compression.fail("bad_value", fmt::format("found \"{}\"; expected \"none\" or \"cbor\"", name));
 }
 
 RosSubscribe read_subscribe(const JsonElement& operation, Session& session) {
@@ -149,9 +149,10 @@ RosLevel read_level(const JsonElement& operation) {
 
 /// Reason why an operation of the protocol is not supported; empty if it is.
 std::string_view refusal(std::string_view op) {
-    if (op == "advertise_service" || op == "advertise_action") return "rovernet calls no services";
-    if (op == "auth") return "this server needs no password";
-    if (op == "send_action_goal" || op == "cancel_action_goal") return "there are no actions";
+    if (op == "advertise_service" || op == "advertise_action")
+        return "rovernet uses no services or actions that clients advertise";
+    if (op == "auth") return "rovernet needs no password";
+    if (op == "send_action_goal" || op == "cancel_action_goal") return "rovernet has no actions";
     return {};
 }
 

@@ -22,9 +22,9 @@ bool is_movement(const RobotCommand& command) {
 void RosRobots::take(NodeId robot) {
     if (clients_.contains(robot)) return;
     if (session_.driver(robot)) {
-        throw RequestError(
-            "taken", "",
-            "robot " + session_.network().name(robot) + " is driven by other programs");
+        throw RequestError("taken", "",
+                           "robot " + session_.network().name(robot) +
+                               " is driven by another program, so ROS clients cannot drive it");
     }
     clients_[robot] = session_.attach({robot}, "rosbridge");
 }

@@ -166,7 +166,7 @@ class ParallelEnv(_Episodes, PettingZooEnv):
         self._observe, bounds = _observations(self.session, observe)
         self._act, self._terminated = act or self._drive, terminated or _off
         if observation_space is None and bounds is None:
-            raise ValueError("ParallelEnv: observe needs the observation_space of one agent")
+            raise ValueError("ParallelEnv: observe is a function, which needs an observation_space: the space of one agent")
         observation_space = observation_space or spaces.Box(*bounds, np.float64)
         action_space = action_space or _velocities((2,))
         self.observation_spaces = {agent: observation_space for agent in self.possible_agents}
@@ -258,7 +258,7 @@ class Env(_Episodes, GymnasiumEnv):
         self._observe, bounds = _observations(self.session, observe)
         self._act, self._terminated = act or _drive, terminated or _all_off
         if observation_space is None and bounds is None:
-            raise ValueError("Env: observe needs an observation_space")
+            raise ValueError("Env: observe is a function, which needs an observation_space: the space of all robots together")
         if observation_space is None:
             low, high, shape = bounds
             observation_space = spaces.Box(low, high, (count, *shape), np.float64)

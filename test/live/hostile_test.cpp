@@ -119,8 +119,8 @@ TEST_CASE("hostile: connections beyond the limit are closed until another connec
 }
 
 TEST_CASE(
-    "hostile: at the limit of connections, each listener closes its oldest silent one for a new "
-    "client") {
+    "hostile: at the connection limit, each listener closes its oldest silent client for a new "
+    "one") {
     const Served served;
     const Live controlled({"--listen-json", "127.0.0.1:0", "--unix", "SOCKET"}, long_live_row());
     const int port = controlled.port();
@@ -297,7 +297,9 @@ TEST_CASE("hostile: a request sent byte by byte must be complete in time") {
     CHECK(sent < 1000);
 }
 
-TEST_CASE("hostile: a client that closes half of its connection leaves, and its robot stops") {
+TEST_CASE(
+    "hostile: a client that closes only its sending direction counts as gone, and its robot "
+    "stops") {
     const Served served;
     LineClient half(served.player);
     open_position(half);
@@ -518,7 +520,7 @@ const std::set<std::string> loopback_only = {"0100007F"};  // 127.0.0.1
 
 }  // namespace
 
-TEST_CASE("hostile: only this machine can connect") {
+TEST_CASE("hostile: all listeners accept connections from this machine only") {
     const Served served;
     CHECK(open_addresses(served.process().pid()) == loopback_only);
     const Live controlled({"--listen-json", "localhost:0", "--listen-web", "127.0.0.1:0"});

@@ -87,7 +87,7 @@ TEST_CASE(
     CHECK(command(folder, {"run", out + "/scenario.toml", "--print-scenario"}).exit == 0);
 }
 
-TEST_CASE("killed run: an incomplete last line is ignored, with a notice") {
+TEST_CASE("killed run: an incomplete last line of its input log is ignored, with a notice") {
     const TemporaryFolder folder;
     const std::string part = run_and_kill(folder, folder.path("out"), "1", 3);
     const std::string text = content(part);

@@ -101,7 +101,7 @@ TEST_CASE(
         CHECK(result.lateness->most > 59min);
         CHECK(result.lateness->most < 61min);
         CHECK(result.lateness->late >= 1);
-        CHECK(result.fault.find(" ms behind the clock at ") != std::string::npos);
+        CHECK(result.fault.find(" ms behind real time at ") != std::string::npos);
     }
 }
 
@@ -117,7 +117,9 @@ TEST_CASE("lateness: while a client pauses the time, the run is not late") {
     CHECK(result.fault.empty());
 }
 
-TEST_CASE("lateness: a run is late until a client pauses the time") {
+TEST_CASE(
+    "lateness: a stop of the process counts as late only up to the time at which a client pauses "
+    "the run") {
     const LiveResult result = run({.limit = start_of_run + 10min});
     CHECK(result.lateness->most > 9min);
     CHECK(result.lateness->most < 11min);
@@ -136,7 +138,7 @@ TEST_CASE("lateness: messages that arrive while output is written slowly are lat
 }
 
 TEST_CASE(
-    "lateness: the share of late events counts every event, but a check of the clock only if it is "
+    "lateness: the share of late delays counts every requested time, but only those polls that are "
     "late") {
     Lateness lateness;
     lateness.add_look(999us);

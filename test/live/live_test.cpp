@@ -111,11 +111,12 @@ TEST_CASE("live: a changed log is refused, and an incomplete log is replayed up 
     std::string other = log;
     other.replace(other.find("\"v\":0.5"), 7, "\"v\":0.6");
     CHECK(changed(other).exit == 1);
-    CHECK(changed(other).err.find("differs from its fingerprint") != std::string::npos);
+    CHECK(changed(other).err.find("has a different fingerprint than the recorded run") !=
+          std::string::npos);
     const std::size_t last = log.rfind('\n', log.size() - 2);
     const Ended cut = changed(log.substr(0, last - 5));
     CHECK(cut.exit == 0);
-    CHECK(cut.out.find("cut after") != std::string::npos);
+    CHECK(cut.out.find("without the fingerprint of the run") != std::string::npos);
     const Ended broken = changed(log.substr(0, 100) + "\n{\"t_ns\":-1}\n");
     CHECK(broken.exit == 3);
     CHECK(broken.err.find("inputs.jsonl:") != std::string::npos);
@@ -162,7 +163,7 @@ TEST_CASE(
     }
     const Ended without = lost.wait();
     CHECK(without.exit == 1);
-    CHECK(without.err.find("controller A has disconnected at 0 s without bye") !=
+    CHECK(without.err.find("controller A has disconnected at 0 s without a message of type bye") !=
           std::string::npos);
     CHECK(lost.replay().exit == 0);
 
@@ -183,7 +184,7 @@ TEST_CASE(
     const Live failing({"--controller", "exit 7"});
     const Ended failed = failing.wait();
     CHECK(failed.exit == 1);
-    CHECK(failed.err.find("exit 7 ended with 7") != std::string::npos);
+    CHECK(failed.err.find("exit 7 ended with exit code 7") != std::string::npos);
 }
 
 TEST_CASE(
@@ -358,7 +359,7 @@ TEST_CASE("live: ROS and Player clients are served together until Ctrl-C; a page
         return client.message();
     };
     CHECK(publish("/B/cmd_vel").find(R"("id":"y")") != std::string::npos);
-    CHECK(publish("/A/cmd_vel").find("robot A is driven by other programs") != std::string::npos);
+    CHECK(publish("/A/cmd_vel").find("robot A is driven by another program") != std::string::npos);
     // While it waits for the goodbye of the silent one, nobody is listened to any more.
     std::thread talk([&] {
         while (player.send_bytes(ask())) std::this_thread::sleep_for(1ms);

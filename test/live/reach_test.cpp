@@ -77,8 +77,7 @@ exit 0
 }  // namespace
 
 TEST_CASE(
-    "reach: other machines need the token, and protocols without a token accept only this "
-    "machine") {
+    "listeners: other machines need the token; protocols without token accept only this machine") {
     const TemporaryFolder folder;
     const std::string program = folder.write("attempts.py", attempts);
     const std::string row = folder.write("row.toml", long_live_row());

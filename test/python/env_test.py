@@ -94,7 +94,7 @@ class Shapes(unittest.TestCase):
             parallel_api_test(rn.ParallelEnv(FAILING, nothing), num_cycles=100)
 
     def test_a_step_after_a_reset_with_the_same_seed_has_the_same_results(self):
-        """What the checker of gymnasium asks for, its infos included."""
+        """The checker of gymnasium requires equal results, also equal infos."""
         env, results = rn.Env(SPEAKING, lambda session, heard: len(heard)), []
         for _ in range(2):
             env.reset(seed=123)

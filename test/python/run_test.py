@@ -144,7 +144,7 @@ class Records(unittest.TestCase):
             np.testing.assert_array_equal(kept.records(kind), rn.run(RESCUE).records(kind))
 
     def test_delay_and_level_of_a_frame_follow_the_speed_of_light_and_friis(self):
-        """B hears A at Friis's level, and 150 m later than it would at once."""
+        """At B, 150 m from A, the level is that of Friis' equation, and the delay is 150 m / c."""
         light = 299_792_458.0  # [m/s]
         scene = {"radio.power": "15 dBm", "medium.propagation_delay": True}
         first = rn.run(ROW, set=scene).records("received")[0]

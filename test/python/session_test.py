@@ -162,7 +162,7 @@ class Steps(unittest.TestCase):
     def test_a_position_without_room_is_an_error_and_a_goal_without_a_path_sets_session_no_way(self):
         session = rn.Session(RESCUE, robots=["A", "B"], step=1)
         for x, y, why in ((-5, 3, r"off the map, which goes from \(0, 0\) to \(48, 24\) m"),
-                          (2, 6, "in a wall, or nearer to one than the radius of robot A")):
+                          (2, 6, "in a wall, or nearer to a wall than the radius of robot A")):
             with self.assertRaisesRegex(ValueError, why):
                 session.place("A", x, y)
         session.place("A", 24, 12)
@@ -193,7 +193,7 @@ class Steps(unittest.TestCase):
                                (("r9",), 'no robot "r9"')):
             with self.assertRaisesRegex(ValueError, why):
                 session.scan(*arguments)
-        with self.assertRaisesRegex(ValueError, "robot r0 has 3 beams and robot r2 1"):
+        with self.assertRaisesRegex(ValueError, "robot r0 has 3 beams, but robot r2 has 1"):
             rn.Session(scene).scan()
         with self.assertRaisesRegex(ValueError, "robot r0 has no range finder"):
             rn.Session(still(1)).scan()
@@ -427,6 +427,7 @@ class BadInput(unittest.TestCase):
         self.refused("place of robot A must be from -1e9 to 1e9 m, got nan", self.session.place, "A", 1, np.nan)
         self.refused("heading of robot A must be", self.session.place, "A", 1, 2, heading=np.inf)
         self.refused("1 us or more", rn.Session, ROW, step=0)
+        self.refused("1 us or more, got 1e-10 s", rn.Session, ROW, step=1e-10)
         self.refused("292 years", rn.Session, ROW, step=float("nan"))
         self.session.step()
         self.assertEqual(self.session.pose[0].tolist(), [0, 0, 0])
@@ -436,7 +437,7 @@ class BadInput(unittest.TestCase):
         self.refused('no robot "Z"', self.session.send, "A", b"", to="Z")
         self.refused("expected another robot", self.session.send, "A", b"", to="A")
         self.refused("listed twice", rn.Session, ROW, robots=["A", "A"])
-        self.refused("not among those", rn.Session(ROW, robots=["A"]).stop, "B")
+        self.refused("not among the robots", rn.Session(ROW, robots=["A"]).stop, "B")
 
     def test_values_of_a_wrong_type_are_refused(self):
         for use in (lambda: self.session.send("A", "text"), lambda: self.session.send("A", None),

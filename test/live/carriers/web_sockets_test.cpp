@@ -97,7 +97,7 @@ class Echo {
 
 }  // namespace
 
-TEST_CASE("web sockets: the handshake equals the example of the RFC") {
+TEST_CASE("web sockets: the handshake equals the example of RFC 6455") {
     const Echo echo;
     const WebClient client(echo.port, "Sec-WebSocket-Extensions: permessage-deflate\r\n");
     REQUIRE(client.is_in());
@@ -139,7 +139,8 @@ TEST_CASE("web sockets: fragments form one message, and a ping between them is a
     CHECK(client.message() == "one and two");
 }
 
-TEST_CASE("web sockets: a client that violates protocol or limits is closed with the RFC's code") {
+TEST_CASE(
+    "web sockets: a client that violates protocol or limits is closed with a code of RFC 6455") {
     const Echo echo;
     WebClient long_one(echo.port), no_text(echo.port), unmasked(echo.port);
     long_one.send(std::string(longest + 1, 'a'));
@@ -237,7 +238,7 @@ TEST_CASE("web sockets: clients that vanish are reported as gone") {
     CHECK(echo.has(0));
 }
 
-TEST_CASE("web sockets: requests of foreign pages, foreign hosts or without upgrade are refused") {
+TEST_CASE("web sockets: requests from foreign pages or hosts, or without an upgrade, are refused") {
     const Echo echo;
     const std::string own = "127.0.0.1:" + std::to_string(echo.port);
     const auto answer = [&](const std::string& origin, const std::string& target = "/",
@@ -325,7 +326,8 @@ TEST_CASE("web sockets: fixed pages are served for GET and HEAD; other paths are
     CHECK_FALSE(WebClient(echo.port, "Origin: null\r\n").is_in());
 }
 
-TEST_CASE("admission: foreign pages need the token, and foreign host names are refused") {
+TEST_CASE(
+    "web socket admission: foreign pages need the token; on loopback, foreign hosts are refused") {
     const std::string secret = "0123456789abcdef0123456789abcdef";
     const Admission admission({"127.0.0.1", 9090}, secret);
     const std::string right = "/any/path?x=1&token=" + secret, part = "/?token=0123",

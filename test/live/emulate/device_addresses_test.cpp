@@ -109,8 +109,8 @@ TEST_CASE("device addresses: network and broadcast addresses are refused for hos
 
 TEST_CASE("device addresses: equal addresses of two robots are refused, in any notation") {
     CHECK(fault(two("mac = \"02:00:00:00:00:aA\"", "mac = \"02:00:00:00:00:Aa\""))
-              .starts_with("s.toml:12:17: robot B: found the mac 02:00:00:00:00:Aa, which robot A "
-                           "also has; "));
+              .starts_with("s.toml:12:17: robot B: found the mac 02:00:00:00:00:Aa, but robot A "
+                           "has the same address; "));
     // One that is made is not one that was given.
     CHECK(fault(two("ip = \"10.0.0.2\"", "")).empty());
     std::string many =
@@ -129,7 +129,7 @@ TEST_CASE("device addresses: robots in different IP networks give a notice") {
     REQUIRE(first.size() == 1);
     CHECK(first[0].ends_with(
         "s.toml:8:16: the network 192.168.1.0/24 of robot A does not contain robot B, 10.0.0.2: "
-        "these robots reach each other only by routes of their programs"));
+        "packets between these robots need routes that you set (ip route)"));
     const auto second = notices(two("", "ip = \"10.0.1.2\""));
     REQUIRE(second.size() == 1);
     CHECK(second[0].find(
@@ -144,7 +144,7 @@ TEST_CASE("device addresses: robots in different IP networks give a notice") {
     CHECK(notices(two("netmask = \"255.0.0.0\"", "netmask = \"255.255.0.0\"")).empty());
 }
 
-TEST_CASE("device addresses: more robots than generated addresses in a network give a notice") {
+TEST_CASE("device addresses: a network with fewer addresses than robots gives a notice") {
     const auto robots = [](int count, const std::string& radio) {
         return notices(
             fmt::format("[scenario]\nduration = \"1 s\"\n[radio]\n{}\n[[robot]]\nname = "

@@ -32,7 +32,8 @@ Programs programs_of(const std::string& more = {}) {
 
 }  // namespace
 
-TEST_CASE("ethernet: a frame is passed unchanged, and is on air without its header of 14 bytes") {
+TEST_CASE(
+    "ethernet: a frame arrives unchanged, after the airtime of the frame without its header") {
     Programs programs = programs_of();
     programs.send(0, arp_request);
     programs.run_to(start_of_run + 100ms);

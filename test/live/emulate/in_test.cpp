@@ -117,7 +117,7 @@ const std::vector<std::string> stubborn = {"sh", "-c",
 
 }  // namespace
 
-TEST_CASE("in: with rovernet in, root enters the network of another user's run only with --user") {
+TEST_CASE("rovernet in: root enters the network of another user's run only with --user") {
     if (!is_root()) return;
     const std::string robot = "Q" + std::to_string(getpid());
     const Stranger squatter([&] { return hand_out_own_network(robot); });
@@ -133,7 +133,7 @@ TEST_CASE("in: with rovernet in, root enters the network of another user's run o
         if (ended.err.find("65534") != std::string::npos) break;
     }
     CHECK(ended.exit == 2);
-    CHECK(ended.err.find("has a robot " + robot + ": with --user 65534") != std::string::npos);
+    CHECK(ended.err.find("has a robot " + robot + ": --user 65534 enters") != std::string::npos);
     const std::string run = std::to_string(squatter.pid());
     CHECK(try_in({"--run", run}).exit == 2);
     CHECK(try_in({"--run", "/"}).exit == 2);
@@ -142,7 +142,7 @@ TEST_CASE("in: with rovernet in, root enters the network of another user's run o
     CHECK(try_in({"--user", "no such user"}).exit == 2);
 }
 
-TEST_CASE("in: with rovernet in, a user cannot enter another user's run by any option") {
+TEST_CASE("rovernet in: a user cannot enter another user's run, with or without --user") {
     if (!is_root()) return;
     const std::string robot = "Q" + std::to_string(getpid());
     const int listener = open_listener(getpid(), robot);
@@ -201,8 +201,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "in: if several runs have the robot, rovernet in needs --run with the folder or process of one "
-    "run") {
+    "rovernet in: if several runs have the robot, --run with a folder or a process is needed") {
     const auto one = emulated_by_tap();
     const auto other = one ? emulated_by_tap() : nullptr;
     if (!other) return;
@@ -215,7 +214,8 @@ TEST_CASE(
     };
     const Ended unclear = try_in({}, "A");
     CHECK(unclear.exit == 2);
-    CHECK(unclear.err.find("several runs have a robot A: --run ") != std::string::npos);
+    CHECK(unclear.err.find("several runs have a robot A; expected one of the options --run ") !=
+          std::string::npos);
     std::set<std::string> networks;
     for (const auto* each : {one.get(), other.get()}) {
         const std::string out = each->folder.path("out"), pid = std::to_string(each->pid());
@@ -246,7 +246,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("in: when the run ends, programs started by rovernet in are ended too, with a message") {
+TEST_CASE(
+    "rovernet in: when the run ends, programs started in its robots end too, with a message") {
     for (const std::string how : {"interrupted", "killed", "killed with its keeper"}) {
         CAPTURE(how);
         const auto run = emulated_by_tap();
@@ -270,7 +271,7 @@ TEST_CASE("in: when the run ends, programs started by rovernet in are ended too,
     }
 }
 
-TEST_CASE("in: a program started by rovernet in has time to clean up when the run ends") {
+TEST_CASE("rovernet in: when the run ends, a program started in a robot has time to clean up") {
     const auto run = emulated_by_tap();
     if (!run) return;
     const TemporaryFolder folder;
@@ -285,7 +286,8 @@ TEST_CASE("in: a program started by rovernet in has time to clean up when the ru
     CHECK(ended.exit == 1);
 }
 
-TEST_CASE("in: rovernet in exits with the code of the program, and passes signals to the program") {
+TEST_CASE(
+    "rovernet in: the exit code is that of the program, and signals are passed to the program") {
     const auto run = emulated_by_tap();
     if (!run) return;
     const TemporaryFolder folder;

@@ -37,7 +37,8 @@ Duration airtime(std::size_t bytes) {
 
 }  // namespace
 
-TEST_CASE("relay: a datagram to everyone reaches robots in range, with source, level and hops") {
+TEST_CASE(
+    "UDP relay: a datagram to everyone reaches robots in range, with source, level and hops") {
     Programs programs = relay();
     programs.run_to(start_of_run + 100ms);
     programs.send(1, to_all + "F");
@@ -62,7 +63,7 @@ TEST_CASE("relay: a datagram to everyone reaches robots in range, with source, l
     CHECK(programs.got[1].robot == NodeId{2});
 }
 
-TEST_CASE("relay: a datagram to one robot is received by this robot alone, over one hop") {
+TEST_CASE("UDP relay: a datagram to one robot is received by this robot alone, over one hop") {
     Programs programs = relay();
     programs.send(0, to_b + "for B");
     programs.send(2, to_b + "for B, too");
@@ -77,7 +78,7 @@ TEST_CASE("relay: a datagram to one robot is received by this robot alone, over 
     CHECK(programs.count("packets_received") == 2);
 }
 
-TEST_CASE("relay: programs also get the messages of the scenario's own traffic") {
+TEST_CASE("UDP relay: programs also get the messages of the scenario's own traffic") {
     Programs programs = relay();
     programs.run_to(start_of_run + 1s);  // A says "tick" at 0.5 s, which is flooded to C
     std::vector<std::string> at_c;
@@ -90,7 +91,7 @@ TEST_CASE("relay: programs also get the messages of the scenario's own traffic")
     CHECK(short_at(at_c[0], 10) == 2);
 }
 
-TEST_CASE("relay: invalid datagrams, unknown addresses and robots that are off are counted") {
+TEST_CASE("UDP relay: invalid datagrams, unknown addresses and robots that are off are counted") {
     Programs programs = relay();
     for (const std::string& bad :
          {""s, "R"s, "RN\x01\x00\xff\xff\xff"s, "RN\x01\x01\xff\xff\xff\xff"s,
@@ -110,7 +111,7 @@ TEST_CASE("relay: invalid datagrams, unknown addresses and robots that are off a
     CHECK(programs.count("packets_sent") == 10);
 }
 
-TEST_CASE("relay: a level out of range is clamped, and an unknown level is sent as -32768") {
+TEST_CASE("UDP relay: a level out of range is clamped, and an unknown level is sent as -32768") {
     const RelayFormat format;
     HeardMessage heard{start_of_run, NodeId{0}, NodeId{7}, 3, "x"};
     CHECK(short_at(*format.write(heard), 8) == -32'768);

@@ -126,7 +126,7 @@ TEST_CASE("emulate: a killed run leaves no listener of a robot behind") {
     CHECK_FALSE(has_listeners(run->pid()));
 }
 
-TEST_CASE("in: rovernet in refuses a run, a robot or a program that does not exist") {
+TEST_CASE("rovernet in: a run, a robot or a program that does not exist is refused") {
     const TemporaryFolder folder;
     const auto try_in = [&](std::vector<std::string> words) {
         words.insert(words.begin(), "in");

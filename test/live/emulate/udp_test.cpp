@@ -101,13 +101,13 @@ TEST_CASE("emulate --udp: a radio with success_rate 0.8 loses a fifth of the dat
     CHECK(emulation.replay().exit == 0);
 }
 
-TEST_CASE("emulate: a late run gives one warning, or fails with --on-late fail") {
+TEST_CASE("emulate: a run behind real time gives one warning, or fails with --on-late fail") {
     const std::string talks =
         scenario + "[[traffic]]\nfrom = \"A\"\nsize = \"10 B\"\nevery = \"10 ms\"\n";
     Emulation warns(talks, {"--udp", "127.0.0.1:0", "--late", "1 ns", "--speed", "100"});
     const Ended warned = warns.wait();
     CHECK(warned.exit == 0);
-    const std::size_t first = warned.err.find("ms behind the clock at");
+    const std::size_t first = warned.err.find("ms behind real time at");
     CHECK(first != std::string::npos);
     CHECK(warned.err.find("ms behind", first + 1) == std::string::npos);
     CHECK(warns.summary().at("sim_s") == 60);
@@ -115,7 +115,7 @@ TEST_CASE("emulate: a late run gives one warning, or fails with --on-late fail")
     Emulation fails(talks, {"--udp", "127.0.0.1:0", "--late", "1 ns", "--on-late", "fail"});
     const Ended failed = fails.wait();
     CHECK(failed.exit == 1);
-    CHECK(failed.err.find("ms behind the clock at") != std::string::npos);
+    CHECK(failed.err.find("ms behind real time at") != std::string::npos);
     CHECK(fails.summary().at("sim_s") < 1);
     CHECK(fails.replay().exit == 0);
 }
@@ -141,7 +141,7 @@ TEST_CASE(
         }
         const Ended ended = fails ? run.wait() : run.stop();
         CHECK(ended.exit == (fails ? 1 : 0));
-        CHECK(ended.err.find("ms behind the clock at") != std::string::npos);
+        CHECK(ended.err.find("ms behind real time at") != std::string::npos);
         if (!fails) CHECK(run.summary().at("live").at("late_max_s") > 0.6);
     }
 }

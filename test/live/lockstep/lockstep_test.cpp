@@ -74,8 +74,8 @@ TEST_CASE("lockstep: the transcript in the documentation is reproduced byte for 
 }
 
 TEST_CASE(
-    "lockstep: each malformed line is answered with an error code and the wrong key, and changes "
-    "nothing") {
+    "lockstep: the answer to a malformed line has an error code and the faulty key; the line "
+    "changes nothing") {
     Talk talk(three_in_a_row());
     const auto check = [&](const std::vector<std::pair<std::string, std::string>>& table) {
         for (const auto& row : table) {
@@ -99,6 +99,7 @@ TEST_CASE(
         {R"({"type":7})", "bad_type type"},
         {R"({"type":"helo"})", "unknown_type type"},
         {R"({"type":"step","n":1})", "hello_first type"},
+        {R"({"type":"step","n":1,"do":{"B":{"v":1}}})", "hello_first do.B"},
         {R"({"type":"bye"})", "hello_first type"},
         {R"({"type":"reset"})", "hello_first type"},
         {R"({"type":"hello"})", "missing_key protocol"},
@@ -153,6 +154,7 @@ TEST_CASE(
         {R"({"type":"step","n":1,"do":{"robots":[0],"v":[1,2]}})", "bad_value do.v"},
         {R"({"type":"step","n":1,"do":{"A":{"data":"Rg=="}}})", "unknown_key do.A.data"},
         {R"({"type":"step","n":1,"do":{"A":{"timeout":5}}})", "bad_type do.A.timeout"},
+        {R"({"type":"step","n":1,"do":{"A":{"v":1,"timeout":-1}}})", "bad_type do.A.timeout"},
         {R"({"type":"step","n":1,"do":{"robots":[0],"timeout":"0 s"}})", "out_of_range do.timeout"},
         {R"({"type":"step","n":1,"send":{}})", "bad_type send"},
         {R"({"type":"step","n":1,"send":[{"data":"Rg=="}]})", "missing_key send[0].from"},
@@ -166,13 +168,19 @@ TEST_CASE(
         {R"({"type":"bye","n":1})", "unknown_key n"},
         {R"({"type":"reset","seed":1.5})", "out_of_range seed"},
     });
+    const std::string number =
+        talk.ask(0, R"({"type":"step","n":1,"do":{"A":{"v":1,"timeout":-1}}})");
+    CHECK(Json::parse(number).at("msg") ==
+          "found -1; expected a time in quotes with its unit, such as \"0.5 s\"");
     CHECK(Json::parse(talk.ask(0, R"({"type":"step","n":5,"x":1})")).at("n") == 5);
     CHECK(talk.session->network().now() == start_of_run);
     CHECK(type_of(talk.ask(0, step(3))) == "state");
     CHECK(fault(talk.ask(0, step(3))) == "old_number n");
 }
 
-TEST_CASE("lockstep: an unknown robot gets a list of robots, an unknown key a suggestion") {
+TEST_CASE(
+    "lockstep: the error for an unknown robot lists the known robots; for an unknown key, the "
+    "known keys") {
     Talk talk(three_in_a_row());
     talk.say(0, hello_a);
     CHECK(Json::parse(talk.ask(0, step(1, R"(,"do":{"Zoe":{}})"))).at("msg") ==
@@ -271,8 +279,7 @@ TEST_CASE("lockstep: controllers that leave together do so in the order of their
 }
 
 TEST_CASE(
-    "lockstep: each robot has one controller, and states as columns have the same data as states "
-    "as objects") {
+    "lockstep: a robot has one controller; states sent as columns equal states sent as objects") {
     Talk talk(three_in_a_row(), {.wait_for = 1});
     talk.say(0, hello_a);
     CHECK(fault(talk.ask(1, R"({"type":"hello","protocol":1,"robots":["B","A"],"step":"1 s"})")) ==
@@ -345,7 +352,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "lockstep: scans are sent on request, in the coordinate frame stated in the message welcome") {
+    "lockstep: scans are sent on request, and the message `welcome` describes the range finders") {
     const std::string hello =
         R"({"type":"hello","protocol":1,"robots":["A","B"],"step":"100 ms","observe":["scan"]})";
     Talk without(three_in_a_row());
@@ -383,8 +390,7 @@ at = ["2 m", "0 m"]
 }
 
 TEST_CASE(
-    "lockstep: the message welcome has the placement of the map, and the width and height of its "
-    "cells") {
+    "lockstep: the message `welcome` has the map's placement, and width and height of its cells") {
     const TemporaryFolder folder;
     folder.write("m.pgm", "P2 4 3 255\n255 255 255 0\n255 255 255 255\n0 255 255 255\n");
     const auto map = [&](const std::string& scene) {
@@ -504,7 +510,8 @@ TEST_CASE(
     Talk ends(three_in_a_row(), {.wait_for = 2});
     lose(ends);
     CHECK(ends.lockstep.is_done());
-    CHECK(ends.lockstep.fault() == "controller A has disconnected at 0.1 s without bye");
+    CHECK(ends.lockstep.fault() ==
+          "controller A has disconnected at 0.1 s without a message of type bye");
 
     Talk stops(three_in_a_row(), {.wait_for = 2, .on_loss = OnLoss::stop});
     lose(stops);
@@ -534,7 +541,8 @@ TEST_CASE("lockstep: if a run is stopped during a step, its controllers get the 
     CHECK(Json::parse(talk.told[0].back()).at("reason") == "stopped");
 }
 
-TEST_CASE("lockstep: input during a step takes effect at its end, in order of arrival") {
+TEST_CASE(
+    "lockstep: input during a step takes effect at the end of the step, in order of arrival") {
     const auto run = [](bool is_ahead) {
         Talk talk(three_in_a_row(), {.on_loss = OnLoss::stop});
         const auto say = [&](Lockstep::Connection from, const std::string& line) {
@@ -573,7 +581,8 @@ TEST_CASE("lockstep: a first line that is not a JSON object is recognised also d
     CHECK(fault(talk.told[1].back()) == "missing_key protocol");
 }
 
-TEST_CASE("lockstep: a robot that a client of another protocol drives is refused") {
+TEST_CASE(
+    "lockstep: a controller cannot register a robot that a client of another protocol drives") {
     Talk talk(three_in_a_row());
     talk.session->attach({NodeId{1}}, "player");
     CHECK(fault(talk.ask(0, R"({"type":"hello","protocol":1,"robots":["A","B"],"step":"1 s"})")) ==
@@ -607,12 +616,10 @@ TEST_CASE(
     CHECK_FALSE(gone.lockstep.is_done());
     gone.lockstep.closed(0);
     gone.lockstep.held(0s);
-    CHECK(gone.lockstep.fault() == "a controller has ended before its hello");
+    CHECK(gone.lockstep.fault() == "a controller has ended before it sent a message of type hello");
 }
 
-TEST_CASE(
-    "lockstep: if a started program sends no hello within the patience, the run ends with an "
-    "error") {
+TEST_CASE("lockstep: if a started program sends no hello within the time limit, the run fails") {
     using namespace std::chrono_literals;
     const auto run_of_three = [](std::optional<std::chrono::nanoseconds> patience) {
         auto talk = std::make_unique<Talk>(three_in_a_row(),

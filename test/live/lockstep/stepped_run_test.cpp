@@ -118,7 +118,7 @@ TEST_CASE("stepped run: an interrupted step continues, and the log reproduces th
 }
 
 TEST_CASE(
-    "stepped run: the array of poses has one row per robot, follows the arc and stays at one "
+    "stepped run: poses have a row per robot, lie on the driven arc, and keep their memory "
     "address") {
     SteppedRun run(three_in_a_row(), {.robots = std::vector<std::string>{"C", "A"}});
     const double* pose = run.poses().data();
@@ -201,9 +201,7 @@ TEST_CASE("stepped run: numbers out of range are refused without effect") {
           }) == "robot A is listed twice");
 }
 
-TEST_CASE(
-    "stepped run: a command that a sink gives while commands are applied takes effect in the next "
-    "step") {
+TEST_CASE("stepped run: commands from the callback of a record take effect in the next step") {
     struct Echo {
         SteppedRun** run;
         KindMask kinds() const { return kind_of<Sent>(); }

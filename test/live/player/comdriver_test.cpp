@@ -73,8 +73,7 @@ std::vector<std::string> heard_of(const std::string& message) {
 }  // namespace
 
 TEST_CASE(
-    "comdriver: each robot decrements the first byte of a message, and forwards the message while "
-    "it is above 0") {
+    "comdriver: robots decrement the first byte of a message, and forward it while it is above 0") {
     using Heard = std::vector<std::string>;
     CHECK(heard_of("\x01"
                    "F") == Heard{"", "0046", "", ""});

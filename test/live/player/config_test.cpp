@@ -107,7 +107,8 @@ driver ( name "comdriver" provides [ "6667:opaque:1" ] )
     const auto notices = mapping_notices(config, {"192.168.0.1", "192.168.0.2", "192.168.0.3"});
     REQUIRE(notices.size() == 2);
     CHECK(notices[0].ends_with("has this IP address at this port: 192.168.0.9 6666"));
-    CHECK(notices[1].find("mapping leaves out r1; but every robot in range") != std::string::npos);
+    CHECK(notices[1].find("mapping leaves out r1; these robots nevertheless receive") !=
+          std::string::npos);
     CHECK(mapping_notices(config, {"192.168.0.1", "192.168.0.9", ""}).empty());
     CHECK(!read(head + robots).has_comdriver());
 }
@@ -145,7 +146,7 @@ TEST_CASE(
               std::string::npos);
     }
     CHECK(fault(head + robots + "driver ( name \"relay\" )")
-              .find("no opaque device in its provides") != std::string::npos);
+              .find("relay: provides has no opaque device") != std::string::npos);
     CHECK_THROWS_AS(read_player_config("/nowhere/two.cfg"), InputError);
 }
 

@@ -28,7 +28,8 @@ std::string ids(const std::vector<RosClock::Step>& steps) {
 
 }  // namespace
 
-TEST_CASE("rosbridge clock: steps with the same end are answered in the order of their calls") {
+TEST_CASE(
+    "rosbridge clock: steps with the same end time are answered in the order of their calls") {
     RosClock clock;
     for (const char* id : {"b", "c", "a"}) clock.begin(step(id, 10ms));
     clock.begin(step("longer", 11ms));
@@ -69,7 +70,8 @@ TEST_CASE(
     CHECK(clock.next() == never);
 }
 
-TEST_CASE("rosbridge clock: of all steps of clients that have left, only the latest end is kept") {
+TEST_CASE(
+    "rosbridge clock: of the steps of clients that have left, only the last end time is kept") {
     RosClock clock;
     CHECK(clock.pause(1, start_of_run).empty());
     for (RosClock::Connection client = 2; client < 1000; ++client) {

@@ -71,7 +71,8 @@ Json call(WebClient& client, const std::string& service, const Json& args = Json
 
 }  // namespace
 
-TEST_CASE("rosbridge listener: clients drive by WebSocket while time is paused and stepped") {
+TEST_CASE(
+    "rosbridge listener: clients drive robots by WebSocket while time is paused and stepped") {
     Server server;
     WebClient client(server.port);
     call(client, "/simulation/pause");

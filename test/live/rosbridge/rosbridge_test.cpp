@@ -624,13 +624,13 @@ TEST_CASE("rosbridge: an invalid message gets an error, and the connection conti
         {R"({"op":"subscribe","topic":"/A/odom","type":"std_msgs/String"})",
          "expected nav_msgs/Odometry"},
         {R"({"op":"subscribe","topic":"/A/odom","compression":"cbor-raw"})",
-         "expected none or cbor"},
+         "expected \"none\" or \"cbor\""},
         {R"({"op":"subscribe","topic":"/map","compression":"png"})",
-         "found \"png\"; expected none or cbor"},
+         "found \"png\"; expected \"none\" or \"cbor\""},
         {R"({"op":"subscribe","topic":"/A/odom","throttle_rate":-1})", "from 0 to 1e9 ms"},
         {R"({"op":"subscribe","topic":"/A/odom","queue_length":1e9})", "from 0 to 1000"},
         {R"({"op":"advertise","topic":"/A/odom","type":"nav_msgs/Odometry"})",
-         "published by rovernet"},
+         "only rovernet publishes this topic"},
         {R"({"op":"advertise","topic":"/A/cmd_vel","type":"std_msgs/String"})",
          "expected geometry_msgs/Twist"},
         {R"({"op":"publish","topic":"/A/cmd_vel"})", "\"msg\" is missing"},
@@ -651,7 +651,7 @@ TEST_CASE("rosbridge: an invalid message gets an error, and the connection conti
         {R"({"op":"publish","topic":"/A/radio/send","msg":{"data":"","dst_address":"D"}})",
          "no robot D"},
         {R"({"op":"publish","topic":"/A/radio/send","msg":{"data":"","dst_address":"A"}})",
-         "another robot"},
+         "expected a different robot"},
         {R"({"op":"set_level","level":"loud"})", "expected info, warning, error, none"},
         {R"({"op":"auth","mac":"m"})", "refused"},
         {R"({"op":"advertise_service","service":"/mine","type":"a/B"})", "refused"},
@@ -714,7 +714,7 @@ TEST_CASE("rosbridge: a failed call is answered by a result with its id") {
     CHECK(goal[0]["result"] == false);
 }
 
-TEST_CASE("rosbridge: statuses below a client's level are not sent") {
+TEST_CASE("rosbridge: status messages below the level that a client has set are not sent") {
     RosTalk talk(three_in_a_row());
     const Json sideways = {{"linear", {{"y", 1}}}};
     talk.publish("/A/cmd_vel", sideways);
@@ -738,7 +738,8 @@ TEST_CASE("rosbridge: subscriptions are limited, and robots of other clients can
     CHECK(talk.told().at(0)["op"] == "status");
     talk.session.attach({{2}}, "another");
     talk.publish("/C/cmd_vel", twist(1, 0));
-    CHECK(talk.told().at(0)["msg"] == "robot C is driven by other programs");
+    CHECK(talk.told().at(0)["msg"] ==
+          "robot C is driven by another program, so ROS clients cannot drive it");
 }
 
 TEST_CASE("rosbridge: messages captured from the library roslib are understood") {

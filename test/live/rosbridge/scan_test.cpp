@@ -46,8 +46,7 @@ std::vector<std::string> scans(RosTalk& talk) {
 }  // namespace
 
 TEST_CASE(
-    "rosbridge: the first laser has the topic /A/scan, others have /A/NAME/scan, and a ring has "
-    "none") {
+    "rosbridge: the first laser has the topic /A/scan, others /A/NAME/scan, a sonar ring none") {
     RosTalk talk(
         with_scan("[" + ring + ", { kind = \"ranger\", beams = 3 }, " + front + ", " + rear + "]"));
     CHECK(scans(talk) == std::vector<std::string>{"/A/ranger/scan", "/A/scan", "/A/rear/scan"});
@@ -77,8 +76,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "rosbridge: without a laser the first fan has the topic /A/scan; a robot with only rings has "
-    "no topic") {
+    "rosbridge: without a laser the first fan of beams has the topic /A/scan; rings have none") {
     RosTalk talk(with_scan("[" + ring + ", { kind = \"ranger\", beams = 3 }]"));
     CHECK(scans(talk) == std::vector<std::string>{"/A/scan"});
     RosTalk rings(with_scan(ring));
