@@ -206,10 +206,10 @@ std::uint64_t Cells::common() const {
 
 std::string_view Cells::reason(std::size_t row, std::size_t c, std::size_t r) const {
     const auto& point = rows_.list[row].points[c];
-    if (!point) return "not in the study";
+    if (!point) return "runs that are not in the study";
     const std::vector<RunState>& states = inventory_.at(*point);
-    if (r >= states.size() || states[r] == RunState::missing) return "missing";
-    return states[r] == RunState::failed ? "failed" : "undefined";
+    if (r >= states.size() || states[r] == RunState::missing) return "missing runs";
+    return states[r] == RunState::failed ? "failed runs" : "runs without a value";
 }
 
 std::string Cells::lack(std::size_t row) const {
@@ -223,12 +223,12 @@ std::string Cells::lack(std::size_t row) const {
         for (const auto& [why, count] : counts) {
             lacking += count;
             reasons.push_back(
-                fmt::format("{} {} at {}", count, why, settings_text(rows_.combinations[c])));
+                fmt::format("{}: {} at {}", why, count, settings_text(rows_.combinations[c])));
         }
     }
     if (reasons.empty()) return "";
     const Table& settings = rows_.list[row].settings;
-    return fmt::format("{} lacks {} of {} cells: {}",
+    return fmt::format("{} has no value in {} of {} cells ({})",
                        settings.entries.empty() ? "the only row" : settings_text(settings), lacking,
                        count(), listed(reasons, "; "));
 }

@@ -37,9 +37,11 @@ std::vector<MetricValue> metrics_of_row(const DayRow& row, const std::vector<std
 void check_property(const Store& store, const char* key, const std::string& expected) {
     const std::string found = store.property(key);
     if (found == expected || (found.empty() && store.points().empty())) return;
-    throw InputError({store.path()}, fmt::format("its rows are of {} \"{}\", but the new rows are "
-                                                 "of \"{}\"; expected a different --store",
-                                                 key, found, expected));
+    throw InputError(
+        {store.path()},
+        fmt::format("the rows in this store were made by {} \"{}\", but the new rows "
+                    "by \"{}\"; expected a different --store",
+                    std::string_view(key) == "replay" ? "the command" : key, found, expected));
 }
 
 /// Number of the point of this radio, which is added if it is not there.

@@ -66,10 +66,10 @@ FoundRun find_run(const Store& store, const std::string& name) {
         }
     }
     if (found.size() != 1) {
-        throw std::invalid_argument(fmt::format(
-            "{} \"{}\"; expected POINT/REPLICATION such as 0/3, or the beginning of a run's id: "
-            "rovernet results STUDY --csv --provenance lists them",
-            found.empty() ? "there is no run" : "more than one run begins with", name));
+        throw std::invalid_argument(
+            fmt::format("{} \"{}\"; expected POINT/REPLICATION such as 0/3, or the beginning of a "
+                        "run's id; rovernet results STUDY --csv --provenance lists the ids",
+                        found.empty() ? "there is no run" : "more than one run begins with", name));
     }
     FoundRun result{.run = std::move(found.front()), .point = {}};
     for (StoredPoint& point : store.points()) {

@@ -72,10 +72,15 @@ RunCounts counts_of(const Inventory& inventory) {
     return counts;
 }
 
+std::string runs_text(std::uint64_t runs) {
+    return fmt::format("{} {}", runs, runs == 1 ? "run" : "runs");
+}
+
 std::string incompleteness(const RunCounts& counts) {
     std::string text;
     if (counts.missing > 0) {
-        text = fmt::format("unfinished: {} of {} runs are missing", counts.missing, counts.all());
+        text = fmt::format("unfinished: {} of {} {} missing", counts.missing,
+                           runs_text(counts.all()), counts.missing == 1 ? "is" : "are");
     }
     if (counts.failed > 0) {
         text += fmt::format("{}{} {}failed", text.empty() ? "" : "; ", counts.failed,

@@ -38,6 +38,9 @@ Inventory inventory_of(const Store& store);
 
 RunCounts counts_of(const Inventory& inventory);
 
+/// Number of runs in words: "1 run", "24 runs".
+std::string runs_text(std::uint64_t runs);
+
 /// Text on a study's missing and failed runs, such as "unfinished: 40 of 120 runs are missing; 3
 /// failed", or one of these two parts; empty if all runs finished.
 std::string incompleteness(const RunCounts& counts);

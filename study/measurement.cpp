@@ -7,6 +7,7 @@
 #include "experiment/version.hpp"
 #include "mobility/kept_planners.hpp"
 #include "scenario/scenario.hpp"
+#include "study/quotient.hpp"
 #include "traces/metric_fold.hpp"
 #include "traces/topology.hpp"
 
@@ -95,6 +96,22 @@ std::optional<std::string_view> key_for(const std::string& name, const Scenario&
     return needed;
 }
 
+/// Names that begin like a word, with the longest equal begin first.
+std::vector<std::string> of_equal_begin(std::string_view word, std::vector<std::string> names,
+                                        std::size_t most) {
+    constexpr std::size_t least = 3;  // letters
+    const auto equal = [&](const std::string& name) {
+        const auto [end, other] = std::mismatch(word.begin(), word.end(), name.begin(), name.end());
+        return static_cast<std::size_t>(end - word.begin());
+    };
+    std::erase_if(names, [&](const std::string& name) { return equal(name) < least; });
+    std::stable_sort(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
+        return equal(a) > equal(b);
+    });
+    names.resize(std::min(names.size(), most));
+    return names;
+}
+
 /// Cuts the text before the next `end` off the front; all of it if there is none.
 std::string_view cut(std::string_view& text, char end) {
     const std::string_view piece = text.substr(0, text.find(end));
@@ -133,9 +150,34 @@ void check_metric(const std::string& name, const Scenario& scenario, const Locat
     if (has(metric_names(), name)) return;
     const std::vector<std::string> names = metric_names(scenario);
     if (has(names, name)) return;
-    const std::string near = did_you_mean(name, names);
-    throw InputError(where, fmt::format("there is no metric \"{}\"; expected one of {}{}{}", name,
-                                        fmt::join(names, ", "), near.empty() ? "" : "; ", near));
+    const auto quotient = quotient_of(name);
+    if (quotient && has(names, quotient->over) && has(names, quotient->under)) {
+        throw InputError(where, fmt::format("\"{}\" is a quotient of two metrics, which only the "
+                                            "commands results and plot compute; expected {} and {}",
+                                            name, quotient->over, quotient->under));
+    }
+    throw InputError(
+        where, fmt::format("there is no metric \"{}\"{}; rovernet help output explains the metrics "
+                           "(of a flow: METRIC.FLOW, of a robot: METRIC.at.ROBOT)",
+                           name, near_metrics(name, names)));
+}
+
+std::string near_metrics(const std::string& name, std::vector<std::string> known) {
+    constexpr std::size_t most = 4;
+    std::vector<std::string> near;
+    while (near.size() < most) {
+        const std::string text = did_you_mean(name, known);
+        const std::size_t begin = text.find('"') + 1;
+        if (text.empty()) break;
+        near.push_back(text.substr(begin, text.rfind('"') - begin));
+        std::erase(known, near.back());
+    }
+    if (near.empty()) near = of_equal_begin(name, std::move(known), most);
+    if (near.empty()) return "";
+    const std::string last = near.back();
+    near.pop_back();
+    const char* const between = near.empty() ? "" : "\" or \"";
+    return fmt::format("; did you mean \"{}{}{}\"?", fmt::join(near, "\", \""), between, last);
 }
 
 Measurement measure(const Scenario& scenario, KeptPlanners& kept) {

@@ -40,12 +40,13 @@ struct Measurement {
     /// Members except the metrics, in the order in which to_text() writes the members.
     static constexpr auto fields() {
         using M = Measurement;
-        return describe(
-            field("fingerprint", &M::fingerprint, "fingerprint of the run"),
-            field("cpu_s", &M::cpu_s, "CPU time"), field("wall_s", &M::wall_s, "real time"),
-            field("started", &M::started, "start in real time, UTC"),
-            field("host", &M::host, "machine"),
-            field("searches", &M::searches, "searches for paths that the cache did not answer"));
+        return describe(field("fingerprint", &M::fingerprint, "fingerprint of the run"),
+                        field("cpu_s", &M::cpu_s, "CPU time"),
+                        field("wall_s", &M::wall_s, "real time"),
+                        field("started", &M::started, "start in real time, UTC"),
+                        field("host", &M::host, "machine"),
+                        field("searches", &M::searches,
+                              "searches for paths whose results were not in the cache"));
     }
     friend bool operator==(const Measurement&, const Measurement&) = default;
 };
@@ -62,6 +63,10 @@ std::vector<std::string> metric_names(const Scenario& scenario);
 /// Checks that runs of the scenario have a metric with this name. @throws InputError at `where` if
 /// there is no such metric
 void check_metric(const std::string& name, const Scenario& scenario, const Location& where);
+
+/// Suggestion of the few known metrics whose names are similar to `name`: "; did you mean
+/// "deliveries" or "delivery_ratio"?". Empty if no name is similar.
+std::string near_metrics(const std::string& name, std::vector<std::string> known);
 
 /// Runs a scenario and returns its metrics and costs, without writing files.
 /// @param kept  cache of path planners, shared by runs in one scene; it saves time and does not

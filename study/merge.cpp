@@ -39,13 +39,18 @@ void merge(Store& store, const std::string& path) {
     if (shard.property("version") != store.property("version")) {
         throw InputError(
             {path},
-            fmt::format("its runs are of version {}, but the runs in {} are of version {}",
-                        shard.property("version"), store.path(), store.property("version")));
+            fmt::format(
+                "the runs in this store were made by version {}, but the runs in {} by version {}; "
+                "expected runs of one version: repeat the sweep of one of the two stores",
+                shard.property("version"), store.path(), store.property("version")));
     }
     std::set<std::string> ours;
     for (const StoredPoint& point : store.points()) ours.insert(point.id);
     for (const StoredPoint& point : shard.points()) {
-        if (!ours.contains(point.id)) throw InputError({path}, "the store of a different study");
+        if (!ours.contains(point.id))
+            throw InputError({path},
+                             "this store belongs to a different study; expected a store that sweep "
+                             "--shard made of the same study");
     }
     copy_runs(shard, store);
 }
@@ -58,14 +63,14 @@ void check_shard(const std::string& path) {
     constexpr std::string_view magic{"SQLite format 3", 16};
     const std::string begin = InputFile(path).read(magic.size());
     if (begin.empty() || begin == magic) return;
-    throw InputError({path}, "no store of a study; expected the store of a shard");
+    throw InputError({path}, "this file is not a store of a study; expected the store of a shard");
 }
 
 void merge_and_remove(Store& store, const std::string& path) {
     // Opening for writing recovers the journal of a killed process, and fails if another process
     // writes.
     if (input_kind(path) == InputKind::nothing) {
-        throw InputError({path}, "there is no such shard");
+        throw InputError({path}, "there is no such file; expected the store of a shard");
     }
     check_shard(path);
     Store::open_to_write(path);

@@ -51,7 +51,7 @@ void need_one_statement(sqlite3* database, const std::string& sql) {
     const int count = statements_in(database, sql.c_str());
     if (count == 1) return;
     throw std::invalid_argument(
-        fmt::format("--sql: found {}; expected one, such as SELECT * FROM result",
+        fmt::format("--sql: found {}; expected one statement, such as SELECT * FROM result",
                     count == 0 ? "no statement" : "more than one statement"));
 }
 

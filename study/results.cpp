@@ -3,6 +3,7 @@
 
 #include "scenario/document/toml.hpp"
 #include "sim/error.hpp"
+#include "study/measurement.hpp"
 #include "study/quotient.hpp"
 
 #include <fmt/format.h>
@@ -25,6 +26,16 @@ void check_known(const std::string& word, const std::vector<std::string>& known,
     throw std::invalid_argument(
         fmt::format("{} \"{}\" is not in this study; expected one of {}{}{}", what, word,
                     fmt::join(known, ", "), near.empty() ? "" : "; ", near));
+}
+
+/// @throws std::invalid_argument if the store has no such metric
+void check_metric_known(const std::string& metric, const std::vector<std::string>& known,
+                        const Store& store) {
+    if (std::find(known.begin(), known.end(), metric) != known.end()) return;
+    throw std::invalid_argument(
+        fmt::format("the metric \"{}\" is not in this study{}; rovernet results {} --sql 'SELECT "
+                    "name FROM metric_name' lists the metrics",
+                    metric, near_metrics(metric, known), store.path()));
 }
 
 /// The metrics of every run, and those of the flows and robots of the store's runs.
@@ -72,11 +83,10 @@ void check_balanced(const Rows& rows, const Cells& cells, const std::string& met
     const std::string lines = cells.unbalanced();
     if (lines.empty()) return;
     throw std::invalid_argument(fmt::format(
-        "{} cannot be averaged over {}: each row would be a mean of different cells, so the rows "
-        "cannot be compared (a cell is a replication at one value of each of these "
-        "keys)\n{}\nexpected "
-        "--where KEY=VALUE for points that all rows have, or --common for the mean over the {} of "
-        "{} cells that every row has",
+        "{} cannot be averaged over {}, because some rows have no value in some cells (a cell is "
+        "one replication at one value of each of these keys). The means of the rows would be over "
+        "different cells and could not be compared.\n{}\nexpected --where KEY=VALUE with values "
+        "that every row has, or --common to average only the {} of {} cells that every row has",
         metric, fmt::join(rows.averaged, ", "), lines, cells.common(), cells.count()));
 }
 
@@ -111,8 +121,8 @@ std::vector<std::string> metrics_of(const Store& store, const Question& question
     for (const auto& metric : metrics) {
         const bool is_known = std::find(known.begin(), known.end(), metric) != known.end();
         const auto quotient = is_known ? std::nullopt : quotient_of(metric);
-        check_known(quotient ? quotient->over : metric, known, "the metric");
-        if (quotient) check_known(quotient->under, known, "the metric");
+        check_metric_known(quotient ? quotient->over : metric, known, store);
+        if (quotient) check_metric_known(quotient->under, known, store);
     }
     return metrics;
 }
@@ -170,8 +180,8 @@ std::string coverage_text(const Answers& answers) {
         texts.push_back(fmt::format("averaged over {}", fmt::join(answers.averaged, ", ")));
     }
     if (!answers.along.empty()) {
-        texts.push_back(fmt::format("{} {} with each row", fmt::join(answers.along, ", "),
-                                    answers.along.size() == 1 ? "goes" : "go"));
+        texts.push_back(fmt::format("not averaged over {} (one value in each row)",
+                                    fmt::join(answers.along, ", ")));
     }
     std::map<std::string, std::uint64_t> undefined;
     RunCounts runs;
@@ -185,15 +195,19 @@ std::string coverage_text(const Answers& answers) {
         if (&answer != &answers.list.front() && answer.metric == answers.list.front().metric) break;
         if (answer.left_out == 0) continue;
         texts.push_back(
-            fmt::format("{} is averaged without {} of {} cells, which are missing from some rows",
+            fmt::format("the mean of {} leaves out {} of {} cells (a cell is one replication at "
+                        "one value of each of these keys), because some rows have no value there",
                         answer.metric, answer.left_out, answer.cells));
     }
     for (const auto& [metric, count] : undefined) {
-        if (count > 0) texts.push_back(fmt::format("{} runs have no {}", count, metric));
+        if (count > 0)
+            texts.push_back(fmt::format("{} {} no value of {}", runs_text(count),
+                                        count == 1 ? "has" : "have", metric));
     }
-    if (runs.failed > 0) texts.push_back(fmt::format("{} runs failed", runs.failed));
+    if (runs.failed > 0) texts.push_back(runs_text(runs.failed) + " failed");
     if (runs.missing > 0) {
-        texts.push_back(fmt::format("unfinished: {} runs are missing", runs.missing));
+        texts.push_back(fmt::format("unfinished: {} {} missing", runs_text(runs.missing),
+                                    runs.missing == 1 ? "is" : "are"));
     }
     return fmt::format("{}", fmt::join(texts, "; "));
 }

@@ -56,9 +56,10 @@ void write_csv(const Store& store, const Question& question, const Write& write)
     };
     for (const std::string& metric : question.metrics) {
         if (!quotient_of(metric) || !store.values(metric).empty()) continue;
-        throw std::invalid_argument(fmt::format(
-            "--csv: {} is a quotient, which has no value for a single run; expected --group-by",
-            metric));
+        throw std::invalid_argument(
+            fmt::format("--csv: {} is a quotient of two metrics and has no value for a single run; "
+                        "expected also --group-by",
+                        metric));
     }
     const PointCells points(store, question.where);
     write(points.head + ",replication,metric,value\n");

@@ -68,19 +68,21 @@ auto told(const std::string& path, auto&& act) {
     } catch (const SQLite::Exception& error) {
         switch (error.getErrorCode()) {
             case SQLITE_NOTADB:
-            case SQLITE_CORRUPT: throw InputError({path}, "no store of a study, or a damaged one");
+            case SQLITE_CORRUPT:
+                throw InputError({path},
+                                 "this file is not a store of a study, or the store is damaged");
             case SQLITE_ERROR:  // a statement of ours does not fit the tables that there are
             case SQLITE_MISMATCH: throw damaged_store(path, error.what());
             case SQLITE_FULL:
                 throw RunError(path +
-                               ": the disk is full; finished runs are kept: free some space and "
-                               "run the same command again");
+                               ": the disk is full; finished runs are kept: free some "
+                               "space and run the same command again");
             case SQLITE_READONLY:
             case SQLITE_CANTOPEN:
             case SQLITE_PERM:
                 throw RunError(path +
-                               ": cannot be written; check the permissions of the file and of its "
-                               "folder, or give a different store with --store");
+                               ": cannot be written; check the permissions of the file and of "
+                               "its folder, or give a different store with --store");
             default:
                 throw RunError(fmt::format("{}: {} (SQLite {}); finished runs are kept", path,
                                            error.what(), error.getExtendedErrorCode()));
@@ -102,7 +104,7 @@ StoredPoint point_in(const StoredRow& row, const std::vector<StoredPoint>& befor
     const bool alike = std::equal(first.entries.begin(), first.entries.end(),
                                   point.settings.entries.begin(), point.settings.entries.end(),
                                   [](const Entry& a, const Entry& b) { return a.key == b.key; });
-    if (!alike) row.refuse(3, "other keys", "those of the first point, in the same order");
+    if (!alike) row.refuse(3, "other keys", "the keys of the first point, in the same order");
     for (const Entry& entry : point.settings.entries) {
         if (!std::holds_alternative<std::monostate>(entry.value.data)) continue;
         row.refuse(3, fmt::format("null for {}", entry.key), "a value");
@@ -154,19 +156,20 @@ Store::Store(std::string path, std::unique_ptr<Database> database)
     const int made_by = database_->sqlite.execAndGet("PRAGMA application_id").getInt();
     const int version = database_->sqlite.execAndGet("PRAGMA user_version").getInt();
     if (made_by == 0 && database_->tables() == 0)
-        throw InputError({path_}, "has no runs yet; if its sweep was killed, run it again");
-    if (made_by != application) throw InputError({path_}, "not a store of a study");
+        throw InputError(
+            {path_}, "this store has no runs yet; if its sweep was killed, run the sweep again");
+    if (made_by != application) throw InputError({path_}, "this file is not a store of a study");
     if (version > format) {
         throw InputError({path_},
-                         fmt::format("a store of format {}, made by a newer rovernet; this version "
-                                     "knows formats up to {}; update rovernet",
+                         fmt::format("this store has format {}, which a newer rovernet wrote; this "
+                                     "version reads formats up to {}; update rovernet",
                                      version, format));
     }
 }
 
 Store Store::open(const std::string& path) {
     if (input_kind(path) == InputKind::nothing) {
-        throw InputError({path}, "no such store; rovernet sweep FILE makes one");
+        throw InputError({path}, "there is no such store; rovernet sweep FILE writes a store");
     }
     need_file(path);
     return told(path, [&] {
@@ -176,7 +179,7 @@ Store Store::open(const std::string& path) {
 
 Store Store::open_to_write(const std::string& path) {
     const InputKind kind = input_kind(path);
-    if (kind == InputKind::folder) throw InputError({path}, "a directory, not a store");
+    if (kind == InputKind::folder) throw InputError({path}, "this is a directory, not a store");
     if (kind != InputKind::nothing) need_file(path);
     return told(path, [&] {
         auto database = std::make_unique<Database>(StoreConnection::to_write(path));

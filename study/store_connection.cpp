@@ -90,7 +90,8 @@ StoreConnection::Copy::Copy(const std::string& path) {
         for (const char* ending : {"", "-wal", "-journal"})
             if (fs::exists(path + ending)) fs::copy_file(path + ending, file() + ending);
     } catch (const fs::filesystem_error& error) {
-        throw RunError(path + ": cannot be copied for reading (" + error.code().message() + ")");
+        throw RunError(path + ": cannot be copied to a temporary folder for reading (" +
+                       error.code().message() + ")");
     }
 }
 

@@ -33,9 +33,10 @@ std::pair<std::string, std::string> table_and_column(const std::string& name) {
 }  // namespace
 
 InputError damaged_store(const std::string& path, const std::string& what) {
-    return InputError({path}, fmt::format("a damaged store: {}; restore a copy of it, or sweep "
-                                          "again with --fresh, which deletes its runs",
-                                          what));
+    return InputError({path},
+                      fmt::format("the store is damaged: {}; restore a copy of the store, or sweep "
+                                  "again with --fresh, which deletes the stored runs",
+                                  what));
 }
 
 void StoredRow::refuse(int column, const std::string& found, const std::string& expected) const {

@@ -67,7 +67,7 @@ void check_differ(const Axis& axis) {
         for (const Vary* vary : axis) values.set(vary->path, vary->values[i]);
         if (seen.insert(to_toml(values)).second) continue;
         throw InputError(axis.front()->values[i].where,
-                         fmt::format("vary: {} is listed twice; expected values that differ",
+                         fmt::format("vary: {} is listed twice; expected different values",
                                      settings_text(values)));
     }
 }
@@ -139,12 +139,13 @@ std::vector<Table> study_points(const StudyTable& study, const Location& where) 
     }
     if (points.empty())
         throw InputError(where,
-                         "exclude: excludes every point of the study; remove some of its tables");
+                         "exclude: these tables exclude every point (combination of values) of the "
+                         "study; remove some of the tables");
     return points;
 }
 
 std::string settings_text(const Table& settings) {
-    if (settings.entries.empty()) return "the scenario as it is";
+    if (settings.entries.empty()) return "the unchanged scenario";
     std::string text;
     for (const Entry& entry : settings.entries) {
         text +=
@@ -166,6 +167,7 @@ Study::Study(const std::string& path, const ScenarioOptions& options,
         base_.study.zip.clear();
         base_.study.exclude = exclude;
     }
+    if (!base_.study.vary.empty()) base_.notices.clear();  // only points run; each has its notices
     note_own_models(base_);
     const StudyTable& study = base_.study;
     for (std::size_t i = 0; i < study.metric_places.size(); ++i) {
@@ -183,7 +185,7 @@ Study::Study(const std::string& path, const ScenarioOptions& options,
             }
         } catch (const InputError& error) {
             if (settings.entries.empty()) throw;
-            throw InputError(error.where(), fmt::format("{}; at the point {}", error.message(),
+            throw InputError(error.where(), fmt::format("{}; this happens with {}", error.message(),
                                                         settings_text(settings)));
         }
         points_.push_back({std::move(settings), hash(identity_text)});
@@ -203,10 +205,9 @@ void Study::check_points_differ() const {
             if (!same(entry.value, other.entries[i].value)) differs = &entry;
         }
         const Location& where = differs->value.where;
-        throw InputError(
-            where,
-            fmt::format("vary: {} gives the same scenario as {}; expected values that differ",
-                        settings_text(point.settings), settings_text(other)));
+        throw InputError(where, fmt::format("vary: {} gives the same scenario as {}; expected "
+                                            "values that give different scenarios",
+                                            settings_text(point.settings), settings_text(other)));
     }
 }
 

@@ -57,22 +57,38 @@ void flatten(const Value& value, const std::string& path, std::map<std::string, 
     }
 }
 
-/// Differences between the scenario that a store was made for and that of now, in words; empty if
-/// nothing does.
+/// Difference of a value of the scenario in words. @param other  value of now
+std::string difference_text(const std::string& path, const std::string& text,
+                            const std::string& other) {
+    constexpr std::pair<std::string_view, std::string_view> hashes[] = {
+        {"digests.walls", "the walls have changed"},
+        {"digests.movement", "the movement file has changed"}};
+    for (const auto& [name, words] : hashes)
+        if (path == name) return std::string(words);
+    if (path == "digests.warmup")
+        return fmt::format("the warmup of [study] was {} and is now {}", text, other);
+    return fmt::format("{} was {} and is now {}", path, text, other);
+}
+
+/// Differences between the scenario that a store was made for and that of now, in words: the first
+/// one, and the number of the others if there are many; empty if nothing does.
 std::string difference(const Value& then, const Table& now) {
     std::map<std::string, std::string> old_keys, new_keys;
     if (then.table()) flatten(then, "", old_keys);
     flatten(now, "", new_keys);
+    std::vector<std::string> all;
     for (const auto& [path, text] : old_keys) {
         const auto found = new_keys.find(path);
         const std::string other = found == new_keys.end() ? "not given" : found->second;
-        if (other != text) return fmt::format("{} was {} and is now {}", path, text, other);
+        if (other != text) all.push_back(difference_text(path, text, other));
     }
-    for (const auto& [path, text] : new_keys) {
-        if (!old_keys.contains(path))
-            return fmt::format("{} was not given and is now {}", path, text);
-    }
-    return "";
+    for (const auto& [path, text] : new_keys)
+        if (!old_keys.contains(path)) all.push_back(difference_text(path, "not given", text));
+    constexpr std::size_t few = 5;  // that a user may have changed in one scenario
+    if (all.size() <= few) return all.empty() ? "" : all.front();
+    return fmt::format(
+        "{}, and {} more values are different: the store probably belongs to a different scenario",
+        all.front(), all.size() - 1);
 }
 
 /// Reason why a point with stored runs is no longer in the study.
@@ -84,9 +100,9 @@ std::string why_gone(const StoredPoint& gone, const Study& study, const Value& t
     const bool listed = std::any_of(points.begin(), points.end(), [&](const StudyPoint& point) {
         return settings_text(point.settings) == settings;
     });
-    if (!listed) reasons.emplace_back("[study] no longer contains it");
+    if (!listed) reasons.emplace_back("[study] no longer contains this point");
     if (std::string changed = difference(then, now); !changed.empty()) reasons.push_back(changed);
-    if (reasons.empty()) reasons.emplace_back("its map or its movement file has changed");
+    if (reasons.empty()) reasons.emplace_back("the map or the movement file has changed");
     return fmt::format("{}", fmt::join(reasons, ", and "));
 }
 
@@ -305,10 +321,11 @@ Store open_store(const std::string& path, Study& study) {
     Store store = Store::open_to_write(path);
     const std::string version = store.property("version");
     if (!version.empty() && version != code_version()) {
-        throw InputError({path},
-                         fmt::format("its runs were made by version {}, and this is {}; expected "
-                                     "--fresh, which deletes them, or a different --store",
-                                     version, code_version()));
+        throw InputError(
+            {path},
+            fmt::format("the stored runs were made by version {}, but this is version {}; expected "
+                        "--fresh, which deletes the stored runs, or a different --store",
+                        version, code_version()));
     }
     const Table scenario = study.identity(study.base());
     const std::vector<StoredPoint> points = stored_points(study);
@@ -317,10 +334,11 @@ Store open_store(const std::string& path, Study& study) {
     for (const StoredPoint& point : store.points()) {
         if (ids.contains(point.id)) continue;
         throw InputError(
-            {path}, fmt::format("it has runs of the point {}, which this study does not have: {}; "
-                                "expected --fresh, which deletes its runs, or a different --store",
-                                settings_text(point.settings),
-                                why_gone(point, study, store.document("scenario"), scenario)));
+            {path},
+            fmt::format("the store has runs of {}, but the study does not have this point: {}; "
+                        "expected --fresh, which deletes the stored runs, or a different --store",
+                        settings_text(point.settings),
+                        why_gone(point, study, store.document("scenario"), scenario)));
     }
     store.set_points(points);
     store.set_property("version", code_version());

@@ -73,9 +73,11 @@ std::string last_words(int file) {
 }
 
 std::string how_it_ended(int status) {
-    if (WIFEXITED(status)) return fmt::format("its process exited with {}", WEXITSTATUS(status));
+    if (WIFEXITED(status))
+        return fmt::format("the process of the run exited with code {}", WEXITSTATUS(status));
     const int signal = WTERMSIG(status);
-    return fmt::format("its process was ended by signal {} ({}){}", signal, strsignal(signal),
+    return fmt::format("the process of the run was ended by signal {} ({}){}", signal,
+                       strsignal(signal),
                        signal == SIGKILL ? ": by a user, or because memory was exhausted" : "");
 }
 
@@ -183,7 +185,7 @@ TaskEnd Workers::reap(Worker& worker, const std::string& reason) {
     TaskEnd end{worker.task.value_or(0), TaskEnd::died,
                 reason.empty() ? how_it_ended(status) : reason};
     const std::string words = last_words(worker.words);
-    if (!words.empty()) end.text += "; its last output: " + words;
+    if (!words.empty()) end.text += "; last output of the process: " + words;
     for (int* file : {&worker.socket, &worker.words}) close_file(*file);
     worker.pid = 0;
     worker.task.reset();
@@ -234,7 +236,8 @@ std::optional<TaskEnd> Workers::wait(double seconds) {
         }
         for (Worker* worker : owners) {
             if (worker->task && now_s() >= worker->deadline) {
-                return reap(*worker, fmt::format("took longer than {} s", *limits_.timeout_s));
+                return reap(*worker,
+                            fmt::format("the run took longer than {} s", *limits_.timeout_s));
             }
         }
     } while (now_s() < until);

@@ -100,11 +100,11 @@ std::optional<Writer> writer_in(const std::string& lock) {
 std::string lock_file(const std::string& path) { return path + ".lock"; }
 
 [[noreturn]] void refuse(const std::string& path, const Writer& writer) {
-    throw RunError(
-        fmt::format("{}: process {} on {} writes to this store, according to {}; wait until it "
-                    "ends; if it has already ended, remove {} (this file system has no locks)",
-                    path, writer.process, writer.host.empty() ? "a host" : writer.host,
-                    lock_file(path), lock_file(path)));
+    throw RunError(fmt::format(
+        "{}: process {} on {} writes to this store, as the file {} says; wait until this process "
+        "ends; if the process has already ended, remove {} (this file system has no locks)",
+        path, writer.process, writer.host.empty() ? "a host" : writer.host, lock_file(path),
+        lock_file(path)));
 }
 
 /// Removes a stale lock file. Another process may do the same and create its own lock file
@@ -139,8 +139,8 @@ bool take_whole(const FileNumber& file, const std::string& path) {
         if (answer != LockAnswer::held) return answer == LockAnswer::yes;
         if (i == most_tries)
             throw RunError(path +
-                           ": a different sweep is writing to this store; wait for its end, or "
-                           "give a different store with --store");
+                           ": a different sweep is writing to this store; wait until that sweep "
+                           "ends, or give a different store with --store");
         std::this_thread::sleep_for(between_tries);
     }
 }
@@ -221,8 +221,8 @@ void need_no_writer(const std::string& path) {
     const FileNumber file(path, O_RDONLY);
     if (file.number() >= 0 && lock_whole(file, LOCK_SH) == LockAnswer::held)
         throw RunError(path +
-                       ": a sweep is writing to this store, and on this file system, which has no "
-                       "locks, it cannot be read meanwhile; wait for the end of the sweep");
+                       ": a sweep is writing to this store; this file system has no locks, so the "
+                       "store cannot be read until the sweep ends");
     const auto writer = writer_in(lock_file(path));
     if (writer && !writer->has_ended()) refuse(path, *writer);
 }

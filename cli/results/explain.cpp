@@ -16,7 +16,7 @@ void explain(const ExplainArguments& a) {
     const StoredRun& run = found.run;
     const Measurement& m = run.measurement;
     const std::string lacking = incompleteness(counts_of(inventory_of(store)));
-    if (!lacking.empty()) notice(fmt::format("the study of this run is {}", lacking));
+    if (!lacking.empty()) notice(fmt::format("the study of this run is incomplete: {}", lacking));
     const std::string command = run_command(store, found.point, run.replication);
     Table table;
     table.set("run", run.id);
@@ -42,7 +42,7 @@ void explain(const ExplainArguments& a) {
     }
     fmt::print(
         "run {}: point {} ({}), replication {}\nmade by version {}, {} on {}, {:.3g} s of "
-        "CPU\n{}\nto repeat it: {}\n",
+        "CPU\n{}\nto repeat this run: {}\n",
         run.id, run.point, settings_text(found.point.settings), run.replication,
         store.property("version"), m.started, m.host, m.cpu_s,
         run.error.empty() ? "fingerprint " + m.fingerprint : "failed: " + run.error, command);

@@ -24,8 +24,8 @@ std::optional<ChartKind> kind_of(const std::string& word) {
         if (names[i] == word) return kinds[i];
     }
     const std::string near = did_you_mean(word, names);
-    throw std::invalid_argument(fmt::format("--kind: unknown value \"{}\"; expected one of {}{}{}",
-                                            word, fmt::join(names, ", "), near.empty() ? "" : "; ",
+    throw std::invalid_argument(fmt::format("--kind: found \"{}\"; expected one of {}{}{}", word,
+                                            fmt::join(names, ", "), near.empty() ? "" : "; ",
                                             near));
 }
 
@@ -55,8 +55,10 @@ void check_options_of_table(const PlotArguments& a) {
                                                   {"--beside", !a.beside.empty()}};
     for (const auto& [option, is_given] : given) {
         if (is_given) {
-            throw std::invalid_argument(fmt::format(
-                "{}: expected a store of a study; the table {} has no runs", option, a.store));
+            throw std::invalid_argument(
+                fmt::format("{}: this option needs the runs of a study, and the table {} has no "
+                            "runs; expected the store of a study, as written by rovernet sweep",
+                            option, a.store));
         }
     }
 }
@@ -98,10 +100,11 @@ std::vector<Chart> charts_of(const PlotArguments& a) {
 void plot(const PlotArguments& a) {
     if (!is_picture_name(a.out) && !a.out.ends_with(".gp")) {
         throw std::invalid_argument(fmt::format(
-            "-o: \"{}\"; expected NAME.svg, NAME.png, NAME.pdf or NAME.gp (gnuplot)", a.out));
+            "-o: found \"{}\"; expected NAME.svg, NAME.png, NAME.pdf or NAME.gp (gnuplot)", a.out));
     }
     if (a.out.ends_with(".gp") && a.y.size() > 1) {
-        throw std::invalid_argument("-y: expected one metric for a gnuplot script");
+        throw std::invalid_argument(fmt::format(
+            "-y: found {} metrics; expected one metric for a gnuplot script", a.y.size()));
     }
     if (!a.y_titles.empty() && a.y_titles.size() != a.y.size()) {
         throw std::invalid_argument(

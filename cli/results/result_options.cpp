@@ -22,11 +22,12 @@ void add_results(Command app) {
                         .add_option("--metric", a.metrics,
                                     "metrics to print, such as delivery_ratio,latency_mean_s")
                         .delimiter(',');
-    Option group_by = results
-                          .add_option("--group-by", a.group_by,
-                                      "varied keys, one row for each combination of their values; "
-                                      "results are averaged over all other varied keys")
-                          .delimiter(',');
+    Option group_by =
+        results
+            .add_option("--group-by", a.group_by,
+                        "varied keys: print one row for each combination of their values; each row "
+                        "averages the results over all other varied keys")
+            .delimiter(',');
     Option where = results.add_option("--where", a.where, only_points);
     where.one_word();
     Option common = results.add_flag("--common", a.common, only_cells);
@@ -41,13 +42,15 @@ void add_results(Command app) {
                           .add_option("--quantile", a.quantile,
                                       "compute this quantile instead of the mean, such as 0.9")
                           .range(0.0001, 0.9999);
-    Option csv = results
-                     .add_flag("--csv", a.csv,
-                               "print CSV for pandas and R, with a line for each run and metric; "
-                               "with --group-by a line for each row, metric and replication")
-                     .excludes(confidence)
-                     .excludes(results.option("--interval"))
-                     .excludes(quantile);
+    Option csv =
+        results
+            .add_flag(
+                "--csv", a.csv,
+                "print CSV for pandas and R, with a line for each run and metric; with --group-by, "
+                "a line for each combination of the --group-by values, metric and replication")
+            .excludes(confidence)
+            .excludes(results.option("--interval"))
+            .excludes(quantile);
     Option provenance =
         results
             .add_flag("--provenance", a.provenance,

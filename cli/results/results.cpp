@@ -125,11 +125,11 @@ void warn_of_few(const std::vector<Answer>& list) {
 void warn_of_skewness(const std::vector<Answer>& list) {
     const auto skewed = std::ranges::count_if(list, &Answer::skewed);
     if (skewed == 0) return;
-    notice(
-        fmt::format("warning: {} of {} intervals were computed by Student's t from values that are "
-                    "too skewed for this method (n <= 25 times the squared skewness); these "
-                    "intervals may cover the true mean less often than stated",
-                    skewed, list.size()));
+    notice(fmt::format(
+        "warning: {} of {} intervals were computed by Student's t from values that are too skewed "
+        "for this method (the number of values is at most 25 times their squared skewness); these "
+        "intervals may cover the true mean less often than stated",
+        skewed, list.size()));
 }
 
 /// Prints the metrics whose intervals do not use the requested method.
@@ -149,7 +149,8 @@ void warn_of_gaps(const RunCounts& runs, const std::string& store) {
     const std::string text = incompleteness(runs);
     if (!text.empty()) notice(fmt::format("{}: {}", store, text));
     if (runs.failed > 0)
-        notice(fmt::format("reasons of the failures: rovernet results {} --failures", store));
+        notice(fmt::format("to list the errors of the failed runs: rovernet results {} --failures",
+                           store));
 }
 
 std::optional<std::vector<std::string>> group_by_of(const ResultsArguments& a, const Store& store) {

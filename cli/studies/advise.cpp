@@ -95,7 +95,8 @@ bool make_block(const AdviseArguments& a, Study& study, Store& store, const Budg
         const StoredRun& run = *result.failure;
         throw CommandEnd(
             partly_failed,
-            fmt::format("a run failed, so no advice is possible: {}\n  {}", run.error,
+            fmt::format("a run failed, so no advice is possible: {}\nto repeat this run:\n  {}",
+                        run.error,
                         run_command(store, store.points().at(run.point), run.replication)));
     }
     return result.progress.left == 0;
@@ -118,14 +119,14 @@ void tell_time(const AdviseArguments& a, const AdviceCandidates& candidates, std
     constexpr double long_time = 60;  // [s]
     const double all = run_s * static_cast<double>(most);
     if (all < long_time) return;
-    notice(
-        fmt::format("a run with the reference, {}, takes about {:.2g} s of CPU time. The verdicts "
-                    "may need {} to {} such runs ({} to {} on one worker), and runs of the "
-                    "candidates in addition. --budget {} ends the command earlier, with a "
-                    "preliminary verdict; a cheaper --reference takes less time",
-                    candidates.path_losses[top].name, run_s, std::min(least, most), most,
-                    duration_text(run_s * static_cast<double>(std::min(least, most))),
-                    duration_text(all), a.budget));
+    notice(fmt::format(
+        "one run with the reference, {}, takes about {:.2g} s of CPU time. The "
+        "verdicts may need {} to {} such runs ({} to {} on one worker), and additional "
+        "runs of the candidates. --budget {} ends the command earlier, with a "
+        "preliminary verdict. With a cheaper --reference, the command takes less time, too",
+        candidates.path_losses[top].name, run_s, std::min(least, most), most,
+        duration_text(run_s * static_cast<double>(std::min(least, most))), duration_text(all),
+        a.budget));
 }
 
 /// End of a fit by the budget or the user.

@@ -123,13 +123,15 @@ void print_models(const Advice& advice) {
 void print_report(const Advice& advice) {
     const DecisionRule& rule = advice.rule;
     fmt::print(
-        "{} of {} replications against {}: tolerance {:.4g} {}, confidence {:.4g} % for all {} "
-        "combinations together\n\n",
+        "{} in {} replications, compared with {}: tolerance {:.4g} {}, confidence {:.4g} % for all "
+        "{} combinations of models together\n\n",
         advice.metric, advice.replications, reference_of(advice), rule.tolerance,
-        rule.criterion == ErrorCriterion::mean ? "in the mean" : "in a single run",
+        rule.criterion == ErrorCriterion::mean ? "for the mean" : "for a single run",
         100 * (1 - rule.alpha), rule.family);
     print_judged(advice);
-    fmt::print("\n");
+    fmt::print(
+        "\nn: replications on which the verdict rests; bias: mean difference from the reference; "
+        "run error: mean absolute difference of a single run from the reference\n");
     if (!advice.cost_text.empty()) fmt::print("{}\n", advice.cost_text);
     print_models(advice);
     fmt::print("\n{}\n", advice_text(advice));

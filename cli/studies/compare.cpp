@@ -12,6 +12,7 @@
 #include "scenario/scenario_file.hpp"
 #include "study/advise/compare_cost.hpp"
 #include "study/explain.hpp"
+#include "study/inventory.hpp"
 #include "study/part_of_store.hpp"
 #include "study/precision.hpp"
 
@@ -143,8 +144,8 @@ void take_part_of(const std::string& path, const Study& study, Store& store) {
     take_part(whole, study, store);
     if (const auto most = more_replications(whole, study)) {
         notice(
-            fmt::format("{} has up to {} replications; the first {} are compared, as requested "
-                        "(--replications {} compares all)",
+            fmt::format("the store {} has up to {} replications; the first {} are compared, as "
+                        "requested (--replications {} compares all)",
                         path, *most, study.table().replications, *most));
     }
 }
@@ -209,8 +210,8 @@ void tell_cut_off(Study& study, const Store& store, const Vary& vary,
     }
     if (routing.empty() || most_of_others <= most_of_routing) return;
     notice(fmt::format(
-        "unicasts on their way at the end of a run are left out of delivery_ratio under {} ({}{} "
-        "in all runs), and count as not delivered under {}",
+        "some unicasts are still on their way at the end of a run: delivery_ratio leaves them out "
+        "under {} ({}{} in all runs), and counts them as not delivered under {}",
         fmt::join(others, ", "), others.size() > 1 ? "up to " : "",
         most_of_others - most_of_routing, fmt::join(routing, ", ")));
 }
@@ -229,8 +230,8 @@ void check_failures(const CompareArguments& a, const Store& store, const SweepRe
     if (a.store) return check_end(a, store, result);
     if (result.progress.failed == 0) return;
     throw CommandEnd(partly_failed,
-                     fmt::format("{} runs failed; the first: {}\n  {}", result.progress.failed,
-                                 result.failure->error,
+                     fmt::format("{} failed; the error of the first: {}\nto repeat this run:\n  {}",
+                                 runs_text(result.progress.failed), result.failure->error,
                                  run_command(store, store.points().at(result.failure->point),
                                              result.failure->replication)));
 }
@@ -246,6 +247,7 @@ void compare(const CompareArguments& a) {
     if (std::ranges::count(metrics, "reach") > 0) options.set.push_back("metrics.reach=true");
     Study study(a.file, options, std::vector<Vary>{vary});
     tell_notices(study);
+    tell_ignored(study, IgnoredBy::command);
     const std::string baseline = baseline_of(a, vary);
     for (const std::string& metric : metrics) {
         check_metric(metric, study.base(), {"--metric " + metric, 0, 0, true});

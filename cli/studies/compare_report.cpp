@@ -143,17 +143,18 @@ std::string cost_text(const std::optional<MediumCost>& cost) {
                        1e6 * cost->high_s);
 }
 
-/// Table of a comparison; without errors and costs if `is_brief`.
+/// Table of a comparison; without errors and costs if `is_brief`. Only models have errors.
 void print_table(const Comparison& c, bool is_brief) {
+    const bool has_errors = !is_brief && c.path == model_path;
+    const bool has_costs = !is_brief && std::ranges::any_of(c.models, [](const ComparedModel& m) {
+        return m.cost.has_value();
+    });
     const std::string_view what = c.path == model_path || c.path == protocol_path
                                       ? compared_key(c)
                                       : std::string_view(c.path);
     TextTable::Line head{std::string(what), c.metric, "n", "minus " + c.baseline, "n"};
-    if (!is_brief) {
-        for (const std::string& each : {"error to " + c.most_detailed, std::string("n"),
-                                        std::string("CPU/frame"), std::string("of run")})
-            head.push_back(each);
-    }
+    if (has_errors) head.insert(head.end(), {"error to " + c.most_detailed, "n"});
+    if (has_costs) head.insert(head.end(), {"CPU/frame", "of run"});
     TextTable table(std::move(head));
     const auto count = [](std::size_t n) { return fmt::format("{}", n); };
     for (const ComparedModel& m : c.models) {
@@ -163,9 +164,11 @@ void print_table(const Comparison& c, bool is_brief) {
                              count(a.values.size()),
                              d ? interval(d->difference.mean, d->low, d->high) : "-",
                              d ? count(d->difference.n) : "-"};
-        if (!is_brief) {
+        if (has_errors) {
             line.push_back(m.error ? fmt::format("{:.3g}", *m.error) : "-");
             line.push_back(count(m.error_n));
+        }
+        if (has_costs) {
             line.push_back(cost_text(m.cost));
             line.push_back(m.radio_share ? fmt::format("{:.2g} %", 100 * *m.radio_share) : "-");
         }
@@ -217,11 +220,12 @@ void print_text(const std::vector<Comparison>& all) {
         if (&c != &all.front()) fmt::print("\n");
         print_findings(c, is_brief);
     }
-    if (is_brief) return;
     const Comparison& c = all.front();
+    const auto is_known = [](const PairedVariance& pair) { return pair.ratio.has_value(); };
+    if (is_brief || std::ranges::none_of(c.pairs, is_known)) return;
     fmt::print(
-        "\ncommon random numbers: variance of unpaired differences, divided by the variance of "
-        "paired differences\n");
+        "\ngain by common random numbers (runs with equal seeds): variance of unpaired "
+        "differences, divided by the variance of paired differences\n");
     for (const PairedVariance& pair : c.pairs) {
         if (pair.ratio) fmt::print("  {:<32} {:.3g}\n", pair.a + ", " + pair.b, *pair.ratio);
     }

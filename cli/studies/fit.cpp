@@ -189,7 +189,7 @@ void print_gains(const Calibration& c) {
     for (const CalibratedModel& m : c.models)
         if (!m.gains.empty()) models.push_back(&m);
     if (models.empty()) return;
-    std::vector<std::string> head{"sends at"};
+    std::vector<std::string> head{"transmitter at"};
     for (const CalibratedModel* m : models) head.push_back(m->model);
     TextTable table(head);
     for (std::size_t t = 0; t < models.front()->gains.size(); ++t) {
@@ -203,7 +203,8 @@ void print_gains(const Calibration& c) {
         }
         table.add(row);
     }
-    fmt::print("\ngains relative to their mean\n{}", table.text());
+    fmt::print("\ngain of the transmitter at each position, relative to the mean gain\n{}",
+               table.text());
 }
 
 /// Name of the only robot whose antenna is above or below a place; empty if none or several are.
@@ -241,13 +242,14 @@ void print_known(const Fit& fit) {
     }
     fmt::print("{} links, {:.3g} to {:.3g} m long, in {} group{} (by {}); {}\n", known.links.size(),
                least, most, known.groups, known.groups == 1 ? "" : "s", known.group_name,
-               c.reference.empty() ? "losses as measured" : "losses by " + c.reference);
+               c.reference.empty() ? "losses from the measured levels"
+                                   : "losses computed by " + c.reference);
     const auto far = std::count_if(known.links.begin(), known.links.end(),
                                    [](const KnownLink& link) { return link.unseen; });
     if (!known.measured && far > 0) {
         fmt::print(
-            "the loss of {} links exceeds their budget by more than {} dB; of their losses only "
-            "this lower bound is used\n",
+            "the loss of {} links exceeds the link budget by more than {} dB; for these links, the "
+            "fit uses only this lower bound of the loss\n",
             far, beyond_radio.value);
     }
     if (fit.repeatability && fit.repeatability->levels > 0) {
@@ -258,11 +260,13 @@ void print_known(const Fit& fit) {
     }
     if (!std::isfinite(c.loss_error)) {
         fmt::print(
-            "too few links: they do not determine the loss of log_distance near the link budget\n");
+            "too few links: they do not determine the loss that log_distance predicts for a link "
+            "at the limit of its budget; expected more links, in more than one group\n");
     } else if (c.loss_error > Calibration::enough) {
         fmt::print(
-            "too few links: near the link budget, they determine the loss of log_distance only to "
-            "within {:.2g} dB; expected {} dB\n",
+            "too few links: the loss that log_distance predicts for a link at the limit of its "
+            "budget has a standard error of {:.2g} dB; expected more links, for a standard error "
+            "of {} dB or less\n",
             c.loss_error, Calibration::enough);
     }
 }
@@ -274,9 +278,11 @@ void print_fit(const Fit& fit, const Scenario& scenario) {
     print_calibrated(c);
     if (c.known.groups > 1) {
         fmt::print(
-            "\nerrors on each {}, by the fit to all others; wrong links: links that are predicted "
-            "up (up) or down (down), but are not;\nas given: rmse with the parameters of the "
-            "file\n",
+            "\nrmse and bias: root mean square error and mean error on each {}, with the model "
+            "fitted to all others; 95 %: 95 % of the absolute errors are at most this "
+            "large;\nwrong links: links that are predicted up but are down (up), or predicted down "
+            "but are up (down);\nas given: rmse with the parameters of the file; checked: rmse on "
+            "the levels of --check\n",
             c.known.group_name);
     } else {
         fmt::print(

@@ -114,14 +114,20 @@ void print_perturbations(const Probe& probe, bool messages) {
                    levels && p.steepest > 0 ? fmt::format("{:.2g}", p.steepest) : "-",
                    count(p.lost), count(p.gained)});
     }
-    fmt::print("{}", table.text());
+    fmt::print(
+        "{}links changed: links whose loss changes; flips: links that go up or down; worst, rms: "
+        "largest and root mean square change of a loss;\ndB/mm: largest change of a loss per mm "
+        "that an antenna moved; lost, gained: receptions of messages that the perturbation removes "
+        "or adds\n",
+        table.text());
     for (const PerturbationEffect& p : probe.perturbations) {
-        if (!p.nothing.empty()) fmt::print("{}: {}\n", p.name, p.nothing);
+        if (!p.nothing.empty()) fmt::print("{}: left out, because {}\n", p.name, p.nothing);
     }
 }
 
 std::string more_text(std::size_t all, std::size_t most) {
-    return all > most ? fmt::format("... and {} more; --top lists them\n", all - most) : "";
+    return all > most ? fmt::format("... and {} more; a larger --top lists them\n", all - most)
+                      : "";
 }
 
 void print_effects(const Probe& probe, std::size_t most) {
@@ -162,7 +168,10 @@ void print_messages(const Probe& probe, std::size_t most) {
                    fmt::format("{:.6g} s", seconds(m.sent)), m.perturbation, m.at,
                    m.gained ? "no -> yes" : "yes -> no"});
     }
-    fmt::print("\nmessages\n{}{}", table.text(), more_text(all, most));
+    fmt::print(
+        "\nmessages that a robot gets only without the perturbation (yes -> no) or only with the "
+        "perturbation (no -> yes)\n{}{}",
+        table.text(), more_text(all, most));
 }
 
 }  // namespace
@@ -182,8 +191,9 @@ void probe(const ProbeArguments& a) {
     }
     fmt::print("{} links at {} times, losses computed by {}", found.links, size.times, found.model);
     if (!a.no_messages) {
-        fmt::print("; {} receptions of messages until {:.6g} s{}", found.deliveries,
-                   seconds(found.until), found.whole_run ? "" : " (the first million events)");
+        fmt::print(
+            "; {} receptions of messages until {:.6g} s{}", found.deliveries, seconds(found.until),
+            found.whole_run ? "" : " (messages are compared only during the first million events)");
     }
     fmt::print("\n\n");
     print_perturbations(found, !a.no_messages);

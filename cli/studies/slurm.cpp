@@ -27,7 +27,8 @@ namespace fs = std::filesystem;
 std::string submit(const std::vector<std::string>& command) {
     const std::string line = "exec " + shell_command(command);
     std::FILE* pipe = popen(line.c_str(), "r");
-    if (!pipe) throw RunError("cannot start sbatch: no process can be created");
+    if (!pipe)
+        throw RunError("cannot start the program sbatch: the system creates no process for it");
     char text[200] = {};
     const std::size_t size = std::fread(text, 1, sizeof text - 1, pipe);
     const int status = pclose(pipe);
@@ -40,8 +41,8 @@ std::string submit(const std::vector<std::string>& command) {
     const std::string job =
         std::string(text, size).substr(0, std::string_view(text).find_first_not_of("0123456789"));
     if (exit != 0 || job.empty()) {
-        throw RunError(
-            fmt::format("sbatch refused the job (exit code {}): {}", exit, shell_command(command)));
+        throw RunError(fmt::format("sbatch refused the job (exit code {}); the command was: {}",
+                                   exit, shell_command(command)));
     }
     return job;
 }
@@ -58,7 +59,8 @@ std::vector<std::string> task_options(const SweepArguments& a, const Study& stud
 SlurmSweep plan(const SweepArguments& a, Study& study, const std::string& store) {
     if (a.file == standard_input) {
         throw std::invalid_argument(
-            "sweep -: each task of a job array reads the scenario again; expected a file");
+            "sweep -: each task of a job array reads the scenario again, which standard input does "
+            "not allow; expected a scenario file");
     }
     // Closed again before a task reads it.
     const std::vector<RunState> states = run_states(study, open_store(store, study));
@@ -124,8 +126,10 @@ std::string submit_merge(const SlurmSweep& slurm, const std::string& job) {
         return submit(slurm.submit_merge(job));
     } catch (const RunError& error) {
         throw RunError(fmt::format(
-            "the tasks are submitted as job {}, but {}\nwhen the job has ended, run\n  {}", job,
-            error.what(), shell_command(std::vector<std::string>{"bash", slurm.merge_file()})));
+            "the tasks are submitted as job {}, but the job that merges their results is not: "
+            "{}\nwhen the job of the tasks has ended, merge the results by\n  {}",
+            job, error.what(),
+            shell_command(std::vector<std::string>{"bash", slurm.merge_file()})));
     }
 }
 
@@ -140,7 +144,7 @@ void print_jobs(const SweepArguments& a, const SlurmSweep& slurm, const std::str
     }
     fmt::print(
         "job {}: {} tasks of up to {} runs; job {} then merges them into {}\nthe output of the "
-        "tasks is in {}/logs; when both jobs have ended, missing runs are made by\n  {}\n",
+        "tasks is in {}/logs; when both jobs have ended, this command makes missing runs:\n  {}\n",
         job, slurm.chunks.size(), slurm.chunk, merge_job, slurm.store, slurm.folder(), a.command);
 }
 
@@ -187,7 +191,7 @@ void merge_shards(const SweepArguments& a, const Study& study, Store& store) {
         try {
             merge_and_remove(store, path);
         } catch (const std::exception& error) {
-            notice(fmt::format("not merged: {}", error.what()));
+            notice(fmt::format("the runs of this shard were not merged: {}", error.what()));
         }
     }
     report_state(a, study, store);

@@ -5,8 +5,10 @@
 #include "cli/terminal/diagnostics.hpp"
 #include "cli/terminal/stop.hpp"
 #include "scenario/document/quantity.hpp"
+#include "scenario/document/toml.hpp"
 #include "scenario/scenario_file.hpp"
 #include "study/explain.hpp"
+#include "study/inventory.hpp"
 #include "study/precision.hpp"
 
 #include <fmt/format.h>
@@ -52,8 +54,8 @@ WorkerLimits limits_of(const StudyArguments& a, std::size_t workers) {
 std::string reached_text(const ImprecisePoint& point) {
     if (point.half_width)
         return fmt::format("+- {:.2g} from {} values", *point.half_width, point.values);
-    if (point.values < 2) return fmt::format("no interval from {} values", point.values);
-    return fmt::format("no interval, because its {} values are all equal", point.values);
+    if (point.values < 2) return fmt::format("no confidence interval from {} values", point.values);
+    return fmt::format("no confidence interval, because its {} values are all equal", point.values);
 }
 
 }  // namespace
@@ -69,6 +71,33 @@ ScenarioOptions study_options(const StudyArguments& a) {
     set("confidence", a.confidence);
     set("interval", a.interval);
     return options;
+}
+
+void tell_ignored(const Study& study, IgnoredBy by) {
+    for (const std::string& assignment : study.options().set) {
+        const std::size_t equals = find_equals(assignment);
+        const std::string key = assignment.substr(0, equals);
+        const auto& all = study.table().vary;
+        const auto vary = std::ranges::find_if(all, [&](const Vary& each) {
+            return each.path == key || key.starts_with(each.path + ".");
+        });
+        if (vary == all.end() || equals == assignment.npos) continue;
+        if (by == IgnoredBy::command) {
+            notice(fmt::format("--set {} has no effect, because the command varies {}", assignment,
+                               vary->path));
+            continue;
+        }
+        Value typed{Table{}};
+        set_option(typed, "value=" + assignment.substr(equals + 1), assignment);
+        const std::string hint = vary->path == key
+                                     ? fmt::format(
+                                           "; to run this value alone, give --set "
+                                           "'study.vary.{}=[{}]'",
+                                           key, to_toml(*typed.table()->find("value")))
+                                     : "";
+        notice(fmt::format("--set {} has no effect, because [study] varies {}{}", assignment,
+                           vary->path, hint));
+    }
 }
 
 SweepResult run_study(const StudyArguments& a, Study& study, Store& store, SweepOptions options,
@@ -100,10 +129,11 @@ void check_end(const StudyArguments& a, const Store& store, const SweepResult& r
     const auto points = store.points();
     throw CommandEnd(
         partly_failed,
-        fmt::format("{} runs failed; the first: {}\n  {}\nrovernet results {} --failures lists all "
-                    "of them; the same sweep command repeats them",
-                    result.progress.failed, run.error,
-                    run_command(store, points.at(run.point), run.replication), store.path()));
+        fmt::format(
+            "{} failed; the error of the first: {}\nto repeat this run:\n  {}\nrovernet results {} "
+            "--failures lists all failed runs; the same sweep command repeats them",
+            runs_text(result.progress.failed), run.error,
+            run_command(store, points.at(run.point), run.replication), store.path()));
 }
 
 void check_precision(const Study& study, const SweepResult& result) {
@@ -121,7 +151,7 @@ void check_precision(const Study& study, const SweepResult& result) {
     if (list.size() > most) text += fmt::format("\n  and {} more", list.size() - most);
     throw CommandEnd(partly_failed, text +
                                         "\nexpected a larger --max-replications, or a larger "
-                                        "--precision (half-width of the intervals)");
+                                        "--precision (half-width of the confidence intervals)");
 }
 
 }  // namespace rovernet::cli

@@ -11,6 +11,13 @@ namespace rovernet::cli {
 /// such as the number of replications.
 ScenarioOptions study_options(const StudyArguments& arguments);
 
+/// What varies a key: [study] vary of the scenario file, or an option of the command.
+enum class IgnoredBy { file, command };
+
+/// Prints a notice for each option --set of a key that the study varies: the varied values replace
+/// the value of the option.
+void tell_ignored(const Study& study, IgnoredBy by);
+
 /// Whether finished runs are kept or lost when a study is interrupted.
 enum class Finished { is_kept, is_lost };
 

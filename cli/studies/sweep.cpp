@@ -8,6 +8,7 @@
 #include "files/input_file.hpp"
 #include "scenario/document/json.hpp"
 #include "scenario/document/toml.hpp"
+#include "study/inventory.hpp"
 #include "study/merge.hpp"
 #include "study/write_lock.hpp"
 
@@ -39,7 +40,7 @@ std::string runs_in(const std::string& path) {
     const Store store = Store::open(path);  // throws for a file that is something else
     try {
         const std::size_t runs = store.runs().size();
-        return runs == 0 ? "" : fmt::format("its {} runs", runs);
+        return runs == 0 ? "" : "its " + runs_text(runs);
     } catch (const InputError&) {
         return "its runs (the store is damaged)";
     }
@@ -56,13 +57,13 @@ void begin_afresh(const SweepArguments& a, const std::string& path) {
             fmt::format("{}: delete {}{}?", path, runs.empty() ? "its 0 runs" : runs,
                         has_shards ? " and its shards on Slurm" : "");
         if (isatty(STDIN_FILENO) == 0) {
-            throw std::invalid_argument("--fresh: " + question + " Confirm it with --yes");
+            throw std::invalid_argument("--fresh: " + question + " Confirm this with --yes");
         }
         to_terminal(question + " [y/N] ");
         std::string answer;
         std::getline(std::cin, answer);
         if (answer != "y" && answer != "yes")
-            throw std::invalid_argument("not confirmed: nothing was changed");
+            throw std::invalid_argument("the deletion was not confirmed, so nothing was changed");
     }
     std::optional<WriteLock> nobody_else_writes;  // or what they write is lost with its file
     if (input_kind(path) == InputKind::file) nobody_else_writes.emplace(path);
@@ -80,7 +81,7 @@ void print_plan(const SweepArguments& a, const Study& study) {
         }
         fmt::print("{} points x {} replications = {} runs{}\n", points.size(),
                    study.table().replications, runs,
-                   study.table().precision ? " at least; precision may add more" : "");
+                   study.table().precision ? " at least; more, if the precision needs them" : "");
         return;
     }
     Array list;
@@ -127,8 +128,10 @@ void print_end(const SweepArguments& a, const Study& study, const Store& store,
         fmt::print("{}", to_json(table));
         return;
     }
-    notice(fmt::format("{} runs finished{}, {} failed, {} left; results in {}", p.finished,
-                       p.before > 0 ? fmt::format(", {} were already stored", p.before) : "",
+    notice(fmt::format("{} finished{}, {} failed, {} left; results in {}", runs_text(p.finished),
+                       p.before > 0 ? fmt::format(", {} {} already stored", p.before,
+                                                  p.before == 1 ? "was" : "were")
+                                    : "",
                        p.failed, p.left, store.path()));
 }
 
@@ -137,12 +140,14 @@ void print_end(const SweepArguments& a, const Study& study, const Store& store,
 void sweep(const SweepArguments& a) {
     Study study(a.file, study_options(a));
     for (const std::string& text : study.base().notices) notice(text);
+    tell_ignored(study, IgnoredBy::file);
     const bool on_slurm = a.executor == "slurm";
     if (a.dry_run && !on_slurm) return print_plan(a, study);
     if ((a.shard || on_slurm || !a.merge.empty()) && study.table().precision) {
         throw std::invalid_argument(
             "--shard, --merge and --executor slurm need a number of runs that is fixed beforehand, "
-            "but with precision the sweep determines this number; expected replications instead");
+            "but with [study] precision the sweep determines this number; expected [study] "
+            "replications without precision");
     }
     const std::string path = store_path(a);
     if (a.fresh && !a.dry_run) begin_afresh(a, path);

@@ -88,9 +88,10 @@ Value said_of_reference(const std::vector<std::string>& options) {
     Value said{Table{}};
     for (const std::string& text : options) {
         if (!text.starts_with("propagation.") && !text.starts_with("reception.")) {
-            throw InputError({"--reference " + text, 0, 0, true},
-                             "expected propagation.KEY=VALUE or reception.KEY=VALUE, such as "
-                             "propagation.model=multi_wall; --set changes other keys for all");
+            throw InputError(
+                {"--reference " + text, 0, 0, true},
+                "expected propagation.KEY=VALUE or reception.KEY=VALUE, such as "
+                "propagation.model=multi_wall; to change other keys for all models, use --set");
         }
         set_option(said, text, "--reference " + text);
     }
@@ -358,7 +359,7 @@ AdviceCandidates candidates_for(const std::string& path, const ScenarioOptions& 
     const Reference reference = reference_for(base, question);
     const Table settings = settings_of(reference.propagation, reference.reception);
     if (const std::string why = obstacle(file, base, settings); !why.empty()) {
-        throw InputError(reference.where, "the reference cannot run: " + why);
+        throw InputError(reference.where, "the reference model cannot run: " + why);
     }
     Scenario scenario = file.scenario(settings);
     if (!scenario.walls) scenario.walls = base.walls;

@@ -40,10 +40,11 @@ Chart error_chart(const Advice& advice, const std::string& title, const std::str
         .x_label = x_label,
         .y_label = "error of " + advice.metric,
         .note = fmt::format(
-            "errors to {}, with {:.4g} % intervals; band: within the tolerance, {:.4g} {}",
+            "errors relative to {}, with {:.4g} % intervals; coloured band: errors up to the "
+            "tolerance, {:.4g} {}",
             c.name_of(c.reference_path_loss(), c.reference_reception()),
             100 * (1 - advice.rule.alpha), advice.rule.tolerance,
-            advice.rule.criterion == ErrorCriterion::mean ? "of the mean" : "of a single run"),
+            advice.rule.criterion == ErrorCriterion::mean ? "for the mean" : "for a single run"),
         .log_x = true,
         .y_limits = {.low = 0}};
     chart.band = advice.rule.tolerance;
@@ -103,7 +104,7 @@ std::vector<Chart> advice_charts(const Advice& advice) {
     std::vector<Chart> out;
     if (reference.transmission_s) {
         Chart& medium = out.emplace_back(
-            error_chart(advice, "path loss", "CPU time of the medium per transmission [us]"));
+            error_chart(advice, "path loss", "CPU time to find receivers per transmission [us]"));
         for (const JudgedCandidate& each : advice.judged) {
             if (each.step != AdviceStep::path_loss) continue;
             add_both_errors(medium, each, 1e6 * *each.cost.transmission_s);

@@ -81,20 +81,22 @@ std::string percent_text(double share) { return fmt::format("{:.2g} %", 100 * sh
 
 /// "its mean delivery_ratio is within 0.02 of that of rays + sinr"
 std::string nearness_text(const Advice& advice, const std::string& reference) {
-    const std::string within =
-        fmt::format("within {:.4g} of that of {}", advice.rule.tolerance, reference);
     if (advice.rule.criterion == ErrorCriterion::mean) {
-        return fmt::format("its mean {} is {}", advice.metric, within);
+        return fmt::format("its mean {} is within {:.4g} of that of {}", advice.metric,
+                           advice.rule.tolerance, reference);
     }
-    return fmt::format("the {} of a single run is {} on average", advice.metric, within);
+    return fmt::format(
+        "in a single run, its {} differs from that of {} by {:.4g} or less on average",
+        advice.metric, reference, advice.rule.tolerance);
 }
 
 /// What the choice saves; empty without costs.
 std::string saving_text(const Advice& advice, const CandidateCost& choice) {
     const CandidateCost& reference = advice.reference_cost;
     if (!(reference.run_s > 0) || !(choice.run_s > 0)) return "";
-    return fmt::format(" A run takes {:.2g} ms of CPU time instead of {:.2g} ms.",
-                       1e3 * choice.run_s, 1e3 * reference.run_s);
+    return fmt::format(
+        " A run takes {:.2g} ms of CPU time, instead of {:.2g} ms with the reference.",
+        1e3 * choice.run_s, 1e3 * reference.run_s);
 }
 
 /// "friis + sinr (about 500 replications would decide)"
@@ -110,7 +112,8 @@ std::string open_text(const JudgedCandidate& each) {
 }
 
 constexpr std::string_view to_go_on =
-    "To continue, give a larger --budget; with --store, the same command continues.";
+    "To continue the search, give a larger --budget; if --store was given, repeat the same "
+    "command.";
 
 /// Candidates that are undecided, cheaper than the choice: they count as insufficient.
 std::string undecided_text(const Advice& advice) {
@@ -122,12 +125,13 @@ std::string undecided_text(const Advice& advice) {
     if (open.empty()) return "";
     if (advice.stopped) {
         return fmt::format(
-            " Undecided when the command was stopped, and treated as insufficient so far: {}. {}",
+            " These models were undecided when the command was stopped, and count as insufficient "
+            "so far: {}. {}",
             fmt::join(open, ", "), to_go_on);
     }
     return fmt::format(
-        " Undecided within {} replications, and treated as insufficient: {}. More replications "
-        "(--max-replications) or a longer scenario may decide them.",
+        " These models are undecided after {} replications, and count as insufficient: {}. More "
+        "replications (--max-replications) or a longer scenario may decide them.",
         advice.rule.most, fmt::join(open, ", "));
 }
 
@@ -153,9 +157,10 @@ void add_costs(Advice& advice, Study& study, const std::function<bool()>& stoppe
     }
     if (!costs.models.empty()) {
         advice.cost_text = fmt::format(
-            "CPU/transmission: time that the medium takes to find the receivers of a transmission; "
-            "median of {} turns of {:.2g} s over the same {} frames\nof run: share of the medium "
-            "in CPU/run; CPU/run is the median of {} replications, without path planning",
+            "CPU/transmission: CPU time to find the receivers of one transmission (median of {} "
+            "measurements of {:.2g} s over the same {} frames)\nCPU/run: CPU time of a run without "
+            "path planning (median of {} replications)\nof run: share of CPU/run that is spent to "
+            "find receivers",
             costs.turns, costs.turn_s, costs.frames, runs.replications);
     }
 }
@@ -180,8 +185,8 @@ std::string advice_text(const Advice& advice) {
         advice.rule.by_betting() ? ", whatever the distribution" : ", by Student's intervals");
     if (advice.saves_nothing()) {
         return fmt::format(
-            "Take the reference, {}: radio takes {} of its runs' CPU time ({:.2g} ms), so a "
-            "cheaper model saves almost nothing. {} would be sufficient: {} ({}).{}",
+            "Take the reference, {}. The radio takes only {} of a run's {:.2g} ms of CPU time, so "
+            "a cheaper model saves almost nothing. {} would be sufficient: {} ({}).{}",
             reference, percent_text(advice.reference_cost.share.value_or(0)),
             1e3 * advice.reference_cost.run_s, chosen->name, nearness_text(advice, reference), sure,
             undecided_text(advice));

@@ -178,8 +178,8 @@ std::size_t place_of(const std::string& model, const std::vector<std::string>& m
     if (found != models.end()) return static_cast<std::size_t>(found - models.begin());
     const std::string near = did_you_mean(model, models);
     throw std::invalid_argument(
-        fmt::format("--baseline: \"{}\" is not compared; expected one of {}{}{}", model,
-                    fmt::join(models, ", "), near.empty() ? "" : "; ", near));
+        fmt::format("--baseline: \"{}\" is not among the compared values; expected one of {}{}{}",
+                    model, fmt::join(models, ", "), near.empty() ? "" : "; ", near));
 }
 
 std::vector<Comparison> comparisons_of(const Store& store, const std::vector<std::string>& metrics,

@@ -35,9 +35,9 @@ double cpu_s(const Store& store) {
 std::string text_of(const MediumCosts& costs, double least_share, double most_share) {
     constexpr double little = 0.1;
     std::string text = fmt::format(
-        "CPU/frame: time that the medium takes to find the receivers of a frame; median of {} "
-        "turns of {:.3g} s, each over the same {} frames\nradio's share: {:.2g} to {:.2g} % of a "
-        "run's CPU time",
+        "CPU/frame: CPU time to find the receivers of one frame (median of {} measurements of "
+        "{:.3g} s, each over the same {} frames)\nfinding the receivers takes {:.2g} to {:.2g} % "
+        "of a run's CPU time",
         costs.turns, costs.turn_s, costs.frames, 100 * least_share, 100 * most_share);
     if (most_share < little) {
         text += ": the choice of the model hardly affects the CPU time of a run";

@@ -63,7 +63,9 @@ std::string methods_text(const std::vector<Answer>& list) {
         text += fmt::format("{}{}", text.empty() ? " " : " and ", words_of(method));
     }
     const auto skewed = std::ranges::count_if(list, &Answer::skewed);
-    if (skewed > 0) text += fmt::format(" ({} of {} too skewed for it)", skewed, list.size());
+    if (skewed > 0)
+        text += fmt::format(" (the values of {} of {} means are too skewed for t)", skewed,
+                            list.size());
     return text;
 }
 
@@ -91,7 +93,9 @@ void check_axes(const ChartQuestion& q) {
         throw std::invalid_argument(
             "-x: a cdf takes no -x, because its x axis is the metric of -y; leave -x out");
     if (q.kind == ChartKind::heat_map && q.by.empty()) {
-        throw std::invalid_argument("--by: a heat map needs a key for its rows");
+        throw std::invalid_argument(
+            "--by: no key is given, but a heat map needs a key for its rows; expected a key that "
+            "varies in the study");
     }
 }
 
@@ -162,7 +166,8 @@ std::string varied_path(const std::vector<std::string>& paths, const std::string
     throw std::invalid_argument(fmt::format(
         "the key \"{}\" {} in this study; expected {}{}{}", word,
         found.empty() ? "does not vary" : "matches several keys", paths.empty() ? "" : "one of ",
-        paths.empty() ? "none, because nothing varies" : fmt::format("{}", fmt::join(paths, ", ")),
+        paths.empty() ? "no key, because this study varies none"
+                      : fmt::format("{}", fmt::join(paths, ", ")),
         near.empty() ? "" : "; " + near));
 }
 
@@ -170,7 +175,7 @@ Condition condition_of(const std::string& text) {
     const auto equals = text.find('=');
     if (equals == std::string::npos) {
         throw std::invalid_argument(
-            fmt::format("--where: \"{}\"; expected KEY=VALUE, such as ttl=6", text));
+            fmt::format("--where: found \"{}\"; expected KEY=VALUE, such as ttl=6", text));
     }
     return {text.substr(0, equals), text.substr(equals + 1)};
 }
@@ -248,7 +253,7 @@ std::vector<Chart> comparison_charts(const Comparison& comparison) {
                  .y_limits = limits_of(comparison.metric)};
     Chart errors{
         .kind = ChartKind::scatter,
-        .x_label = costs ? "CPU time of the medium per frame [us]" : "CPU time per run [ms]",
+        .x_label = costs ? "CPU time to find receivers per frame [us]" : "CPU time per run [ms]",
         .y_label = "mean distance to " + comparison.most_detailed,
         .log_x = true,
         .y_limits = {.low = 0}};
@@ -297,11 +302,11 @@ Chart protocol_chart(const Store& store, const std::string& held) {
             without.push_back(std::move(mark.label));
         }
     }
-    chart.note = fmt::format("means of {}, with {} intervals: of deliveries{}",
+    chart.note = fmt::format("means of {}, with {} intervals: for delivery ratios{}",
                              replications_text(deliveries), percent(confidence_of(store)),
                              methods_text(deliveries));
     const std::string of_airtimes = methods_text(airtimes);
-    if (!of_airtimes.empty()) chart.note += ", of airtimes" + of_airtimes;
+    if (!of_airtimes.empty()) chart.note += ", for airtimes" + of_airtimes;
     if (!without.empty()) {
         chart.note += fmt::format("; without deliveries: {}", fmt::join(without, ", "));
     }

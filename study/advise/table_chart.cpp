@@ -27,10 +27,15 @@ std::vector<std::size_t> rows_of(const CsvTable& table, const ChartQuestion& q) 
 }  // namespace
 
 Chart table_chart(const std::string& path, const ChartQuestion& q) {
-    if (q.x.empty()) throw std::invalid_argument("-x: expected a column of the table");
+    if (q.x.empty())
+        throw std::invalid_argument(
+            "-x: no column is given; expected the name of a column of the table");
     const CsvTable table(path);
     const std::vector<std::size_t> rows = rows_of(table, q);
-    if (rows.empty()) throw std::invalid_argument("no row of " + path + " meets the conditions");
+    if (rows.empty())
+        throw std::invalid_argument(
+            "no row of the table " + path +
+            " meets the conditions of --where and has a value in the column of -y");
     std::vector<std::string> places;
     for (const std::size_t row : rows) places.push_back(table.text(row, q.x));
     const auto numbers = numbers_of(places, q.x);
@@ -38,9 +43,9 @@ Chart table_chart(const std::string& path, const ChartQuestion& q) {
     if (kind != ChartKind::bars && (kind != ChartKind::lines || !numbers)) {
         throw std::invalid_argument(
             kind == ChartKind::lines
-                ? fmt::format(
-                      "--kind: the column {} contains words, so it gives no x values for lines",
-                      q.x)
+                ? fmt::format("--kind: lines need numbers along the x axis, but the column {} "
+                              "contains words; expected bars, or a column of numbers for -x",
+                              q.x)
                 : "--kind: a table can only be drawn as lines or bars");
     }
     Chart chart{.kind = kind,

@@ -224,15 +224,17 @@ void refuse_absurd(std::vector<CalibratedModel>& models, Dbm given_power) {
         for (const FittedParameter& p : model.parameters) {
             if (p.key == "power" && std::abs(p.value - given_power.value) > most_db) {
                 model.refusal = fmt::format(
-                    "its power of {} dBm is more than {} dB from the given {:.4g} dBm",
+                    "the fitted power of {} dBm differs by more than {} dB from the given power of "
+                    "{:.4g} dBm",
                     told_apart(
                         p.value,
                         given_power.value + (p.value > given_power.value ? most_db : -most_db), 0),
                     most_db, given_power.value);
             } else if (p.is_constant && p.determined && std::abs(p.value) > most_db) {
                 model.refusal = fmt::format(
-                    "its {} of {} dB is more than {} dB; is the power in [radio] right?", p.key,
-                    told_apart(p.value, p.value > 0 ? most_db : -most_db, 1), most_db);
+                    "the fitted {} of {} dB is more than {} dB away from 0 dB; is the power in "
+                    "[radio] right?",
+                    p.key, told_apart(p.value, p.value > 0 ? most_db : -most_db, 1), most_db);
             }
         }
         const double error = error_of(model);
@@ -240,7 +242,8 @@ void refuse_absurd(std::vector<CalibratedModel>& models, Dbm given_power) {
         if (!model.refusal.empty()) continue;
         if (error > much * friis && error > friis + more_db) {
             model.refusal = fmt::format(
-                "its error of {:.1f} dB is far above the {:.1f} dB of friis with a fitted constant",
+                "its error of {:.1f} dB is far above {:.1f} dB, the error of friis with a fitted "
+                "constant",
                 error, friis);
         } else if (error > nothing_db) {
             model.refusal = fmt::format(
@@ -322,10 +325,12 @@ void check_transmitters(const KnownLinks& known, const std::string& path) {
     if (places.size() >= fewest && places.size() <= most) return;
     throw InputError(
         {path, 0, 0},
-        fmt::format(
-            "found {} transmitter position{}; expected {} to {} of them to fit a gain for each{}",
-            places.size(), places.size() == 1 ? "" : "s", fewest, most,
-            places.size() > most ? "; are from and to exchanged?" : ""));
+        fmt::format("found {} transmitter position{}; expected {} to {} positions, because a gain "
+                    "is fitted for each position{}",
+                    places.size(), places.size() == 1 ? "" : "s", fewest, most,
+                    places.size() > most
+                        ? "; are the columns of transmitters (from) and receivers (to) exchanged?"
+                        : ""));
 }
 
 }  // namespace
@@ -337,7 +342,9 @@ Calibration calibrate_to_levels(const Scenario& scenario, const std::string& pat
     const bool any_seen = std::any_of(out.known.links.begin(), out.known.links.end(),
                                       [](const KnownLink& link) { return !link.unseen; });
     if (!any_seen)
-        throw InputError({path, 0, 0}, "found no level above the floor; expected at least one");
+        throw InputError({path, 0, 0},
+                         "found no level above the floor (--floor), below which nothing is "
+                         "received; expected at least one such level");
     if (gains == Gains::by_transmitter) check_transmitters(out.known, path);
     out.loss_error = loss_error_at_budget(out.known, scenario);
     out.models = calibrate(out.known, scenario, "", Propagation::anything, gains);

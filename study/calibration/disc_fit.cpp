@@ -8,7 +8,7 @@
 namespace rovernet {
 
 DiscFit fit_disc(std::vector<DiscLink> links) {
-    if (links.empty()) throw std::invalid_argument("fit_disc: needs a link");
+    if (links.empty()) throw std::invalid_argument("fit_disc: expected at least one link");
     for (const DiscLink& link : links) {
         if (!(link.distance > 0 && std::isfinite(link.distance))) {
             throw std::invalid_argument("fit_disc: distances must be > 0 m and finite");

@@ -220,8 +220,8 @@ KnownLinks LinkSample::grow(std::uint32_t replications, const std::function<void
     const std::vector<RobotPair>& pairs = s.pairs.kept();
     if (pairs.empty()) {
         throw InputError({s.played.file, 0, 0},
-                         fmt::format("by the model {}, no two robots come within range of each "
-                                     "other, so there are no links",
+                         fmt::format("according to the propagation model {}, no two robots come "
+                                     "within range of each other, so there are no links to examine",
                                      s.reference.name()));
     }
     KnownLinks out;

@@ -30,16 +30,19 @@ class LevelsReader {
         while (const auto line = next()) {
             words_ = csv_fields(*line);
             if (words_.size() != columns_) {
-                throw InputError(lines_.where(), fmt::format("found {} fields, expected {} as in "
-                                                             "the first line",
-                                                             words_.size(), columns_));
+                throw InputError(lines_.where(),
+                                 fmt::format("found {} fields; expected {}, as in the first line",
+                                             words_.size(), columns_));
             }
             out.links.push_back(link());
         }
         out.groups = groups_.size();
         if (column("group")) out.group_name = "group";
         out.knows_receivers = column("to_x_m").has_value();
-        if (out.links.empty()) throw InputError(lines_.where(), "no level in this file");
+        if (out.links.empty())
+            throw InputError(lines_.where(),
+                             "this file contains no level; expected at least one line below the "
+                             "names of the columns");
     }
 
   private:
@@ -57,7 +60,10 @@ class LevelsReader {
 
     void read_head(Receivers receivers) {
         const auto line = next();
-        if (!line) throw InputError(lines_.where(), "an empty file");
+        if (!line)
+            throw InputError(lines_.where(),
+                             "this file is empty; expected a first line with the names of the "
+                             "columns, such as from_x_m,from_y_m,to_x_m,to_y_m,level_dbm");
         const std::vector<Word> names = csv_fields(*line);
         columns_ = names.size();
         for (std::size_t i = 0; i < names.size(); ++i) {

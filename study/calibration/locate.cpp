@@ -26,10 +26,11 @@ Db sigma_of(const Scenario& scenario, const LocateQuestion& question) {
     const Propagation model = scenario.propagation.make();
     const LogDistance* shadowed = model.as<LogDistance>();
     if (shadowed && shadowed->sigma > Db{0}) return shadowed->sigma;
-    throw InputError(scenario.propagation_where.source.empty() ? Location{scenario.file}
-                                                               : scenario.propagation_where,
-                     "levels without shadowing have no error; expected --sigma, the standard "
-                     "deviation of levels, such as --sigma \"4 dB\"");
+    throw InputError(
+        scenario.propagation_where.source.empty() ? Location{scenario.file}
+                                                  : scenario.propagation_where,
+        "the scenario has no shadowing, from which the error of a level would follow; expected "
+        "--sigma, the standard deviation of the levels, such as --sigma \"4 dB\"");
 }
 
 /// Box of all places: that of the map, or that of the anchors.
@@ -87,17 +88,19 @@ std::vector<NodeId> anchors_in(const Network& network, const std::vector<std::st
     for (const std::string& name : names) {
         const Location typed{"--anchors " + name, 0, 0, true};
         const auto robot = network.find(name);
-        if (!robot) throw InputError(typed, fmt::format("no robot {}", name));
+        if (!robot)
+            throw InputError(typed, fmt::format("there is no robot {} in the scenario", name));
         const Medium& medium = network.medium();
         if (medium.stations().radio(*robot).is_directional())
-            throw InputError(typed, "a directional antenna; expected an isotropic one");
+            throw InputError(
+                typed, "this anchor has a directional antenna; expected an isotropic antenna");
         if (!out.empty() &&
             (medium.stations().model(*robot) != medium.stations().model(out.front()) ||
              medium.stations().radio(*robot).frequency !=
                  medium.stations().radio(out.front()).frequency))
-            throw InputError(
-                typed,
-                "a propagation model or frequency that differs from that of the first anchor");
+            throw InputError(typed,
+                             "this anchor has a different propagation model or frequency than the "
+                             "first anchor; expected the same model and frequency for all anchors");
         out.push_back(*robot);
     }
     return out;

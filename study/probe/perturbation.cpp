@@ -55,8 +55,8 @@ void add_redrawings(const Scenario& scenario, std::vector<Perturbation>& out) {
         Redrawing redraw;
     };
     constexpr Kind kinds[] = {
-        {"resolution x2", "the map has no cell to split", split_cells},
-        {"resolution x0.5", "the map has no cells to join", join_cells},
+        {"resolution x2", "the map has no cells that can be split into smaller ones", split_cells},
+        {"resolution x0.5", "the map has no cells that can be joined into larger ones", join_cells},
         {"walls outlined", "no wall is three cells thick", outline_walls},
         {"walls filled", "no wall is hollow", fill_usual_walls},
     };
@@ -65,7 +65,10 @@ void add_redrawings(const Scenario& scenario, std::vector<Perturbation>& out) {
     for (const OccupancyGrid& map : maps) cells += map.cells.size();
     for (const Kind& kind : kinds) {
         if (cells > most_cells) {
-            out.push_back({kind.name, scenario, {}, "the maps have more than 16 million cells"});
+            out.push_back({kind.name,
+                           scenario,
+                           {},
+                           "the maps of the scenario have more than 16 million cells"});
             continue;
         }
         std::vector<OccupancyGrid> changed;

@@ -27,7 +27,8 @@ std::vector<double> differences_of(std::span<const double> a, std::span<const do
     constexpr std::string_view owner = "compare_pairs";
     if (a.size() != b.size()) {
         throw std::invalid_argument(
-            fmt::format("{}: needs pairs, got {} and {} values", owner, a.size(), b.size()));
+            fmt::format("{}: expected pairs, but there are {} values and {} values", owner,
+                        a.size(), b.size()));
     }
     check_finite(a, owner);
     check_finite(b, owner);
@@ -159,24 +160,25 @@ std::string p_text(double p) { return p < 0.001 ? "< 0.001" : fmt::format("= {:.
 /// `turned`.
 std::string evidence_text(const PairedComparison& c, bool turned) {
     const Decimals text(half_width_of(c));
-    return fmt::format("{:.6g} %{} {} to {}, n = {}, p {}, {}", 100 * c.confidence,
-                       c.family > 1 ? fmt::format(" for all {}:", c.family) : "",
+    return fmt::format("{:.6g} % interval{} {} to {}, n = {}, p {}, {}", 100 * c.confidence,
+                       c.family > 1 ? fmt::format(" for all {} comparisons:", c.family) : "",
                        text(turned ? -c.high : c.low), text(turned ? -c.low : c.high),
                        c.difference.n, p_text(c.p), words_of(c.method));
 }
 
 /// "; differences below 0.021 cannot be detected at n = 30", of a difference that was found
-/// "; a difference of 0.021 is found in 80 % of such studies".
+/// "; a difference of 0.021 is found in 80 % of studies with 30 replications".
 std::string power_text(const PairedComparison& c) {
     if (!c.detectable) return "";
     const bool beyond_bounds = c.method != IntervalMethod::t && *c.detectable >= 1;
     if (beyond_bounds)
-        return fmt::format("; no difference can be detected at n = {}", c.difference.n);
+        return fmt::format("; no difference can be detected with {} replications", c.difference.n);
     if (c.found()) {
-        return fmt::format("; a difference of {} is found in {:.0f} % of such studies",
-                           Decimals(half_width_of(c))(*c.detectable), 100 * power);
+        return fmt::format(
+            "; a difference of {} is found in {:.0f} % of studies with {} replications",
+            Decimals(half_width_of(c))(*c.detectable), 100 * power, c.difference.n);
     }
-    return fmt::format("; differences below {} cannot be detected at n = {}",
+    return fmt::format("; differences below {} cannot be detected with {} replications",
                        Decimals(half_width_of(c))(*c.detectable), c.difference.n);
 }
 
@@ -184,8 +186,8 @@ std::string power_text(const PairedComparison& c) {
 std::string direction_text(std::string_view a, std::string_view b, const PairedComparison& c) {
     const bool up = c.above > c.below;
     return fmt::format(
-        "{} is {} {} in {} of {} replications and {} in {} (p {}, sign test); a difference of the "
-        "means is not shown ({}, {}){}",
+        "{} is {} {} in {} of {} replications and {} in {} (p {}, sign test); no difference of the "
+        "means is detected ({}, {}){}",
         a, up ? "above" : "below", b, std::max(c.above, c.below), c.difference.n,
         up ? "below" : "above", std::min(c.above, c.below), p_text(*c.sign_p),
         Decimals(half_width_of(c))(c.difference.mean), evidence_text(c, false), power_text(c));
@@ -209,7 +211,9 @@ std::optional<PairedComparison> compare_pairs(std::span<const double> a, std::sp
                                               std::optional<IntervalMethod> wish) {
     const std::vector<double> differences = differences_of(a, b);
     check_open_unit(confidence, "confidence", "compare_pairs");
-    if (family == 0) throw std::invalid_argument("compare_pairs: family must be > 0");
+    if (family == 0)
+        throw std::invalid_argument(
+            "compare_pairs: family (the number of comparisons) must be > 0");
     if (differences.size() < 2) return std::nullopt;
     const Summary difference = *summary_of(differences);
     const double level = (1 - confidence) / static_cast<double>(family);
@@ -262,14 +266,14 @@ std::string equivalence_text(std::string_view a, std::string_view b, double marg
                              const EquivalenceVerdict& verdict,
                              const PairedComparison& comparison) {
     const std::size_t n = comparison.difference.n;
-    const std::string level =
-        fmt::format("{:.6g} %{}, {}", 100 * comparison.confidence,
-                    comparison.family > 1 ? fmt::format(" for all {}", comparison.family) : "",
-                    words_of(verdict.method));
+    const std::string level = fmt::format(
+        "{:.6g} %{}, {}", 100 * comparison.confidence,
+        comparison.family > 1 ? fmt::format(" for all {} comparisons", comparison.family) : "",
+        words_of(verdict.method));
     if (verdict.verdict != Equivalence::undecided) {
         const bool tells = verdict.decidable && margin >= *verdict.decidable;
         const std::string smallest =
-            tells ? fmt::format("; margins below {:.2g} cannot be decided at n = {}",
+            tells ? fmt::format("; margins below {:.2g} need more than {} replications",
                                 *verdict.decidable, n)
                   : "";
         return fmt::format("{} is {}within {:.6g} of {} ({}, decided by {} of {} replications){}",
@@ -279,7 +283,7 @@ std::string equivalence_text(std::string_view a, std::string_view b, double marg
     const std::string more =
         verdict.needed
             ? fmt::format("about {} replications like these would decide", *verdict.needed)
-            : "the number of replications that would decide cannot be estimated";
+            : "the number of replications that a decision needs cannot be estimated";
     return fmt::format("{} replications do not decide whether {} is within {:.6g} of {} ({}); {}",
                        n, a, margin, b, level, more);
 }

@@ -100,7 +100,7 @@ std::string comparison_text(std::string_view a, std::string_view b,
 
 /// Sentence on an equivalence verdict for the mean difference of a and b:
 ///   disc is within 0.05 of friis (95 % for all 4, by betting, decided by 57 of 100 replications);
-///     margins below 0.034 cannot be decided at n = 100
+///     margins below 0.034 need more than 100 replications
 ///   disc is not within 0.05 of friis (95 %, by STaR-Bets, decided by 30 of 30 replications); ...
 ///   not decided by 30 replications whether disc is within 0.05 of friis (95 %, by STaR-Bets);
 ///     about 800 would decide, if they are as these are

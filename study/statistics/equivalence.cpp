@@ -31,7 +31,8 @@ void check(double margin, double alpha, std::size_t family) {
         throw std::invalid_argument(
             fmt::format("equivalence: alpha must be above 0 and below 0.5, got {}", alpha));
     }
-    if (family == 0) throw std::invalid_argument("equivalence: family must be > 0");
+    if (family == 0)
+        throw std::invalid_argument("equivalence: family (the number of comparisons) must be > 0");
 }
 
 EquivalenceVerdict by_betting(std::span<const double> differences, double margin, double range,

@@ -87,7 +87,7 @@ std::optional<IntervalMethod> method_named(const std::optional<std::string>& nam
         if (name_of(method) == *name) return method;
     }
     throw std::invalid_argument(
-        fmt::format("interval: unknown value \"{}\"; expected t, betting or star", *name));
+        fmt::format("interval: found \"{}\"; expected t, betting or star", *name));
 }
 
 std::string_view words_of(IntervalMethod method) {
@@ -104,8 +104,8 @@ std::string other_method_text(std::string_view metric, std::optional<IntervalMet
         std::ranges::find_if(used, [&](IntervalMethod method) { return wish && method != *wish; });
     if (other == used.end()) return "";
     return fmt::format(
-        "intervals of {} are {}, not {} as requested: that method needs a metric with two bounds, "
-        "and values within them",
+        "the intervals of {} are computed {}, not {} as requested: the requested method needs a "
+        "metric with a lower and an upper bound, and all values within these bounds",
         metric, words_of(*other), words_of(*wish));
 }
 

@@ -90,12 +90,14 @@ std::vector<std::vector<double>> inverse_gram(const std::vector<std::vector<doub
 void check(const Observations& all, const std::vector<bool>& not_below_0) {
     const auto finite = [](double v) { return std::isfinite(v); };
     if (all.rows() == 0 || all.columns == 0) {
-        throw std::invalid_argument("least_squares: needs a row and a column");
+        throw std::invalid_argument("least_squares: expected at least one row and one column");
     }
     if (all.x.size() != all.rows() * all.columns ||
         (!all.group.empty() && all.group.size() != all.rows()) ||
         (!not_below_0.empty() && not_below_0.size() != all.columns)) {
-        throw std::invalid_argument("least_squares: sizes differ");
+        throw std::invalid_argument(
+            "least_squares: the numbers of values, groups or signs do not match the numbers of "
+            "rows and columns");
     }
     if (!std::all_of(all.x.begin(), all.x.end(), finite) ||
         !std::all_of(all.y.begin(), all.y.end(), finite)) {

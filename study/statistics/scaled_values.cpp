@@ -15,9 +15,11 @@ void check(std::span<const double> values, const Bounds& bounds, double confiden
            std::string_view owner) {
     check_finite(values, owner);
     check_open_unit(confidence, "confidence", owner);
-    if (values.empty()) throw std::invalid_argument(fmt::format("{}: needs a value", owner));
+    if (values.empty())
+        throw std::invalid_argument(fmt::format("{}: expected at least one value", owner));
     if (!bounds.closed() || !(*bounds.low < *bounds.high)) {
-        throw std::invalid_argument(fmt::format("{}: needs a lower and an upper bound", owner));
+        throw std::invalid_argument(
+            fmt::format("{}: expected a lower and an upper bound of the values", owner));
     }
     if (bounds.hold(values)) return;
     throw std::invalid_argument(

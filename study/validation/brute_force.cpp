@@ -133,7 +133,7 @@ Promise fitted_lines() {
             found ? std::abs(found->value - truth) : std::numeric_limits<double>::infinity();
         worst = std::max(worst, error);
     }
-    return {"line by least squares, against one computed by hand", "", limit, worst, 3};
+    return {"line fitted by least squares, against a line computed by hand", "", limit, worst, 3};
 }
 
 /// With nothing unseen the most likely line is that of least squares.
@@ -146,14 +146,16 @@ Promise seen_levels() {
     const double worst =
         std::max({std::abs(line.coefficients[0] - 0.5), std::abs(line.coefficients[1] - 0.6),
                   std::abs(line.sigma - std::sqrt(0.05))});
-    return {"line by Tobit if no level is missing, against least squares by hand", "", limit, worst,
-            3};
+    return {"line fitted by Tobit regression without missing levels, against least squares by hand",
+            "", limit, worst, 3};
 }
 
 /// Wrong decisions of the disc that was found, beyond those of the best of all.
 Promise discs() {
-    Promise out{"wrong decisions of the fitted disc, in excess of those of the best disc", "", 0, 0,
-                0};
+    Promise out{
+        "number of links that the fitted disc decides wrongly, against the smallest number of all "
+        "discs",
+        "", 0, 0, 0};
     for (std::uint64_t set = 0; set < 20; ++set) {
         std::vector<DiscLink> links;
         for (std::uint64_t i = 0; i < 40; ++i) {
@@ -182,8 +184,10 @@ Promise level_crossings() {
     constexpr double step = 0.015;  // wavelengths
     constexpr Hertz frequency{2450e6};
     constexpr double limit = 0.2;  // of 60 fields of 32 waves; 270 crossings of -15 dB by m = 2
-    Promise out{"rate of level crossings of nakagami by position, m = 1 and 2, relative error", "",
-                limit, 0, 0};
+    Promise out{
+        "rate of level crossings of nakagami fading with coherence = place, m = 1 and 2, against "
+        "the closed form, relative error",
+        "", limit, 0, 0};
     for (const double m : {1.0, 2.0}) {                     // Gamma(m) = 1
         const std::vector<double> levels{-15, -10, -5, 0};  // [dB]
         std::vector<double> crossings(levels.size());

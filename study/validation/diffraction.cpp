@@ -90,7 +90,7 @@ struct ShadowMethod {
 ValidationPanel shadow_panel(std::string title, std::span<const Shadowed> cases, double n,
                              const ValidationSize& size, double& worst_of_wedge) {
     const std::vector<ShadowMethod> methods{
-        {"as if it were lit",
+        {"without any shadow",
          [](const Shadowed&) {
              return Fields{0, 0};
          }},
@@ -131,25 +131,30 @@ ValidationChart diffraction_chart(const ValidationSize& size, Promises& promises
         .name = "diffraction",
         .title = "How deep is the shadow of an edge?",
         .truth =
-            fmt::format("The field at {} positions behind a screen and {} behind a right-angled "
-                        "corner of metal, 1.6 and 8 wavelengths from the edge, with both "
-                        "polarisations. The true fields are Sommerfeld's exact solutions.",
+            fmt::format("Each method computes the field at {} positions behind a metal screen and "
+                        "at {} positions behind a right-angled metal corner. The positions are 1.6 "
+                        "and 8 wavelengths from the edge; both polarisations are computed. The "
+                        "reference is Sommerfeld's exact solution of the wave equation at an edge.",
                         std::size(behind_screen), std::size(behind_corner)),
         .panels = {shadow_panel("screen", behind_screen, 2, size, screen),
                    shadow_panel("right-angled corner", behind_corner, 1.5, size, corner)}};
-    promises.push_back({"field behind a screen by UTD, against Sommerfeld's exact solution", "dB",
-                        1e-6, screen, std::size(behind_screen)});
     promises.push_back(
-        {"field behind a right-angled corner by UTD, against Sommerfeld's exact solution", "dB",
-         0.05, corner, std::size(behind_corner)});
+        {"field behind a screen, computed by UTD (uniform theory of diffraction), against "
+         "Sommerfeld's exact solution",
+         "dB", 1e-6, screen, std::size(behind_screen)});
+    promises.push_back(
+        {"field behind a right-angled corner, computed by UTD, against Sommerfeld's exact solution",
+         "dB", 0.05, corner, std::size(behind_corner)});
     for (const ValidationPanel& panel : chart.panels) {
         const ValidationPoint &edge = point_of(panel, "knife edge, P.526"),
                               &utd = point_of(panel, "UTD");
         chart.sentences.push_back(fmt::format(
-            "Behind a {} UTD is {:.2g} dB off and costs {} times as much as the knife edge of "
-            "P.526. The knife edge is {:.2g} dB off. A model without any shadow is {:.2g} dB off.",
+            "Behind a {}, UTD (uniform theory of diffraction) has an rms error of {:.2g} dB and "
+            "takes {} times the CPU time of the knife-edge formula of ITU-R P.526. The knife-edge "
+            "formula has an rms error of {:.2g} dB. A model that ignores the {} has an rms error "
+            "of {:.2g} dB.",
             panel.title, utd.error, two_digits(utd.cost.median / edge.cost.median), edge.error,
-            panel.points.front().error));
+            panel.title, panel.points.front().error));
     }
     return chart;
 }

@@ -185,7 +185,9 @@ double flood_for(Network& network, double cpu_s, std::uint32_t nodes, std::uint3
 }  // namespace
 
 FloodBenchRow flood_bench(const FloodBench& bench, std::uint32_t nodes) {
-    if (nodes < 2) throw std::invalid_argument("a flood needs at least 2 nodes");
+    if (nodes < 2)
+        throw std::invalid_argument(
+            "a flood needs at least 2 robots; expected a larger number in --nodes");
     const double before = allocated();
     const Scenario scenario = scenario_of(bench);
     ScenarioRun run(scenario, nullptr, bench.recorded ? Observed::everything : Observed::nothing);

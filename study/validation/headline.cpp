@@ -75,10 +75,10 @@ FitPanel fit_panel_of(const ValidationPanel& panel) {
 std::string subtitle_of(const ValidationPanel& scene, const FitPanel& panel) {
     for (const FitRow& row : panel.rows) {
         if (!row.best) continue;
-        std::string out = fmt::format("In the {}, {} errs by {:.2g}", scene.title, row.name,
+        std::string out = fmt::format("In the {}, the error of {} is {:.2g}", scene.title, row.name,
                                       row.fitted.value_or(row.as_given.value_or(0)));
         if (row.fitted && row.as_given)
-            out += fmt::format(" once it is fitted ({:.2g} before)", *row.as_given);
+            out += fmt::format(" after the fit ({:.2g} before)", *row.as_given);
         return out +
                fmt::format(", at {} of the cost of {}.", cost_text(row.cost), panel.reference);
     }
@@ -107,7 +107,7 @@ std::string headline_svg(const Validation& validation) {
     for (const ValidationPanel* scene : scenes) out.panels.push_back(fit_panel_of(*scene));
     out.subtitle = subtitle_of(*scenes.front(), out.panels.front());
     out.notes = {fmt::format("Means of {:.0f} runs with robots that move. Cost: CPU time to find "
-                             "who hears a frame, relative to the reference.",
+                             "the receivers of a frame, relative to the reference.",
                              detail_of(scenes.front()->points.front(), "replications")),
                  "The references are computed, not measured: they are the most detailed models of "
                  "rovernet."};

@@ -98,21 +98,21 @@ ValidationChart interference_cut_chart(const ValidationSize& size) {
     const std::size_t replications = size.of(60, 3);
     const ValidationPanel panel = delivery_panel("", storm("10 ms"), variants, replications);
     const ValidationPoint &usual = point_of(panel, "cut 20 dB"), &none = panel.points.front();
-    return {
-        .name = "interference_cut",
-        .title = "How weak may a frame be and still interfere?",
-        .truth = fmt::format("60 robots send at random, together a message each 10 ms, in {} "
-                             "replications with `sinr`. The reference is a cut of {:g} dB, which "
-                             "ignores only frames that are more than 10 dB below the noise. The "
-                             "cost is the CPU time of the whole run.",
-                             replications, complete_cut),
-        .panels = {panel},
-        .sentences = {fmt::format("The usual cut of 20 dB changes the delivery ratio of a run by "
-                                  "{:.2g} on average. If only frames that can be decoded interfere "
-                                  "(a cut of 0 dB), it changes by {:.2g}, at {:.2g} of the CPU "
-                                  "time.",
-                                  usual.error, none.error,
-                                  none.cost.median / panel.points.back().cost.median)}};
+    return {.name = "interference_cut",
+            .title = "How weak may a frame be and still interfere?",
+            .truth = fmt::format(
+                "60 robots send at random, together one message every 10 ms, in {} replications "
+                "with `sinr`. Frames that are weaker than the sensitivity by more than the cut do "
+                "not interfere. The reference is a cut of {:g} dB, which ignores only frames more "
+                "than 10 dB below the noise. The cost is the CPU time of the whole run.",
+                replications, complete_cut),
+            .panels = {panel},
+            .sentences = {fmt::format(
+                "The default `interference_cut` of 20 dB changes the delivery ratio of a run by "
+                "{:.2g} on average, compared with the reference. With a cut of 0 dB, only frames "
+                "above the sensitivity interfere: the delivery ratio changes by {:.2g}, and the "
+                "run takes {:.2g} times the CPU time of the reference.",
+                usual.error, none.error, none.cost.median / panel.points.back().cost.median)}};
 }
 
 ValidationChart reception_chart(const ValidationSize& size) {
@@ -124,21 +124,23 @@ ValidationChart reception_chart(const ValidationSize& size) {
     ValidationChart chart{
         .name = "reception",
         .title = "Which model of reception?",
-        .truth =
-            fmt::format("60 robots send at random, in {} replications. The reference is `sinr` "
-                        "with all interference. The cost is the CPU time of the whole run.",
-                        replications),
+        .truth = fmt::format("In {} replications, each message is sent by one of 60 robots, drawn "
+                             "at random. The reference is `sinr` with all interference. The cost "
+                             "is the CPU time of the whole run.",
+                             replications),
         .panels = {delivery_panel("a message each 100 ms", storm("100 ms"), variants, replications),
                    delivery_panel("a message each 10 ms", storm("10 ms"), variants, replications)}};
-    chart.sentences = {"`sinr` is taken as true; its own error is not measured here."};
+    chart.sentences = {
+        "Errors are differences from `sinr`. The error of `sinr` itself is not measured here."};
     for (const ValidationPanel& panel : chart.panels) {
         const ValidationPoint &threshold = panel.points[0], &collision = panel.points[1];
-        chart.sentences.push_back(fmt::format(
-            "With {} the delivery ratio of a run is off by {:.2g} under `threshold` and by {:.2g} "
-            "under `collision`. They cost {:.2g} and {:.2g} times as much as `sinr`.",
-            panel.title, threshold.error, collision.error,
-            threshold.cost.median / panel.points[2].cost.median,
-            collision.cost.median / panel.points[2].cost.median));
+        chart.sentences.push_back(
+            fmt::format("With {} in the whole network, the delivery ratio of a run is wrong by "
+                        "{:.2g} under `threshold` and by {:.2g} under `collision`. These two "
+                        "models take {:.2g} and {:.2g} times the CPU time of `sinr`.",
+                        panel.title, threshold.error, collision.error,
+                        threshold.cost.median / panel.points[2].cost.median,
+                        collision.cost.median / panel.points[2].cost.median));
     }
     return chart;
 }

@@ -219,7 +219,8 @@ std::string step_sentence(const ValidationPanel& panel) {
     return fmt::format(
         "{}: checking each link every 100 ms costs {:.2g} times as much as computing the changes "
         "in advance, and misses {:.2g} % of the changes. With checks, the state of a link is wrong "
-        "for {:.2g} ms per change. With changes computed in advance, it is wrong for {:.2g} ms.",
+        "for {:.2g} ms per change on average. With changes computed in advance, the state is wrong "
+        "for {:.2g} ms per change.",
         panel.title, slow.cost.median / exact.cost.median, detail_of(slow, "changes missed [%]"),
         slow.error, exact.error);
 }
@@ -244,22 +245,23 @@ ValidationChart link_changes_chart(const ValidationSize& size, Promises& promise
     double open_latest = 0, walled_latest = 0;
     const ValidationPanel by_distance = changes_panel(open, open_truth, size, open_latest);
     const ValidationPanel by_walls = changes_panel(walled, walled_truth, size, walled_latest);
-    promises.push_back({"time of a link change by distance, against the closed form", "ns", 2,
-                        1e9 * open_latest, open.all.size()});
+    promises.push_back({"time of a link change that distance causes, against the closed form", "ns",
+                        2, 1e9 * open_latest, open.all.size()});
     promises.push_back({"time of a link change behind walls, against a finer search", "ms",
                         1e3 * seconds(LinkSearch{}.tolerance), 1e3 * walled_latest,
                         walled.all.size()});
-    return {.name = "link_changes",
-            .title = "When does a link come up or go down?",
-            .truth = fmt::format(
-                "Two robots drive along straight lines for {:g} s: {} times on an open field, {} "
-                "times in an office. On the open field, the reference is the exact time at which "
-                "they come within range of one another, or leave it. In the office, the link is "
-                "sampled every {:g} ms, and each change is then located by bisection, down to a "
-                "nanosecond.",
-                seconds(passing), open.all.size(), walled.all.size(), 1e3 * seconds(fine)),
-            .panels = {by_distance, by_walls},
-            .sentences = {step_sentence(by_distance), step_sentence(by_walls)}};
+    return {
+        .name = "link_changes",
+        .title = "When does a link come up or go down?",
+        .truth = fmt::format(
+            "Two robots drive along straight lines for {:g} s: {} times on an open field, {} times "
+            "in an office. On the open field, the reference is the exact time at which the robots "
+            "enter or leave each other's range. In the office, the reference is a search: the "
+            "link is sampled every {:g} ms, and each change is then located by bisection, down to "
+            "a nanosecond.",
+            seconds(passing), open.all.size(), walled.all.size(), 1e3 * seconds(fine)),
+        .panels = {by_distance, by_walls},
+        .sentences = {step_sentence(by_distance), step_sentence(by_walls)}};
 }
 
 }  // namespace rovernet

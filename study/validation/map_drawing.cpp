@@ -127,8 +127,8 @@ std::string cell_sentence(const ValidationPanel& panel) {
                           &outline = point_of(panel, "5 cm", "outline");
     return fmt::format(
         "{}: with cells of 5 cm the rms error is {:.2g} dB (mean error {:+.2g} dB). With cells of "
-        "20 cm, which are wider than a wall, the rms error is {:.2g} dB. With the 5 cm map drawn "
-        "as outlines it is {:.2g} dB.",
+        "20 cm, which are wider than a wall, the rms error is {:.2g} dB. With cells of 5 cm and "
+        "walls drawn as outlines, the rms error is {:.2g} dB.",
         panel.title, fine.error, detail_of(fine, "bias [dB]"), coarse.error, outline.error);
 }
 
@@ -153,11 +153,12 @@ ValidationChart map_drawing_chart(const ValidationSize& size) {
     }
     ValidationChart chart{
         .name = "map_drawing",
-        .title = "How fine must a map be, and drawn how?",
+        .title = "How fine must a map be, and how must walls be drawn?",
         .truth = fmt::format(
-            "{} links in an office whose walls stand at 20 degrees to the cells of its maps. Each "
-            "model has its defaults. The reference is the same model with the exact walls. "
-            "Outline: only those cells of a wall are drawn that touch a free cell.",
+            "The cases are {} links in an office whose walls stand at 20 degrees to the cells of "
+            "its maps. Each model has its default parameters. The reference is the same model with "
+            "the exact walls. Outlines: the map shows only those cells of a wall that touch a free "
+            "cell.",
             links.size())};
     for (const Propagation& model : models_that_see(exact, links)) {
         chart.panels.push_back(drawing_panel(model, drawings, exact, links, size));

@@ -142,17 +142,17 @@ JudgedModels judged_models(const MeasuredBuilding& building) {
 ValidationPanel building_panel(const MeasuredBuilding& building, const ValidationSize& size) {
     const JudgedModels judged = judged_models(building);
     const Repeatability repeated = repeatability(building.first, building.second);
-    ValidationPanel panel{.title = building.name,
-                          .error_label = "error on another drive or day, rms [dB]",
-                          .log_error = false,
-                          .unknowable = repeated.one_level(),
-                          .interval_label =
-                              "bar: to the error where each receiver is predicted "
-                              "without its own levels",
-                          .points = judged.points};
-    panel.unknowable_label =
-        fmt::format("{:.2f} dB between two measurements: a model that is right is {:.2f} dB off",
-                    repeated.rms, repeated.one_level());
+    ValidationPanel panel{
+        .title = building.name,
+        .error_label = "error on another drive or day, rms [dB]",
+        .log_error = false,
+        .unknowable = repeated.one_level(),
+        .interval_label =
+            "end of a bar: error if each receiver is predicted without its own levels",
+        .points = judged.points};
+    panel.unknowable_label = fmt::format(
+        "repeated measurements differ by {:.2f} dB: even a perfect model is {:.2f} dB off",
+        repeated.rms, repeated.one_level());
     std::vector<TimedMethod> timed;
     for (const Propagation& model : judged.models) {
         timed.push_back(timed_sum(building.second.links, [&](const KnownLink& link) {
@@ -166,11 +166,13 @@ ValidationPanel building_panel(const MeasuredBuilding& building, const Validatio
 std::string best_sentence(const ValidationPanel& panel, const Repeatability& repeated) {
     const Nearest nearest = nearest_to_truth(panel, [](const ValidationPoint&) { return true; });
     return fmt::format(
-        "{} (levels of {} receivers): {}. Free space (friis) is {:.2f} dB off. Repeated "
-        "measurements at the same positions differ by {:.2f} dB, so even a perfect model would be "
-        "{:.2f} dB off.",
+        "{} (levels of {} receivers): {}. The rms error of free space (friis) is {:.2f} dB. "
+        "The rms difference of repeated measurements at the same positions is {:.2f} dB, so even a "
+        "perfect model would have an rms error of {:.2f} dB (the difference divided by the square "
+        "root of 2).",
         panel.title, nearest.point->parts.size(),
-        nearest_text(nearest, [](double error) { return fmt::format("{:.2f} dB off", error); }),
+        nearest_text(nearest,
+                     [](double error) { return fmt::format("rms error {:.2f} dB", error); }),
         point_of(panel, "friis", with_defaults).error, repeated.rms, repeated.one_level());
 }
 
@@ -181,13 +183,15 @@ std::string rays_sentence(const ValidationPanel& panel) {
     const ValidationPoint &walls = point_of(panel, "multi_wall", with_fit), &best = *rays.point;
     const double excess = best.error - walls.error;
     std::string out = fmt::format(
-        "{}: rays are {:.2f} dB {} than the fitted multi_wall, and cost {} times as much.",
-        panel.title, std::abs(excess), excess <= 0 ? "better" : "worse",
+        "{}: the rms error of rays is {:.2f} dB {} than the rms error of the fitted multi_wall, "
+        "and rays cost {} times as much CPU time.",
+        panel.title, std::abs(excess), excess <= 0 ? "smaller" : "larger",
         two_digits(best.cost.median / walls.cost.median));
-    if (best.series == with_defaults) return out + " Only one constant of the rays was fitted.";
+    if (best.series == with_defaults)
+        return out + " Only one constant was fitted for rays (the sum of power and gains).";
     return out + fmt::format(
-                     " With walls of concrete (the default) the rays are {:.2f} dB off. With the "
-                     "wall loss that the fit estimates, they are {:.2f} dB off.",
+                     " With walls of concrete (the default), the rms error of rays is {:.2f} dB. "
+                     "With the wall loss that the fit estimates, the rms error is {:.2f} dB.",
                      point_of(panel, "rays", with_defaults).error, best.error);
 }
 
@@ -196,8 +200,8 @@ void check_anchors(const ValidationPanel& panel, Promises& promises) {
     constexpr double allowed = 0.2;  // [dB] for walls as the map draws them
     const auto add = [&](const char* model, const char* series, double published) {
         const double excess = point_of(panel, model, series).error - published;
-        promises.push_back({fmt::format("rms error of {} ({}) in the {}, above the {} dB of an "
-                                        "independent analysis",
+        promises.push_back({fmt::format("excess of the rms error of {} ({}) in the {} over the {} "
+                                        "dB of an independent analysis",
                                         model, series, panel.title, published),
                             "dB", allowed, std::max(0.0, excess), 1});
     };
@@ -224,9 +228,11 @@ ValidationChart measured_chart(const std::string& folder, const ValidationSize& 
             "The levels are local means in a furnished flat, from drives of a robot (Kolakowski, "
             "Sensors 21, 2021, CC BY 4.0), and medians in an open laboratory (Danis et al., "
             "Pervasive and Mobile Computing 81, 2022, CC0). The models are fitted to the levels of "
-            "one drive or day, and judged by those of another one. As given: the model has its "
-            "defaults, and only the one unknown constant (power and gains) is fitted. A bar ends "
-            "at the error of a fit that predicts each receiver without its own levels."};
+            "one drive or day, and judged by the levels of a different drive or day. As given: the "
+            "model has its default parameters; only one constant (the sum of power and gains) is "
+            "fitted. In the picture, a bar leads from the error of a model to the error of the "
+            "same model if the levels of each receiver are predicted by a fit without this "
+            "receiver."};
     for (const auto& building : {measured_flat(folder), measured_lab(folder)}) {
         const ValidationPanel panel = building_panel(building, size);
         check_anchors(panel, promises);

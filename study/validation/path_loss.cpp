@@ -48,6 +48,7 @@ struct Truth {
     std::span<const Form> cheaper = {};
     std::optional<Db> own_error = {};  ///< see error_against(); none if there is no measurement
     const char* building = "";
+    const char* form = "";  ///< settings of the model, in words
 };
 constexpr Form exact_two_rays{"two_ray", "model = 'two_ray'\nform = 'exact'"};
 constexpr Form all_rays{"rays", "model = 'rays'\norder = 3\ndiffraction = 'utd'"};
@@ -172,7 +173,9 @@ struct ScenePanels {
 
 constexpr const char* receivers_found = "receivers per frame";
 
-std::string off_in_a_run(double error) { return fmt::format("{:.2g} off", error); }
+std::string off_in_a_run(double error) {
+    return fmt::format("delivery ratio wrong by {:.2g}", error);
+}
 std::string links_wrong(double error) { return fmt::format("{:.2g} % of the links wrong", error); }
 
 /// The model that is nearest to the truth, at what cost, and what a fit did to it. Forms of the
@@ -183,31 +186,31 @@ std::string nearest_sentence(const ValidationPanel& panel,
     const Nearest nearest = nearest_to_truth(panel, [](const ValidationPoint& p) {
         return p.series != reference_series && p.series != fewer_paths;
     });
-    std::string out = fmt::format(
-        "{}: {}, at {} of the cost of {}.", panel.title, nearest_text(nearest, off),
-        two_digits(nearest.point->cost.median / reference.cost.median), reference.label);
+    std::string out = fmt::format("{}: {}. The cost of {} is {} times the cost of {}.", panel.title,
+                                  nearest_text(nearest, off), nearest.point->label,
+                                  two_digits(nearest.point->cost.median / reference.cost.median),
+                                  reference.label);
     if (nearest.point->series != after_fit) return out;
     for (const ValidationPoint& p : panel.points) {
         if (p.label == nearest.point->label && p.series == as_given)
-            out += fmt::format(" Without the fit: {}.", off(p.error));
+            out += fmt::format(" Without the fit of {}: {}.", p.label, off(p.error));
     }
     return out;
 }
 
 /// How far the truth itself is known to be true; first of all sentences.
-std::string truth_sentence(const ValidationPanel& panel, const Truth& truth,
-                           const std::function<std::string(double)>& off) {
+std::string truth_sentence(const ValidationPanel& panel, const Truth& truth) {
     if (!truth.own_error) {
-        return fmt::format("{}: {} is taken as true; its own error is not known here.", panel.title,
+        return fmt::format("{}: {} is the reference; its own error is not known here.", panel.title,
                            truth.model.label);
     }
     return fmt::format(
-        "{0}: {1} is taken as true. In a measured {2} its own error is {3:.1f} dB, after the "
-        "errors of the measurement are subtracted. An error of this size alone puts the delivery "
-        "ratio of a run {4}. So a model that is closer than that to {1} is known to agree with "
-        "{1}, but not with a real building.",
-        panel.title, truth.model.label, truth.building, truth.own_error->value,
-        off(*panel.unknowable));
+        "{0}: {1} is the reference. In a measured {2}, the rms error of {1} itself ({5}) is "
+        "{3:.1f} dB, after the errors of the measurement are subtracted. An error of this size "
+        "alone makes the delivery ratio of a run wrong by {4:.2g}. So a model whose error is below "
+        "{4:.2g} agrees with {1}, but perhaps not with measurements.",
+        panel.title, truth.model.label, truth.building, truth.own_error->value, *panel.unknowable,
+        truth.form);
 }
 
 /// Remaining error with fewer paths.
@@ -218,8 +221,8 @@ std::string convergence_sentence(const ValidationPanel& panel,
         if (p.series == fewer_paths) forms.push_back(fmt::format("{} ({})", p.label, off(p.error)));
     }
     if (forms.empty()) return "";
-    return fmt::format("{}: forms of the reference with fewer paths: {}.", panel.title,
-                       fmt::join(forms, "; "));
+    return fmt::format("{}: errors of the reference model if it computes fewer paths: {}.",
+                       panel.title, fmt::join(forms, "; "));
 }
 
 /// Models that cost more, or less, because their reach is another one.
@@ -235,13 +238,14 @@ std::string reach_sentence(const ValidationPanel& panel) {
             const bool more = after > much * before && fitted.cost.median > given.cost.median;
             const bool less = before > much * after && fitted.cost.median < given.cost.median;
             if (more || less)
-                models.push_back(
-                    fmt::format("{} {:.1f} instead of {:.1f}", given.label, after, before));
+                models.push_back(fmt::format("{} {:.1f} receivers ({:.1f} without the fit)",
+                                             given.label, after, before));
         }
     }
     if (models.empty()) return "";
     return fmt::format(
-        "{}: the fit changes the number of receivers of a frame, and therefore the cost: {}.",
+        "{}: the fit changes the mean number of receivers of a frame, and therefore the cost of "
+        "these models: {}.",
         panel.title, fmt::join(models, ", "));
 }
 
@@ -281,7 +285,7 @@ ScenePanels panels_of(const ValidationScene& scene, const Truth& truth, std::siz
         delivery.unknowable = run_errors(runs.back(), runs.front()).mean;
         links.unknowable = 100 * wrong_by_its_error(calibration, *truth.own_error);
         delivery.unknowable_label = links.unknowable_label =
-            fmt::format("{} is {:.1f} dB off in a measured {}: here it would be so far off",
+            fmt::format("error of {} if its losses are wrong by {:.1f} dB, as in a measured {}",
                         truth.model.label, truth.own_error->value, truth.building);
     }
     for (std::size_t i = 0; i < models.size(); ++i) {
@@ -297,10 +301,9 @@ ScenePanels panels_of(const ValidationScene& scene, const Truth& truth, std::siz
             delivery_point(std::move(point), run_errors(runs[i], runs.front()), replications));
     }
     ScenePanels out{std::move(delivery), std::move(links), {}, {}};
-    out.delivery_sentences = {truth_sentence(out.delivery, truth, off_in_a_run),
-                              nearest_sentence(out.delivery, off_in_a_run),
-                              convergence_sentence(out.delivery, off_in_a_run),
-                              reach_sentence(out.delivery)};
+    out.delivery_sentences = {
+        truth_sentence(out.delivery, truth), nearest_sentence(out.delivery, off_in_a_run),
+        convergence_sentence(out.delivery, off_in_a_run), reach_sentence(out.delivery)};
     out.links_sentences = {nearest_sentence(out.links, links_wrong),
                            convergence_sentence(out.links, links_wrong)};
     return out;
@@ -308,8 +311,12 @@ ScenePanels panels_of(const ValidationScene& scene, const Truth& truth, std::siz
 
 /// What is taken as true in the open and among walls.
 struct Truths {
-    Truth in_the_open{.model = exact_two_rays, .building = "open laboratory"};
-    Truth among_walls{.model = all_rays, .cheaper = fewer_rays, .building = "flat"};
+    Truth in_the_open{
+        .model = exact_two_rays, .building = "open laboratory", .form = "exact sum of two rays"};
+    Truth among_walls{.model = all_rays,
+                      .cheaper = fewer_rays,
+                      .building = "flat",
+                      .form = "up to three reflections, UTD"};
 };
 
 Truths truths_of(const std::optional<std::string>& field) {
@@ -337,20 +344,24 @@ std::vector<ValidationChart> path_loss_charts(const ValidationSize& size,
     scenes.push_back(panels_of(office_scene(), truths.among_walls, replications, size));
     scenes.push_back(panels_of(cave_scene(), truths.among_walls, replications, size));
     const std::string truth = fmt::format(
-        "In {} replications of each scene, robots that move flood a message every two seconds. On "
-        "the open field the true loss is the exact sum of two rays. In the office and in the cave "
-        "it is the loss of rays with three reflections and diffraction by UTD. Fitted: the model "
-        "is fitted to losses of the true model in other replications, as `rovernet advise` does. "
-        "Grey: the error of the reference if its losses were as wrong as they are against measured "
-        "levels. The cost is the CPU time of the medium alone.",
+        "In {} replications of each scene, the robots move, and one of them floods a message every "
+        "two seconds. On the open field, the reference is the exact sum of two rays. In the office "
+        "and in the cave, the reference is the model rays with three reflections and diffraction "
+        "by UTD (uniform theory of diffraction). Fitted: the model is fitted to losses of the "
+        "reference in other replications, as `rovernet advise` does. The grey band ends at the "
+        "error that the reference has if its losses are as wrong as in measured buildings. The "
+        "cost is the CPU time to find the receivers of frames.",
         replications);
     ValidationChart delivery{.name = "path_loss",
-                             .title = "How near do cheap models come to a detailed one?",
+                             .title = "How near do cheap models come to a detailed model?",
                              .truth = truth};
-    ValidationChart links{.name = "wrong_links",
-                          .title = "How many links does a path loss model decide wrongly?",
-                          .truth = truth,
-                          .continues = true};
+    ValidationChart links{
+        .name = "wrong_links",
+        .title = "How many links does a path loss model decide wrongly?",
+        .truth = truth,
+        .sentences = {"A link is decided wrongly if the model says that the link is up and the "
+                      "reference says that it is down, or the other way round."},
+        .continues = true};
     const auto append = [](ValidationChart& chart, ValidationPanel panel,
                            const std::vector<std::string>& sentences) {
         for (const std::string& sentence : sentences)

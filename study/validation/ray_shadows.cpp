@@ -28,8 +28,10 @@ double loss_of(const Rays& model, const Scene& scene, Vec3 from, Vec3 to) {
 /// wall is of the default material.
 Promise wall_ends() {
     constexpr double limit = 0.1;  // [dB]
-    Promise out{"rays: change of the loss over 1 mm at the end of a wall without a given material",
-                "dB", limit, 0, 0};
+    Promise out{
+        "rays: change of the loss if the receiver moves by 1 mm behind the end of a wall without a "
+        "given material",
+        "dB", limit, 0, 0};
     const Scene scene(
         drawn_map(20, 20, 0.05, [](Vec3 p) { return std::abs(p.x - 10) < 0.05 && p.y < 10; }));
     for (const auto wall : {ItuMaterial::brick, ItuMaterial::concrete})
@@ -73,8 +75,10 @@ Promise behind_blocks() {
 /// it stands: root mean square of each angle, the worst one.
 Promise slanting_walls() {
     constexpr double limit = 0.5;  // [dB]
-    Promise out{"rays: loss with a wall drawn at 15 angles, against the wall along the cells, rms",
-                "dB", limit, 0, 0};
+    Promise out{
+        "rays: loss with a wall drawn at 15 angles to the cells, against the loss with this wall "
+        "drawn along the cells, rms",
+        "dB", limit, 0, 0};
     const auto is_wall = [](Vec3 p) { return std::abs(p.x) < 2 && std::abs(p.y) < 0.1; };
     const auto drawn_at = [&](double angle) {
         OccupancyGrid grid = drawn_map(16, 16, 0.05, [&](Vec3 p) {

@@ -53,13 +53,13 @@ std::uint64_t sign_changes(const Walk& w, ValueAt value_at) {
 }
 
 std::vector<ShadowingMethod> shadowing_methods() {
-    return {{"redrawn for each sample",
+    return {{"drawn anew for each sample",
              [](const Walk& w) {
                  return sign_changes(w, [&](std::uint64_t sample) {
                      return PairDraws::normal_of(draw_bits(w, sample));
                  });
              }},
-            {"state of each link (Gudmundson)",
+            {"stored per link (Gudmundson)",
              [](const Walk& w) {
                  const double rho = math::exp(-w.step / decorrelation);
                  double x = PairDraws::normal_of(draw_bits(w, 0));
@@ -92,7 +92,7 @@ double true_rate(double step) {
 ValidationPanel flips_panel(double step, std::uint64_t seeds, const ValidationSize& size) {
     ValidationPanel panel{.title = fmt::format("sampled every {:g} s", step),
                           .cost_label = "CPU per sample [ns]",
-                          .error_label = "error of the flips per second [%]"};
+                          .error_label = "error of the link changes per second [%]"};
     const std::vector<ShadowingMethod> methods = shadowing_methods();
     const double truth = true_rate(step);
     const auto all_flips = [=](const ShadowingMethod& method) {
@@ -119,27 +119,31 @@ ValidationChart shadowing_chart(const ValidationSize& size) {
     const std::uint64_t seeds = size.of(1000, 30);
     ValidationChart chart{
         .name = "shadowing",
-        .title = "How often does shadowing flip a link?",
-        .truth = fmt::format("In {} cases, a robot walks {:g} m at 1 m/s while its peer rests; the "
-                             "margin without shadowing is 0 dB. The reference is the rate at "
-                             "which the link goes up or down if shadowing is a Gaussian process "
-                             "with the correlation exp(-D / {:g} m) over a distance D.",
-                             seeds, walk, decorrelation)};
+        .title = "How often does shadowing change the state of a link?",
+        .truth =
+            fmt::format("In {} cases, one robot of a link walks {:g} m at 1 m/s, and the other "
+                        "robot of this link rests. Without shadowing, the link margin is 0 dB. The "
+                        "reference is the rate at which the link goes up or down if shadowing is a "
+                        "Gaussian process with the correlation exp(-D / {:g} m) over a distance D.",
+                        seeds, walk, decorrelation)};
     for (const double step : {1.0, 0.1}) {  // [s]
         const ValidationPanel& panel = chart.panels.emplace_back(flips_panel(step, seeds, size));
         const ValidationPoint &redrawn = panel.points.front(), &field = panel.points.back();
         chart.sentences.push_back(fmt::format(
-            "Sampled every {:g} s, shadowing that is redrawn for each sample flips a link {:.2g} "
-            "times a second instead of {:.2g}. Shadowing that is a field of both positions flips a "
-            "link {:.2g} times a second, costs {:.3g} ns per sample and stores no state.",
+            "With a sample every {:g} s, shadowing that is drawn anew for each sample changes the "
+            "state of the link {:.2g} times a second. In the reference, the state changes {:.2g} "
+            "times a second. Shadowing that is a function of both positions (`field`) changes the "
+            "state {:.2g} times a second. A sample of `field` takes {:.3g} ns of CPU time, and no "
+            "shadowing values are stored.",
             step, detail_of(redrawn, "flips per second"), detail_of(redrawn, "exact"),
             detail_of(field, "flips per second"), field.cost.median));
     }
     chart.sentences.push_back(
-        "The true process has no rate of its own: the finer the sampling, the more flips, without "
-        "a limit. So report the sampling interval with every number of flips. Choose `field`, "
-        "because its flips hardly increase if the interval is 0.1 s instead of 1 s. Fit its "
-        "decorrelation distance to levels, not to flips.");
+        "If the Gaussian process of the reference is sampled more often, it changes the state of "
+        "the link more often, without a limit. So report the sampling interval with every number "
+        "of link changes. Choose `field`: with `field`, the number of link changes hardly "
+        "increases if the sampling interval is 0.1 s instead of 1 s. Fit the decorrelation "
+        "distance of `field` to levels, not to numbers of link changes.");
     return chart;
 }
 

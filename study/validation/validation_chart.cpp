@@ -96,7 +96,7 @@ Nearest nearest_to_truth(const ValidationPanel& panel,
 std::string nearest_text(const Nearest& nearest, const std::function<std::string(double)>& off) {
     constexpr std::size_t most_named = 3;
     if (nearest.alike.empty())
-        return fmt::format("{} has the smallest error, {}", name_of(*nearest.point),
+        return fmt::format("{} has the smallest error ({})", name_of(*nearest.point),
                            off(nearest.point->error));
     std::string out = fmt::format("{} ({}) cannot be distinguished from ", name_of(*nearest.point),
                                   off(nearest.point->error));
@@ -106,7 +106,7 @@ std::string nearest_text(const Nearest& nearest, const std::function<std::string
         out += fmt::format("{} ({})", name_of(*nearest.alike[i]), off(nearest.alike[i]->error));
     }
     if (named < nearest.alike.size())
-        out += fmt::format(" and {} more", nearest.alike.size() - named);
+        out += fmt::format(" and {} others", nearest.alike.size() - named);
     return out;
 }
 
@@ -115,7 +115,9 @@ const ValidationPoint& point_of(const ValidationPanel& panel, std::string_view l
     for (const ValidationPoint& point : panel.points) {
         if (point.label == label && point.series == series) return point;
     }
-    throw std::out_of_range(fmt::format("no point {} {} in {}", label, series, panel.title));
+    throw std::out_of_range(
+        fmt::format("no point with the label \"{}\" and the series \"{}\" in the panel \"{}\"",
+                    label, series, panel.title));
 }
 
 std::string two_digits(double value) {
@@ -127,7 +129,7 @@ double detail_of(const ValidationPoint& point, const std::string& name) {
         if (key == name) return value;
     }
     throw std::out_of_range(
-        fmt::format("the point {1} has no detail named {0}", name, point.label));
+        fmt::format("the point with the label \"{1}\" has no detail \"{0}\"", name, point.label));
 }
 
 }  // namespace rovernet

@@ -109,12 +109,12 @@ struct Nearest {
 Nearest nearest_to_truth(const ValidationPanel& panel,
                          const std::function<bool(const ValidationPoint&)>& takes);
 
-/// Sentence that names the method with the smallest error, such as "multi_wall fitted is nearest,
-/// 4.01 dB off". If errors of other methods do not differ significantly, the sentence names up to
-/// three of these methods: "disc fitted (0.012 off) cannot be distinguished from friis as given
-/// (0.013 off)".
+/// Sentence that names the method with the smallest error, such as "multi_wall fitted has the
+/// smallest error (rms error 4.01 dB)". If errors of other methods do not differ significantly, the
+/// sentence names up to three of these methods: "disc fitted (rms error 4.01 dB) cannot be
+/// distinguished from friis as given (rms error 4.02 dB)".
 /// @param nearest  result of nearest_to_truth() that has a point
-/// @param off      function that returns an error as a text, such as "4.01 dB off"
+/// @param off      function that returns an error as a text, such as "rms error 4.01 dB"
 std::string nearest_text(const Nearest& nearest, const std::function<std::string(double)>& off);
 
 /// Point of a panel with the given label and series. @throws std::out_of_range without such a point

@@ -61,9 +61,10 @@ DotPlot plot_of(const ValidationPanel& panel) {
         return a.dots.back().beside < b.dots.back().beside;
     });
     plot.note =
-        fmt::format("from cheap to dear; bold: {} the truth than all that is cheaper",
+        fmt::format("cheapest first; bold: {} the reference than everything cheaper",
                     have_intervals(panel.points) ? "surely nearer" : "in these cases nearer");
-    if (below) plot.note += fmt::format("; errors below {:.1g} stand at the left end", plot.least);
+    if (below)
+        plot.note += fmt::format("; errors below {:.1g} are drawn at the left end", plot.least);
     return plot;
 }
 
@@ -80,7 +81,8 @@ std::string not_drawn(const ValidationChart& chart) {
         if (all_right(panel)) titles.push_back("\"" + panel.title + "\"");
     }
     if (titles.empty()) return "";
-    return fmt::format(" No picture, because every error is 0: {}.", fmt::join(titles, ", "));
+    return fmt::format(" There is no picture of the errors of {}, because all these errors are 0.",
+                       fmt::join(titles, ", "));
 }
 
 std::string csv_cell(const std::string& text) {
@@ -99,7 +101,7 @@ std::vector<std::vector<std::string>> rows_of(const ValidationPanel& panel) {
     const bool has_series = std::any_of(panel.points.begin(), panel.points.end(),
                                         [](const auto& p) { return !p.series.empty(); });
     std::vector<std::string> head{"method"};
-    if (has_series) head.push_back("");
+    if (has_series) head.push_back("variant");
     head.push_back(panel.error_label);
     for (const Detail& detail : panel.points.front().details) head.push_back(detail.first);
     head.push_back(panel.cost_label);
@@ -116,7 +118,7 @@ std::vector<std::vector<std::string>> rows_of(const ValidationPanel& panel) {
 }
 
 std::vector<std::vector<std::string>> rows_of(const std::vector<Promise>& promises) {
-    std::vector<std::vector<std::string>> rows{{"promise", "cases", "limit", "worst", "kept"}};
+    std::vector<std::vector<std::string>> rows{{"promise", "cases", "limit", "worst case", "kept"}};
     for (const Promise& p : promises) {
         const std::string unit = p.unit.empty() ? "" : " " + p.unit;
         rows.push_back({p.what, fmt::format("{}", p.n), fmt::format("{:g}{}", p.limit, unit),
@@ -175,9 +177,11 @@ svg { max-width: 100%; height: auto } .truth { color: #555 }
 )";
 
 constexpr const char* introduction =
-    "The errors are those of this build; they are the same on every machine. The costs are CPU "
-    "times of one machine, on which all methods were measured in turns. Other machines have other "
-    "times, but about the same order and ratios of costs.";
+    "This page compares the errors of methods and models with their costs. The errors depend on "
+    "the version of rovernet, but not on the machine. The costs are CPU times of one machine, on "
+    "which all methods were measured in turns. Other machines have different times, but about the "
+    "same order and ratios of costs. One method cannot be distinguished from a second method if "
+    "the difference of their errors is not significant.";
 
 /// Section of a page: sentences, picture, and links to the numbers.
 /// @param numbers  folder of the numbers, as seen from the page
@@ -248,9 +252,9 @@ std::string validation_html(const Validation& validation) {
 
 std::string accuracy_page(const Validation& validation) {
     std::string out = fmt::format(
-        "# Accuracy against speed\n\n{} `rovernet validate` makes this page and its "
-        "files. [Limits that the code promises](../inside/promises.md) have a page of "
-        "their own.\n\n",
+        "# Accuracy against speed\n\n{} [models.md](models.md) describes the models. `rovernet "
+        "validate` makes this page and its files. [Limits that the code "
+        "promises](../inside/promises.md) have a page of their own.\n\n",
         introduction);
     for (const ValidationChart& chart : validation.charts)
         if (!chart.for_contributors) out += chart_section(chart, "accuracy/");
@@ -262,8 +266,10 @@ std::string accuracy_page(const Validation& validation) {
 
 std::string promises_page(const Validation& validation) {
     std::string out =
-        "# What the code promises\n\n`rovernet validate` checks these limits of errors. If an "
-        "error exceeds its limit, the command fails.\n\n";
+        "# What the code promises\n\n`rovernet validate` measures the errors in this table. If an "
+        "error exceeds its limit, the command fails. A row names the error first, and after "
+        "\"against\" the reference. The column \"worst case\" has the largest error of all "
+        "cases.\n\n";
     out += markdown_table(rows_of(validation.promises)) + "\n";
     for (const ValidationChart& chart : validation.charts)
         if (chart.for_contributors) out += chart_section(chart, "../methods/accuracy/");

@@ -85,22 +85,26 @@ constexpr double rounding = 1e-12;  // of a mean of a few numbers below 1
 }  // namespace
 
 TEST_CASE(
-    "balance: rows that lack different runs are not averaged, and the error lists the missing "
-    "cells (value, replication)") {
+    "balance: rows of results that lack different runs are not averaged; the error lists the "
+    "missing runs") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), biased);
     const std::string text = refusal(store, {.group_by = by_ttl});
     CAPTURE(text);
     CHECK(text.starts_with("reach cannot be averaged over traffic.0.every"));
-    CHECK(has(text, "\n  routing.ttl=3 lacks 3 of 8 cells: 3 failed at traffic.0.every=2\n"));
-    CHECK(has(text, "\n  routing.ttl=8 lacks 4 of 8 cells: 4 failed at traffic.0.every=2\n"));
+    CHECK(has(
+        text,
+        "\n  routing.ttl=3 has no value in 3 of 8 cells (failed runs: 3 at traffic.0.every=2)\n"));
+    CHECK(has(
+        text,
+        "\n  routing.ttl=8 has no value in 4 of 8 cells (failed runs: 4 at traffic.0.every=2)\n"));
     CHECK_FALSE(has(text, "routing.ttl=1 "));
     CHECK(has(text, "--where KEY=VALUE"));
-    CHECK(has(text, "--common for the mean over the 4 of 8 cells"));
+    CHECK(has(text, "--common to average only the 4 of 8 cells"));
 }
 
 TEST_CASE(
-    "balance: means over the cells that all rows have are right, even if failed runs reverse the "
+    "balance: means over the runs that all rows have are right, even if failed runs reverse the "
     "order of plain means") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), biased);
@@ -116,9 +120,9 @@ TEST_CASE(
     CHECK(all.list[1].gaps.failed == 3);
     CHECK(all.list[2].gaps.failed == 4);
     CHECK(coverage_text(all) ==
-          "averaged over traffic.0.every; reach is averaged without 4 of 8 cells, which are "
-          "missing from some rows; 7 "
-          "runs failed");
+          "averaged over traffic.0.every; the mean of reach leaves out 4 of 8 cells (a cell is one "
+          "replication at one value of each of these keys), because some rows have no value there; "
+          "7 runs failed");
     // Held at one value, nothing is averaged over, and each row has its own n.
     const Answers held = answers(store, {.group_by = by_ttl, .where = {{"traffic.0.every", "2"}}});
     CHECK(held.averaged.empty());
@@ -129,8 +133,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "balance: a run without a value, and a run that was not made, count as missing cells of a "
-    "row") {
+    "balance: a run without a value, and a run that was not made, count as missing runs of a row") {
     const TemporaryFolder folder;
     for (const Ending fate : {Ending::undefined, Ending::missing}) {
         const std::string name = fate == Ending::undefined ? "undefined" : "missing";
@@ -139,16 +142,19 @@ TEST_CASE(
             return ttl == 3 && period == 1 && r == 2 ? fate : Ending::finished;
         });
         const std::string text = refusal(store, {.group_by = by_ttl});
-        CHECK(has(text, "routing.ttl=3 lacks 1 of 8 cells: 1 " + name + " at traffic.0.every=1"));
+        const std::string runs =
+            fate == Ending::undefined ? "runs without a value" : "missing runs";
+        CHECK(has(text, "routing.ttl=3 has no value in 1 of 8 cells (" + runs +
+                            ": 1 at traffic.0.every=1)"));
         CHECK(answers(store, {.group_by = by_ttl, .common = true}).list[0].left_out == 1);
     }
 }
 
-TEST_CASE("balance: a single row is not averaged either if it lacks cells") {
+TEST_CASE("balance: a single row is not averaged either if it lacks runs") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), biased);
     CHECK(has(refusal(store, {.group_by = by_ttl, .where = {{"routing.ttl", "8"}}}),
-              "lacks 4 of 8 cells"));
+              "has no value in 4 of 8 cells"));
 }
 
 TEST_CASE(
@@ -166,7 +172,7 @@ TEST_CASE(
     CHECK(coverage_text(all) == "averaged over traffic.0.every; unfinished: 6 runs are missing");
 }
 
-TEST_CASE("balance: a key that varies together with the key of the rows is not averaged over") {
+TEST_CASE("balance: a key with only one value in each row is reported, and not averaged over") {
     const TemporaryFolder folder;
     Store store = Store::open_to_write(folder.path("s.db"));
     std::vector<StoredPoint> points;
@@ -180,12 +186,10 @@ TEST_CASE("balance: a key that varies together with the key of the rows is not a
     const Answers all = answers(store, {.metrics = {"reach"}, .group_by = by_ttl});
     CHECK(all.averaged.empty());
     CHECK(all.along == std::vector<std::string>{"radio.power"});
-    CHECK(has(coverage_text(all), "radio.power goes with each row"));
+    CHECK(has(coverage_text(all), "not averaged over radio.power (one value in each row)"));
 }
 
-TEST_CASE(
-    "balance: a combination of values that the study excludes in one row counts as missing cells "
-    "of the row") {
+TEST_CASE("balance: runs of a combination of values that the study lacks count as missing runs") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), [](int, int, int) { return Ending::finished; });
     std::vector<StoredPoint> points = store.points();
@@ -194,7 +198,8 @@ TEST_CASE(
     const Inventory inventory = inventory_of(store);
     const Cells cells(rows, inventory, values_of_points(store, "reach"));
     CHECK(cells.unbalanced() ==
-          "  routing.ttl=8 lacks 4 of 8 cells: 4 not in the study at traffic.0.every=2");
+          "  routing.ttl=8 has no value in 4 of 8 cells (runs that are not in the study: 4 at "
+          "traffic.0.every=2)");
 }
 
 }  // namespace balance_test

@@ -151,8 +151,7 @@ TEST_CASE("coverage: for a fixed n, STaR-Bets reject the true mean in at most 5 
 }
 
 TEST_CASE(
-    "coverage: intervals that are checked repeatedly must be betting ones, because STaR-Bets then "
-    "fail") {
+    "coverage: if checked repeatedly, STaR-Bets fail, but betting intervals cover the truth") {
     constexpr int studies = 400;
     constexpr double level = 0.05;
     const Distribution all = distributions().back();
@@ -241,8 +240,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "coverage: intervals by STaR-Bets are within 10 % as wide as Gaffke's, whose proof is "
-    "incomplete") {
+    "coverage: widths of intervals by STaR-Bets and by Gaffke's method differ by at most 10 %") {
     constexpr int studies = 20;
     constexpr double last_digit = 0.005, level = (1 - confidence) / 2;
     constexpr std::array<std::size_t, 3> sizes = {10, 30, 100};

@@ -181,7 +181,8 @@ TEST_CASE("damaged stores: a wrong value in any column gives an error or does no
             }
 }
 
-TEST_CASE("damaged stores: the error names table, row and column, and both types") {
+TEST_CASE(
+    "damaged stores: the error names table, row, column, the value found and the type expected") {
     const Workshop workshop;
     const auto error = [&](const std::string& sql, std::size_t reader) {
         return workshop.errors(workshop.tampered(sql))[reader];
@@ -190,13 +191,14 @@ TEST_CASE("damaged stores: the error names table, row and column, and both types
         CHECK_MESSAGE(text.find(part) != std::string::npos, text);
     };
     has(error("UPDATE point SET settings = 5 WHERE key = 2", 0),
-        "t.db: a damaged store: table \"point\", row with key \"2\", column \"settings\": found "
+        "t.db: the store is damaged: table \"point\", row with key \"2\", column \"settings\": "
+        "found "
         "the number 5, "
         "expected a text; ");
     has(error("UPDATE point SET settings = '[1]' WHERE key = 2", 0), "expected an object");
     has(error("UPDATE point SET settings = '{' WHERE key = 2", 0), "expected JSON");
     has(error("UPDATE point SET settings = '{\"other\":1}' WHERE key = 2", 0),
-        "found other keys, expected those of the first point");
+        "found other keys, expected the keys of the first point");
     has(error("UPDATE point SET settings = '{\"propagation.model\":null}'", 0), "found null for");
     has(error("UPDATE point SET number = 7 WHERE key = 2", 0),
         "column \"number\": found the number 7, expected 1: ");

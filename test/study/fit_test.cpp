@@ -198,7 +198,9 @@ TEST_CASE("tobit: without unseen rows the fit equals least squares") {
     CHECK_THROWS_AS(tobit(data, {}), std::invalid_argument);
 }
 
-TEST_CASE("disc fit: the range with the fewest wrong decisions equals that of the test vectors") {
+TEST_CASE(
+    "disc fit: the range with the fewest wrong link decisions (up or down) equals that of the test "
+    "vectors") {
     const Vectors links("fit_links.csv"), expected("fit_disc.csv");
     std::vector<DiscLink> all;
     for (std::size_t i = 0; i < links.size(); ++i) {

@@ -59,6 +59,38 @@ vary.robot.A.radius = ["0.3 m", "0.4 m"]
 
 }  // namespace
 
+TEST_CASE(
+    "measurement: the delivery ratio at a robot that none of the three messages reaches is 0") {
+    test::TemporaryFolder folder;
+    folder.write("s.toml", R"([scenario]
+duration = "5 s"
+[propagation]
+model = "disc"
+range = "50 m"
+[metrics]
+robots = true
+[[robot]]
+name = "A"
+at = ["0 m", "0 m"]
+[[robot]]
+name = "C"
+at = ["900 m", "0 m"]
+[[traffic]]
+from = "A"
+payload = "F"
+every = "1 s"
+count = 3
+[study]
+metrics = ["delivery_ratio.at.C"]
+)");
+    Study study(folder.path("s.toml"), {});
+    KeptPlanners kept;
+    for (const MetricValue& metric : measure(study.scenario(0, 0), kept).metrics) {
+        if (metric.name == "delivery_ratio.at.C") CHECK(metric.value == 0.0);
+        if (metric.name == "messages.at.C") CHECK(metric.value == 3.0);
+    }
+}
+
 TEST_CASE("measurement: runs that alternate between scenes equal separate runs") {
     test::TemporaryFolder folder;
     folder.write("one.pgm", map_with_door(1));
@@ -81,7 +113,7 @@ TEST_CASE("measurement: runs that alternate between scenes equal separate runs")
     CHECK(fingerprints[0] != fingerprints[2]);  // the doors lie elsewhere
 }
 
-TEST_CASE("measurement: a changed map is read again") {
+TEST_CASE("measurement: a map that changed between two runs is read again for the second run") {
     test::TemporaryFolder folder;
     folder.write("one.pgm", map_with_door(1));
     folder.write("s.toml", std::string(walkers).substr(0, std::string(walkers).find("[study]")));

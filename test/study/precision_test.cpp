@@ -33,21 +33,24 @@ TEST_CASE("precision: if no precision is wanted, or if it is reached, no more ru
     CHECK(replications_for(wanting(0.75, 100), ten, 10) == 11);
 }
 
-TEST_CASE("precision: an estimate requests more runs, at most twice as many, up to the limit") {
+TEST_CASE(
+    "precision: each estimate at most doubles a point's replications, up to max_replications") {
     CHECK(replications_for(wanting(0.01, 100), ten, 10) == 20);
     CHECK(replications_for(wanting(0.01, 12), ten, 10) == 12);
     CHECK(replications_for(wanting(0.01, 10), ten, 10) == 10);
     CHECK(replications_for(wanting(0.01, 2), ten, 10) == 10);
 }
 
-TEST_CASE("precision: each estimate requests at least a sixteenth more runs") {
+TEST_CASE(
+    "precision: each estimate adds at least 1/16 to a point's replications, if more are needed") {
     std::vector<double> many;
     for (int i = 0; i < 320; ++i) many.push_back(ten[static_cast<std::size_t>(i % 10)]);
     const double reach = *reached_precision(wanting(1, 1000), many).half_width;
     CHECK(replications_for(wanting(0.999 * reach, 1000), many, 320) == 340);
 }
 
-TEST_CASE("precision: with fewer than two values, twice as many runs are requested") {
+TEST_CASE(
+    "precision: if a point has fewer than two values of the metric, its replications are doubled") {
     CHECK(replications_for(wanting(1, 100), {}, 5) == 10);
     CHECK(replications_for(wanting(1, 100), std::vector<double>{0.5}, 5) == 10);
 }

@@ -238,14 +238,15 @@ TEST_CASE("missing, short, doubled or wrong names in a recorded trace are report
     CHECK(refusal(right) == "");
     CHECK(refusal(right + right) == "");
     const std::string missing =
-        "its scenario has a robot \"A\", number 0; the trace names 0, because the file robots.txt "
-        "in the trace is missing";
+        "the scenario of this trace has a robot \"A\" with number 0 (counted from 0), but the "
+        "trace has no names of robots, because the file robots.txt in the trace is missing";
     CHECK(refusal("") == missing);
     CHECK(refusal(attachment("robot.txt", "A\nB\n")) == missing);
     CHECK(refusal(attachment("robots.txt", "A\n")) ==
-          "its scenario has a robot \"B\", number 1; the trace names 1");
+          "the scenario of this trace has a robot \"B\" with number 1 (counted from 0), but the "
+          "trace has the name of 1 robot");
     CHECK(refusal(attachment("robots.txt", "A\nB\nC\n")) ==
-          "its scenario has 2 robots; the trace names 3");
+          "the scenario of this trace has 2 robots, but the trace has the names of 3 robots");
     CHECK(refusal(attachment("robots.txt", "B\nA\n")) ==
           "robot 0 is named \"B\" in the trace, but \"A\" in the scenario of the trace");
     CHECK(refusal(right + attachment("robots.txt", "A\nC\n")) ==
@@ -253,10 +254,10 @@ TEST_CASE("missing, short, doubled or wrong names in a recorded trace are report
     CHECK(refusal(right + attachment("x/a", "1") + attachment("x/a", "2")) ==
           "the file contains two different files x/a");
     CHECK(refusal(right + attachment("x", "1") + attachment("x/a", "2")) ==
-          "the attached file x/a cannot be decompressed");
+          "the file x/a, which this trace contains, cannot be stored in a temporary folder");
 }
 
-TEST_CASE("control: some mutants contain records of robots that have no name") {
+TEST_CASE("control of the flipped bits: some give records of robots whose name the trace lacks") {
     const Sample s;
     int beyond = 0;
     for (std::size_t i = 0; i < s.records.size(); ++i) {

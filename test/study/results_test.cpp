@@ -106,7 +106,7 @@ TEST_CASE("results: a ratio has an interval by STaR-Bets within its bounds, or t
     CHECK_FALSE(answers(store, {.metrics = metrics}).list[0].low);
 }
 
-TEST_CASE("results: points of a row are averaged in each replication first") {
+TEST_CASE("results: a row has one value per replication, which is the mean over the row's points") {
     const TemporaryFolder folder;
     const auto list = answers(made(folder.path("s.db")),
                               {.group_by = std::vector<std::string>{"propagation.model"}})
@@ -151,6 +151,12 @@ TEST_CASE("results: an unknown name is an error with a suggestion") {
     const Store store = made(folder.path("s.db"));
     CHECK_THROWS_WITH_AS(answers(store, {.metrics = {"reech"}}),
                          doctest::Contains("did you mean \"reach\"?"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS(answers(store, {.metrics = {"delivry"}}),
+                         doctest::Contains("did you mean \"deliveries\", \"delivery_ratio\", "),
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(answers(store, {.metrics = {"xyz"}}),
+                         doctest::Contains("--sql 'SELECT name FROM metric_name' lists"),
+                         std::invalid_argument);
     CHECK_THROWS_WITH_AS(answers(store, {.group_by = std::vector<std::string>{"radio.powr"}}),
                          doctest::Contains("did you mean \"radio.power\"?"), std::invalid_argument);
 }

@@ -41,7 +41,7 @@ std::vector<std::string> words_given(const TemporaryFolder& folder, const std::s
 
 }  // namespace
 
-TEST_CASE("slurm: a chunk has the requested size, or larger to fit an array of 1000 tasks") {
+TEST_CASE("slurm: a task has the requested number of runs, or more, to need at most 1000 tasks") {
     const auto tasks = [](std::uint64_t runs, std::uint64_t chunk) {
         return runs / chunk + (runs % chunk > 0 ? 1 : 0);
     };
@@ -56,7 +56,7 @@ TEST_CASE("slurm: a chunk has the requested size, or larger to fit an array of 1
     CHECK(chunk_for_array(50'001, 50) == 51);
 }
 
-TEST_CASE("slurm: the open chunks of a study are the chunks with unfinished runs") {
+TEST_CASE("slurm: the chunks to submit are those with an unfinished run") {
     for (unsigned open = 0; open < 1U << 10; ++open) {
         std::vector<RunState> runs;
         for (unsigned i = 0; i < 10; ++i) {
@@ -74,7 +74,7 @@ TEST_CASE("slurm: the open chunks of a study are the chunks with unfinished runs
     }
 }
 
-TEST_CASE("slurm: the printed ranges contain exactly the numbers of the array") {
+TEST_CASE("slurm: the ranges printed for a job array contain exactly the numbers of its tasks") {
     CHECK(array_ranges(std::vector<std::uint64_t>{0, 1, 2, 3, 7, 9, 10}) == "0-3,7,9-10");
     CHECK(array_ranges(std::vector<std::uint64_t>{12}) == "12");
     for (unsigned set = 1; set < 1U << 9; ++set) {

@@ -64,10 +64,10 @@ std::string id_of(const std::string& text, const ScenarioOptions& options = {}) 
 
 }  // namespace
 
-TEST_CASE("study: points are all combinations, and the last key varies fastest") {
+TEST_CASE("study: points are all combinations of the values, and the last key varies fastest") {
     CHECK(points_of("vary.a = [1, 2]\nvary.b = [\"x\", \"y\", \"z\"]") ==
           Texts{"a=1, b=x", "a=1, b=y", "a=1, b=z", "a=2, b=x", "a=2, b=y", "a=2, b=z"});
-    CHECK(points_of("") == Texts{"the scenario as it is"});
+    CHECK(points_of("") == Texts{"the unchanged scenario"});
 }
 
 TEST_CASE("study: keys that are listed in `zip` vary together, in any order of the list") {
@@ -89,7 +89,7 @@ TEST_CASE("study: a point is skipped if each key of an exclusion has one of the 
             "\"disc\", \"friis\"; did you mean \"friis\"?"),
         InputError);
     CHECK_THROWS_WITH_AS(points_of("vary.a = [1]\nexclude = [{ a = 1 }]"),
-                         doctest::Contains("excludes every point"), InputError);
+                         doctest::Contains("exclude every point"), InputError);
 }
 
 TEST_CASE("study: a range includes both of its ends, and its values have no rounding errors") {
@@ -104,7 +104,7 @@ TEST_CASE("study: a range includes both of its ends, and its values have no roun
     CHECK(points_of("vary.a = { from = 2, to = 2, step = 1 }") == Texts{"a=2"});
 }
 
-TEST_CASE("study: paths may be written in quotes or as nested keys") {
+TEST_CASE("study: a varied key may be written as a path in quotes or as nested keys") {
     CHECK(points_of("vary.\"a.b\" = [1]\nvary.c.d = [2]\n[study.vary.e]\nf = [3]") ==
           Texts{"a.b=1, c.d=2, e.f=3"});
     // A path that ends in one of the words of a range is a path if its value is a list.
@@ -139,9 +139,9 @@ TEST_CASE("study: an error in a varied value is reported before any run, with li
           std::string::npos);
     CHECK(wrong("vary.radio.power = [\"5 dBm\", \"5 m\"]").find("s.toml:17:30: ") !=
           std::string::npos);
-    CHECK(wrong("vary.radio.power = [\"5 dBm\", \"5 m\"]").find("at the point radio.power=5 m") !=
-          std::string::npos);
-    CHECK(wrong("vary.robot.x.count = [1]").find("nothing in the list is named \"x\"") !=
+    CHECK(wrong("vary.radio.power = [\"5 dBm\", \"5 m\"]")
+              .find("this happens with radio.power=5 m") != std::string::npos);
+    CHECK(wrong("vary.robot.x.count = [1]").find("no item of the list is named \"x\"") !=
           std::string::npos);
     CHECK(
         wrong("vary.reception.model = [\"threshold\", \"sinr\"]").find("\"disc\" has no levels") !=
@@ -153,12 +153,12 @@ TEST_CASE("study: a value listed twice is refused, with line and column") {
         return error_of(two_robots + "[study]\n" + keys);
     };
     CHECK(wrong("vary.radio.power = [\"5 dBm\", \"6 dBm\", \"5 dBm\"]")
-              .ends_with("s.toml:17:39: vary: radio.power=5 dBm is listed twice; expected values "
-                         "that differ"));
+              .ends_with("s.toml:17:39: vary: radio.power=5 dBm is listed twice; expected "
+                         "different values"));
     CHECK(wrong("vary.robot.r.count = [2, 3]\nvary.radio.power = [\"0 dBm\", \"1 mW\"]")
-              .ends_with(
-                  "s.toml:18:30: vary: robot.r.count=2, radio.power=1 mW gives the same scenario "
-                  "as robot.r.count=2, radio.power=0 dBm; expected values that differ"));
+              .ends_with("s.toml:18:30: vary: robot.r.count=2, radio.power=1 mW gives the same "
+                         "scenario as robot.r.count=2, radio.power=0 dBm; expected values that "
+                         "give different scenarios"));
     CHECK(wrong("vary.scenario.name = [\"a\", \"b\"]").find("gives the same scenario as") !=
           std::string::npos);
     // In a zip a value may come again, as long as the others differ.
@@ -172,7 +172,10 @@ TEST_CASE("study: an unknown metric is refused, with line, column and a suggesti
     const std::string text =
         error_of(two_robots + "[study]\nmetrics = [\"reach\", \"delivery_ration\"]");
     CHECK(text.find("s.toml:17:21: there is no metric \"delivery_ration\"") != std::string::npos);
-    CHECK(text.ends_with("did you mean \"delivery_ratio\"?"));
+    CHECK(text.find("; did you mean \"delivery_ratio\"") != std::string::npos);
+    CHECK(text.size() < 400);  // not every metric of every robot
+    CHECK(error_of(two_robots + "[study]\nmetrics = [\"airtime_s/messages\"]")
+              .find("only the commands results and plot compute") != std::string::npos);
 }
 
 TEST_CASE(
@@ -288,6 +291,22 @@ TEST_CASE("study: a different movement file under the same name is a different p
     };
     CHECK(id("7") == id("7"));
     CHECK(id("7") != id("8"));
+}
+
+TEST_CASE("study: notices are about the study's points, not about the file without [study]") {
+    const TemporaryFolder folder;
+    const auto notices = [&](const std::string& protocols) {
+        const Study study(folder.write("s.toml", two_robots +
+                                                     "kind = \"unicast\"\nto = \"r0\"\n[study]\n"
+                                                     "vary.routing.protocol = [" +
+                                                     protocols + "]\n"),
+                          {});
+        std::string all;
+        for (const std::string& each : study.base().notices) all += each + "\n";
+        return all;
+    };
+    CHECK(notices("\"aodv\", \"dsr\"") == "");
+    CHECK(notices("\"aodv\", \"managed\"").find("go over one hop only") != std::string::npos);
 }
 
 TEST_CASE("study: a run's id depends on point, replication and version") {

@@ -206,12 +206,24 @@ TEST_CASE("sweep: a different scenario or version is not mixed with existing run
     const std::string text = message_of(bench, {"scenario.seed=2"});
     CHECK(text.find("scenario.seed was 1 and is now 2") != std::string::npos);
     CHECK(text.find("--fresh") != std::string::npos);
+    CHECK(text.find("a different scenario") == std::string::npos);
+    const std::string other =
+        message_of(bench, {"scenario.seed=2", "scenario.duration=9 s", "radio.power=3 dBm",
+                           "radio.sensitivity=-70 dBm", "radio.antenna_gain=1 dB", "routing.ttl=3",
+                           "radio.noise_figure=5 dB"});
+    CHECK(other.find(
+              "5 more values are different: the store probably belongs to a different scenario") !=
+          std::string::npos);
+    CHECK(message_of(bench, {"study.warmup=1 s"})
+              .find("the warmup of [study] was \"0 s\" and is "
+                    "now \"1 s\"") != std::string::npos);
     // A value that is varied no more is the reason, whatever else is the same.
     const std::string fewer =
         message_of(bench, {"study.vary={ \"propagation.range\" = [\"30 m\"] }"});
-    CHECK(fewer.find("propagation.range=15 m, which this study does not have: [study] no longer "
-                     "contains it; expected --fresh") != std::string::npos);
-    CHECK(fewer.find("its map") == std::string::npos);
+    CHECK(fewer.find("the store has runs of propagation.range=15 m, but the study does not have "
+                     "this point: [study] no longer "
+                     "contains this point; expected --fresh") != std::string::npos);
+    CHECK(fewer.find("the map or") == std::string::npos);
     { Store::open_to_write(bench.store()).set_property("version", "0.0.9 (abc)"); }
     CHECK(message_of(bench).find("0.0.9 (abc)") != std::string::npos);
     CHECK(bench.csv() == csv);
@@ -248,7 +260,7 @@ TEST_CASE("sweep: a run that takes too long is tried twice, and affects only its
                                            {"scenario.event_limit=1000000000000"});
     CHECK(result.progress.finished == 1);
     CHECK(result.progress.failed == 1);
-    CHECK(result.failure->error.find("took longer than 3 s") != std::string::npos);
+    CHECK(result.failure->error.find("the run took longer than 3 s") != std::string::npos);
 }
 
 TEST_CASE(
@@ -317,7 +329,9 @@ TEST_CASE("sweep: runs that another given store already has are not repeated") {
     CHECK(bench.csv() == whole.csv());
 }
 
-TEST_CASE("sweep: with precision each point is repeated until its interval is narrow") {
+TEST_CASE(
+    "sweep: with study.precision, a point is repeated until its interval is narrow enough or "
+    "max_replications is reached") {
     const Bench bench(scattered + study_keys);
     const std::vector<std::string> wanted = {"study.precision=0.1", "study.max_replications=40"};
     bench.sweep({.workers = 3}, wanted);
@@ -346,7 +360,7 @@ TEST_CASE("sweep: a point that does not reach its precision is reported with its
     CHECK(bench.sweep({}).imprecise.empty());
 }
 
-TEST_CASE("sweep: precision adds no runs to a point with a failed run") {
+TEST_CASE("sweep: with study.precision, a point with a failed run gets no further replications") {
     const Bench bench(scattered + study_keys);
     const SweepResult result = bench.sweep(
         {}, {"study.precision=1e-9", "study.max_replications=50", "scenario.event_limit=1"});

@@ -98,7 +98,7 @@ TEST_CASE("workers: a crash affects only its task, and reports its last output")
     CHECK(ends.at(1).text.ends_with(".the end is near"));
     CHECK(ends.at(1).text.size() < 2200);
     CHECK(ends.at(2).kind == TaskEnd::died);
-    CHECK(ends.at(2).text == "its process exited with 7");
+    CHECK(ends.at(2).text == "the process of the run exited with code 7");
     CHECK(ends.at(3).text == "well");
 }
 
@@ -113,7 +113,7 @@ TEST_CASE("workers: a task that takes too long is killed, while others continue"
                     {.timeout_s = 0.3, .memory = {}});
     const auto ends = all(workers, 20);
     CHECK(ends.at(0).kind == TaskEnd::died);
-    CHECK(ends.at(0).text == "took longer than 0.3 s");
+    CHECK(ends.at(0).text == "the run took longer than 0.3 s");
     for (std::uint64_t task = 1; task < 20; ++task) CHECK(ends.at(task).text == "well");
 }
 

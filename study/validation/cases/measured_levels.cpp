@@ -67,7 +67,7 @@ const std::pair<std::uint32_t, Vec3>& receiver_of(
     const CsvTable& levels, std::size_t row, std::string_view name,
     const std::map<std::string, std::pair<std::uint32_t, Vec3>>& known) {
     const auto found = known.find(levels.text(row, name));
-    if (found == known.end()) levels.fail(row, name, "a known one");
+    if (found == known.end()) levels.fail(row, name, "a name that the table of positions contains");
     return found->second;
 }
 

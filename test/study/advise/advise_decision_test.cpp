@@ -188,9 +188,7 @@ TEST_CASE(
     CHECK(*student.deciding_tolerance() == doctest::Approx(1.7).epsilon(0.1));
 }
 
-TEST_CASE(
-    "decision: if all candidates differ by just the tolerance, at most 5 % of 1000 studies have a "
-    "false verdict") {
+TEST_CASE("decision: if candidates differ by just the tolerance, at most 5 % of studies err") {
     // Six candidates each, one for each distribution, with E D = 0.05, the tolerance: neither
     // within nor outside. Half of the studies judge the mean, half the single run, where E|D| =
     // 0.05: those distributions that are negative at times are left as they are only for the mean.
@@ -225,8 +223,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "decision: clearly small and clearly large differences get the right verdict, for all six "
-    "distributions") {
+    "decision: mean differences far below or far above the tolerance get the right verdict, for "
+    "six distributions of the differences") {
     for (int distribution = 0; distribution < distributions; ++distribution) {
         CAPTURE(distribution);
         const DecisionRule rule{.tolerance = 0.05, .bounds = share, .family = distributions};
@@ -240,7 +238,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("ladder: the choice is the cheapest candidate within the tolerance") {
+TEST_CASE("advise: the cheapest candidate within the tolerance is chosen") {
     Ladder ladder(4, {.tolerance = 0.1, .bounds = share, .family = 4});
     const double differences[] = {0.6, 0, 0.01, 0.02};
     for (int r = 0; r < 300; ++r) {
@@ -256,7 +254,7 @@ TEST_CASE("ladder: the choice is the cheapest candidate within the tolerance") {
     CHECK_FALSE(ladder.wants(3));
 }
 
-TEST_CASE("ladder: an undecided candidate cheaper than the sufficient one is still tested") {
+TEST_CASE("advise: an undecided candidate cheaper than the sufficient one is still tested") {
     Ladder ladder(3, {.tolerance = 0.1, .bounds = share, .family = 3});
     for (int r = 0; r < 300; ++r) {
         add(ladder, 0, r % 2 == 0 ? 0.6 : -0.4);  // the tolerance itself
@@ -269,7 +267,7 @@ TEST_CASE("ladder: an undecided candidate cheaper than the sufficient one is sti
     CHECK_FALSE(ladder.decided());
 }
 
-TEST_CASE("ladder: without a candidate the choice is the reference") {
+TEST_CASE("advise: if there are no candidates, the reference is chosen") {
     const Ladder none(0, {.tolerance = 0.1, .bounds = share});
     CHECK_FALSE(none.choice());
     CHECK(none.decided());

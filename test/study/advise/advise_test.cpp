@@ -138,7 +138,7 @@ TEST_CASE("advise: on an open field the reference is the exact two_ray with sinr
 }
 
 TEST_CASE(
-    "advise: the model disc is judged with the most detailed reception model that works with it") {
+    "advise: the model disc is tested with the most detailed reception model that works with it") {
     const AdviceCandidates c =
         candidates_of(talkers + "[propagation]\nrange = \"20 m\"\n", as_given);
     REQUIRE(c.path_losses.front().name == "disc");
@@ -231,7 +231,7 @@ TEST_CASE("advise: errors about reference and candidates name the option that se
     CHECK(reference("propagation.from=exact").starts_with("--reference propagation.from=exact:"));
     CHECK(reference("propagation.model=disc")
               .starts_with("--reference propagation.model=disc: the "
-                           "reference cannot run:"));
+                           "reference model cannot run:"));
     CHECK(error_of({.models = {"fris"}, .reference = {}, .as_given = true})
               .starts_with("--models fris: unknown propagation model \"fris\""));
 }
@@ -295,7 +295,7 @@ TEST_CASE("advise: a simulated study selects the model that equals the reference
     advice.reference_cost.share = 0.03;
     CHECK(advice.saves_nothing());
     CHECK(advice_text(advice).starts_with(
-        "Take the reference, log_distance + collision: radio takes 3 % of its runs' CPU time"));
+        "Take the reference, log_distance + collision. The radio takes only 3 % of a run's "));
     advice.reference_cost.share = 0.5;
     advice.reference_cost.run_s = 2 * advice.chosen()->cost.run_s;
     CHECK_FALSE(advice.saves_nothing());
@@ -304,8 +304,7 @@ TEST_CASE("advise: a simulated study selects the model that equals the reference
 }
 
 TEST_CASE(
-    "advise: the cheapest sufficient propagation and reception models are combined, and the "
-    "combination is judged") {
+    "advise: the cheapest sufficient propagation and reception models are also tested together") {
     // `a` is wrong by 0.5, `b` by 0.01, and the reception `some` by 0.01: together by 0.02.
     MadeUp study([](std::size_t p, std::size_t r, std::uint32_t) {
         return 0.9 - (p == 0 ? 0.5 : p == 1 ? 0.01 : 0) - (r == 0 ? 0.01 : 0);
@@ -352,8 +351,8 @@ TEST_CASE("advise: an undecided candidate counts as insufficient, and is named")
     CHECK(a.decision.n() == 120);  // then the forecast is beyond 150
     CHECK(advice.chosen()->name == "b + some");
     CHECK(advice_text(advice).find(
-              "Undecided within 150 replications, and treated as insufficient: a "
-              "+ all") != std::string::npos);
+              "These models are undecided after 150 replications, and count as insufficient: "
+              "a + all") != std::string::npos);
 }
 
 TEST_CASE(
@@ -404,7 +403,8 @@ TEST_CASE("advise: a candidate near the tolerance does not use all replications"
     CHECK_FALSE(advice.stopped);
 }
 
-TEST_CASE("advise: after a stop the verdict is preliminary, and names undecided candidates") {
+TEST_CASE(
+    "advise: if the command is stopped, its advice is preliminary and lists undecided candidates") {
     const auto metric = [](std::size_t p, std::size_t, std::uint32_t r) {
         return p == 0 ? (r % 2 == 0 ? 0.5 : 1.0) : p == 1 ? 0.0 : 0.5;
     };
@@ -417,12 +417,13 @@ TEST_CASE("advise: after a stop the verdict is preliminary, and names undecided 
     CHECK(judged(advice, "a + all").decision.n() == 30);
     CHECK(advice_text(advice).starts_with("Interim: Take the reference, top + all"));
     CHECK(advice_text(advice).find(
-              "Undecided when the command was stopped, and treated as insufficient so far: ") !=
+              "undecided when the command was stopped, and count as insufficient so far: ") !=
           std::string::npos);
     CHECK(advice_text(advice).find("would decide") != std::string::npos);
 }
 
-TEST_CASE("advise: if it is stopped before any run, the advice states that nothing is known") {
+TEST_CASE(
+    "advise: if the command is stopped before any run, its advice states that nothing is known") {
     MadeUp study([](std::size_t, std::size_t, std::uint32_t) { return 0.5; });
     study.most_blocks = 0;
     const Advice advice = study.advice(rule_of(0.2));

@@ -65,11 +65,11 @@ TEST_CASE("costs of models: each model has a CPU cost, and a share of the CPU ti
         CHECK(*model.radio_share > 0);
         CHECK(*model.radio_share <= 1);
     }
-    CHECK(c.comparison.cost_text.find("median of 5 turns of 0.05 s") != std::string::npos);
+    CHECK(c.comparison.cost_text.find("median of 5 measurements of 0.05 s") != std::string::npos);
     CHECK(c.comparison.cost_text.find("of a run's CPU time") != std::string::npos);
     CHECK(c.without.find("per run") != std::string::npos);
     const Chart chart = comparison_charts(c.comparison)[1];
-    CHECK(chart.x_label.find("of the medium per frame") != std::string::npos);
+    CHECK(chart.x_label.find("to find receivers per frame") != std::string::npos);
     CHECK(chart.series[0].points[0].x == 1e6 * c.comparison.models[0].cost->median_s);
 }
 

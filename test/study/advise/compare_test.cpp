@@ -181,7 +181,7 @@ TEST_CASE(
     CHECK(compared == 3);
 }
 
-TEST_CASE("compare: with a margin, each model is within it, outside, or undecided") {
+TEST_CASE("compare: with a margin, each model is within the margin, outside, or undecided") {
     const TemporaryFolder folder;
     std::vector<std::vector<std::optional<double>>> values(4);
     for (int r = 0; r < 400; ++r) {
@@ -199,7 +199,7 @@ TEST_CASE("compare: with a margin, each model is within it, outside, or undecide
     CHECK(c.models[2].equivalence->verdict == Equivalence::undecided);
     CHECK_FALSE(c.models[3].equivalence);
     CHECK(c.models[0].equivalence_sentence.starts_with(
-        "disc is within 0.05 of friis (95 % for all 3"));
+        "disc is within 0.05 of friis (95 % for all 3 comparisons"));
     CHECK_FALSE(compare_models(store, "reach", "friis").models[0].equivalence);
 }
 
@@ -222,13 +222,12 @@ TEST_CASE("compare: with several metrics the intervals are wider, to be valid si
         return c.models[1].difference->high - c.models[1].difference->low;
     };
     CHECK(width(all[1]) > 1.1 * width(alone));
-    CHECK(all[1].models[1].sentence.find("for all 4:") != std::string::npos);
-    CHECK(alone.models[1].sentence.find("for all 2:") != std::string::npos);
+    CHECK(all[1].models[1].sentence.find("for all 4 comparisons:") != std::string::npos);
+    CHECK(alone.models[1].sentence.find("for all 2 comparisons:") != std::string::npos);
 }
 
 TEST_CASE(
-    "chart: each protocol has a mark with an interval in x and in y; a protocol without deliveries "
-    "has no mark") {
+    "chart: a protocol is a mark with intervals in x and y; without deliveries it has no mark") {
     const TemporaryFolder folder;
     const Store store = made_of_protocols(folder.path("s.db"), {"flood", "aodv", "mute"},
                                           {{0.2, 0.4, 0.3}, {0.9, 0.8, 0.7}, {0, 0, 0}},

@@ -77,7 +77,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "medium cost: a model that finds more receivers is measured with the same recorded frames") {
+    "medium cost: a model with a longer range is measured with the same recorded frames, and finds "
+    "more receivers") {
     const Scenario near = walkers("[propagation]\nmodel = \"disc\"\nrange = \"50 m\"\n");
     const Scenario far = walkers("[propagation]\nmodel = \"disc\"\nrange = \"1 km\"\n");
     const MediumRecord record = record_medium(near, go_on);
@@ -107,7 +108,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("medium cost: without frames, or after a stop, there is no cost") {
+TEST_CASE(
+    "medium cost: without recorded frames, or if the measurement is stopped, no model has a cost") {
     Scenario silent = walkers("");
     silent.traffic.clear();
     const MediumRecord none = record_medium(silent, go_on);

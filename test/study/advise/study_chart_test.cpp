@@ -156,7 +156,8 @@ TEST_CASE("study chart: the error for an impossible request states what is possi
                          doctest::Contains("-x"), Error);
 }
 
-TEST_CASE("study chart: rows of a file are marks beside the curves that they name") {
+TEST_CASE(
+    "study chart: each row of a given CSV file is a mark beside the curve that the row names") {
     const TemporaryFolder folder;
     const Store store =
         made(folder.path("s.db"), "robot.r.count", {10, 20}, "routing.ttl", {1, 2, 3});
@@ -184,8 +185,8 @@ TEST_CASE("study chart: rows of a file are marks beside the curves that they nam
     fails("ttl,robots,latency\n2,10,0.5\n", "no column \"latency_mean_s\"");
     fails("ttl,robots,latency_mean_s\n9,10,0.5\n", "field.csv:2:1: ttl: found \"9\"");
     fails("ttl,robots,latency_mean_s\n2,10 m,0.5\n", "found \"10 m\", expected a number");
-    fails("ttl,robots,latency_mean_s\n2,10,0.5,\n", "found 4 fields, expected 3");
-    fails("ttl,robots,latency_mean_s\n2,10\n", "found 2 fields, expected 3");
+    fails("ttl,robots,latency_mean_s\n2,10,0.5,\n", "found 4 fields; expected 3");
+    fails("ttl,robots,latency_mean_s\n2,10\n", "found 2 fields; expected 3");
     fails("", "no line of column names");
 }
 

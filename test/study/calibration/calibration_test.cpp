@@ -188,8 +188,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "calibration: while links are sampled for the model rays, multi_wall decides which messages "
-    "robots receive") {
+    "calibration: while links are sampled for the model rays, the model multi_wall decides which "
+    "messages arrive") {
     // B drives off when it hears A, through a wall that takes so much by multi_wall.
     const auto links_with = [](const std::string& heavy_wall) {
         Scenario scenario = scenario_from(R"([scenario]
@@ -223,7 +223,9 @@ every = "1 s"
     CHECK(links_with("1 dB") > 10);
 }
 
-TEST_CASE("calibration: a loss far beyond the budget is used only as a lower bound") {
+TEST_CASE(
+    "calibration: if a loss exceeds the link budget by more than a given limit, only a lower bound "
+    "of it is used") {
     KnownLinks known;
     for (const double loss : {99.0, 120.0, 120.5}) {
         KnownLink& link = known.links.emplace_back();
@@ -266,7 +268,8 @@ TEST_CASE("calibration: losses far beyond the budget of any radio do not distort
     CHECK(kept.se_by_group > 0);
 }
 
-TEST_CASE("calibration: standard errors of the jackknife are near those computed by groups") {
+TEST_CASE(
+    "calibration: standard errors by the jackknife are near those computed from groups of links") {
     KnownLinks known;
     known.scene = std::make_shared<const Scene>();
     known.groups = 40;
@@ -395,7 +398,8 @@ TEST_CASE("calibration: each transmitter has its own gain, which improves the fi
               .starts_with("found 1 transmitter position; expected"));
     std::string walk = head;
     for (int i = 0; i < 201; ++i) walk += fmt::format("{},0,500,1,-50\n", i);
-    CHECK(fault(walk).ends_with("are from and to exchanged?"));
+    CHECK(fault(walk).ends_with(
+        "are the columns of transmitters (from) and receivers (to) exchanged?"));
 }
 
 TEST_CASE("calibration: a useless fit is refused with the reason") {
@@ -412,15 +416,17 @@ TEST_CASE("calibration: a useless fit is refused with the reason") {
     CHECK(models[0].refusal.empty());
     CHECK(models[1].refusal.empty());
     CHECK(models[2].refusal ==
-          "its error of 54.0 dB is far above the 5.0 dB of friis with a fitted constant");
-    CHECK(models[3].refusal == "its power of 4212 dBm is more than 30 dB from the given 16.5 dBm");
+          "its error of 54.0 dB is far above 5.0 dB, the error of friis with a fitted constant");
+    CHECK(
+        models[3].refusal ==
+        "the fitted power of 4212 dBm differs by more than 30 dB from the given power of 16.5 dBm");
     // By real levels: a power that was given 40 dB too high.
     const test::TemporaryFolder folder;
     const auto path = folder.write("levels.csv", levels_of_a_law(-300));
     const auto fitted =
         calibrate_to_levels(scenario_from(wanderers + "[radio]\npower = \"80 dBm\"\n"), path, {});
     CHECK(!model(fitted.models, "friis").refusal.empty());
-    CHECK(model(fitted.models, "log_distance").refusal.starts_with("its excess of "));
+    CHECK(model(fitted.models, "log_distance").refusal.starts_with("the fitted excess of "));
     // Levels that rise with the distance: no scenario takes such an exponent.
     std::string rising = "from_x_m,from_y_m,to_x_m,to_y_m,level_dbm\n", unheard = rising;
     for (int i = 1; i < 30; ++i) {
@@ -521,9 +527,9 @@ TEST_CASE("levels: an error in a file of levels has a line, and for a wrong numb
     CHECK(has(error_of("from_x_m,from_y_m,to_x_m,to_y_m\n"), "levels.csv:1"));
     CHECK(has(error_of("from_x_m,from_y_m,to_x_m,to_y_m\n"), "no column \"level_dbm\""));
     const std::string head = "from_x_m,from_y_m,to_x_m,to_y_m,level_dbm\n";
-    CHECK(has(error_of(head), "no level in this file"));
+    CHECK(has(error_of(head), "this file contains no level"));
     CHECK(has(error_of(head + "0,0,1,x,-50\n"), "levels.csv:2:7"));
-    CHECK(has(error_of(head + "0,0,1,1\n"), "found 4 fields, expected 5"));
+    CHECK(has(error_of(head + "0,0,1,1\n"), "found 4 fields; expected 5"));
     CHECK(has(error_of(head + "0,0,1,1,\n"), "needs --floor"));
     CHECK(has(error_of(head + "0,0,1,1,\n", Dbm{-90}), "no error"));
     CHECK(has(error_of(""), "empty"));

@@ -24,8 +24,8 @@ Scenario open_field(const std::string& keys = "") {
 }  // namespace
 
 TEST_CASE(
-    "free parameters: each model declares which keys a fit may change, their bases, and which are "
-    "never negative") {
+    "free parameters: the keys of each model that a fit may change, and their base values, are the "
+    "expected ones") {
     std::string all;
     for_each_model([&]<class Model>() {
         for (const FreeParameter& p : free_parameters(Model::name)) {

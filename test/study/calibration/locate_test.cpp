@@ -111,7 +111,8 @@ TEST_CASE("locate, fit, probe: the model disc is refused, because it has no leve
         return std::string();
     };
     CHECK(fault([&] { refuse_disc(model, {}, "locate"); }) ==
-          "\"disc\" has no levels, which locate needs; expected a different propagation model");
+          "\"disc\" computes no received levels, which locate needs; expected a different "
+          "propagation model");
     CHECK(fault([&] { refuse_disc(Friis{}, {}, "locate"); }).empty());
     const TemporaryFolder folder;
     const Scenario scenario =
@@ -122,10 +123,10 @@ TEST_CASE("locate, fit, probe: the model disc is refused, because it has no leve
                       {});
     CHECK(fault([&] {
               calibrate_to_model(scenario, "", {}, Db{0});
-          }).find("\"disc\" has no levels") == 0);
+          }).find("\"disc\" computes no received levels") == 0);
     CHECK(fault([&] {
               locate_robots(scenario, {"A"}, {start_of_run}, {.sigma = Db{4}});
-          }).find("\"disc\" has no levels") == 0);
+          }).find("\"disc\" computes no received levels") == 0);
 }
 
 TEST_CASE("locate: with shadowing the error is within 10 % of its theoretical bound") {
@@ -176,7 +177,8 @@ TEST_CASE("locate: positions that cannot be located are counted, with the reason
         }
         return std::string("none");
     };
-    CHECK(fault({"SW", "SX"}, {.sigma = Db{4}}) == "--anchors SX: no robot SX");
+    CHECK(fault({"SW", "SX"}, {.sigma = Db{4}}) ==
+          "--anchors SX: there is no robot SX in the scenario");
     CHECK(fault(corners, {}).find("expected --sigma") != std::string::npos);
     const Located two = locate_robots(scenario, {"SW", "SE"}, {start_of_run}, {.sigma = Db{4}});
     CHECK(two.fixes.empty());

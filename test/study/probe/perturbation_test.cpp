@@ -151,7 +151,7 @@ TEST_CASE("perturbations: crossing a wall costs 3 dB more or less, for every kin
     }
 }
 
-TEST_CASE("perturbations: a wall of 1 dB with 3 dB less has a loss of 0, not a negative loss") {
+TEST_CASE("perturbations: if 3 dB are taken from a wall of 1 dB, its loss is 0 and not negative") {
     const Material paper{.name = "paper", .per_crossing = Db{1}};
     const Scenario scenario = in_hall({Material{}, paper}, 1, table_of(MultiWall{}));
     const double free = loss(MultiWall{}, Scene{}, left, right);
@@ -194,7 +194,8 @@ TEST_CASE("perturbations: if there are more than eight materials, all are change
 }
 
 TEST_CASE(
-    "displaced: each antenna is moved by the given distance, in a direction fixed by its key") {
+    "displaced: each antenna moves by the given distance, in a direction fixed by the robot's "
+    "key") {
     const Displaced model{Friis{}, Meters{0.01}};
     const Vec3 at{3, 4};
     for (std::uint64_t key = 0; key < 100; ++key) {
@@ -208,8 +209,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "displaced: over many keys of a draw, each of four directions occurs about equally often") {
+TEST_CASE("displaced: over many robots, each of four directions occurs about equally often") {
     const Displaced model{Friis{}, Meters{1}};
     int east = 0, north = 0;
     constexpr int n = 4000;
@@ -222,7 +222,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "displaced: a link longer than the reach of the displaced model has a loss above the budget") {
+    "displaced: a link longer than the reach of the model with displaced antennas has a loss above "
+    "the link budget") {
     const Displaced model{Friis{}, Meters{0.5}};
     const Hertz frequency = Radio{}.frequency;
     const double reach = model.reach(Db{70}, frequency, Propagation::anything).value;

@@ -60,7 +60,9 @@ std::vector<std::string> rows_of(int rows, const std::string& row) {
 
 }  // namespace
 
-TEST_CASE("probe: in free space a shift of 1 cm changes the loss by its slope, and no link flips") {
+TEST_CASE(
+    "probe: in free space a shift of 1 cm changes the loss as Friis' formula predicts, and no link "
+    "goes up or down") {
     const Probe found = probe(scenario_from(two_robots(50, "")), {});
     CHECK(found.model == "friis");
     CHECK(found.links == 1);
@@ -195,7 +197,8 @@ TEST_CASE("probe: a scenario in which no robots come into range is refused") {
     CHECK_THROWS_WITH_AS(
         probe(scenario_from(two_robots(50, "[propagation]\nmodel = \"disc\"\nrange = \"1 m\"\n")),
               {}),
-        doctest::Contains("by the model disc, no two robots come within range of each other"),
+        doctest::Contains("according to the propagation model disc, no two robots come within "
+                          "range of each other"),
         InputError);
 }
 

@@ -129,8 +129,8 @@ TEST_CASE("bounded mean: values with a drift give an interval that contains thei
 }
 
 TEST_CASE(
-    "bounded mean: the forecast is the smallest number of values like the given ones that reaches "
-    "a wanted width") {
+    "bounded mean: the estimated number of replications is the smallest with which similar values "
+    "give the wanted half-width") {
     for (const double wanted : {0.1, 0.05, 0.02}) {
         const auto needed = bounded_mean_replications(ones(5), share, wanted, 0.95);
         REQUIRE(needed);

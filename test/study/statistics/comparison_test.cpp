@@ -91,9 +91,9 @@ TEST_CASE(
     CHECK(std::abs(t - -4.0621) < 0.5e-4);  // half the last printed digit
     CHECK(std::abs(c->p - 0.002833) < 0.5e-6);
     CHECK(comparison_text("the first drug", "the second", *c) ==
-          "the first drug is 1.58 below the second (95 % 0.70 to 2.46, n = 10, p = 0.003, by "
-          "Student's t); "
-          "a difference of 1.23 is found in 80 % of such studies");
+          "the first drug is 1.58 below the second (95 % interval 0.70 to 2.46, n = 10, p = 0.003, "
+          "by Student's t); a difference of 1.23 is found in 80 % of studies with 10 "
+          "replications");
 }
 
 TEST_CASE("comparison: fewer than two pairs give no comparison") {
@@ -129,9 +129,7 @@ TEST_CASE("comparison: p is at most the level exactly when the interval excludes
     CHECK(found < 1500);
 }
 
-TEST_CASE(
-    "comparison: of 5 comparisons in a family, each has the interval of a single comparison at a "
-    "fifth of the level") {
+TEST_CASE("comparison: of 5 comparisons in a family, each is made at a fifth of the level") {
     const Pairs pairs(8, 1, 1);
     const auto together = compare_pairs(pairs.a, pairs.b, {}, 0.95, 5);
     const auto alone = compare_pairs(pairs.a, pairs.b, {}, 0.99);
@@ -211,35 +209,40 @@ TEST_CASE("comparison: without a difference, p is uniform") {
 TEST_CASE("comparison: input that is not pairs of numbers is refused") {
     const std::array two{1.0, 2.0}, bad{1.0, not_a_number};
     CHECK_THROWS_WITH_AS(compare_pairs(two, std::array{1.0}),
-                         "compare_pairs: needs pairs, got 2 and 1 values", std::invalid_argument);
+                         "compare_pairs: expected pairs, but there are 2 values and 1 values",
+                         std::invalid_argument);
     CHECK_THROWS_WITH(compare_pairs(two, bad), "compare_pairs: values must be finite, got nan");
     CHECK_THROWS_WITH(compare_pairs(bad, two), "compare_pairs: values must be finite, got nan");
     CHECK_THROWS_WITH(compare_pairs(two, two, {}, 1),
                       "compare_pairs: confidence must be above 0 and below 1, got 1");
-    CHECK_THROWS_WITH_AS(compare_pairs(two, two, {}, 0.95, 0), "compare_pairs: family must be > 0",
+    CHECK_THROWS_WITH_AS(compare_pairs(two, two, {}, 0.95, 0),
+                         "compare_pairs: family (the number of comparisons) must be > 0",
                          std::invalid_argument);
 }
 
 TEST_CASE("comparison in words: states a significant difference") {
     CHECK(comparison_text("friis", "disc", comparison(0.2131, 0.0332, 1e-5)) ==
-          "friis is 0.213 above disc (95 % 0.180 to 0.246, n = 30, p < 0.001, by Student's t)");
+          "friis is 0.213 above disc (95 % interval 0.180 to 0.246, n = 30, p < 0.001, by "
+          "Student's t)");
     CHECK(comparison_text("friis", "disc", comparison(-0.2131, 0.0332, 0.05)) ==
-          "friis is 0.213 below disc (95 % 0.180 to 0.246, n = 30, p = 0.050, by Student's t)");
+          "friis is 0.213 below disc (95 % interval 0.180 to 0.246, n = 30, p = 0.050, by "
+          "Student's t)");
 }
 
 TEST_CASE("comparison in words: states that no difference is found, and the detectable size") {
     PairedComparison c = comparison(0.0021, 0.0119, 0.0501);
     CHECK(comparison_text("friis", "disc", c) ==
-          "no detectable difference between friis and disc (0.002, 95 % -0.010 to 0.014, n = 30, "
-          "p = 0.050, by Student's t)");
+          "no detectable difference between friis and disc (0.002, 95 % interval -0.010 to 0.014, "
+          "n = 30, p = 0.050, by Student's t)");
     c.detectable = 0.0209;
     c.confidence = 0.999;
     c.family = 4;
     c.p = 0.0012;
     CHECK(comparison_text("friis", "disc", c) ==
-          "no detectable difference between friis and disc (0.002, 99.9 % for all 4: -0.010 to "
-          "0.014, n = 30, p = 0.001, by Student's t); differences below 0.021 cannot be detected "
-          "at n = 30");
+          "no detectable difference between friis and disc (0.002, 99.9 % interval for all 4 "
+          "comparisons: "
+          "-0.010 to 0.014, n = 30, p = 0.001, by Student's t); differences below 0.021 cannot be "
+          "detected with 30 replications");
 }
 
 TEST_CASE("comparison in words: states that two models are equal in all replications") {
@@ -253,25 +256,29 @@ TEST_CASE("comparison in words: states that two models are equal in all replicat
           "a is 0.5 below b in each of 3 replications");
     // Equal but for rounding is not equal; what is printed is.
     CHECK(comparison_text("a", "b", *compare_pairs(a, less))
-              .starts_with("a is 0.1 above b (95 % 0.1 to 0.1, n = 3, p < 0.001, by Student's t)"));
+              .starts_with(
+                  "a is 0.1 above b (95 % interval 0.1 to 0.1, n = 3, p < 0.001, by Student's t)"));
 }
 
 TEST_CASE("comparison in words: the half-width has two digits, without unnecessary decimals") {
     const auto found = [](double mean, double half_width) {
         return comparison_text("a", "b", comparison(mean, half_width, 0));
     };
-    CHECK(found(12.34, 1.0).starts_with("a is 12.3 above b (95 % 11.3 to 13.3,"));
-    CHECK(found(12.34, 0.999).starts_with("a is 12.34 above b (95 % 11.34 to 13.34,"));
-    CHECK(found(12345.6, 10.4).starts_with("a is 12346 above b (95 % 12335 to 12356,"));
-    CHECK(found(12345.6, 1234).starts_with("a is 12346 above b (95 % 11112 to 13580,"));
-    CHECK(found(2e-5, 1.5e-6).starts_with("a is 0.0000200 above b (95 % 0.0000185 to 0.0000215,"));
+    CHECK(found(12.34, 1.0).starts_with("a is 12.3 above b (95 % interval 11.3 to 13.3,"));
+    CHECK(found(12.34, 0.999).starts_with("a is 12.34 above b (95 % interval 11.34 to 13.34,"));
+    CHECK(found(12345.6, 10.4).starts_with("a is 12346 above b (95 % interval 12335 to 12356,"));
+    CHECK(found(12345.6, 1234).starts_with("a is 12346 above b (95 % interval 11112 to 13580,"));
+    CHECK(found(2e-5, 1.5e-6)
+              .starts_with("a is 0.0000200 above b (95 % interval 0.0000185 to 0.0000215,"));
 }
 
 TEST_CASE("comparison in words: a number that rounds to 0 has no sign") {
     CHECK(comparison_text("a", "b", comparison(-0.01, 0.5, 0.9))
-              .starts_with("no detectable difference between a and b (-0.01, 95 % -0.51 to 0.49,"));
+              .starts_with(
+                  "no detectable difference between a and b (-0.01, 95 % interval -0.51 to 0.49,"));
     CHECK(comparison_text("a", "b", comparison(-0.004, 0.5, 0.9))
-              .starts_with("no detectable difference between a and b (0.00, 95 % -0.50 to 0.50,"));
+              .starts_with(
+                  "no detectable difference between a and b (0.00, 95 % interval -0.50 to 0.50,"));
 }
 
 TEST_CASE("comparison in words: states whether two models are equivalent") {
@@ -286,16 +293,19 @@ TEST_CASE("comparison in words: states whether two models are equivalent") {
     c.family = 4;
     verdict.verdict = Equivalence::outside;
     CHECK(equivalence_text("disc", "friis", 0.05, verdict, c) ==
-          "disc is not within 0.05 of friis (95 % for all 4, by betting, decided by 17 of 30 "
-          "replications); margins below 0.034 cannot be decided at n = 30");
+          "disc is not within 0.05 of friis (95 % for all 4 comparisons, by betting, decided by 17 "
+          "of 30 "
+          "replications); margins below 0.034 need more than 30 replications");
     CHECK(equivalence_text("disc", "friis", 0.03, verdict, c) ==
-          "disc is not within 0.03 of friis (95 % for all 4, by betting, decided by 17 of 30 "
+          "disc is not within 0.03 of friis (95 % for all 4 comparisons, by betting, decided by 17 "
+          "of 30 "
           "replications)");
     verdict.verdict = Equivalence::undecided;
     verdict.decided_at = {};
     verdict.needed = 800;
     CHECK(equivalence_text("disc", "friis", 0.05, verdict, c) ==
-          "30 replications do not decide whether disc is within 0.05 of friis (95 % for all 4, "
+          "30 replications do not decide whether disc is within 0.05 of friis (95 % for all 4 "
+          "comparisons, "
           "by betting); about 800 replications like these would decide");
 }
 
@@ -314,7 +324,7 @@ TEST_CASE(
     CHECK(!c->found());
     CHECK(comparison_text("friis", "disc", *c)
               .starts_with("friis is above disc in 54 of 60 replications and below in 0 (p < "
-                           "0.001, sign test); a difference of the means is not shown ("));
+                           "0.001, sign test); no difference of the means is detected ("));
     CHECK(comparison_text("disc", "friis", *compare_pairs(b, a, share))
               .starts_with("disc is below friis in 54 of 60 replications and above in 0"));
     // Twice as large, the mean tells it, and the interval is that of the fixed n.
@@ -328,8 +338,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "comparison: the sign test is binomial and adjusted for the family; with betting there is "
-    "none") {
+    "comparison: the sign test is binomial and adjusted for the family; betting has no sign test") {
     const std::array a{1.0, 0.0, 1.0, 0.5, 1.0, 1.0, 0.7}, b{0.0, 1.0, 0.0, 0.5, 0.5, 0.5, 0.0};
     // 5 above, 1 below, 1 equal: 2 (1 + 6) / 64.
     CHECK(is_close(*compare_pairs(a, b, share)->sign_p, 14.0 / 64, rounding));

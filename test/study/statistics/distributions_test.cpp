@@ -37,8 +37,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "distributions: shifts of power 0.8 equal the test vectors detectable_shift to the stated "
-    "accuracy") {
+    "distributions: shifts that a t-test finds with power 0.8 equal the test vectors "
+    "detectable_shift to the stated accuracy") {
     const test::Vectors vectors("detectable_shift.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         CAPTURE(i);
@@ -61,7 +61,8 @@ TEST_CASE("distributions: to reach a power slightly above the level, hardly any 
 }
 
 TEST_CASE(
-    "distributions: the shift is undefined where the tails of t are too heavy to compute it") {
+    "distributions: the shift for a wanted power is undefined where the tails of t are too heavy "
+    "to compute it") {
     CHECK(t_shift(1, 6.5e-5, 0.8));
     CHECK(!t_shift(1, 6.3e-5, 0.8));
     CHECK(!t_shift(1, 1e-300, 0.8));

@@ -78,9 +78,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "equivalence: verdicts, and the replications at which they are given, equal the test vectors "
-    "decide_betting") {
+TEST_CASE("equivalence: verdicts and their replications equal the test vectors decide_betting") {
     const test::Vectors all("decide_series.csv"), expected("decide_betting.csv");
     for (std::size_t row = 0; row < expected.size(); ++row) {
         const std::string name = expected.text(row, "series");
@@ -206,7 +204,8 @@ TEST_CASE(
           Equivalence::undecided);
 }
 
-TEST_CASE("equivalence: a metric without bounds is tested once, by Student's t") {
+TEST_CASE(
+    "equivalence: a metric without bounds is tested only once, after all runs, by Student's t") {
     const auto near = equivalence_of(normals(40, 0, 0.1, 1), 0.25, delay);
     CHECK(near.verdict == Equivalence::within);
     CHECK(near.method == IntervalMethod::t);
@@ -217,7 +216,7 @@ TEST_CASE("equivalence: a metric without bounds is tested once, by Student's t")
     CHECK(open.needed.value_or(11) > 10);
 }
 
-TEST_CASE("equivalence: by Student's t, the level is divided among the judged models") {
+TEST_CASE("equivalence: by Student's t, the level is divided by the number of compared models") {
     // Mean 0, s = 1, n = 4: one-sided t of 3 degrees at 5 % is 2.3534, at 2.5 % 3.1824.
     const std::vector<double> values = {-1, 1, -0.7071067811865476, 0.7071067811865476};
     CHECK(equivalence_of(values, 1.19, delay, 0.05, 1).verdict == Equivalence::within);
@@ -239,7 +238,7 @@ TEST_CASE("equivalence: parameters out of range are refused") {
     CHECK_THROWS_WITH(equivalence_of(values, 0.1, share, 0.5),
                       "equivalence: alpha must be above 0 and below 0.5, got 0.5");
     CHECK_THROWS_WITH(equivalence_of(values, 0.1, share, 0.05, 0),
-                      "equivalence: family must be > 0");
+                      "equivalence: family (the number of comparisons) must be > 0");
     CHECK_THROWS(equivalence_of(std::vector<double>{std::nan("")}, 0.1, share));
 }
 

@@ -83,7 +83,8 @@ TEST_CASE("MSER-5: a batch that the transient touches is deleted entirely") {
     CHECK(mser5(step(200, 41, 3)).observations == 45);
 }
 
-TEST_CASE("MSER-5: a minimum at the border of the first half is not conclusive") {
+TEST_CASE(
+    "MSER-5: if the statistic is smallest at the series' midpoint, the result is not conclusive") {
     CHECK(mser5(step(200, 100, 3)) == Truncation{.observations = 100, .conclusive = false});
     CHECK(mser5(fading(205, 1, 1e3, 1e3)) == Truncation{.observations = 100, .conclusive = false});
 }

@@ -114,7 +114,9 @@ TEST_CASE(
     CHECK(quantile_of(ranks(72), 0.05)->interval->low == 1);
 }
 
-TEST_CASE("quantile: ranks and coverage equal sums of all probabilities") {
+TEST_CASE(
+    "quantile: the ranks and the coverage of an interval equal those found by adding up binomial "
+    "probabilities") {
     for (const std::size_t n : {1U, 2U, 6U, 17U, 30U, 101U, 200U}) {
         for (const double p : {0.05, 0.25, 0.5, 0.9, 0.95}) {
             for (const double confidence : {0.5, 0.9, 0.95, 0.99}) {

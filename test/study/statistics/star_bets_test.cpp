@@ -98,7 +98,8 @@ TEST_CASE("STaR-Bets: rejections equal those by the equations in the C++ header"
     CHECK(kept > 50);
 }
 
-TEST_CASE("STaR-Bets: every cell below the interval is rejected, and no other") {
+TEST_CASE(
+    "STaR-Bets: every grid cell below the interval is rejected, the first cell inside it is not") {
     const auto values = normals(64, 0.4, 0.2, 1);
     const auto mean = star_mean(values, share, 0.95);
     for (int cell = 1; cell <= 128; ++cell) {

@@ -60,7 +60,9 @@ Summary ten(double mean, double variance) {
 
 TEST_CASE("summary: without values there is no summary") { CHECK(!summary_of({})); }
 
-TEST_CASE("summary: of a single value there is a mean, but no deviation, interval or forecast") {
+TEST_CASE(
+    "summary: a single value gives a mean, but no deviation, half-width or number of replications "
+    "needed") {
     const auto summary = summary_of(std::array{-2.5});
     REQUIRE(summary);
     CHECK(*summary ==

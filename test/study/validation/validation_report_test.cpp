@@ -90,7 +90,7 @@ TEST_CASE(
     panel.points[3].error_high = 1.6;  // meets that of the cheaper one
     CHECK(pareto_front(panel.points) == Front{1});
     CHECK(count(validation_svg({.name = "s", .title = "t", .truth = "", .panels = {panel}}),
-                "surely nearer the truth") == 1);
+                "surely nearer the reference") == 1);
 }
 
 TEST_CASE(
@@ -111,7 +111,7 @@ TEST_CASE(
     CHECK(count(svg, "class=\"guide\"") == 2);  // cheap, on both scales
     for (const char* name : {">cheap</text>", ">slow &amp; poor</text>", ">exact</text>"})
         CHECK(count(svg, name) == 1);
-    CHECK(count(svg, "errors below 5e-06 stand at the left end") == 1);
+    CHECK(count(svg, "errors below 5e-06 are drawn at the left end") == 1);
     // From cheap to dear.
     CHECK(svg.find(">cheap</text>") < svg.find(">slow &amp; poor</text>"));
     CHECK(svg.find(">slow &amp; poor</text>") < svg.find(">exact</text>"));
@@ -125,7 +125,9 @@ TEST_CASE("validation: a panel in which every error is 0 is replaced by a senten
     validation.charts[0].panels.push_back(right);
     CHECK(count(validation_svg(validation.charts[0]), "class=\"panel\"") == 1);
     const std::string page = accuracy_page(validation);
-    CHECK(count(page, "No picture, because every error is 0: \"hall\".") == 1);
+    CHECK(count(page,
+                "There is no picture of the errors of \"hall\", because all these errors are 0.") ==
+          1);
     CHECK(count(page, "[small.csv](accuracy/small.csv)") == 1);  // its numbers are there
 }
 
@@ -160,7 +162,7 @@ TEST_CASE(
     // A candidate alone, and against one that is always worse, is the nearest.
     const Nearest without_b =
         nearest_to_truth(many, [](const ValidationPoint& p) { return p.label != "b"; });
-    CHECK(nearest_text(without_b, words) == "a has the smallest error, 2.00 dB");
+    CHECK(nearest_text(without_b, words) == "a has the smallest error (2.00 dB)");
     CHECK(!nearest_to_truth(many, [](const ValidationPoint&) { return false; }).point);
 }
 
@@ -181,8 +183,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "validation: a chart that continues another chart is in the same section, and does not repeat "
-    "the reference") {
+    "validation: a chart that continues another chart is in the same section, which states the "
+    "true reference only once") {
     Validation validation = small_validation();
     validation.charts.push_back(validation.charts[0]);
     validation.charts[1].title = "And then?";
@@ -193,8 +195,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "headline: models are in order of cost, and forms of the reference are never named the best "
-    "model") {
+    "headline: models are in order of cost, and the reference with fewer paths is never named the "
+    "best model") {
     const auto point = [](const char* label, const char* series, double cost, double error) {
         return ValidationPoint{.label = label,
                                .series = series,
@@ -216,8 +218,8 @@ TEST_CASE(
                          point("rays, order 1", "the reference with fewer paths", 100, 0.01)}}}}};
     const std::string svg = headline_svg(validation);
     CHECK(count(svg,
-                ">In the office, walls errs by 0.04 once it is fitted (0.2 before), at 1/100 "
-                "of the cost of rays.</text>") == 1);
+                ">In the office, the error of walls is 0.04 after the fit (0.2 "
+                "before), at 1/100 of the cost of rays.</text>") == 1);
     CHECK(svg.find(">friis</text>") < svg.find(">walls</text>"));
     CHECK(svg.find(">walls</text>") < svg.find(">rays, order 1</text>"));
     CHECK(count(svg, ">two_ray</text>") == 0);  // the errors of friis
@@ -242,9 +244,7 @@ TEST_CASE("validation: numbers of a chart are a table with one line per point") 
     CHECK(count(csv, "office,cheap,fitted,10,9,12,2,1.5,2.5,0\n") == 1);
 }
 
-TEST_CASE(
-    "validation: the median cost of a method lies between the costs of its cheapest and dearest "
-    "turn") {
+TEST_CASE("validation: the median cost of a method lies between its lowest and its highest cost") {
     double calls = 0;
     const std::vector<TimedMethod> methods{{[&] { return ++calls; }, 1}, {[] { return 1.0; }, 10}};
     const auto costs = costs_in_turns(methods, {.turns = 3, .least_s = 1e-5});

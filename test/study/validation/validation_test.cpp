@@ -81,8 +81,8 @@ TEST_CASE("validation: results equal brute force within the claimed limits") {
 }
 
 TEST_CASE(
-    "validation: throughput and collisions of saturated stations, and times of access, agree with "
-    "theory") {
+    "validation: throughput and collisions of saturated stations, and the times at which stations "
+    "access the channel, agree with theory") {
     Promises promises;
     check_access(promises);
     CHECK(promises.size() == 3);
@@ -131,8 +131,7 @@ TEST_CASE("validation: predicted link changes are within the limits, and fixed s
 }
 
 TEST_CASE(
-    "validation: link decisions without logarithms equal exact ones; those by a table have "
-    "errors") {
+    "validation: link decisions without logarithms are exact; decisions by a table have errors") {
     Promises promises;
     const ValidationChart chart = decisions_chart(few, promises);
     check_kept(promises);
@@ -140,7 +139,8 @@ TEST_CASE(
     CHECK(point_of(chart.panels.front(), "table of 256, nearest").error > 0);
 }
 
-TEST_CASE("validation: errors are equal when measured again") {
+TEST_CASE(
+    "validation: errors of link decisions and delivery ratios are equal when measured again") {
     Promises promises;
     CHECK(errors_of(decisions_chart(few, promises)) == errors_of(decisions_chart(few, promises)));
     const auto runs = [] {
