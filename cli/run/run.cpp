@@ -37,7 +37,8 @@ void print_timeline(const Scenario& scenario, const RunResult& result) {
     }
     if (shown < timeline.size()) {
         const std::uint64_t left_out = timeline.left_out();
-        fmt::print("... and {} more; {} in {}/summary.json\n", timeline.size() - shown + left_out,
+        fmt::print("... and {} more events; {} in {}/summary.json\n",
+                   timeline.size() - shown + left_out,
                    left_out > 0 ? fmt::format("the first {} are", timeline.size()) : "all are",
                    result.folder);
     }
@@ -52,18 +53,22 @@ void print_result(const Scenario& scenario, const RunResult& result) {
     fmt::print("delivery ratio     {}\n", percent(m.delivery_ratio));
     if (m.cut_off > 0) {
         fmt::print(
-            "not counted        {} (messages still at their senders at the end of the run)\n",
+            "not counted        {} (messages that were still at their senders when the run "
+            "ended)\n",
             m.cut_off);
     }
-    if (m.reach_known) {
+    if (m.reach_known && !m.reach) {
+        if (m.messages > 0)
+            fmt::print("reach              undefined, because no robot was linked to a sender\n");
+    } else if (m.reach_known) {
         fmt::print(
             "reach              {} of the robots that were linked to the sender, directly or over "
-            "others\n",
+            "other robots\n",
             percent(m.reach));
     } else if (!scenario.metrics.reach) {
         fmt::print(
-            "reach              not measured, because this takes longer than the rest of the run; "
-            "[metrics] reach = true measures it\n");
+            "reach              not measured, because measuring the reach takes longer than the "
+            "rest of the run; [metrics] reach = true measures it\n");
     }
     if (m.latency) {
         fmt::print("latency            {:.3f} ms mean, {:.3f} ms at most\n", 1e3 * m.latency->mean,
@@ -77,8 +82,8 @@ void print_result(const Scenario& scenario, const RunResult& result) {
     fmt::print("fingerprint        {}\n", result.fingerprint);
     if (const auto db = result.interference_left_out) {
         notice(
-            fmt::format("sinr ignores frames far below the sensitivity; if it counted them, the "
-                        "SINR would be at most {:.2f} dB lower",
+            fmt::format("the reception model sinr ignores frames far below the sensitivity; with "
+                        "these frames, the SINR would be at most {:.2f} dB lower",
                         db->value));
     }
     if (const std::string text = result.network->routing_notice(); !text.empty()) notice(text);

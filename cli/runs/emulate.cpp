@@ -68,8 +68,8 @@ void emulate(const EmulateArguments& a) {
     print_run(result.scenario, result.run, a.json);
     if (!a.json) {
         fmt::print(
-            "late               {:.3f} ms at most, by more than 1 ms at {:.1f} % of the event "
-            "times\n",
+            "late               {:.3f} ms behind real time at most; more than 1 ms late at {:.1f} "
+            "% of the event times\n",
             1e3 * seconds(result.lateness->most), 100 * result.lateness->share());
     }
     if (!result.fault.empty()) throw CommandEnd(failed, result.fault);
@@ -94,7 +94,9 @@ uid_t user_of(const std::string& text) {
     constexpr long largest = 4'294'967'294;
     const auto number = whole_number_of(text);
     if (number && *number >= 0 && *number <= largest) return static_cast<uid_t>(*number);
-    throw CommandEnd(usage, fmt::format("--user: there is no user {}", text));
+    throw CommandEnd(usage, fmt::format("--user: found {}, which is no user of this machine; "
+                                        "expected the name or the number of a user",
+                                        text));
 }
 
 WantedRun wanted_run(const InArguments& a) {
@@ -106,8 +108,9 @@ WantedRun wanted_run(const InArguments& a) {
     if (number && (*number < 1 || *number > largest)) {
         throw CommandEnd(
             usage,
-            fmt::format("--run {}: expected the number of a process, from 1 to {}, or a folder",
-                        *a.run, largest));
+            fmt::format(
+                "--run {}: expected the process id of a run, from 1 to {}, or the folder of a run",
+                *a.run, largest));
     }
     if (number) {
         wanted.process = static_cast<pid_t>(*number);
@@ -148,7 +151,10 @@ void add_emulate(Command app) {
     a.view.add_to(command);
     command.add_option("--speed", a.speed, "speed relative to real time (default: 1)")
         .check(speed_of_time());
-    command.add_option("--late", a.late, "longest time by which the run may lag behind real time")
+    command
+        .add_option("--late", a.late,
+                    "longest time by which the run may lag behind real time; --on-late says what "
+                    "happens if the run lags more")
         .shows_default();
     command
         .add_option("--on-late", a.on_late,

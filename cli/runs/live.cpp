@@ -113,12 +113,15 @@ LiveResult run_by_fronts(LiveArguments a) {
 
 void run_live(const LiveArguments& a) {
     if (!a.is_by_clock() && !a.has_controllers()) {
-        throw CommandEnd(usage,
-                         "live: expected --controller, --listen-json, --listen-web, --unix, "
-                         "--player, --rosbridge or --view");
+        throw CommandEnd(
+            usage,
+            "live: found no option by which external programs connect; expected --controller, "
+            "--listen-json, --listen-web, --unix, --player, --rosbridge or --view");
     }
     if (!a.is_by_clock() && a.speed) {
-        throw CommandEnd(usage, "live: --speed needs --player, --rosbridge or --view");
+        throw CommandEnd(usage,
+                         "live: --speed needs --player, --rosbridge or --view, because controllers "
+                         "alone decide when the next step begins");
     }
     const LiveResult result = run_by_fronts(a);
     print_run(result.scenario, result.run, a.json);

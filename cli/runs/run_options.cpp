@@ -66,7 +66,7 @@ void add_sweep(Command app, const std::string& typed) {
     add_study_run(sweep, a);
     Option resume = sweep.add_flag("--resume", a.resume,
                                    "make only the runs that the store lacks (this is the default)");
-    sweep.add_flag("--fresh", a.fresh, "delete the runs in the store first, after asking")
+    sweep.add_flag("--fresh", a.fresh, "ask, delete the runs in the store, then make all runs anew")
         .excludes(resume);
     sweep.add_flag("--yes", a.yes, "with --fresh: delete the runs without asking");
     const Option shard =
@@ -77,7 +77,8 @@ void add_sweep(Command app, const std::string& typed) {
     sweep.add_option("--chunk", a.chunk, "number of runs in each chunk of --shard")
         .check(above_zero())
         .shows_default();
-    sweep.add_option("--except", a.except, "skip the runs that are finished in this store");
+    sweep.add_option("--except", a.except,
+                     "do not make the runs that are already finished in this store");
     const Option merge =
         sweep.add_option("--merge", a.merge, "move the runs of these stores into the study's store")
             .excludes(shard);
@@ -127,8 +128,8 @@ void add_compare(Command app, const std::string& typed) {
                        "most detailed model, or the first protocol or value)");
     compare
         .add_option("--margin", a.margin,
-                    "test for each model whether its mean is within this margin of the baseline's "
-                    "mean, in the metric's unit")
+                    "test for each model whether the mean of its runs is within this margin of the "
+                    "baseline's mean, in the metric's unit")
         .check(above_zero());
     compare
         .add_option("--confidence", a.confidence,
@@ -161,8 +162,8 @@ void add_advise(Command app, const std::string& typed) {
         .check(above_zero());
     advise
         .add_option("--criterion", a.criterion,
-                    "error to compare with the tolerance: mean, the error of the mean of many "
-                    "runs; run, the mean error of a single run")
+                    "error to compare with the tolerance: mean (error of the mean of many runs) or "
+                    "run (mean error of a single run)")
         .one_of({"mean", "run"})
         .shows_default();
     advise.add_option("--metric", a.metric, "metric that the models must reproduce")
@@ -181,8 +182,8 @@ void add_advise(Command app, const std::string& typed) {
                     "use the parameters in the file, without first fitting the models");
     advise
         .add_option("--max-replications", a.max_replications,
-                    "largest number of replications; a model that is then still undecided counts "
-                    "as insufficient (default: 4000)")
+                    "largest number of replications; a model that is still undecided after these "
+                    "replications counts as insufficient (default: 4000)")
         .range(1, 1'000'000);
     advise
         .add_option(

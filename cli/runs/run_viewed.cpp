@@ -6,6 +6,7 @@
 #include "cli/terminal/diagnostics.hpp"
 #include "experiment/run_folder.hpp"
 #include "live/paced_run.hpp"
+#include "pictures/viewer/view_run.hpp"
 
 #include <fmt/format.h>
 
@@ -41,7 +42,10 @@ void run_viewed(const ViewedRunArguments& a, const Scenario& scenario) {
 
 void run_or_view(const ViewedRunArguments& a) {
     if (!a.view.is_given()) return run(a);
-    if (const std::optional<Scenario> scenario = scenario_to_run(a)) run_viewed(a, *scenario);
+    const std::optional<Scenario> scenario = scenario_to_run(a);
+    if (!scenario) return;
+    check_viewable(*scenario, a.file);
+    run_viewed(a, *scenario);
 }
 
 }  // namespace rovernet::cli

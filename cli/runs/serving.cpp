@@ -31,7 +31,8 @@ void Reach::add_to(Command command) {
         "(0.0.0.0: at all its addresses); they need the printed token");
     command
         .add_flag("--insecure", insecure,
-                  "with --listen: also serve other machines by protocols that have no token")
+                  "with --listen: other machines can connect by all protocols, also by those "
+                  "without a token, such as Player; then everyone can drive the robots")
         .needs(option);
 }
 
@@ -45,8 +46,8 @@ Address Reach::without_token(const std::string& text) const {
     if (insecure) return with_token(text);
     if (listen) {
         notice(
-            fmt::format("{}: serves only this machine, because its clients need no token; "
-                        "--insecure serves other machines, too",
+            fmt::format("{}: only programs on this machine can connect, because their protocol has "
+                        "no token; with --insecure, programs on other machines can connect, too",
                         text));
     }
     return read_loopback(text);

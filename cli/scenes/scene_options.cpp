@@ -85,7 +85,9 @@ void add_where(Command app) {
         .delimiter(',')
         .needs(to);
     Option csv =
-        where.add_flag("--csv", a.csv, "print CSV, with a line for each time without a link")
+        where
+            .add_flag("--csv", a.csv,
+                      "print CSV, with a line for each period in which the robot has no link")
             .needs(to);
     add_json(where, a.json);
     where.option("--json").excludes(csv);
@@ -109,8 +111,8 @@ void add_draw(Command app) {
                         "With several robots A,B: the power received from the strongest one");
     coverage.delimiter(',');
     draw.add_option("--for", a.receiver,
-                    "robot whose radio and antenna height are used for reception (default: those "
-                    "of the first robot of --coverage)")
+                    "robot whose radio and antenna height are used for reception (default: the "
+                    "radio and height of the first robot of --coverage)")
         .needs(coverage);
     draw.add_flag("--links", a.links, "draw the links between the robots");
     draw.add_option("--routes", a.route,
@@ -118,7 +120,7 @@ void add_draw(Command app) {
         .delimiter(',');
     draw.add_flag("--search", a.search,
                   "draw the robots that sent or forwarded the last route request: with --routes "
-                  "A,B the last one of robot A, otherwise of any robot");
+                  "A,B the last request of robot A, otherwise the last request of any robot");
     Option trails = draw.add_flag("--trails", a.trails, "draw the paths of the robots so far");
     Option margin_to =
         draw.add_option("--margin-to", a.margin_to,

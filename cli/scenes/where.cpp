@@ -92,7 +92,8 @@ void print_gaps(const LinkGapsQuestion& question, const LinkGaps& gaps) {
     const bool has_heights = std::any_of(gaps.gaps.begin(), gaps.gaps.end(), [](const LinkGap& g) {
         return g.from.z != 0 || g.to.z != 0;
     });
-    TextTable table({"begin [s]", "end [s]", "lasts [s]", "path [m]", "begin [m]", "end [m]"});
+    TextTable table(
+        {"begin [s]", "end [s]", "lasts [s]", "path [m]", "begins at [m]", "ends at [m]"});
     for (const LinkGap& gap : gaps.gaps) {
         table.add({fmt::format("{:.3f}", seconds(gap.begin)),
                    fmt::format("{:.3f}", seconds(gap.end)),

@@ -8,10 +8,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <string_view>
+#include <type_traits>
 
 namespace rovernet::cli {
 namespace {
@@ -41,9 +45,24 @@ std::vector<std::string> commands_of(const CLI::App& command) {
     return names;
 }
 
+/// Message for a value that an option cannot have: of "Could not convert: --message = abc", what
+/// the option expects.
+std::string conversion_error(const CLI::App& command, const std::string& what) {
+    constexpr std::string_view begin = "Could not convert: ", between = " = ";
+    const std::size_t equals = what.find(between);
+    if (!what.starts_with(begin) || equals == what.npos) return what;
+    const std::string name = what.substr(begin.size(), equals - begin.size());
+    const CLI::Option* option = command.get_option_no_throw(name);
+    const std::string type = option ? option->get_type_name() : "";
+    return fmt::format("{}: found \"{}\"; expected {}", name, what.substr(equals + between.size()),
+                       type.find("UINT") != type.npos  ? "a whole number >= 0"
+                       : type.find("INT") != type.npos ? "a whole number"
+                                                       : "a number without a unit");
+}
+
 /// Message of what is wrong with the words of the command line, and what was probably meant.
 std::string usage_error(const CLI::App* app, const CLI::Error& error) {
-    std::string what = error.what();
+    std::string what = conversion_error(named_command(*app), error.what());
     const std::vector<std::string> unexpected = app->remaining(true);
     if (!unexpected.empty()) {
         const std::string word = unexpected.front().substr(0, unexpected.front().find('='));
@@ -56,7 +75,7 @@ std::string usage_error(const CLI::App* app, const CLI::Error& error) {
             what = fmt::format("unknown command \"{}\"; expected one of {}", word,
                                fmt::join(commands, ", "));
         } else {
-            what = fmt::format("unexpected \"{}\"", word);
+            what = fmt::format("unexpected argument \"{}\"", word);
         }
         const std::string near = did_you_mean(word, is_option ? options_of(command) : commands);
         if (!near.empty()) what += "; " + near;
@@ -86,6 +105,46 @@ Command::Text text_of(const CLI::App& command) {
         if (!sub->get_group().empty()) text.commands.push_back(text_of(*sub));
     }
     return text;
+}
+
+std::ptrdiff_t quotes_in(const std::string& word) {
+    return std::count(word.begin(), word.end(), '"');
+}
+
+/// Values of a list that was split at each `between`: parts between double quotes are joined again,
+/// and a value in quotes loses its quotes.
+std::vector<std::string> with_quoted(const std::vector<std::string>& parts, char between) {
+    std::vector<std::string> values;
+    bool is_open = false;
+    for (const std::string& part : parts) {
+        if (is_open)
+            values.back() += between + part;
+        else
+            values.push_back(part);
+        is_open = is_open != (quotes_in(part) % 2 == 1);
+    }
+    if (is_open) return parts;
+    for (std::string& value : values) {
+        if (value.size() >= 2 && value.front() == '"' && value.back() == '"' &&
+            quotes_in(value) == 2)
+            value = value.substr(1, value.size() - 2);
+    }
+    return values;
+}
+
+/// Adds an option that sets a list of texts.
+CLI::Option* add_list(CLI::App& command, const char* name, std::vector<std::string>& value,
+                      const char* what) {
+    const auto made = std::make_shared<CLI::Option*>();
+    *made = command.add_option_function<std::vector<std::string>>(
+        name,
+        [&value, made](const std::vector<std::string>& given) {
+            const char between = (*made)->get_delimiter();
+            value = between == '\0' ? given : with_quoted(given, between);
+        },
+        what);
+    (*made)->default_function([&value] { return CLI::detail::to_string(value); });
+    return (*made)->run_callback_for_default();
 }
 
 }  // namespace
@@ -133,11 +192,15 @@ Command Command::add_command(const char* name, const char* what) const {
 
 template <class T>
 Option Command::add_option(const char* name, T& value, const char* what) const {
-    return Option(command_->add_option(name, value, what));
+    if constexpr (std::is_same_v<T, std::vector<std::string>>) {
+        return Option(add_list(*command_, name, value, what));
+    } else {
+        return Option(command_->add_option(name, value, what));
+    }
 }
+template Option Command::add_option(const char*, std::vector<std::string>&, const char*) const;
 template Option Command::add_option(const char*, std::string&, const char*) const;
 template Option Command::add_option(const char*, std::optional<std::string>&, const char*) const;
-template Option Command::add_option(const char*, std::vector<std::string>&, const char*) const;
 template Option Command::add_option(const char*, int&, const char*) const;
 template Option Command::add_option(const char*, std::uint64_t&, const char*) const;
 template Option Command::add_option(const char*, std::optional<std::uint64_t>&, const char*) const;

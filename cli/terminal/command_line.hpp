@@ -31,7 +31,8 @@ class Option {
     Option required() const;
     /// Shows the current value of the option's variable as the default in --help.
     Option shows_default() const;
-    /// Accepts several values of the option in one word, separated by the character `between`.
+    /// Accepts several values of the option in one word, separated by the character `between`. A
+    /// value that contains `between` is in double quotes.
     Option delimiter(char between) const;
     /// Makes the value of the option optional: without a value the option means `text`.
     Option usually(const char* text) const;

@@ -140,8 +140,8 @@ std::string completion_script(const Command::Text& program, const std::string& s
 
 std::string man_page(const Command::Text& program) {
     std::string page = fmt::format(
-        ".TH ROVERNET 1 \"\" \"rovernet {}\"\n.SH NAME\nrovernet \\- wireless networks of moving "
-        "robots, event by event\n.SH SYNOPSIS\n.B rovernet\n.I COMMAND\n[OPTIONS]\n"
+        ".TH ROVERNET 1 \"\" \"rovernet {}\"\n.SH NAME\nrovernet \\- discrete-event simulator of "
+        "wireless networks of moving robots\n.SH SYNOPSIS\n.B rovernet\n.I COMMAND\n[OPTIONS]\n"
         ".SH COMMANDS\n",
         roff(std::string(version())));
     for_each_command(program, "", [&](const Command::Text& command, const std::string& words) {

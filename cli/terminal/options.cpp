@@ -45,7 +45,7 @@ Check above_zero() {
 
 Check speed_of_time() {
     constexpr double slowest = 1e-6, fastest = 1e9;
-    return number_check<double>("a speed from 1e-6 to 1e9", "SPEED",
+    return number_check<double>("a speed from 1e-6 to 1e9 (1: real time)", "SPEED",
                                 [](double v) { return v >= slowest && v <= fastest; });
 }
 
@@ -73,9 +73,10 @@ void print_man_page(const ManualArguments& a) { fmt::print("{}", man_page(a.prog
 int run_program(int argc, char** argv, const std::function<void(Command program)>& declare) {
     end_on_signals();
     std::signal(SIGPIPE, SIG_IGN);
-    return run_command_line(argc, argv, "rovernet",
-                            "rovernet: wireless networks of moving robots, event by event",
-                            std::string(version()), declare);
+    return run_command_line(
+        argc, argv, "rovernet",
+        "rovernet: discrete-event simulator of wireless networks of moving robots",
+        std::string(version()), declare);
 }
 
 void add_verbosity(Command command) {
@@ -85,7 +86,7 @@ void add_verbosity(Command command) {
     command
         .add_flag(
             "-v,--verbose", [] { set_verbosity(Verbosity::everything); },
-            "also print what was read, and how long each step took")
+            "also print a summary of the scenario, and how long each step of the command took")
         .excludes(quiet);
 }
 

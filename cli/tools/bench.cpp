@@ -17,8 +17,8 @@ namespace {
 std::size_t choice(const char* option, const std::string& word, const auto& names) {
     const auto found = std::find(names.begin(), names.end(), word);
     if (found == names.end()) {
-        throw std::invalid_argument(fmt::format("--{}: unknown value \"{}\"; expected one of {}",
-                                                option, word, fmt::join(names, ", ")));
+        throw std::invalid_argument(fmt::format("--{}: found \"{}\"; expected one of {}", option,
+                                                word, fmt::join(names, ", ")));
     }
     return static_cast<std::size_t>(found - names.begin());
 }

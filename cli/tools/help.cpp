@@ -75,7 +75,7 @@ void print_topics(const std::vector<HelpPage>& pages, const fs::path& folder) {
         shelf = page.shelf;
         print_line(page);
     }
-    fmt::print("\nrovernet help TOPIC prints a page. They are in {}.\n", folder.string());
+    fmt::print("\nrovernet help TOPIC prints a page. All pages are in {}.\n", folder.string());
 }
 
 /// Text of a page without its comments, which are for the check of the pages.

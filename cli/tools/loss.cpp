@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "cli/display/picture_output.hpp"
+#include "cli/terminal/diagnostics.hpp"
 #include "cli/tools/tool_commands.hpp"
 #include "experiment/reports/loss_table.hpp"
 #include "models/propagation/disc.hpp"
 #include "pictures/chart/chart.hpp"
 #include "scenario/document/json.hpp"
+#include "scenario/unlikely.hpp"
 #include "sim/math.hpp"
 
 #include <fmt/format.h>
@@ -144,6 +146,8 @@ void draw_losses(const std::vector<ModelLoss>& models, Hertz frequency, const st
 
 void loss(const LossArguments& a) {
     const Hertz frequency = option_frequency("--frequency", a.frequency);
+    if (const std::string doubt = unlikely_frequency(frequency); !doubt.empty())
+        notice("--" + doubt);
     const LossAntennas heights = heights_of(a);
     const Meters wall = a.wall ? option_length("--wall", *a.wall) : Meters{0};
     std::vector<Meters> distances;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "cli/terminal/diagnostics.hpp"
 #include "cli/tools/tool_commands.hpp"
 #include "experiment/reports/loss_table.hpp"
 #include "scenario/document/json.hpp"
 #include "scenario/tables/read_value.hpp"
+#include "scenario/unlikely.hpp"
 #include "scene/materials/p2040.hpp"
 
 #include <fmt/format.h>
@@ -36,6 +38,8 @@ void material(const MaterialArguments& a) {
     const ItuMaterial material = material_named(a.material);
     const Meters thickness = thickness_of(a.thickness);
     const Hertz frequency = option_frequency("--frequency", a.frequency);
+    if (const std::string doubt = unlikely_frequency(frequency); !doubt.empty())
+        notice("--" + doubt);
     const SlabLosses slab =
         slab_losses(material, thickness, frequency, Radians{a.angle * (std::numbers::pi / 180)});
     const Permittivity eps = permittivity(material, frequency);

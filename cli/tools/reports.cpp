@@ -45,9 +45,8 @@ void print_budget(const LinkReport& r) {
         fmt::print("\n");
     }
     if (r.wall_m > 0) {
-        const bool sees_walls = !r.wall_losses.empty() || r.rays;
         fmt::print("  {:.3f} m of wall in all{}\n\n", r.wall_m,
-                   sees_walls ? "" : "; model " + r.model + " ignores walls");
+                   r.ignores_walls ? "; model " + r.model + " ignores walls" : "");
     }
     if (r.ceilings > 0 || r.floors > 0) {
         const std::size_t number = r.ceilings > 0 ? r.ceilings : r.floors;
@@ -154,7 +153,7 @@ void models(const ModelsArguments& a) {
     }
     for (const Value& variation : variations) {
         const std::string name = text_of(*variation.table()->find("name"));
-        fmt::print("{}, in addition to any model: [{}]\n", name, name);
+        fmt::print("{}, in addition to any model; keys of the table [{}]:\n", name, name);
         print_parameters(*variation.table());
     }
 }

@@ -36,7 +36,7 @@ void print_validation(const Validation& validation) {
         for (const std::string& sentence : chart.sentences) fmt::print("  {}\n", sentence);
     }
     fmt::print("\n");
-    TextTable table({"promise", "limit", "worst", "kept"});
+    TextTable table({"promise", "limit", "worst case", "kept"});
     for (const Promise& p : validation.promises) {
         const std::string unit = p.unit.empty() ? "" : " " + p.unit;
         table.add({p.what, fmt::format("{:g}{}", p.limit, unit),
@@ -55,7 +55,8 @@ void validate(const ValidateArguments& a) {
     for (const std::string& text : validation.left_out) notice("left out: " + text);
     if (!validation.kept())
         throw CommandEnd(failed,
-                         "an error exceeds the limit that the code promises; see the table");
+                         "an error exceeds the limit that the code promises: see the rows of the "
+                         "table with NO in the column \"kept\"");
 }
 
 }  // namespace rovernet::cli

@@ -116,7 +116,7 @@ TEST_CASE(
     CHECK(names_in(out).size() == 4);
 }
 
-TEST_CASE("run: a different --set gives a results folder with a name of its own") {
+TEST_CASE("run: another value of --set gives a results folder with another name") {
     const TemporaryFolder folder;
     folder.write("s.toml", relay);
     for (const std::string set : {"", "--set 'radio.power=20 dBm'", "--set routing.ttl=1"}) {
@@ -159,7 +159,8 @@ TEST_CASE("run: --seed and --set change the run; the same seed gives the same ru
     CHECK(fingerprint("--seed", "5") != fingerprint("--set", "robot.B.off=[1]"));
 }
 
-TEST_CASE("trace stats: prints the metrics of the summary to the last digit, in both formats") {
+TEST_CASE(
+    "trace stats: metrics equal those of the summary to the last digit, for both ns-2 formats") {
     std::string routed =
         "[scenario]\nduration = \"4 s\"\n[routing]\nprotocol = \"aodv\"\n"
         "[propagation]\nmodel = \"disc\"\nrange = \"250 m\"\n"
@@ -333,6 +334,15 @@ TEST_CASE("link --json prints the budget of a link and the walls that the link c
     CHECK(svg.find(">-100.0 dB</text>") != svg.npos);
     CHECK(svg.find(fmt::format(">{:.1f} dBm</text>", received)) != svg.npos);
 
+    const auto loss_by = [&](const std::string& model) {
+        return json_of(folder, {"link", file, "A", "B", "--set",
+                                "propagation=" + model})["walls"][0]["loss_db"];
+    };
+    CHECK(loss_by("{ model = \"friis\" }") == 0.0);
+    for (const char* model :
+         {"{ model = \"rays\" }", "{ model = \"itu_site_general\", los = \"map\" }",
+          "{ model = \"disc\", range = \"9 m\" }"})
+        CHECK(loss_by(model).is_null());
     std::vector<std::string> clear = {"link", file, "A", "B", "--set", "propagation.model=friis"};
     CHECK(json_of(folder, clear)["up"] == true);
     clear.insert(clear.end(), {"--at", "6"});
@@ -418,7 +428,8 @@ TEST_CASE("version and --version print the version") {
     CHECK(command(folder, {"version"}).out.starts_with("rovernet " + version + "\n"));
 }
 
-TEST_CASE("version lists the models of each table of a scenario, and a scenario can choose each") {
+TEST_CASE(
+    "version lists the models of each table of a scenario, and a scenario can choose any of them") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", relay);
     const Json models = json_of(folder, {"version"})["models"];
@@ -481,8 +492,7 @@ TEST_CASE("a run that needs more events than allowed exits with 1 and leaves no 
 }
 
 TEST_CASE(
-    "a run with a message storm ends with an error that explains the storm; results of an earlier "
-    "run stay") {
+    "message storm: the run fails with an error that explains it; results of an earlier run stay") {
     const TemporaryFolder folder;
     const std::string out = folder.path("out");
     const std::string calm = folder.write("s.toml", R"([scenario]
@@ -511,8 +521,8 @@ ns2 = "new"
     CHECK(ended.exit == 1);
     CHECK(ended.out.empty());
     CAPTURE(ended.err);
-    for (const char* part : {"event limit of 20000 reached at 0.0", "raise [scenario] event_limit",
-                             "lower the load", "a smaller ttl"}) {
+    for (const char* part : {"event limit of 20000 is reached at 0.0",
+                             "raise [scenario] event_limit", "lower the load", "a smaller ttl"}) {
         CHECK(ended.err.find(part) != std::string::npos);
     }
     CHECK(names_in(out) == result_files);
@@ -522,8 +532,8 @@ ns2 = "new"
 }
 
 TEST_CASE(
-    "run: with range 0 no message arrives; a negative range is refused, and the error has its "
-    "line") {
+    "run: with range 0 no message arrives; a negative range is refused, and the error has its line "
+    "in the file") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", relay), out = folder.path("out");
     const Json run = json_of(folder, {"run", file, "--out", out, "--set", "propagation.range=0 m"});
@@ -549,7 +559,7 @@ TEST_CASE("a run whose results cannot be written exits with 1, and the message n
 }
 
 TEST_CASE(
-    "trace: diff finds no difference in a converted trace, but one in a cut trace; follow "
+    "trace: diff reports a part of a trace as different, a converted trace as equal; follow "
     "describes a message") {
     const TemporaryFolder folder;
     const std::string out = folder.path("out"), trace = out + "/trace.tr";

@@ -68,7 +68,7 @@ const std::string loop = "a loop of symbolic links", device = "a device, not a r
 
 TEST_CASE(
     "input kinds: a symlink loop or an endless device is refused as a scenario, trace or file of "
-    "levels") {
+    "measured levels") {
     const Inputs in;
     const std::string one_toml = in.path("one.toml");
     for (const Kind& kind : {Kind{"loop.tr", loop}, Kind{"/dev/zero", device}}) {
@@ -130,7 +130,7 @@ TEST_CASE(
                "a movement file is read twice");
 }
 
-TEST_CASE("input kinds: levels are read from a pipe like from a file") {
+TEST_CASE("input kinds: measured levels are read from a pipe like from a file") {
     const Inputs in;
     const std::string levels =
         in.folder.write("l.csv",
@@ -163,7 +163,7 @@ TEST_CASE("sweep --merge: a file that is not a store is refused, and no file is 
     const Inputs in;
     const std::string notes = in.path("notes.txt"), store = in.path("s.db");
     check_told(in.run({"sweep", in.path("one.toml"), "--store", store, "--merge", notes}),
-               notes + ": no store of a study; expected the store of a shard");
+               notes + ": this file is not a store of a study; expected the store of a shard");
     CHECK_FALSE(std::filesystem::exists(store));
     CHECK(content(notes) == "no store\n");
 }

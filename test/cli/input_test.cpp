@@ -60,7 +60,7 @@ TEST_CASE("input: paths in a scenario from standard input are relative to the cu
 }
 
 TEST_CASE(
-    "input: an error in a scenario from standard input has a line; sweep then needs --store") {
+    "input: errors in a scenario from standard input have a line; a sweep of it needs --store") {
     const TemporaryFolder folder;
     const Ended wrong = with_input(folder, "[radio]\npower = 15\n", "run -");
     CHECK(wrong.exit == 3);
@@ -87,13 +87,20 @@ TEST_CASE("input: for a file of the wrong kind the error states its kind and the
     };
     const std::string player = "driver ( name \"stage\" plugin \"stageplugin\"\n";
     CHECK(contains(said("p.cfg", player + "  worldfile \"simple.world\" )\n"),
-                   "a configuration of Player, not a scenario; expected the Stage world that it "
-                   "names: " +
+                   "this is a configuration of Player, not a scenario; expected the Stage world "
+                   "that this file names: " +
                        folder.path("simple.world")));
     CHECK(contains(said("q.cfg", player + ")\n"), "NAME.world"));
     CHECK(contains(said("x.db", ""), "rovernet results"));
     CHECK(contains(said("x.tr", ""), "rovernet trace stats"));
-    CHECK(contains(said("x.inc", ""), "the world that includes it"));
+    const std::string recorded = "this is a recorded trace, not a scenario; rovernet replay plays";
+    CHECK(contains(said("x.mcap", ""), recorded));
+    CHECK(contains(said("renamed", "\x89MCAP0\r\n..."), recorded));
+    const std::string capture = "this is a capture of packets, not a scenario";
+    CHECK(contains(said("x.pcapng", ""), capture));
+    CHECK(contains(said("renamed.bin", "\n\r\r\n..."), capture));
+    CHECK(contains(said("renamed.store", "SQLite format 3"), "rovernet results"));
+    CHECK(contains(said("x.inc", ""), "the world (.world) that includes this part"));
     CHECK(contains(said("summary.json", "{}"), "scenario.toml"));
     const std::string empty = said("e.world", "");
     CHECK(contains(empty, "found no robot in this world; expected a model of type position"));
@@ -110,8 +117,9 @@ TEST_CASE("input: an impossible number in an option is an error in plain words")
         return ended.err;
     };
     for (const std::string speed : {"0", "fast", "-1", "nan", "inf", "1e308", "1e10", "1e-7"}) {
-        CHECK(contains(said("--speed", speed),
-                       "--speed: found \"" + speed + "\"; expected a speed from 1e-6 to 1e9"));
+        CHECK(contains(
+            said("--speed", speed),
+            "--speed: found \"" + speed + "\"; expected a speed from 1e-6 to 1e9 (1: real time)"));
     }
     for (const std::string name : {"live", "emulate", "replay"}) {
         const Ended ended = command(folder, {name, file, "--speed", "1e308"});

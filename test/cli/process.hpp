@@ -62,14 +62,15 @@ class Process {
     void interrupt() const { kill(pid_, SIGINT); }
     pid_t pid() const { return pid_; }
 
-    /// Interrupts the process (SIGINT) repeatedly until it ends.
+    /// Interrupts the process (SIGINT) every five seconds until it ends. Not more often: the fifth
+    /// signal ends a command that still writes its results.
     Ended stop() const {
         using namespace std::chrono_literals;
         int status = 0;
-        for (int i = 0; i < 600; ++i) {
+        for (int i = 0; i < 3000; ++i) {
+            if (i % 250 == 0) interrupt();
+            std::this_thread::sleep_for(20ms);
             if (waitpid(pid_, &status, WNOHANG) == pid_) return ended(status);
-            interrupt();
-            std::this_thread::sleep_for(100ms);
         }
         kill(pid_, SIGKILL);
         waitpid(pid_, &status, 0);

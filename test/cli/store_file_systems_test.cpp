@@ -43,7 +43,7 @@ struct Kind {
     bool has_wal = false;
 };
 constexpr const char* flocked = "a different sweep is writing";
-constexpr const char* named = "writes to this store, according to";
+constexpr const char* named = "writes to this store, as the file";
 constexpr Kind kinds[] = {{"nothing", flocked, true, true},
                           {"shared", flocked, true},
                           {"maps", flocked, true},
@@ -122,7 +122,8 @@ TEST_CASE("store: a sweep on any file system gives the same results, and leaves 
     }
 }
 
-TEST_CASE("store: on any file system one sweep writes, and others get an error with the reason") {
+TEST_CASE(
+    "store: on any file system one sweep writes a store; a second one is refused with the reason") {
     for (const Kind& kind : kinds) {
         CAPTURE(kind.lacks);
         const Place place;
@@ -145,7 +146,8 @@ TEST_CASE("store: on any file system one sweep writes, and others get an error w
     }
 }
 
-TEST_CASE("store: on any file system a killed sweep loses no run, and the same command continues") {
+TEST_CASE(
+    "store: on any file system a killed sweep loses no run; the same command continues the sweep") {
     const Place undisturbed;
     REQUIRE(Place::run(undisturbed.sweep("nothing", "20 s")).exit == 0);
     for (const Kind& kind : kinds) {
@@ -172,7 +174,8 @@ TEST_CASE("store: on any file system a killed sweep loses no run, and the same c
     }
 }
 
-TEST_CASE("store: files left by a killed sweep are read and taken over on any file system") {
+TEST_CASE(
+    "store: runs of a killed sweep are read, and the sweep is completed, on any file system") {
     for (const Kind& kind : kinds) {
         CAPTURE(kind.lacks);
         const Place place;
@@ -200,8 +203,7 @@ TEST_CASE("store: files left by a killed sweep are read and taken over on any fi
 }
 
 TEST_CASE(
-    "store: a lock of another machine blocks the store until removed, and the error names the "
-    "lock") {
+    "store: a lock file of another machine blocks the store; the error says which file to remove") {
     const Place place;
     const std::string lock = place.folder.write("s.db.lock", "12 34 elsewhere\n");
     for (const char* lacks : {"nothing", "whole"}) {

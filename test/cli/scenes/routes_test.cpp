@@ -98,7 +98,7 @@ TEST_CASE("routes: a broken route is marked as broken") {
     CHECK(route(all, 0, "n0")["state"] == "valid");
 }
 
-TEST_CASE("routes: the CSV has a line for each route, and agrees with the text") {
+TEST_CASE("routes: the CSV and the text output have a line for each route of the JSON output") {
     const TemporaryFolder folder;
     const std::string file = folder.write("row.toml", row);
     const Ended csv = command(folder, {"routes", file, "--at", "5s", "--csv"});
@@ -133,7 +133,7 @@ TEST_CASE("routes: the error for an impossible request states what is possible")
     CHECK(command(folder, {"routes", file, "--at", "9s"}).exit == 0);
     CHECK(refusal({"--at", "5s", "--robot", "n5"}, 2).find("did you mean") != std::string::npos);
     const std::string flood = refusal({"--at", "5s", "--set", "routing.protocol=flood"}, 2);
-    CHECK(flood.find("flood keeps no routes; expected a protocol that does (") !=
+    CHECK(flood.find("flood keeps no routes; expected a protocol with routes (") !=
           std::string::npos);
     CHECK(flood.find("aodv") != std::string::npos);
     CHECK(refusal({}, 2).find("--at") != std::string::npos);
@@ -141,8 +141,7 @@ TEST_CASE("routes: the error for an impossible request states what is possible")
 }
 
 TEST_CASE(
-    "draw --routes, --search: the picture shows the route and the last request; invalid options "
-    "are refused") {
+    "draw --routes, --search: draws route and last route request, and refuses invalid options") {
     const TemporaryFolder folder;
     const std::string file = folder.write("row.toml", row);
     const auto draw = [&](std::vector<std::string> more) {
@@ -153,7 +152,7 @@ TEST_CASE(
     const std::string svg = content(folder.path("p.svg"));
     CHECK(svg.find("route from n0 to n4: n0 &gt; n1, relay &gt; n2 &gt; n3 &gt; n4, 4 hops") !=
           std::string::npos);
-    CHECK(svg.find("last request of n0: sent by ") != std::string::npos);
+    CHECK(svg.find("last route request of n0: sent by ") != std::string::npos);
     const auto refusal = [&](const std::vector<std::string>& more) {
         const Ended ended = draw(more);
         CHECK(ended.exit == 2);

@@ -101,9 +101,7 @@ TEST_CASE("links: the table of a robot lists the robots that it hears, with leve
     CHECK(a["links"].empty());      // B's -20 dBm arrive at -80.2 dBm; A needs -75
 }
 
-TEST_CASE(
-    "links: --robot prints the link table of one robot, with addresses and levels; an unknown "
-    "robot is refused") {
+TEST_CASE("links: --robot prints the link table of one robot, and refuses an unknown robot") {
     const TemporaryFolder folder;
     folder.write("pair.toml", pair);
     const Ended ended = command(folder, {"links", folder.path("pair.toml"), "--robot", "B"});
@@ -176,12 +174,23 @@ TEST_CASE("move convert: nodes keep their numbers, and a notice shows the names 
     };
     CHECK(convert("five.tcl", "a.tcl").find("numbers") == std::string::npos);
     CHECK(content(folder.path("a.tcl")).find("$node_(5) set X_") != std::string::npos);
-    CHECK(convert("five.tcl", "a.movements").find("numbers in this format: n5 is n0\n") !=
+    CHECK(convert("five.tcl", "a.movements").find("numbers instead of names: n5 is n0\n") !=
           std::string::npos);
-    CHECK(convert("v.xml", "b.tcl").find("numbers in this format: flow.0 is n0, b is n1\n") !=
+    CHECK(convert("v.xml", "b.tcl").find("numbers instead of names: flow.0 is n0, b is n1\n") !=
           std::string::npos);
     CHECK(content(folder.path("b.tcl")).find("# flow.0 -> $node_(0)\n# b -> $node_(1)\n") !=
           std::string::npos);
+}
+
+TEST_CASE("scene: a file without a map and without robots is refused") {
+    const TemporaryFolder folder;
+    for (const std::string text : {"", "# nothing\n", "[radio]\nrate = \"1 Mb/s\"\n"}) {
+        const Ended empty = command(folder, {"scene", folder.write("empty", text)});
+        CHECK(empty.exit == 3);
+        CHECK(empty.err.find("empty: the scenario: the key \"robot\" is missing; for example "
+                             "[[robot]] with a name and a place, or [scene] with a map") !=
+              empty.err.npos);
+    }
 }
 
 TEST_CASE("scene: an image without a size is refused; with a size it is described") {
@@ -217,7 +226,8 @@ range = "10 m"
 }
 
 TEST_CASE(
-    "scene: the printed diameter is the largest of all connected parts, in any order of robots") {
+    "scene: of the diameters of all connected parts the largest is printed, in any order of "
+    "robots") {
     const TemporaryFolder folder;
     folder.write("parts.toml", R"(robot = [{ name = "lone", at = ["500 m", "0 m"] },
         { name = "c", at = ["18 m", "0 m"] }, { name = "x", at = ["99 m", "0 m"] },
@@ -265,7 +275,7 @@ TEST_CASE("worlds: a missing bitmap is an error that lists all paths tried; --bi
     CHECK(command(folder, {"links", file, "--lenient"}).exit == 0);
 }
 
-TEST_CASE("worlds: a scenario with a world overrides the world's robots by name") {
+TEST_CASE("worlds: robots of a scenario override robots of the same name in its Stage world") {
     const TemporaryFolder folder;
     folder.write("hall.png", hall_picture());
     folder.write("w.world", world);

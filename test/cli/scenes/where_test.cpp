@@ -41,7 +41,8 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("links: with --places the history has the positions of both robots, in CSV and in JSON") {
+TEST_CASE(
+    "links --history --places: changes have the positions of both robots, in CSV and in JSON") {
     const TemporaryFolder folder;
     folder.write("pair.toml", pair);
     const std::vector<std::string> asked = {
@@ -61,7 +62,20 @@ TEST_CASE("links: with --places the history has the positions of both robots, in
           2);
 }
 
-TEST_CASE("where: prints the gaps of a robot's link as text, CSV and JSON") {
+TEST_CASE("where: a list of robots can have names with a comma, in quotes") {
+    const TemporaryFolder folder;
+    std::string renamed = pair;
+    renamed.replace(renamed.find("\"A\""), 3, "\"desk, no 1\"");
+    folder.write("pair.toml", renamed + "[[robot]]\nname = \"C\"\nat = [\"200 m\", \"0 m\"]\n");
+    const auto gaps = [&](const std::string& to) {
+        return json_of(folder, {"where", folder.path("pair.toml"), "--robot", "B", "--to", to});
+    };
+    CHECK(gaps("\"desk, no 1\"")["to"] == Json::array({"desk, no 1"}));
+    CHECK(gaps("C,\"desk, no 1\"")["to"] == Json::array({"C", "desk, no 1"}));
+    CHECK(gaps("\"C\"")["to"] == Json::array({"C"}));
+}
+
+TEST_CASE("where: the gaps of a robot (times without a link) are printed as text, CSV and JSON") {
     const TemporaryFolder folder;
     folder.write("pair.toml", pair);
     std::vector<std::string> asked = {"where", folder.path("pair.toml"), "--robot", "B", "--to",
@@ -69,7 +83,8 @@ TEST_CASE("where: prints the gaps of a robot's link as text, CSV and JSON") {
     const auto lines = lines_of(command(folder, asked).out);
     REQUIRE(lines.size() == 3);
     CHECK(lines[0] ==
-          "B has no link to A: 50.000 s of 100 s (50.0 %), 50.00 m of 100.00 m of its path");
+          "B has no link to A for 50.000 s of 100 s (50.0 %), and on 50.00 m of the 100.00 m of "
+          "its path");
     CHECK(lines[2] == "50.000     100.000  50.000     50.00     (60.00, 0.00)  (110.00, 0.00)");
     const Json gaps = json_of(folder, asked);
     CHECK(near(gaps["lost_share"], 0.5, 1e-9));
@@ -83,12 +98,11 @@ TEST_CASE("where: prints the gaps of a robot's link as text, CSV and JSON") {
           "0.000000");
     const Ended never = command(folder, {"where", folder.path("pair.toml"), "--robot", "B", "--to",
                                          "A", "--set", "propagation.range=110"});
-    CHECK(never.out == "B has a link to A: all the time, 100 s\n");
+    CHECK(never.out == "B has a link to A all the time (100 s)\n");
 }
 
 TEST_CASE(
-    "where: the path of one robot is printed leg by leg; a call with neither a robot nor a time is "
-    "refused") {
+    "where: --robot prints the path of one robot; a call without a robot and a time is refused") {
     const TemporaryFolder folder;
     folder.write("pair.toml", pair);
     const Json times =
@@ -103,7 +117,7 @@ TEST_CASE(
     CHECK(command(folder, {"where", folder.path("pair.toml"), "--robot", "C"}).exit == 2);
 }
 
-TEST_CASE("where: the path of a patrolling robot is followed by the duration of one round") {
+TEST_CASE("where: the duration of one round is printed after the path of a patrolling robot") {
     const TemporaryFolder folder;
     const std::string path = folder.write("patrol.toml", R"([scenario]
 duration = "100 s"

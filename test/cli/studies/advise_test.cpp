@@ -43,13 +43,15 @@ std::size_t runs_in(const std::string& store) {
 
 }  // namespace
 
-TEST_CASE("advise: prints verdicts, a sentence, and the chosen models as a scenario file") {
+TEST_CASE(
+    "advise: prints a verdict on each candidate, the advice in words, and the chosen models as "
+    "scenario tables") {
     const Advised advised;
     const Ended text = command(advised.folder, advised.words({}));
     CAPTURE(text.err);
     REQUIRE(text.exit == 0);
     for (const char* part :
-         {"delivery_ratio of ", "candidate", "friis + sinr", "two_ray + sinr", "reference", "Take ",
+         {"delivery_ratio in ", "candidate", "friis + sinr", "two_ray + sinr", "reference", "Take ",
           "[propagation]\nmodel = ", "[reception]\nmodel = "}) {
         CAPTURE(part);
         CHECK(text.out.find(part) != std::string::npos);
@@ -103,8 +105,7 @@ TEST_CASE(
     CHECK(strict["criterion"] == "run");
 }
 
-TEST_CASE(
-    "advise: at the end of the time budget or at Ctrl-C, the preliminary verdict is printed") {
+TEST_CASE("advise: at the end of the time budget or at Ctrl-C, the preliminary advice is printed") {
     const Advised advised;
     const auto strict = [&](std::vector<std::string> more) {
         std::vector<std::string> words = advised.words({});
@@ -118,7 +119,7 @@ TEST_CASE(
     const Ended ended = begun.wait();
     CHECK(ended.exit == 130);
     CHECK(ended.out.find("Interim: Take ") != std::string::npos);
-    CHECK(ended.out.find("Undecided when the command was stopped") != std::string::npos);
+    CHECK(ended.out.find("undecided when the command was stopped") != std::string::npos);
     // Nothing was compared yet: nothing is advised, and nothing is offered.
     const Ended nothing = command(advised.folder, strict({"--budget", "1us"}));
     CHECK(nothing.exit == 0);
@@ -145,7 +146,7 @@ TEST_CASE(
     CHECK(json["candidates"][0]["cpu_run_s"] > 0);
     CHECK(json["candidates"][0]["radio_share"] <= 1);
     const std::string svg = content(advised.folder.path("advice.svg"));
-    CHECK(svg.find("CPU time of the medium per transmission") != std::string::npos);
+    CHECK(svg.find("CPU time to find receivers per transmission") != std::string::npos);
     CHECK(svg.find("two_ray + sinr") != std::string::npos);
 }
 

@@ -101,8 +101,8 @@ TEST_CASE("compare --protocols: the airtime equals the sum of the airtimes of al
 }
 
 TEST_CASE(
-    "compare --protocols: output is a table per metric, CSV and a picture; messages over one hop "
-    "give a notice") {
+    "compare --protocols: writes a table, CSV or a picture; a notice lists messages that go over "
+    "only one hop") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", three);
     auto words = protocols(file, "aodv,flood");
@@ -127,7 +127,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "compare --protocols: reads a printed scenario of aodv, whose key hello is 0 s by default") {
+    "compare --protocols: a printed scenario of aodv with hello = 0 s is read without an error") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", three);
     const Ended printed = command(folder, {"run", file, "--set", "routing.protocol=aodv", "--set",
@@ -139,13 +139,11 @@ TEST_CASE(
     CHECK(ended.err.find("hello") == std::string::npos);
 }
 
-TEST_CASE(
-    "compare --protocols: unicasts that the end of the run cuts off under one protocol give a "
-    "notice") {
+TEST_CASE("compare --protocols: a notice says if protocols count unfinished unicasts differently") {
     const TemporaryFolder folder;
     const std::string notice =
-        "unicasts on their way at the end of a run are left out of delivery_ratio under flood (3 "
-        "in all runs), and count as not delivered under aodv";
+        "some unicasts are still on their way at the end of a run: delivery_ratio leaves them out "
+        "under flood (3 in all runs), and counts them as not delivered under aodv";
     const auto errors = [&](const std::string& stop, const std::string& names) {
         return command(folder, protocols(folder.write("s.toml", three + stop), names)).err;
     };

@@ -69,8 +69,8 @@ std::string levels_by(const std::vector<std::string>& receivers) {
 }  // namespace
 
 TEST_CASE(
-    "fit: groups are printed with the name of their column; the error of a single group is "
-    "in-sample") {
+    "fit: prints which column divides the links into groups; with one group, errors are those on "
+    "the links used for the fit") {
     const TemporaryFolder folder;
     const std::string file = folder.write("talkers.toml", talkers);
     const auto fitted = [&](const std::vector<std::string>& receivers) {
@@ -85,14 +85,14 @@ TEST_CASE(
     };
     const std::string two = fitted({"monday", "tuesday"}), one = fitted({"monday"});
     CHECK(has(two, "in 2 groups (by group)"));
-    CHECK(has(two, "errors on each group, by the fit to all others"));
+    CHECK(has(two, "error on each group, with the model fitted to all others"));
     CHECK_FALSE(has(two, "in-sample"));
     CHECK(has(one, "in 1 group (by group)"));
     CHECK(has(one, "rmse in-sample"));
     CHECK(has(one, "errors on the fitted links"));
 }
 
-TEST_CASE("fit: --gains prints lines for the scenario file that contain the gains") {
+TEST_CASE("fit --gains: prints the gain of each transmitter as a line for the scenario file") {
     const TemporaryFolder folder;
     const std::string file =
         folder.write("s.toml", talkers + "[[robot]]\nname = \"AP\"\nat = [\"10 m\", \"0 m\"]\n");

@@ -45,8 +45,7 @@ at = ["14 m", "4.5 m"]
 }  // namespace
 
 TEST_CASE(
-    "probe: the text lists links with a steep loss (cliffs), the link that flips and the lost "
-    "message") {
+    "probe: under the model disc, effects of perturbations on links have a distance and no level") {
     const TemporaryFolder folder;
     const Ended ended = command(folder, {"probe", folder.write("rim.toml", rim)});
     CHECK(ended.exit == 0);
@@ -82,13 +81,13 @@ TEST_CASE("probe: the JSON output lists the perturbations of a map, and at most 
     CHECK(one["messages"].empty());
 }
 
-TEST_CASE("probe: robots that never come into range, and a number of 0 links, are refused") {
+TEST_CASE("probe: robots that never come into range, and the option --links 0, are refused") {
     const TemporaryFolder folder;
     const std::string file = folder.write("rim.toml", rim);
     const Ended alone = command(folder, {"probe", file, "--set", "propagation.range=\"1 m\""});
     CHECK(alone.exit == 3);
-    CHECK(alone.err.find("by the model disc, no two robots come within range of each other") !=
-          std::string::npos);
+    CHECK(alone.err.find("according to the propagation model disc, no two robots come within range "
+                         "of each other") != std::string::npos);
     CHECK(command(folder, {"probe", file, "--links", "0"}).exit == 2);
 }
 

@@ -131,7 +131,8 @@ TEST_CASE(
     const Cluster cluster;
     cluster.folder.write("bin/lost", "1");
     CHECK(cluster.submit().exit == 0);
-    CHECK(has(cluster.said("merge"), "/shards/1.db: there is no such shard"));
+    CHECK(has(cluster.said("merge"),
+              "/shards/1.db: there is no such file; expected the store of a shard"));
     CHECK(has(cluster.said("merge"), "7 runs are finished, 0 failed, 5 are left"));
     CHECK(has(cluster.said("merge"), "exit 4\n"));
     fs::remove(cluster.folder.path("bin/lost"));
@@ -198,7 +199,7 @@ TEST_CASE("sweep on Slurm: a dry run deletes nothing, and the printed command ha
     CHECK(cluster.submit({"--dry-run", "--fresh", "--yes"}).exit == 0);
     CHECK(cluster.csv() == kept);
     const std::string fresh = cluster.submit({"--fresh", "--yes"}).out;
-    CHECK(has(fresh, "are made by\n  rovernet sweep"));
+    CHECK(has(fresh, "this command makes missing runs:\n  rovernet sweep"));
     CHECK_FALSE(has(fresh, "--fresh"));
 }
 
@@ -222,7 +223,7 @@ TEST_CASE("sweep on Slurm: a missing sbatch, or one that refuses the job, is rep
     CHECK(cluster.csv() == Cluster::local_csv());
 }
 
-TEST_CASE("sweep on Slurm: a failed run is repeated by every sweep") {
+TEST_CASE("sweep on Slurm: a failed run is repeated by each later sweep") {
     const Cluster cluster;
     const std::vector<std::string> limit{"--set", "scenario.event_limit=1"};
     cluster.submit(limit);
@@ -238,7 +239,7 @@ TEST_CASE("sweep on Slurm: options that exclude each other are refused") {
     CHECK(cluster.submit({"--merge", "x.db"}).exit == 2);
     CHECK(cluster.sweep({"--shard", "1", "--merge", "x.db"}).exit == 2);
     CHECK(cluster.sweep({"--executor", "cloud"}).exit == 2);
-    CHECK(has(cluster.submit({"--precision", "0.1"}).err, "expected replications instead"));
+    CHECK(has(cluster.submit({"--precision", "0.1"}).err, "expected [study] replications without"));
     CHECK(has(cluster.sweep({"--precision", "0.1", "--merge", "x.db"}).err, "replications"));
     CHECK_FALSE(fs::exists(cluster.store()));
 }
@@ -253,7 +254,8 @@ TEST_CASE(
     }
     const Ended part = cluster.sweep({"--json", "--merge", "0.db", "none.db"});
     CHECK(part.exit == 4);
-    CHECK(has(part.err, "not merged: none.db: there is no such shard"));
+    CHECK(
+        has(part.err, "not merged: none.db: there is no such file; expected the store of a shard"));
     const Json json = Json::parse(part.out);
     CHECK(json["finished"] == 6);
     CHECK(json["left"] == 6);

@@ -92,6 +92,28 @@ void wait_a_moment() { std::this_thread::sleep_for(std::chrono::milliseconds{1})
 
 }  // namespace
 
+TEST_CASE("sweep, compare: the option --set of a key that the study varies gives a notice") {
+    const Place place;
+    const std::string set = "propagation.range=7 m", seed = "scenario.seed=2";
+    const Ended ended = command(
+        place.folder, {"sweep", place.file, "--dry-run", "--set", set, "--set", "scenario.seed=2"});
+    CHECK(ended.err ==
+          "--set propagation.range=7 m has no effect, because [study] varies "
+          "propagation.range; to run this value alone, give --set "
+          "'study.vary.propagation.range=[\"7 m\"]'\n");
+    const Ended alone = command(place.folder, {"sweep", place.file, "--dry-run", "--set",
+                                               "study.vary.propagation.range=[\"7 m\"]"});
+    CHECK(alone.err.empty());
+    CHECK(alone.out.find("0  propagation.range=7 m\n1 points") != std::string::npos);
+    const Ended compared =
+        command(place.folder, {"compare", place.file, "--vary", "propagation.range=5 m,10 m",
+                               "--set", set, "--replications", "5", "--quiet"});
+    CHECK(compared.err.empty());
+    CHECK(command(place.folder, {"compare", place.file, "--vary", "propagation.range=5 m,10 m",
+                                 "--set", set, "--replications", "5"})
+              .err.find("--set propagation.range=7 m has no effect") != std::string::npos);
+}
+
 TEST_CASE("sweep: a dry run lists every point and runs nothing") {
     const Place place;
     const Ended ended = command(place.folder, {"sweep", place.file, "--dry-run"});
@@ -106,8 +128,8 @@ TEST_CASE("sweep: a dry run lists every point and runs nothing") {
 }
 
 TEST_CASE(
-    "sweep: if a precision is not reached, the exit code is 4, and the precision of each point is "
-    "printed") {
+    "sweep: if points do not reach the required precision, the exit code is 4, and the precision "
+    "of each is printed") {
     const Place place;
     const std::vector<std::string> wanted = {"sweep",       place.file, "--replications",     "2",
                                              "--precision", "0.01",     "--max-replications", "4"};
@@ -129,7 +151,9 @@ TEST_CASE(
     CHECK(coarse.exit == 0);
 }
 
-TEST_CASE("results: --interval selects STaR-Bets, a betting confidence sequence or t") {
+TEST_CASE(
+    "results: --interval selects the kind of interval: STaR-Bets, a betting confidence sequence or "
+    "Student's t") {
     const Place place;
     json_of(place.folder, {"sweep", place.file, "--replications", "6"});
     const auto first = [&](std::vector<std::string> more) {
@@ -144,7 +168,8 @@ TEST_CASE("results: --interval selects STaR-Bets, a betting confidence sequence 
     CHECK(command(place.folder, {"results", place.store(), "--interval", "z"}).exit == 2);
 }
 
-TEST_CASE("sweep: the runs of a study appear in results, in CSV and in explain") {
+TEST_CASE(
+    "sweep: results and explain print the runs of a study; the printed command repeats a run") {
     const Place place;
     const Json made = json_of(place.folder, {"sweep", place.file, "--replications", "6"});
     CHECK(made["finished"] == 30);
@@ -428,8 +453,8 @@ TEST_CASE("results: options that exclude each other are refused") {
 }
 
 TEST_CASE(
-    "compare: other keys that the study varies have the scenario's value; an impossible comparison "
-    "ends at once") {
+    "compare: keys of the study that are not compared have the scenario's value; an impossible "
+    "comparison ends at once") {
     const Place place(chatter + "vary.routing.ttl = [1, 2]\n");
     const std::vector<std::string> models = {"compare", place.file, "--replications", "5"};
     const auto with = [&](std::vector<std::string> more) {
@@ -491,7 +516,7 @@ TEST_CASE("compare: uses the runs of its points in a sweep's store, and adds new
     CHECK(finished(place.store()).size() == 25);
 }
 
-TEST_CASE("compare: uses the values that a store has, and runs the missing ones") {
+TEST_CASE("compare: runs that a store has for a value are used; runs of missing values are added") {
     const Place place;
     CHECK(command(place.folder, {"sweep", place.file, "--replications", "3"}).exit == 0);
     const std::size_t before = finished(place.store()).size();
@@ -554,7 +579,7 @@ TEST_CASE(
     const auto notices = [&](const std::vector<std::string>& more) {
         return command(place.folder, with(ttl, more)).err;
     };
-    const char* other = "are by Student's t, not by STaR-Bets as requested";
+    const char* other = "are computed by Student's t, not by STaR-Bets as requested";
     CHECK(notices({"--interval", "star", "--metric", "transmissions"}).find(other) !=
           std::string::npos);
     CHECK(notices({"--interval", "star"}).find(other) == std::string::npos);

@@ -76,7 +76,7 @@ std::vector<std::string> parts_in(const std::string& folder) {
 
 }  // namespace
 
-TEST_CASE("a signal ends every long command with 130, and leaves no partial file") {
+TEST_CASE("a signal ends every long command with exit code 130, and leaves no output file") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", endless);
     const std::string end = "100000000 s";

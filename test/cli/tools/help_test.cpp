@@ -47,7 +47,7 @@ TEST_CASE(
     CHECK(has(only.out, "  not-there          What is not there\n"));
 }
 
-TEST_CASE("help: several words may name a topic, and the name of a command leads to its --help") {
+TEST_CASE("help: several words may name one topic, and the name of a command leads to its --help") {
     const TemporaryFolder folder;
     CHECK(command(folder, {"help", "first", "run"}).out.starts_with("# Your first run\n"));
     CHECK(command(folder, {"help", ""}).out == command(folder, {"help"}).out);

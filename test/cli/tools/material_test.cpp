@@ -41,14 +41,16 @@ TEST_CASE("material: losses of 20 cm of concrete equal the test vectors slab_tra
     CHECK(json["angle_deg"] == 30);
 }
 
-TEST_CASE("material: by default the wave is perpendicular at 2450 MHz, where TE equals TM") {
+TEST_CASE("material: by default the wave is perpendicular (TE equals TM), at 2450 MHz") {
     const Json json = Json::parse(material({"brick", "--thickness", "10 cm", "--json"}).out);
     CHECK(json["frequency_hz"] == 2.45e9);
     CHECK(json["angle_deg"] == 0);
     CHECK(near(json["te_transmission_loss_db"], json["tm_transmission_loss_db"].get<double>()));
 }
 
-TEST_CASE("material: losses of metal are finite, and an infinite loss is null in JSON") {
+TEST_CASE(
+    "material: the loss of a metre of metal is finite; an infinite reflection loss is null in "
+    "JSON") {
     const Json metal = Json::parse(material({"metal", "--thickness", "1 m", "--json"}).out);
     CHECK(metal["te_transmission_loss_db"].get<double>() > 1e6);
     const Json film = Json::parse(material({"wood", "--thickness", "1e-200 m", "--json"}).out);

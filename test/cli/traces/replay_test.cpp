@@ -88,7 +88,7 @@ TEST_CASE(
     CHECK(ends_without_difference(row(good.out, "two_ray, 914 MHz, 250 m")));
     CHECK(row(good.out, "radio.power=40 dBm").find("+0.3333     5       0") != std::string::npos);
     CHECK(row(good.out, "radio.power=0 dBm ").find("-0.6667     0       10") != std::string::npos);
-    CHECK(good.out.find("Messages flood: the protocol of the trace is not simulated") !=
+    CHECK(good.out.find("The protocol of the trace is not simulated: messages flood.") !=
           std::string::npos);
 }
 
@@ -174,7 +174,8 @@ TEST_CASE("replay --speed prints the events of an ns-2 trace or a recorded trace
     CHECK(command(folder, {"replay", sample, "--speed", "0"}).exit == 2);
 }
 
-TEST_CASE("replay --store writes rows for results, and adds the rows of a second replay") {
+TEST_CASE(
+    "replay --store: each replay adds rows to the store, and the command results prints them") {
     const TemporaryFolder folder;
     const std::string store = folder.path("radios.db");
     const std::vector<std::string> words = {"replay", sample, "--store", store, "--with"};
@@ -198,7 +199,7 @@ TEST_CASE("replay --store writes rows for results, and adds the rows of a second
     CHECK(json["rows"][5]["value"] == 5);
     CHECK(json["missing"] == 0);
     const Ended explained = command(folder, {"explain", store, "2/0"});
-    CHECK(explained.out.find("to repeat it: rovernet replay " + sample +
+    CHECK(explained.out.find("to repeat this run: rovernet replay " + sample +
                              " --with 'radio.power=40 dBm'") != std::string::npos);
     std::vector<std::string> other = words;
     other.insert(other.end(), {"radio.power=0 dBm", "--routing", "direct"});
@@ -247,7 +248,7 @@ TEST_CASE("replay --verify of a damaged, incomplete or empty trace fails and say
     CHECK(verify("").exit == 3);
     CHECK(verify("").err.find("empty") != std::string::npos);
     CHECK(verify("PK\x03\x04 nothing")
-              .err.find("is a ZIP archive; expected an uncompressed recorded trace") !=
+              .err.find("is a ZIP archive; expected a recorded trace (.mcap), not compressed") !=
           std::string::npos);
     CHECK(verify(whole.substr(0, 40)).exit == 3);
 }

@@ -75,8 +75,7 @@ TEST_CASE("trace follow needs no scenario to print what an ns-2 trace has about 
     CHECK(ended.out.find("was never in range") == std::string::npos);
 }
 
-TEST_CASE(
-    "trace: if the folder of a run is given, its trace is read; of two traces, the recorded one") {
+TEST_CASE("trace: in the folder of a run, the recorded trace is read, or else the trace in text") {
     const Run run;
     const std::string folder = run.folder.path("run");
     const auto stats = [&](const std::string& trace) {
@@ -129,9 +128,7 @@ TEST_CASE("trace stats of a recorded trace has the metrics of the summary, also 
     }
 }
 
-TEST_CASE(
-    "trace convert --to pcapng of an ns-2 trace is refused with the reason, and of a recorded "
-    "trace works") {
+TEST_CASE("trace convert: to pcapng, a recorded trace is converted, and an ns-2 trace is refused") {
     const Run run;
     const std::string out = run.folder.path("x.pcapng");
     const Ended ended = command(run.folder, {"trace", "convert", run.text, out, "--to", "pcapng"});
@@ -179,7 +176,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "an ns-2 movement file is recognised, also if it is compressed or begins with the word set") {
+    "an ns-2 movement file may begin with the command `set`; one compressed by bzip2 is refused") {
     const TemporaryFolder folder;
     const std::string moves =
         "set opt(nn) 3\n$node_(0) set X_ 5.0\n$ns_ at 1.0 \"$node_(0) setdest 10.0 0.0 1.0\"\n";

@@ -41,7 +41,7 @@ TEST_CASE("view writes a page of a scenario, of a run's folder and of its trace"
     CHECK(sizes[0] < 250'000);
 }
 
-TEST_CASE("view --with shows the run that replay --with plays") {
+TEST_CASE("view --with: the numbers of gained and lost deliveries equal those of replay --with") {
     const TemporaryFolder folder;
     const std::string run = folder.path("run"), page = folder.path("page.html");
     REQUIRE(command(folder, {"run", rescue, "--record", "--out", run, "--quiet"}).exit == 0);
@@ -76,23 +76,31 @@ TEST_CASE("view: an invalid input or option is an error that says what to do") {
         CHECK(error.find(words) != error.npos);
     };
     std::filesystem::create_directory(folder.path("empty"));
-    has(error_of(folder, {folder.path("empty"), "-o", page}, 3), "make one with `rovernet run");
+    has(error_of(folder, {folder.path("empty"), "-o", page}, 3),
+        "record a trace with `rovernet run");
     has(error_of(folder, {folder.write("a.tr", "s 1.0 _0_"), "-o", page}, 3),
         "no line of this file is one of an ns-2 trace");
     has(error_of(folder, {folder.path("no.toml"), "-o", page}, 3), "no such file");
     has(error_of(folder, {rescue, "-o", folder.path("no/page.html")}, 1), "cannot be written");
     has(error_of(folder, {rescue, "-o", page, "--from", "20 s", "--to", "10 s"}, 2),
-        "after that of --from, 20 s");
+        "later than --from, 20 s");
     has(error_of(folder, {rescue, "-o", page, "--limit", "5"}, 2), "for example \"5 MB\"");
     has(error_of(folder, {rescue, "-o", page, "--limit", "5 kB"}, 0), "too small for the page");
     has(error_of(folder, {rescue, "-o", page, "--from", "80 s"}, 0), "51 of 51 frames");
     CHECK_FALSE(std::filesystem::exists(folder.path("no")));
     const std::string patrol = std::string(ROVERNET_EXAMPLES) + "/patrol/patrol.toml";
-    has(error_of(folder, {rescue, patrol, "-o", page}, 3), "patrol.toml: found 9 robots, but 5 in");
+    has(error_of(folder, {rescue, patrol, "-o", page}, 3),
+        "patrol.toml: found 9 robots, but 5 robots in");
     has(error_of(folder, {rescue, "no.toml", "-o", page}, 3), "no.toml: no such file");
     has(error_of(folder, {rescue, rescue, "--with", "radio.power=1 dBm", "-o", page}, 2),
         "expected one of them");
     has(error_of(folder, {rescue, "--with", "radio.pover=1 dBm", "-o", page}, 2), "radio.pover");
+    has(error_of(folder, {page}, 3), "page.html: this is a page, which a browser opens");
+    has(error_of(folder, {rescue, "-o", page, "--address", "127.0.0.1:8080"}, 2),
+        "found -o and --address; expected one of them");
+    has(error_of(folder, {rescue, "-o", page, "--listen", "0.0.0.0"}, 2), "found -o and --listen");
+    has(error_of(folder, {rescue, "-o", page, "--movements", "no.tcl"}, 2),
+        "--movements is for an ns-2 trace, such as run.tr; found");
 }
 
 }  // namespace view_test
