@@ -139,7 +139,7 @@ int main(int argc, char** argv) {
             fmt::print("{:.0f}\n", links);
             return same ? 0 : 1;
         }
-        fmt::print(stderr, "model_cost: no model {}\n", argv[2]);
+        fmt::print(stderr, "model_cost: there is no propagation model {}\n", argv[2]);
         return 2;
     }
     const double cpu = argc > 1 ? std::atof(argv[1]) : 0.1;

@@ -63,7 +63,7 @@ proc finish {} {
 }
 
 if {$option(-mode) ni {unicast rts broadcast}} {
-    puts stderr "cell.tcl: -mode is unicast, rts or broadcast"
+    puts stderr "cell.tcl: found -mode $option(-mode); expected unicast, rts or broadcast"
     exit 2
 }
 Mac/802_11 set dataRate_ $option(-rate)Mb

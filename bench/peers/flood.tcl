@@ -71,7 +71,7 @@ proc finish {} {
 
 set nodes [count_nodes $option(-movement)]
 if {$nodes == 0} {
-    puts stderr "flood.tcl: no node in $option(-movement)"
+    puts stderr "flood.tcl: the movement file \"$option(-movement)\" has no node; expected -movement FILE"
     exit 2
 }
 set ns_ [new Simulator]

@@ -53,7 +53,7 @@ proc finish {} {
 }
 
 if {$option(-cell) eq ""} {
-    puts stderr "flows.tcl: -cell FILE is missing"
+    puts stderr "flows.tcl: the option -cell is missing; expected -cell FILE"
     exit 2
 }
 read_cell $option(-cell)

@@ -6,7 +6,7 @@ proc read_options {options arguments} {
     upvar $options option
     foreach {name value} $arguments {
         if {![info exists option($name)]} {
-            puts stderr "unknown option $name; there are: [lsort [array names option]]"
+            puts stderr "unknown option $name; expected one of [lsort [array names option]]"
             exit 2
         }
         set option($name) $value

@@ -40,7 +40,10 @@ struct PeerOptions {
         ns3::RngSeedManager::SetRun(seed);
     }
     static void require(bool sense) {
-        if (!sense) throw std::invalid_argument("options that make no sense: see --help");
+        if (!sense)
+            throw std::invalid_argument(
+                "an option is missing, or an option has a value that is not allowed; --help lists "
+                "the options");
     }
 };
 
