@@ -80,8 +80,8 @@ class PacedServer {
         }
         stay(result);
         constexpr auto soon = 400ms;
-        web_.close(soon);
         const bool is_hurried = !options_.stop.go_on();
+        web_.close(soon, is_hurried ? 2s : time_to_end);
         std::vector<std::string> faults = listeners_.close(soon, is_hurried ? soon : time_to_end);
         if (is_hurried) faults.clear();
         for (const ServedFront& each : open_) faults.insert(faults.begin(), each.front->fault());

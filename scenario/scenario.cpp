@@ -74,9 +74,9 @@ void check_sinr(const Scenario& scenario) {
                            const Radio& radio, Location rate_where) {
         if (propagation.make().name() == Disc::name) {
             throw InputError(propagation_where,
-                             "model: \"disc\" has no levels (received powers), which [reception] "
-                             "model = \"sinr\" needs; expected a different propagation model, "
-                             "such as \"friis\"");
+                             "model: \"disc\" computes no received levels, which [reception] model "
+                             "= \"sinr\" needs; expected a different propagation model, such as "
+                             "\"friis\"");
         }
         check_coding(phy, "rate", radio.rate, rate_where);
     };

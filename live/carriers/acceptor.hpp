@@ -8,10 +8,13 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cstddef>
+#include <linux/sockios.h>
 #include <memory>
 #include <netinet/tcp.h>
 #include <stdexcept>
 #include <string>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -84,6 +87,12 @@ inline void keep_alive(int socket) {
 inline void acknowledge_at_once(int socket) {
     const int on = 1;
     setsockopt(socket, IPPROTO_TCP, TCP_QUICKACK, &on, sizeof on);
+}
+
+/// Number of sent bytes that the peer has not acknowledged [bytes].
+inline std::size_t unacknowledged(int socket) {
+    int bytes = 0;
+    return ioctl(socket, SIOCOUTQ, &bytes) == 0 ? static_cast<std::size_t>(bytes) : 0;
 }
 
 /// Accepts connections as long as the acceptor exists. Calls take(socket) for each connection.

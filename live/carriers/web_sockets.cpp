@@ -4,6 +4,7 @@
 #include "experiment/version.hpp"
 #include "live/carriers/acceptor.hpp"
 #include "live/carriers/admission.hpp"
+#include "live/carriers/http_request.hpp"
 #include "live/carriers/input_rate.hpp"
 #include "live/carriers/page_fields.hpp"
 
@@ -55,40 +56,8 @@ struct Gate {
     WebPages pages;
 };
 
-using Request = http::request<http::empty_body>;
-
-bool is_base64(char c) {
-    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '+' ||
-           c == '/';
-}
-
-std::string_view text_of(boost::string_view view) { return {view.data(), view.size()}; }
-
-/// Error of a request, independent of the client; empty if valid.
-std::string fault_of(const Request& request) {
-    const auto& fields = request.base();
-    // RFC 9112, 3.2: exactly one Host. RFC 6455, 11.3: neither field of the handshake twice; 10.2
-    // trusts the one Origin.
-    const std::size_t hosts = fields.count(http::field::host);
-    if (hosts > 1 || (hosts == 0 && request.version() >= 11)) return "expected one header Host";
-    for (const http::field each : {http::field::origin, http::field::sec_websocket_key,
-                                   http::field::sec_websocket_version}) {
-        if (fields.count(each) <= 1) continue;
-        return fmt::format("expected one header {}", text_of(http::to_string(each)));
-    }
-    if (!websocket::is_upgrade(request)) return {};
-    // RFC 6455, 4.1: the base64 of 16 bytes.
-    constexpr std::string_view ending = "==";
-    constexpr std::size_t letters = 22;  // 16 bytes in 6 bits each
-    const auto field = fields[http::field::sec_websocket_key];
-    const std::string_view key(field.data(), field.size());
-    const bool is_key = key.size() == letters + ending.size() && key.ends_with(ending) &&
-                        std::all_of(key.begin(), key.begin() + letters, is_base64);
-    return is_key ? "" : "Sec-WebSocket-Key: expected 16 bytes in base64";
-}
-
 /// Reason why the admission rule of a gate rejects a request; empty if it is accepted.
-std::string refusal(const Gate& gate, const Request& request) {
+std::string refusal(const Gate& gate, const HttpRequest& request) {
     WebRequest asked{text_of(request.target()), text_of(request[http::field::host])};
     if (const auto origin = request.find(http::field::origin); origin != request.end())
         asked.origin = text_of(origin->value());
@@ -256,6 +225,16 @@ struct WebSockets::State {
         return bytes;
     }
 
+    /// Bytes that no client has taken yet: queued here, or sent but not acknowledged.
+    std::size_t unsent() const {
+        std::size_t bytes = 0;
+        for (const auto& [id, client] : clients) {
+            bytes += client->waiting +
+                     unacknowledged(client->stream.next_layer().socket().native_handle());
+        }
+        return bytes;
+    }
+
     void send(Connection to, Output message) {
         const auto found = clients.find(to);
         if (found == clients.end()) return;
@@ -383,7 +362,7 @@ void WebSockets::close(Connection which) {
     if (found != state_->clients.end()) state_->leave(found->second, close_code::normal);
 }
 
-void WebSockets::close(std::chrono::milliseconds most) {
+void WebSockets::close(std::chrono::milliseconds patience, std::chrono::milliseconds most) {
     for (Gate& gate : state_->gates) {
         gate.acceptor.close();
         gate.users = {};
@@ -392,8 +371,13 @@ void WebSockets::close(std::chrono::milliseconds most) {
     for (const auto& [id, client] : clients)
         client->is_open ? state_->leave(client, close_code::going_away) : state_->remove(client);
     const auto until = Clock::now() + most;
-    while (!state_->clients.empty() && Clock::now() < until)
+    auto unsent = state_->unsent();
+    auto gives_up = Clock::now() + patience;
+    while (!state_->clients.empty() && Clock::now() < std::min(gives_up, until)) {
         state_->io.run_one_for(std::chrono::milliseconds(10));
+        const auto before = std::exchange(unsent, state_->unsent());
+        if (unsent != before) gives_up = Clock::now() + patience;
+    }
     for (const auto& [id, client] : clients) state_->remove(client);
 }
 

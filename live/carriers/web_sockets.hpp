@@ -84,9 +84,11 @@ class WebSockets {
     /// Closes a connection once all data is sent. The handler `closed` is called later, not by this
     /// call.
     void close(Connection which);
-    /// Sends a close frame to every client once all data is sent, waits for the replies, at most
-    /// `most`, and closes all connections. No handler is called.
-    void close(std::chrono::milliseconds most);
+    /// Sends a close frame to every client once all data is sent, waits for the replies, and closes
+    /// all connections. No handler is called.
+    /// @param patience  longest wait in which no client takes any data
+    /// @param most      longest wait altogether
+    void close(std::chrono::milliseconds patience, std::chrono::milliseconds most);
 
   private:
     struct State;

@@ -204,7 +204,7 @@ void Search::fail(bool was_there) const {
         throw std::invalid_argument(which + other_users());
     }
     throw std::invalid_argument(
-        fmt::format("there is no robot {}; the robots are {}{}", robot_, names, other_users()));
+        fmt::format("there is no robot \"{}\"; the robots are {}{}", robot_, names, other_users()));
 }
 
 }  // namespace

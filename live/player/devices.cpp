@@ -29,7 +29,7 @@ PlayerDevices::PlayerDevices(Session& session, const std::vector<PlayerPlace>& p
     std::map<std::string, PlayerRobot*, std::less<>> by_name;
     for (const PlayerPlace& each : places) {
         const auto robot = session.network().find(each.robot);
-        if (!robot) throw std::invalid_argument("there is no robot " + each.robot);
+        if (!robot) throw std::invalid_argument("there is no robot \"" + each.robot + "\"");
         by_name[each.robot] = &robots_.emplace_back(session, *robot);
         for (const auto& [interface, number] : range_finders_of(robots_.back())) {
             std::uint32_t& most = most_[{each.listener, interface}];

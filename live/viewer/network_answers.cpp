@@ -96,8 +96,8 @@ Table answer_coverage(const Network& network, const CoverageQuestion& question) 
         other.model = *question.other;
         if (!has_levels || range_of(other.model))
             throw RunError(
-                "the model disc has no levels (received powers), so there is no difference of "
-                "levels to show");
+                "the model disc computes no received levels, so there is no difference of levels "
+                "to show");
         const CoverageMap with = coverage(other, low, high, question.cells);
         std::vector<double> sizes;
         for (std::size_t i = 0; i < map.dbm.size(); ++i) {

@@ -40,7 +40,7 @@ std::string ViewServer::url() const { return state_->sockets.page_address(state_
 
 void ViewServer::serve(const std::function<bool()>& go_on) {
     while (go_on()) state_->listeners.wait(100ms);
-    state_->sockets.close(500ms);
+    state_->sockets.close(500ms, 2s);
 }
 
 }  // namespace rovernet

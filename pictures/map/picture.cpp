@@ -192,8 +192,9 @@ void Painter::check_levels() const {
         if (range_of(each.model).has_value() == range_of(transmitters_.front().model).has_value())
             continue;
         throw std::invalid_argument(
-            "picture: the model disc has no levels (received powers), but the models of the other "
-            "robots have levels; expected a coverage only of robots with disc, or only of robots "
+            "picture: the model disc computes no received levels, but the models of the other "
+            "robots compute levels; expected a coverage only of robots with disc, or only of "
+            "robots "
             "with other models");
     }
 }

@@ -89,7 +89,7 @@ std::vector<NodeId> anchors_in(const Network& network, const std::vector<std::st
         const Location typed{"--anchors " + name, 0, 0, true};
         const auto robot = network.find(name);
         if (!robot)
-            throw InputError(typed, fmt::format("there is no robot {} in the scenario", name));
+            throw InputError(typed, fmt::format("there is no robot \"{}\" in the scenario", name));
         const Medium& medium = network.medium();
         if (medium.stations().radio(*robot).is_directional())
             throw InputError(

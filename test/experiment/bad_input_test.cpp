@@ -235,7 +235,7 @@ const std::vector<Mistake> mistakes = {
     {robot_a + "[reception]\nmodel = \"colision\"", "5:9", {"did you mean \"collision\"?"}},
     {robot_a + "[reception]\nmodel = \"sinr\"\n[propagation]\nmodel = \"disc\"\nrange = \"9 m\"",
      "6:1",
-     {"disc", "no levels"}},
+     {"disc", "no received levels"}},
     {robot_a + "radio = { rate = \"3 Mbit/s\" }\n[reception]\nmodel = \"sinr\"",
      "4:18",
      {"3 Mbit/s", "5.5"}},

@@ -284,7 +284,7 @@ TEST_CASE("hostile: a request sent byte by byte must be complete in time") {
     std::atomic<bool> is_over = false;
     std::thread server([&] {
         while (!is_over) listeners.wait(10ms);
-        web.close(1s);
+        web.close(1s, 1s);
     });
     LineClient slow(address.port);
     int sent = 0;

@@ -45,6 +45,10 @@ class LineClient {
         setsockopt(socket_, SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);
         close();
     }
+    /// Limits the bytes that the system takes while this client does not read.
+    void limit_buffer(int bytes) const {
+        setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &bytes, sizeof bytes);
+    }
     void end_sending() const { shutdown(socket_, SHUT_WR); }
 
     /// Sends bytes unchanged. @return whether all bytes were sent

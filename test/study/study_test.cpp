@@ -144,7 +144,7 @@ TEST_CASE("study: an error in a varied value is reported before any run, with li
     CHECK(wrong("vary.robot.x.count = [1]").find("no item of the list is named \"x\"") !=
           std::string::npos);
     CHECK(
-        wrong("vary.reception.model = [\"threshold\", \"sinr\"]").find("\"disc\" has no levels") !=
+        wrong("vary.reception.model = [\"threshold\", \"sinr\"]").find("\"disc\" computes no received levels") !=
         std::string::npos);
 }
 

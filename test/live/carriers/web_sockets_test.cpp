@@ -47,7 +47,7 @@ class Echo {
                 listeners_.wait(10ms);
                 open = here_.size();
             }
-            web_.close(1s);
+            web_.close(1s, 60s);
         });
     }
     ~Echo() { stop(); }
@@ -190,6 +190,30 @@ TEST_CASE(
     CHECK(reader.message().size() == 1);
     CHECK(reader.message().size() == 9 * longest);
     CHECK(reader.message().size() == 1);
+}
+
+TEST_CASE(
+    "web sockets: a stopping server sends all data to a client that reads slowly, but does not "
+    "wait "
+    "long for a client that reads nothing") {
+    Echo echo;
+    WebClient slow(echo.port), deaf(echo.port);
+    for (WebClient* each : {&slow, &deaf}) {
+        each->socket().limit_buffer(128 << 10);
+        each->send("map");
+        CHECK(each->message().size() == 1);
+    }
+    const auto begun = std::chrono::steady_clock::now();
+    std::thread stopping([&] { echo.stop(); });
+    std::size_t got = 0;
+    constexpr std::size_t portion = 64 << 10;
+    for (std::size_t part = portion; part == portion; got += part) {
+        part = slow.socket().bytes(portion).size();
+        std::this_thread::sleep_for(15ms);
+    }
+    stopping.join();
+    CHECK(got > 9 * longest);
+    CHECK(std::chrono::steady_clock::now() - begun < 30s);
 }
 
 TEST_CASE("web sockets: the server closes after all data is sent, with a close frame") {

@@ -225,7 +225,7 @@ TEST_CASE(
         CHECK(by_folder.out == try_in({"--run", out + "/../out/"}, "A").out);
         CHECK(by_folder.out == try_in({"--run", pid}, "A").out);
         networks.insert(by_folder.out);
-        CHECK(try_in({"--run", out}, "X").err.find("there is no robot X; the robots are ") !=
+        CHECK(try_in({"--run", out}, "X").err.find("there is no robot \"X\"; the robots are ") !=
               std::string::npos);
     }
     CHECK(networks.size() == 2);

@@ -139,7 +139,7 @@ TEST_CASE("rovernet in: a run, a robot or a program that does not exist is refus
     const std::string pid = std::to_string(run->pid());
     const Ended unknown = try_in({"X", "--run", pid, "--", "true"});
     CHECK(unknown.exit != 0);
-    CHECK(unknown.err.find("there is no robot X; the robots are ") != std::string::npos);
+    CHECK(unknown.err.find("there is no robot \"X\"; the robots are ") != std::string::npos);
     CHECK(try_in({"A", "--run", pid, "--", "/no/such/program"}).err.find("/no/such/program: No ") !=
           std::string::npos);
     CHECK(try_in({"A", "--run", pid, "--", "sh", "-c", "exit 7"}).exit == 7);

@@ -178,7 +178,7 @@ TEST_CASE("locate: positions that cannot be located are counted, with the reason
         return std::string("none");
     };
     CHECK(fault({"SW", "SX"}, {.sigma = Db{4}}) ==
-          "--anchors SX: there is no robot SX in the scenario");
+          "--anchors SX: there is no robot \"SX\" in the scenario");
     CHECK(fault(corners, {}).find("expected --sigma") != std::string::npos);
     const Located two = locate_robots(scenario, {"SW", "SE"}, {start_of_run}, {.sigma = Db{4}});
     CHECK(two.fixes.empty());
