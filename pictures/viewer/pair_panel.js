@@ -39,7 +39,7 @@ const pair_panel = (() => {
         own.links = [];
         const panel = dom.by_id("pair-panel");
         if (a === undefined || b === undefined) {
-            panel.replaceChildren(dom.make("p", "", "Choose two robots: one by a click, the other by shift and click."));
+            panel.replaceChildren(dom.make("p", "", "Choose two robots: by Shift and a click on the map, or by search."));
             return;
         }
         const answer = dom.make("div", "");

@@ -130,7 +130,7 @@ const robot_panel = (() => {
         if (robot !== own.robot) {
             own.robot = robot;
             if (robot < 0) {
-                dom.by_id("robot-panel").replaceChildren(dom.make("p", "", "Choose a robot: by a click on the map, or by its name in the search."));
+                dom.by_id("robot-panel").replaceChildren(dom.make("p", "", "Choose a robot: by a click on the map, or by search."));
                 return;
             }
             build(robot);

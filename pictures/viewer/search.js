@@ -7,11 +7,11 @@ const search = (() => {
 
     /** @param {string} text @returns {{text: string, act: () => void}[]} */
     function found(text) {
-        const r = own.run, wanted = text.trim().toLowerCase(), out = [];
+        const r = own.run, wanted = text.toLowerCase(), out = [];
         if (!wanted) return [];
         const names = r.head.robots.map((robot, i) => ({ i, name: robot.name.toLowerCase() })).filter(({ name }) => name.includes(wanted));
         names.sort((a, b) => a.name.indexOf(wanted) - b.name.indexOf(wanted) || a.name.length - b.name.length);
-        for (const { i } of names.slice(0, most)) out.push({ text: `robot ${r.label(i, 40)}`, act: () => selection.set({ robots: [i], panel: "robot", storey: r.storey(r.pose(i, selection.state.t).z) }) });
+        for (const { i } of names.slice(0, most)) out.push({ text: `robot ${r.label(i, 40)}`, act: () => selection.state.panel === "pair" ? selection.choose(i, true) : selection.set({ robots: [i], panel: "robot", storey: r.storey(r.pose(i, selection.state.t).z) }) });
         const uid = r.by_uid.get(Number(wanted.replace(/^message\s+/, "")));
         /** @param {number} i */
         const add = i => {
@@ -26,18 +26,19 @@ const search = (() => {
     }
 
     function show() {
-        const results = dom.by_id("results"), rows = found(dom.input("search").value);
+        const results = dom.by_id("results"), text = dom.input("search").value.trim(), rows = found(text);
         results.replaceChildren(...rows.map(({ text, act }) => dom.button(text, "", () => {
             act();
             close();
         })));
-        if (rows.length === 0 && dom.input("search").value.trim()) results.append(dom.make("p", "muted", "no robot and no message"));
-        results.hidden = !dom.input("search").value.trim();
+        if (text && rows.length === 0) results.append(dom.make("p", "muted", "nothing found"));
+        results.hidden = !text;
     }
 
     function close() {
         dom.by_id("results").hidden = true;
         dom.input("search").value = "";
+        dom.input("search").blur();  // keys act on the page again
     }
 
     /** @param {KeyboardEvent} event */

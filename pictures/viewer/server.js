@@ -45,7 +45,7 @@ const server = (() => {
             }
             if (there.readyState === WebSocket.OPEN) return done(there);
             there.addEventListener("open", () => done(there), { once: true });
-            there.addEventListener("close", () => failed(new Error("The server has gone. Start \u201crovernet view RUN\u201d again.")), { once: true });
+            there.addEventListener("close", () => failed(new Error("The server has gone. Open the run by \u201crovernet view RUN\u201d.")), { once: true });
         });
     }
 

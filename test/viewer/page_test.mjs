@@ -202,9 +202,14 @@ test("view page: keys alone control time, speed, selection, zoom, panels and hel
     await page.keyboard.press("Enter");
     assert.deepEqual((await state()).robots, [4]);
     assert.equal(await page.locator("#robot-panel h2").textContent(), "E");
-    await page.evaluate(() => document.activeElement.blur());
     await press("c");
     assert.match(await page.locator("#status").textContent(), /rovernet view RUN/);
+    await press("4");
+    await press("/");
+    await page.keyboard.type("A");
+    await page.keyboard.press("Enter");
+    assert.deepEqual((await state()).robots, [4, 0]);
+    assert.equal(await page.locator("#pair-panel h2").textContent(), "E and A");
     await press("]");
     assert.ok((await state()).speed > 3);
     await press("+");
