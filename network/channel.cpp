@@ -220,16 +220,23 @@ std::optional<Db> Channel::interference_left_out() const {
 }
 
 /// Marks receptions as garbled by the sender's success rate.
-void Channel::garble(Flight& flight) const {
+void Channel::garble(Flight& flight) {
     if (flight.air.control) return;
     const Frame& frame = flight.air.frame;
+    const Message& message = world_.messages[frame.message];
+    std::uint64_t number = frame.hops + (std::uint64_t{flight.air.attempt} << 16);
+    if (message.is_routed && frame.next_hop != everyone) {
+        // The protocol may send the message to the same robot again: each frame has its own draw.
+        const std::size_t sender = frame.sender.index();
+        if (sender >= unicasts_.size()) unicasts_.resize(sender + 1);
+        number += std::uint64_t{++unicasts_[sender]} << 32;
+    }
     const double success = world_.medium.stations().radio(frame.sender).success_rate;
     for (Reception& r : flight.receivers.all()) {
         if (!is_decoded(r.fate)) continue;
         const double draw = world_.draw(Purpose::link_success,
                                         combine(world_.key(frame.sender), world_.key(r.node)),
-                                        combine(world_.messages[frame.message].key, frame.path),
-                                        frame.hops + (std::uint64_t{flight.air.attempt} << 16));
+                                        combine(message.key, frame.path), number);
         if (draw >= success) r.fate = Fate::garbled;
     }
 }

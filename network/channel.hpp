@@ -129,7 +129,7 @@ class Channel {
     // Frees the Flights of frames that cannot interfere with other frames any more.
     void forget_frames();
     // Marks random receptions as garbled, according to the sender's success rate.
-    void garble(Flight& flight) const;
+    void garble(Flight& flight);
     // Time up to which the event with this key may serve receptions: the next event in the queue is
     // not before this time.
     Time served_until(EventKey key) const;
@@ -142,6 +142,9 @@ class Channel {
     // Frames in flight. If the reception model has a Judge, a slot is kept while its frame may
     // interfere with other frames.
     Slots<Flight> flights_;
+    // By sender with a success rate < 1: number of frames that the routing protocol sent to one
+    // node.
+    std::vector<std::uint32_t> unicasts_;
     // Nodes that sense one frame; kept to reuse its memory.
     std::vector<Sensing> sensed_;
     // Frames on air, and the Judge of the reception model; empty if the model has no Judge.

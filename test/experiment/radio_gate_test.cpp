@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Who may link with whom, and frames that do not get through.
 #include "experiment/reports/link_table.hpp"
+#include "models/access/list.hpp"
 #include "models/reception/list.hpp"
 #include "network/network.hpp"
+#include "routing/dsr.hpp"
 #include "routing/flood.hpp"
 
 #include <doctest/doctest.h>
@@ -10,6 +12,7 @@
 #include <chrono>
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace radio_gate_test {
 using namespace rovernet;
@@ -51,6 +54,22 @@ std::pair<std::uint64_t, std::uint64_t> through(double success_rate, bool crowd,
 }
 
 }  // namespace
+
+TEST_CASE("success rate: a message that a routing protocol sends again has a new chance") {
+    for (const AccessModel& access : std::vector<AccessModel>{NoAccess{}, Aloha{}}) {
+        Network net({.seed = 5, .propagation = Friis{}, .access = access});
+        net.route(Dsr{});
+        const NodeId a = net.add({.name = "a", .at = {}, .radio = {.success_rate = 0.8}});
+        const NodeId b = net.add({.name = "b", .at = {1, 0, 0}});
+        for (int i = 0; i < 100; ++i) {
+            net.send(a, b, "x");
+            net.run_for(100ms);
+        }
+        net.run_for(60s);
+        CHECK(net.metrics().deliveries == 100);
+        CHECK(net.metrics().transmissions < 400);
+    }
+}
 
 TEST_CASE(
     "radio gate: two radios are linked only if their essids are equal or one essid is \"any\"") {
