@@ -12,6 +12,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <initializer_list>
 #include <limits>
 #include <map>
 #include <string_view>
@@ -113,17 +114,38 @@ class TrafficReader {
         if (v < least || v > 1e9) fail(word, expected);
         return v;
     }
-    /// Bit rate [bit/s] such as "64k", "0.5Mb" or 64000.
-    double rate(const Word& word) const {
-        constexpr std::string_view expected = "a bit rate such as 64k or 0.5Mb";
+    /// Number with a suffix: the number, and the factor that the list has for the suffix; 0 if the
+    /// word has another form.
+    static double with_suffix(const Word& word,
+                              std::initializer_list<std::pair<std::string_view, double>> factors) {
         double v = 0;
         const char* const end = word.text.data() + word.text.size();
         const auto [unit, error] = std::from_chars(word.text.data(), end, v);
         const std::string_view rest(unit, static_cast<std::size_t>(end - unit));
-        const char letter = rest.empty() ? ' ' : rest.front();
-        if (letter == 'k' || letter == 'K') v *= 1e3;
-        if (letter == 'M' || letter == 'm') v *= 1e6;
-        if (error != std::errc{} || !(v >= 1 && v <= 1e12)) fail(word, expected);
+        const auto found = std::find_if(factors.begin(), factors.end(),
+                                        [&](const auto& each) { return each.first == rest; });
+        return error == std::errc{} && found != factors.end() ? v * found->second : 0;
+    }
+    /// Bit rate [bit/s] such as "64k", "0.5Mb" or 64000; with B, a rate of bytes.
+    double rate(const Word& word) const {
+        std::string_view text = word.text;
+        for (const std::string_view ending : {"ps", "/s"})
+            if (text.ends_with(ending)) text.remove_suffix(ending.size());
+        const double v = with_suffix(
+            {text, word.column}, {{"", 1},     {"b", 1},    {"k", 1e3},  {"kb", 1e3}, {"K", 1e3},
+                                  {"Kb", 1e3}, {"m", 1e6},  {"mb", 1e6}, {"M", 1e6},  {"Mb", 1e6},
+                                  {"g", 1e9},  {"gb", 1e9}, {"G", 1e9},  {"Gb", 1e9}, {"kB", 8e3},
+                                  {"KB", 8e3}, {"mB", 8e6}, {"MB", 8e6}, {"gB", 8e9}, {"GB", 8e9}});
+        if (!(v >= 1 && v <= 1e12))
+            fail(word, "a bit rate such as 64k or 0.5Mb, or with B for bytes: 8kB");
+        return v;
+    }
+    /// Interval [s] such as 0.25 or "250ms".
+    double interval(const Word& word) const {
+        const double v =
+            with_suffix(word, {{"", 1}, {"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}});
+        if (!(v >= 1e-9 && v <= 1e9))
+            fail(word, "a time from 1e-9 to 1e9 [s], such as 0.25 or 250ms");
         return v;
     }
     std::uint32_t size(const Word& word, std::uint32_t least) const;
@@ -226,13 +248,15 @@ void TrafficReader::schedule() {
     if (word(3).text.starts_with("$god")) return;
     App& app = named(apps_, word(3), "an application that was made before");
     const Word verb = word(4);
-    if (verb.text == "start") {
-        app.start = time;
-    } else if (verb.text == "stop") {
-        app.stop = time;
-    } else {
-        fail(verb, "start or stop");
+    if (verb.text != "start" && verb.text != "stop") fail(verb, "start or stop");
+    std::optional<Time>& at = verb.text == "start" ? app.start : app.stop;
+    if (at) {
+        throw InputError(here(verb),
+                         fmt::format("found a second {} of this application; expected one start "
+                                     "and at most one stop for each application",
+                                     verb.text));
     }
+    at = time;
 }
 
 /// Command  $cbr_(0) set KEY VALUE  or  $cbr_(0) attach-agent $udp_(0)
@@ -246,8 +270,10 @@ void TrafficReader::tell(App& app) {
     const Word key = word(2), value = word(3);
     if (key.text == "packetSize_") {
         app.size = size(value, 0);
+        if (app.size > 0 && app.rate > 0) app.interval.reset();  // ns-2 keeps the rate
     } else if (key.text == "interval_") {
-        app.interval = amount(value, 1e-9, "a time from 1e-9 to 1e9 [s]");
+        app.interval = interval(value);
+        app.rate = 8 * app.size / *app.interval;
     } else if (key.text == "rate_") {
         app.rate = rate(value);
         app.interval.reset();

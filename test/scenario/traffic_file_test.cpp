@@ -78,6 +78,13 @@ TEST_CASE("traffic file: the interval follows from the rate, and the defaults ar
     };
     CHECK(every("$cbr_(0) set rate_ 64k\n") == from_seconds(512 * 8 / 64e3));
     CHECK(every("$cbr_(0) set rate_ 0.5Mb\n") == from_seconds(512 * 8 / 0.5e6));
+    CHECK(every("$cbr_(0) set rate_ 20kB\n") == from_seconds(512 * 8 / 160e3));
+    CHECK(every("$cbr_(0) set rate_ 0.001Gb\n") == from_seconds(512 * 8 / 1e6));
+    CHECK(every("$cbr_(0) set rate_ 64kbps\n") == from_seconds(512 * 8 / 64e3));
+    CHECK(every("$cbr_(0) set interval_ 250ms\n") == from_seconds(0.25));
+    // ns-2.35: a size that follows the interval keeps the rate.
+    CHECK(every("$cbr_(0) set interval_ 0.25\n$cbr_(0) set packetSize_ 1024\n") ==
+          from_seconds(0.5));
     CHECK(every("") == from_seconds(512 * 8 / 448e3));
 }
 
@@ -129,6 +136,9 @@ TEST_CASE("traffic file: content other than CBR over UDP is refused, with line a
         std::string::npos);
     CHECK(error_of(with(good, "$node_(2)", "$node_(1)")).find("its own node") != std::string::npos);
     CHECK(error_of(with(good, "512", "a lot")).find("a size in bytes") != std::string::npos);
+    CHECK(error_of(with(good, "0.25", "20Xs")).find("found \"20Xs\"") != std::string::npos);
+    CHECK(error_of(good + "$ns_ at 40.0 \"$cbr_(0) start\"\n")
+              .find("found a second start of this application") != std::string::npos);
     CHECK(error_of(with(good, "at 30.0", "at 0.5")).find("stops before it starts") !=
           std::string::npos);
     CHECK(error_of(with(good, "$cbr_(0) start", "$cbr_(7) start")).find("made before") !=
