@@ -145,32 +145,54 @@ bool is_list_of_tables(const Value& value) {
                                          near.empty() ? "" : "; ", near));
 }
 
-/// Value at `step` of a path (a key, or in a list an index or name), created if missing.
-Value& descend(Value& at, const std::string& step, const Location& option) {
-    if (Array* list = at.array()) {
-        std::size_t index = 0;
-        const auto [end, error] = std::from_chars(step.data(), step.data() + step.size(), index);
-        if (error == std::errc{} && end == step.data() + step.size()) {
-            if (index < list->size()) return (*list)[index];
-            throw InputError(
-                option,
-                fmt::format("there is no item {}; the list has {} items, and the first is item 0",
-                            index, list->size()));
-        }
-        std::vector<std::string> names;
-        for (auto& item : *list) {
-            const Value* name = item.table() ? item.table()->find("name") : nullptr;
-            if (!name || !name->string()) continue;
-            if (*name->string() == step) return item;
-            names.push_back(*name->string());
-        }
-        if (names.empty()) {
-            throw InputError(option, fmt::format("\"{}\" is inside a list; expected the number of "
-                                                 "an item before it, from 0 to {}",
-                                                 step, list->size() - 1));
-        }
-        fail_unnamed(step, names, option);
+/// Name of an item of a list: its key "name"; null if it has none.
+const std::string* name_of(const Value& item) {
+    const Value* name = item.table() ? item.table()->find("name") : nullptr;
+    return name ? name->string() : nullptr;
+}
+
+/// Item of a list by its number, or by its name.
+/// @param is_name  whether the step is in quotes, and so never a number
+Value& item_at(Array& list, const std::string& step, bool is_name, const Location& option) {
+    const auto named = std::find_if(list.begin(), list.end(), [&](const Value& item) {
+        const std::string* name = name_of(item);
+        return name && *name == step;
+    });
+    std::size_t index = 0;
+    const auto [end, error] = std::from_chars(step.data(), step.data() + step.size(), index);
+    const bool is_number = !is_name && error == std::errc{} && end == step.data() + step.size();
+    if (is_number && index < list.size()) {
+        Value& item = list[index];
+        if (named == list.end() || &*named == &item) return item;
+        throw InputError(
+            option, fmt::format("{0} is the number of an item, and the name of a different one; "
+                                "write the name as \"{0}\", or give the name of the item that has "
+                                "this number",
+                                step));
     }
+    if (named != list.end()) return *named;
+    if (is_number) {
+        throw InputError(
+            option,
+            fmt::format("there is no item {}; the list has {} items, and the first is item 0",
+                        index, list.size()));
+    }
+    std::vector<std::string> names;
+    for (const Value& item : list) {
+        if (const std::string* name = name_of(item)) names.push_back(*name);
+    }
+    if (names.empty()) {
+        throw InputError(option, fmt::format("\"{}\" is inside a list; expected the number of an "
+                                             "item before it, from 0 to {}",
+                                             step, list.size() - 1));
+    }
+    fail_unnamed(step, names, option);
+}
+
+/// Value at `step` of a path (a key, or in a list an index or name), created if missing.
+/// @param is_name  whether the step is in quotes
+Value& descend(Value& at, const std::string& step, bool is_name, const Location& option) {
+    if (Array* list = at.array()) return item_at(*list, step, is_name, option);
     Table* table = at.table();
     if (!table) {
         throw InputError(
@@ -211,6 +233,7 @@ Value parse_toml(std::string_view text, const std::string& source) {
         Location where = location(source, error.source());
         const TomlMistake mistake =
             toml_mistake(text, where.line, where.column, error.description());
+        where.line = mistake.line;
         where.column = mistake.column;
         throw InputError(where, mistake.message);
     }
@@ -289,13 +312,14 @@ void set_value(Value& document, const std::string& path, Value value, const Loca
             at = whole;
             break;
         }
+        const bool is_name = steps.starts_with('"');
         const std::string step(take_key(steps));
         if (step.empty()) {
             throw InputError(where,
                              "expected keys joined by single dots, such as radio.power; a key that "
                              "contains dots is in quotes");
         }
-        at = &descend(*at, step, where);
+        at = &descend(*at, step, is_name, where);
     }
     *at = std::move(value);
 }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace rovernet {
 namespace {
@@ -123,17 +124,19 @@ std::string open_text_message(std::string_view description, const Place& place) 
 
 TomlMistake toml_mistake(std::string_view text, int line, int column,
                          std::string_view description) {
-    const Place place(text, line, column);
-    if (auto twice = toml_repetition(place.line, place.before.size(), column, description))
+    Place place(text, line, column);
+    if (line > 1 && is_about_line_above(place.line, place.before.size(), description))
+        place = Place(text, --line, column = std::numeric_limits<int>::max());
+    if (auto twice = toml_repetition(place.line, place.before.size(), line, column, description))
         return *std::move(twice);
     if (contains(description, "could not determine value type")) {
         const std::string message = value_message(place);
-        if (!message.empty()) return {message, column};
+        if (!message.empty()) return {message, line, column};
     }
     if (std::string message = open_text_message(description, place); !message.empty())
-        return {std::move(message), column};
+        return {std::move(message), line, column};
     const std::string_view advice = advice_for(description, place);
-    return {fmt::format("not TOML: {}{}{}", description, advice.empty() ? "" : "; ", advice),
+    return {fmt::format("not TOML: {}{}{}", description, advice.empty() ? "" : "; ", advice), line,
             column};
 }
 

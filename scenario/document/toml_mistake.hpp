@@ -9,6 +9,7 @@ namespace rovernet {
 /// Mistake in a text that is not TOML.
 struct TomlMistake {
     std::string message;  ///< what was found, and a hint on the probable mistake
+    int line = 0;         ///< line of the mistake, from 1
     int column = 0;       ///< column of the mistake, in characters from 1
 };
 

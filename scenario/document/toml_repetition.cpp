@@ -10,6 +10,7 @@ namespace rovernet {
 namespace {
 
 constexpr std::string_view white = " \t";
+constexpr std::string_view of_header = "parsing table header";  // in messages of the parser
 
 /// First byte of a line from `at` on that is not blank; the size of the line if all are blank.
 std::size_t behind_blanks(std::string_view line, std::size_t at) {
@@ -75,6 +76,13 @@ int column_of(std::string_view line, std::size_t byte) {
 /// @param what    kind of the value that has the name
 /// @param inside  true: the value is that of a key before the last dot of the name
 std::string header_message(const KeyPath& name, std::string_view what, bool inside) {
+    if (what.empty()) {
+        return fmt::format(
+            "[{}]: a table before the last dot of this name is written in braces, to which no keys "
+            "can be added; write all keys of that table inside the braces, or all of them under a "
+            "header [NAME], without braces",
+            name.text);
+    }
     if (inside) {
         return fmt::format(
             "[{}]: a key before the last dot of this name already has a value, to which "
@@ -100,8 +108,17 @@ std::string key_message(const KeyPath& name, std::string_view what) {
 
 }  // namespace
 
-std::optional<TomlMistake> toml_repetition(std::string_view line, std::size_t at, int column,
-                                           std::string_view description) {
+bool is_about_line_above(std::string_view line, std::size_t at, std::string_view description) {
+    if (at > 0 || description.find(of_header) == description.npos) return false;
+    const std::size_t begin = description.find('\'') + 1, end = description.find('\'', begin);
+    if (end == description.npos) return false;
+    std::string named = KeyPath(line, line.find_first_not_of(" \t["), line.size()).text;
+    std::erase_if(named, is_quote);
+    return named != description.substr(begin, end - begin);
+}
+
+std::optional<TomlMistake> toml_repetition(std::string_view line, std::size_t at, int number,
+                                           int column, std::string_view description) {
     constexpr std::string_view twice = "cannot redefine existing ";
     const std::size_t found = description.find(twice);
     const bool is_inline = description.find("into existing inline table") != description.npos;
@@ -110,19 +127,19 @@ std::optional<TomlMistake> toml_repetition(std::string_view line, std::size_t at
         is_inline ? std::string_view() : description.substr(found + twice.size());
 
     const std::size_t first = behind_blanks(line, 0);
-    if (description.find("parsing table header") != description.npos) {
+    if (description.find(of_header) != description.npos) {
         const std::size_t brackets = std::min(line.find_first_not_of('[', first), line.size());
         const KeyPath name(line, brackets, line.size());
         // The parser stops at the bracket if the last key of the name has a value.
         const bool inside = is_inline || at > first;
-        return TomlMistake{header_message(name, what, inside), column_of(line, first)};
+        return TomlMistake{header_message(name, what, inside), number, column_of(line, first)};
     }
     // The parser stops at the key that has a value, or behind the sign = of the last key.
     const bool is_last = description.find("as dotted key-value pair") == description.npos;
     const KeyPath name(line, begin_of_key(line, at), at);
     if (name.keys == 0)
-        return TomlMistake{"a key occurs a second time; expected the key once", column};
-    return TomlMistake{key_message(name, what), column_of(line, is_last ? name.begin : at)};
+        return TomlMistake{"a key occurs a second time; expected the key once", number, column};
+    return TomlMistake{key_message(name, what), number, column_of(line, is_last ? name.begin : at)};
 }
 
 }  // namespace rovernet

@@ -146,7 +146,16 @@ TEST_CASE(
         "2:1: [x.y]: a key before the last dot of this name already has a value, to which no "
         "keys can be added; expected all keys of a table in one place";
     check("x = 1\n[x.y]", inside);
-    check("x = { a = 1 }\n[x.y]\n", inside);
+    check("x = 1\n[x.y]\nk = 1", inside);
+    check("x = 1\n[[x . \"y\"]]\n[[robot]]", std::string(inside).replace(6, 3, "x.\"y\""));
+    const std::string braces =
+        ": a table before the last dot of this name is written in braces, to which no keys can be "
+        "added; write all keys of that table inside the braces, or all of them under a header "
+        "[NAME], without braces";
+    check("x = { a = 1 }\n[x.y]\n", "2:1: [x.y]" + braces);
+    check("x = { a = 1 }\n[x.y]\nk = 1", "2:1: [x.y]" + braces);
+    check("x = { a = 1 }\n  [x.y.z]  # in the line above\n\nk = 1", "2:3: [x.y.z]" + braces);
+    check("x = { a = 1 }\n[[x.y]]\n[[robot]]", "2:1: [x.y]" + braces);
 }
 
 TEST_CASE("toml: an error has the line and column of the mistake") {
@@ -192,6 +201,19 @@ TEST_CASE(
         CAPTURE(option);
         CHECK(error_of_option(text, option).starts_with("--set " + std::string(option) + ": "));
     }
+}
+
+TEST_CASE("set_option: a number that is the name of a robot never changes a different robot") {
+    const std::string text = "[[robot]]\nname = \"1\"\n\n[[robot]]\nname = \"2\"\n";
+    const std::string first = "[[robot]]\nname = \"1\"\nradius = 9\n\n[[robot]]\nname = \"2\"\n";
+    CHECK(after_option(text, "robot.\"1\".radius=9") == first);
+    CHECK(after_option(text, "robot.0.radius=9") == first);
+    CHECK(after_option(text, "robot.2.radius=9") == text + "radius = 9\n");
+    CHECK(contains(error_of_option(text, "robot.1.radius=9"), "write the name as \"1\""));
+    CHECK(contains(error_of_option(text, "robot.3.radius=9"), "there is no item 3"));
+    CHECK(contains(error_of_option(text, "robot.\"0\".radius=9"), "no item of the list is named"));
+    const std::string same = "[[robot]]\nname = \"0\"\n";
+    CHECK(after_option(same, "robot.0.radius=9") == same + "radius = 9\n");
 }
 
 TEST_CASE("set_option: a value is read as TOML if possible, and as text otherwise") {
