@@ -17,7 +17,7 @@ namespace {
 // Registrations, readable by a signal handler at any time.
 constexpr std::size_t most_groups = 1024, most_files = 16;
 std::array<std::atomic<pid_t>, most_groups> noted_groups;
-std::array<std::atomic<const char*>, most_files> noted_files;
+std::array<std::atomic<const char*>, most_files> noted_files, noted_folders;
 std::atomic<pid_t> note_taker;  // process whose notes they are
 static_assert(std::atomic<pid_t>::is_always_lock_free);
 static_assert(std::atomic<const char*>::is_always_lock_free);
@@ -48,6 +48,18 @@ bool is_any_alive(std::span<const pid_t> leaders) {
     bool is_any = false;  // all are looked at: no zombie is left
     for (const pid_t each : leaders) is_any = is_alive(each) || is_any;
     return is_any;
+}
+
+/// Removes a folder with its contents by the program rm, since functions that read a folder are not
+/// safe in a signal handler; nor is fork(), which waits for locks.
+void remove_whole(const char* path) {
+    const pid_t remover = _Fork();
+    if (remover == 0) {
+        execl("/bin/rm", "rm", "-rf", "--", path, nullptr);
+        _exit(1);
+    }
+    while (remover > 0 && waitpid(remover, nullptr, 0) < 0 && errno == EINTR) {
+    }
 }
 
 }  // namespace
@@ -81,10 +93,17 @@ NotedFile::~NotedFile() {
     unlink(path_.c_str());
 }
 
+NotedFolder::NotedFolder(std::string path)
+    : path_(std::move(path)), place_(put_down(noted_folders, path_.c_str())) {}
+NotedFolder::~NotedFolder() { strike_out(noted_folders, place_); }
+
 void clear_away() {
     if (note_taker != getpid()) return;
     for (auto& each : noted_files) {
         if (const char* path = each.exchange(nullptr)) unlink(path);
+    }
+    for (auto& each : noted_folders) {
+        if (const char* path = each.exchange(nullptr)) remove_whole(path);
     }
     std::array<pid_t, most_groups> leaders;
     std::size_t count = 0;

@@ -46,8 +46,23 @@ class NotedFile {
     std::size_t place_;
 };
 
-/// Ends the process groups and removes the files that this process has registered. A forked process
-/// starts with no registered groups and files. Safe in a signal handler, before _exit().
+/// Registration of a folder, which lasts as long as this object. clear_away() removes all
+/// registered folders with their contents. At most 16 folders can be registered.
+class NotedFolder {
+  public:
+    explicit NotedFolder(std::string path);
+    NotedFolder(const NotedFolder&) = delete;
+    NotedFolder& operator=(const NotedFolder&) = delete;
+    ~NotedFolder();
+
+  private:
+    std::string path_;
+    std::size_t place_;
+};
+
+/// Ends the process groups and removes the files and folders that this process has registered. A
+/// forked process starts with no registered groups, files and folders. Safe in a signal handler,
+/// before _exit().
 void clear_away();
 
 }  // namespace rovernet

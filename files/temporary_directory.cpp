@@ -13,12 +13,18 @@
 
 namespace rovernet {
 
-TemporaryDirectory::TemporaryDirectory()
-    : path_((std::filesystem::temp_directory_path() / "rovernet-XXXXXX").string()) {
-    if (mkdtemp(path_.data())) return;
+namespace {
+
+std::string new_folder() {
+    std::string path = (std::filesystem::temp_directory_path() / "rovernet-XXXXXX").string();
+    if (mkdtemp(path.data())) return path;
     throw RunError(
-        fmt::format("{}: cannot create this temporary folder: {}", path_, std::strerror(errno)));
+        fmt::format("{}: cannot create this temporary folder: {}", path, std::strerror(errno)));
 }
+
+}  // namespace
+
+TemporaryDirectory::TemporaryDirectory() : path_(new_folder()), noted_(path_) {}
 
 TemporaryDirectory::~TemporaryDirectory() {
     std::error_code ignored;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "files/left_behind.hpp"
+
 #include <string>
 
 namespace rovernet {
 
 /// New directory in the system's folder for temporary files. The destructor removes the folder with
-/// its content.
+/// its content, also if a signal ends the process.
 class TemporaryDirectory {
   public:
     /// @throws RunError if the folder cannot be made
@@ -19,6 +21,7 @@ class TemporaryDirectory {
 
   private:
     std::string path_;
+    NotedFolder noted_;
 };
 
 }  // namespace rovernet

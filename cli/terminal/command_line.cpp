@@ -69,6 +69,12 @@ std::string usage_error(const CLI::App* app, const CLI::Error& error) {
         const CLI::App& command = named_command(*app);
         const std::vector<std::string> commands = commands_of(command);
         const bool is_option = word.starts_with('-');
+        const std::vector<std::string> options = options_of(command);
+        if (is_option && std::find(options.begin(), options.end(), word) != options.end()) {
+            return fmt::format(
+                "rovernet: the option {} is before the command; write it behind \"{}\"\n", word,
+                command.get_name());
+        }
         if (is_option) {
             what = fmt::format("unknown option \"{}\"", word);
         } else if (!commands.empty()) {
@@ -77,7 +83,7 @@ std::string usage_error(const CLI::App* app, const CLI::Error& error) {
         } else {
             what = fmt::format("unexpected argument \"{}\"", word);
         }
-        const std::string near = did_you_mean(word, is_option ? options_of(command) : commands);
+        const std::string near = did_you_mean(word, is_option ? options : commands);
         if (!near.empty()) what += "; " + near;
     }
     return fmt::format("rovernet: {}; run with --help for more\n", what);

@@ -14,6 +14,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 
 namespace rovernet::cli {
 namespace {
@@ -66,9 +68,17 @@ void convert_to_capture(const TraceConvertArguments& a) {
     }
 }
 
+/// @throws InputError if the output would replace the input
+void check_apart(const std::string& in, const std::string& out) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(in, out, ignored))
+        throw InputError({out}, "this is the trace to be read; expected a different file to write");
+}
+
 }  // namespace
 
 void trace_convert(const TraceConvertArguments& a) {
+    check_apart(a.in, a.out);
     if (a.to == "pcapng") return convert_to_capture(a);
     if (a.to == "foxglove") {
         check_is_recorded(a, "the map and the bodies of robots are taken from the scenario");
@@ -89,6 +99,7 @@ void trace_convert(const TraceConvertArguments& a) {
 }
 
 void trace_cut(const TraceCutArguments& a) {
+    check_apart(a.in, a.out);
     TraceCut cut;
     if (a.from) cut.from = start_of_run + option_time("--from", *a.from);
     if (a.to) cut.to = start_of_run + option_time("--to", *a.to);

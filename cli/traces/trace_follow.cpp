@@ -6,7 +6,7 @@
 #include "experiment/replay/message_at_robot.hpp"
 #include "experiment/replay/recorded_follow.hpp"
 #include "scenario/document/json.hpp"
-#include "scenario/scenario.hpp"
+#include "scenario/names.hpp"
 #include "scenario/scenario_file.hpp"
 #include "traces/ns2/ns2_follow.hpp"
 #include "traces/recorded/recorded_reader.hpp"
@@ -34,11 +34,7 @@ class TraceNames {
         std::error_code ignored;
         if (!std::filesystem::is_regular_file(beside, ignored)) return;
         try {
-            for (const RobotTable& robot : load_scenario(beside.string(), {}).robots) {
-                for (int i = 0; i < robot.count.value_or(1); ++i) {
-                    names_.push_back(robot.name_of(i));
-                }
-            }
+            names_ = robot_names(load_scenario(beside.string(), {}));
         } catch (const InputError&) {
             names_.clear();  // the trace can be told by numbers
         }

@@ -129,7 +129,7 @@ void append_names(std::string& text, std::span<const Track> tracks,
         if (number_in(tracks[i].name) == numbers[i]) continue;
         std::string name = tracks[i].name;
         std::replace_if(
-            name.begin(), name.end(), [](char c) { return c >= 0 && c < ' '; }, ' ');
+            name.begin(), name.end(), [](unsigned char c) { return c < ' '; }, ' ');
         append(text, "# {} -> $node_({})\n", name, numbers[i]);
     }
 }

@@ -67,6 +67,18 @@ const std::vector<std::string> result_files = {"scenario.toml", "summary.json", 
 
 }  // namespace
 
+TEST_CASE("command line: an option before its command gets an error that says so") {
+    const TemporaryFolder folder;
+    for (const char* option : {"-q", "--quiet", "--json"}) {
+        CAPTURE(option);
+        const Ended ended = command(folder, {option, "scene", "s.toml"});
+        CHECK(ended.exit == 2);
+        CHECK(ended.err == fmt::format("rovernet: the option {} is before the command; write it "
+                                       "behind \"scene\"\n",
+                                       option));
+    }
+}
+
 TEST_CASE("run --json prints one document with the results") {
     const TemporaryFolder folder;
     const Json run =

@@ -128,6 +128,33 @@ TEST_CASE("trace stats of a recorded trace has the metrics of the summary, also 
     }
 }
 
+TEST_CASE("trace convert, trace cut: the input is refused as the output") {
+    const Run run;
+    const std::string before = content(run.recorded);
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"trace", "convert", run.recorded, run.recorded, "--to", "csv"},
+          {"trace", "cut", run.recorded, run.recorded, "--to", "1 s"}}) {
+        const Ended ended = command(run.folder, arguments);
+        CHECK(ended.exit == 3);
+        CHECK(ended.err.find("this is the trace to be read") != std::string::npos);
+    }
+    CHECK(content(run.recorded) == before);
+}
+
+TEST_CASE("trace follow: an ns-2 trace shows the names of robots that only the movement file has") {
+    const TemporaryFolder folder;
+    folder.write("scen.tcl", "$node_(0) set X_ 1.0\n$node_(3) set X_ 9.0\n");
+    const std::string file = folder.write(
+        "s.toml",
+        "[scenario]\nduration = \"3 s\"\n[movement]\nfile = \"scen.tcl\"\n[trace]\nns2 = \"new\"\n"
+        "[[traffic]]\nfrom = \"n0\"\nevery = \"1 s\"\npayload = \"x\"\n");
+    REQUIRE(command(folder, {"run", file, "--out", folder.path("o")}).exit == 0);
+    const Ended ended = command(
+        folder, {"trace", "follow", folder.path("o/trace.tr"), "--message", "0", "--robot", "n3"});
+    CHECK(ended.exit == 0);
+    CHECK(ended.out.find("n3") != std::string::npos);
+}
+
 TEST_CASE("trace convert: to pcapng, a recorded trace is converted, and an ns-2 trace is refused") {
     const Run run;
     const std::string out = run.folder.path("x.pcapng");

@@ -4,8 +4,10 @@
 
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace view_test {
@@ -39,6 +41,28 @@ TEST_CASE("view writes a page of a scenario, of a run's folder and of its trace"
     CHECK(sizes[0] == sizes[1]);
     CHECK(sizes[1] == sizes[2]);
     CHECK(sizes[0] < 250'000);
+}
+
+TEST_CASE("view: a signal during the run of a scenario leaves no temporary folder") {
+    const TemporaryFolder folder;
+    const std::string temporary = folder.path("tmp");
+    std::filesystem::create_directory(temporary);
+    const std::string file = folder.write(
+        "long.toml",
+        "[scenario]\nduration = \"1e6 s\"\n[propagation]\nmodel = \"disc\"\nrange = \"9 m\"\n"
+        "[[robot]]\nname = \"A\"\nat = [\"0 m\", \"0 m\"]\n"
+        "[[robot]]\nname = \"B\"\nat = [\"1 m\", \"0 m\"]\n"
+        "[[traffic]]\nfrom = \"A\"\nevery = \"1 ms\"\npayload = \"x\"\n");
+    const Process viewing(
+        folder,
+        {"TMPDIR=" + temporary, ROVERNET_COMMAND, "view", file, "-o", folder.path("page.html")},
+        "/usr/bin/env");
+    using namespace std::chrono_literals;
+    for (int i = 0; i < 1000 && std::filesystem::is_empty(temporary); ++i)
+        std::this_thread::sleep_for(20ms);
+    CHECK_FALSE(std::filesystem::is_empty(temporary));
+    CHECK(viewing.stop().exit == 130);
+    CHECK(std::filesystem::is_empty(temporary));
 }
 
 TEST_CASE("view --with: the numbers of gained and lost deliveries equal those of replay --with") {
