@@ -123,8 +123,10 @@ std::size_t TextSource::read_file(char* out, std::size_t most) {
     const int n = gzread(file_.get(), out, static_cast<unsigned>(most));
     if (n < static_cast<int>(most)) {
         int error = Z_OK;
-        const char* reason = gzerror(file_.get(), &error);
+        std::string_view reason = gzerror(file_.get(), &error);
         if (error == Z_ERRNO) reason = std::strerror(errno);
+        // zlib names the file by its descriptor: "<fd:3>: unexpected end of file".
+        if (reason.starts_with("<fd:")) reason.remove_prefix(reason.find(' ') + 1);
         if (error != Z_OK) fail(fmt::format("cannot read the file: {}", reason));
     }
     return n > 0 ? static_cast<std::size_t>(n) : 0;

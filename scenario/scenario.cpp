@@ -94,8 +94,9 @@ std::vector<T> read_list(TableReader& document, std::string_view key, auto&& rea
     const Value* value = document.take(key);
     if (!value) return list;
     if (!value->array()) {
-        throw InputError(value->where, fmt::format("{}: found {}; expected [[{}]]", key,
-                                                   value->description(), key));
+        const char* why = value->where.is_option ? " in the file: an option cannot add one" : "";
+        throw InputError(value->where, fmt::format("{}: found {}; expected [[{}]]{}", key,
+                                                   value->description(), key, why));
     }
     for (const auto& item : *value->array()) list.push_back(read_item(item));
     return list;

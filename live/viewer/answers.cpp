@@ -12,6 +12,7 @@
 #include "models/medium/medium.hpp"
 #include "pictures/map/picture.hpp"
 #include "scenario/document/json.hpp"
+#include "traces/recorded/recorded_index.hpp"
 #include "traces/recorded/recorded_reader.hpp"
 
 #include <fmt/format.h>
@@ -151,6 +152,10 @@ Table ViewerAnswers::why(const JsonElement& question) {
                            fmt::format("there are no records of message {}: the message was sent "
                                        "before a page was connected, or too long ago",
                                        uid));
+    }
+    if (trace.index && !trace.index->has(uid)) {
+        throw RequestError("unknown_message", "uid",
+                           fmt::format("there is no message {} in this run", uid));
     }
     MessageAtRobot message =
         message_at_robot(trace.path, loaded(trace), uid, node, trace.index.get());

@@ -9,6 +9,7 @@
 #include "experiment/run.hpp"
 #include "pictures/map/coverage.hpp"
 #include "pictures/map/picture.hpp"
+#include "pictures/viewer/view_run.hpp"
 #include "scenario/document/json.hpp"
 #include "scenario/scenario_file.hpp"
 #include "test/scene/temporary_folder.hpp"
@@ -305,6 +306,10 @@ TEST_CASE(
     CHECK(error_of(answers, R"({"id": 1, "op": "pair", "a": 0, "b": 5, "t_ns": 0})") != "");
     CHECK(error_of(answers, R"({"id": 1, "op": "robot", "robot": 0, "t_ns": 90000000001})") != "");
     CHECK(error_of(answers, R"({"id": 1, "op": "why", "uid": -1, "robot": 0})") != "");
+    ViewerAnswers of_index({run.path(), view_of_trace(run.path(), {}).index});
+    CHECK(error_of(of_index, R"({"id": 1, "op": "why", "uid": 0, "robot": 0})") == "");
+    CHECK(error_of(of_index, R"({"id": 1, "op": "why", "uid": 999, "robot": 0})")
+              .find("there is no message 999 in this run") != std::string::npos);
     const char* many = R"({"id": 1, "op": "coverage", "robot": 0, "t_ns": 0, "storey": 0,
                            "cells": 250001})";
     CHECK(error_of(answers, many) != "");
