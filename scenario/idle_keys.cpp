@@ -25,8 +25,8 @@ class IdleKeys {
         note_other_models("reception", "model", scenario_.reception);
         note_other_models("access", "model", scenario_.access);
         note_other_models("routing", "protocol", scenario_.routing);
-        note_schemes();
-        note_arp();
+        note_variation();
+        note_parts_of_models();
         note_traces();
         note_open_field();
     }
@@ -44,8 +44,13 @@ class IdleKeys {
 
     template <class Choice>
     void note_other_models(std::string_view table, std::string_view key, const Choice& choice);
-    void note_schemes();
-    void note_arp();
+    /// Notices a key that has an effect only for some values of the key `of` of its table.
+    /// @param is_idle  whether `of` has a different value, and `key` differs from its default
+    /// @param needed   assignment that would give the key an effect, such as `scheme = "location"`
+    void note_unless(std::string_view table, std::string_view key, std::string_view of,
+                     bool is_idle, std::string_view needed);
+    void note_variation();
+    void note_parts_of_models();
     void note_traces();
     void note_open_field();
 
@@ -109,33 +114,60 @@ void IdleKeys::note_other_models(std::string_view table, std::string_view key,
     }
 }
 
-/// Notices keys of a scheme of `suppression` other than the chosen one.
-void IdleKeys::note_schemes() {
-    const Suppression* chosen = scenario_.routing.as<Suppression>();
-    if (!chosen) return;
-    struct Use {
-        std::string_view key;
-        SuppressionScheme scheme;
-        bool is_usual;
-    };
-    for (const auto& [key, scheme, is_usual] :
-         {Use{"range", SuppressionScheme::location, false},
-          Use{"hello", SuppressionScheme::cluster, chosen->hello == Suppression{}.hello}}) {
-        const Entry* entry = given("routing", key);
-        if (!entry || is_usual || chosen->scheme == scheme ||
-            is_for_other("routing", *entry, "scheme") ||
-            is_for_other("routing", *entry, "protocol"))
-            continue;
-        note(*entry, fmt::format(" under [routing] scheme = \"{}\": only the scheme \"{}\" uses "
-                                 "this key",
-                                 name_of(chosen->scheme), name_of(scheme)));
-    }
+void IdleKeys::note_unless(std::string_view table, std::string_view key, std::string_view of,
+                           bool is_idle, std::string_view needed) {
+    const Entry* entry = given(table, key);
+    if (!entry || !is_idle || is_for_other(table, *entry, of)) return;
+    note(*entry, fmt::format(" without [{}] {}", table, needed));
 }
 
-void IdleKeys::note_arp() {
-    const Entry* entry = given("access", "arp_timeout");
-    if (!entry || scenario_.arp.arp || is_for_other("access", *entry, "arp")) return;
-    note(*entry, " without [access] arp = true");
+void IdleKeys::note_variation() {
+    const Shadowing& shadowing = scenario_.shadowing;
+    const Shadowing usual_shadowing;
+    note_unless("shadowing", "sigma", "model",
+                shadowing.model == ShadowingModel::none && shadowing.sigma != usual_shadowing.sigma,
+                "model = \"link\" or \"field\"");
+    note_unless("shadowing", "decorrelation_distance", "model",
+                shadowing.model != ShadowingModel::field &&
+                    shadowing.decorrelation_distance != usual_shadowing.decorrelation_distance,
+                "model = \"field\"");
+    const Fading& fading = scenario_.fading;
+    const Fading usual;
+    note_unless("fading", "coherence", "model",
+                fading.model == FadingModel::none && fading.coherence != usual.coherence,
+                "model = \"rayleigh\", \"rician\" or \"nakagami\"");
+    note_unless("fading", "k_factor", "model",
+                fading.model != FadingModel::rician && fading.k_factor != usual.k_factor,
+                "model = \"rician\"");
+    note_unless("fading", "m", "model",
+                fading.model != FadingModel::nakagami && fading.m != usual.m,
+                "model = \"nakagami\"");
+}
+
+/// Notices keys of chosen models and protocols that other keys of them switch off.
+void IdleKeys::note_parts_of_models() {
+    if (const auto* two_ray = scenario_.propagation.as<TwoRay>()) {
+        const TwoRay usual;
+        const bool is_exact = two_ray->form == TwoRayForm::exact;
+        note_unless("propagation", "polarization", "form",
+                    !is_exact && two_ray->polarization != usual.polarization, "form = \"exact\"");
+        note_unless("propagation", "ground_permittivity", "form",
+                    !is_exact && two_ray->ground_permittivity != usual.ground_permittivity,
+                    "form = \"exact\"");
+    }
+    if (const auto* aodv = scenario_.routing.as<Aodv>()) {
+        note_unless("routing", "gratuitous", "destination_only",
+                    aodv->gratuitous && aodv->destination_only, "destination_only = false");
+    }
+    if (const auto* suppression = scenario_.routing.as<Suppression>()) {
+        note_unless("routing", "range", "scheme",
+                    suppression->scheme != SuppressionScheme::location, "scheme = \"location\"");
+        note_unless("routing", "hello", "scheme",
+                    suppression->scheme != SuppressionScheme::cluster &&
+                        suppression->hello != Suppression{}.hello,
+                    "scheme = \"cluster\"");
+    }
+    note_unless("access", "arp_timeout", "arp", !scenario_.arp.arp, "arp = true");
 }
 
 void IdleKeys::note_traces() {

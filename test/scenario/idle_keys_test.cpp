@@ -68,15 +68,43 @@ TEST_CASE(
 TEST_CASE("idle keys: a key of a suppression scheme that is not chosen gives a notice") {
     const std::string counter = "[routing]\nprotocol = \"suppression\"\n";
     check_notice(counter + "range = \"60 m\"\n",
-                 "3:1: range has no effect under [routing] scheme = \"counter\": only the scheme "
-                 "\"location\" uses this key");
+                 "3:1: range has no effect without [routing] scheme = \"location\"");
     check_notice(counter + "hello = \"2 s\"\n",
-                 "3:1: hello has no effect under [routing] scheme = \"counter\": only the scheme "
-                 "\"cluster\" uses this key");
+                 "3:1: hello has no effect without [routing] scheme = \"cluster\"");
     CHECK(notices_of(counter + "scheme = \"location\"\nrange = \"60 m\"\n").empty());
     CHECK(notices_of(counter + "scheme = \"cluster\"\nhello = \"2 s\"\n").empty());
     CHECK(notices_of(counter + "hello = \"2 s\"\n[study]\n" +
                      "vary.routing.scheme = [\"counter\", \"cluster\"]\n")
+              .empty());
+}
+
+TEST_CASE("idle keys: a key that a different key of its model switches off gives a notice") {
+    struct Idle {
+        std::string head, key, needed;
+    };
+    for (const Idle& each : std::vector<Idle>{
+             {"[shadowing]\nmodel = \"link\"\n", "decorrelation_distance = \"3 m\"",
+              "[shadowing] model = \"field\""},
+             {"[fading]\nmodel = \"rayleigh\"\n", "k_factor = \"3 dB\"",
+              "[fading] model = \"rician\""},
+             {"[fading]\nmodel = \"rician\"\n", "m = 3.0", "[fading] model = \"nakagami\""},
+             {"[propagation]\nmodel = \"two_ray\"\n", "polarization = \"horizontal\"",
+              "[propagation] form = \"exact\""},
+             {"[propagation]\nmodel = \"two_ray\"\n", "ground_permittivity = 5",
+              "[propagation] form = \"exact\""}}) {
+        const std::string name = each.key.substr(0, each.key.find(' '));
+        check_notice(each.head + each.key + "\n",
+                     "3:1: " + name + " has no effect without " + each.needed);
+    }
+    check_notice("[routing]\nprotocol = \"aodv\"\ngratuitous = true\ndestination_only = true\n",
+                 "3:1: gratuitous has no effect without [routing] destination_only = false");
+    const std::string two_ray = "[propagation]\nmodel = \"two_ray\"\n";
+    CHECK(notices_of(two_ray + "form = \"exact\"\nground_permittivity = 5\n").empty());
+    CHECK(notices_of(two_ray + "ground_permittivity = 15\n").empty());  // the default
+    CHECK(notices_of("[fading]\nmodel = \"rician\"\nk_factor = \"3 dB\"\n").empty());
+    CHECK(notices_of("[shadowing]\nmodel = \"link\"\nsigma = \"3 dB\"\n").empty());
+    CHECK(notices_of(two_ray + "ground_permittivity = 5\n" +
+                     "[study]\nvary.propagation.form = [\"ns2\", \"exact\"]\n")
               .empty());
 }
 
