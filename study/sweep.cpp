@@ -72,10 +72,15 @@ std::string difference_text(const std::string& path, const std::string& text,
 
 /// Differences between the scenario that a store was made for and that of now, in words: the first
 /// one, and the number of the others if there are many; empty if nothing does.
-std::string difference(const Value& then, const Table& now) {
+/// @param varied  keys of the study, whose values in the scenario have no effect
+std::string difference(const Value& then, const Table& now, const std::vector<Vary>& varied) {
     std::map<std::string, std::string> old_keys, new_keys;
     if (then.table()) flatten(then, "", old_keys);
     flatten(now, "", new_keys);
+    for (const Vary& each : varied) {
+        old_keys.erase(each.path);
+        new_keys.erase(each.path);
+    }
     std::vector<std::string> all;
     for (const auto& [path, text] : old_keys) {
         const auto found = new_keys.find(path);
@@ -101,7 +106,8 @@ std::string why_gone(const StoredPoint& gone, const Study& study, const Value& t
         return settings_text(point.settings) == settings;
     });
     if (!listed) reasons.emplace_back("[study] no longer contains this point");
-    if (std::string changed = difference(then, now); !changed.empty()) reasons.push_back(changed);
+    if (std::string changed = difference(then, now, study.table().vary); !changed.empty())
+        reasons.push_back(changed);
     if (reasons.empty()) reasons.emplace_back("the map or the movement file has changed");
     return fmt::format("{}", fmt::join(reasons, ", and "));
 }

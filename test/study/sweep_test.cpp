@@ -217,6 +217,9 @@ TEST_CASE("sweep: a different scenario or version is not mixed with existing run
     CHECK(message_of(bench, {"study.warmup=1 s"})
               .find("the warmup of [study] was \"0 s\" and is "
                     "now \"1 s\"") != std::string::npos);
+    // The scenario's own value of a varied key has no effect, and so is no reason.
+    const std::string seed = message_of(bench, {"propagation.range=9 m", "scenario.seed=2"});
+    CHECK(seed.find("this point: scenario.seed was 1 and is now 2;") != std::string::npos);
     // A value that is varied no more is the reason, whatever else is the same.
     const std::string fewer =
         message_of(bench, {"study.vary={ \"propagation.range\" = [\"30 m\"] }"});
