@@ -143,9 +143,8 @@ TEST_CASE("study: an error in a varied value is reported before any run, with li
               .find("this happens with radio.power=5 m") != std::string::npos);
     CHECK(wrong("vary.robot.x.count = [1]").find("no item of the list is named \"x\"") !=
           std::string::npos);
-    CHECK(
-        wrong("vary.reception.model = [\"threshold\", \"sinr\"]").find("\"disc\" computes no received levels") !=
-        std::string::npos);
+    CHECK(wrong("vary.reception.model = [\"threshold\", \"sinr\"]")
+              .find("\"disc\" computes no received levels") != std::string::npos);
 }
 
 TEST_CASE("study: a value listed twice is refused, with line and column") {

@@ -277,7 +277,8 @@ TEST_CASE(
     CHECK(has(draw_svg(scenario(text), {.coverage = {"A", "B"}, .cells = 500}),
               "range of 20 m or 30 m"));
     CHECK_THROWS_WITH_AS(draw_svg(scenario(text), {.coverage = {"A", "C"}, .cells = 500}),
-                         doctest::Contains("the model disc computes no received levels"), std::invalid_argument);
+                         doctest::Contains("the model disc computes no received levels"),
+                         std::invalid_argument);
 }
 
 TEST_CASE("picture: the heat map is lightest at the position of the robot, and not upside down") {
