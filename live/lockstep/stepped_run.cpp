@@ -30,7 +30,6 @@ void SteppedRun::begin() {
         session.on_input([this, &network](const Input& input) { log_->add(input, network); });
     }
     if (settings_.prepare) settings_.prepare(network);
-    session.step(start_of_run);  // movements may draw where robots begin
     robots_.clear();
     if (settings_.robots) {
         for (const std::string& each : *settings_.robots) {
@@ -42,7 +41,8 @@ void SteppedRun::begin() {
     controllers_.clear();
     controllers_.add(Controller(
         std::nullopt, {.name = settings_.client, .robots = robots_, .step = settings_.step}));
-    controller().join(session);
+    controller().join(session);  // before the first event, so that frames of its time have levels
+    session.step(start_of_run);  // movements may draw where robots begin
     movements_.assign(robots_.size(), std::nullopt);
     messages_.clear();
     poses_.resize(3 * robots_.size());

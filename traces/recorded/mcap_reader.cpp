@@ -143,7 +143,10 @@ std::optional<McapRecord> McapReader::next() {
         return next();
     }
     at_ += mcap_record_head + record.content.size();
-    if (record.opcode == McapOpcode::footer) has_end_ = true;
+    if (record.opcode == McapOpcode::footer) {
+        has_end_ = file_.substr(at_, mcap_magic.size()) == mcap_magic;
+        at_ = file_.size();
+    }
     return record;
 }
 

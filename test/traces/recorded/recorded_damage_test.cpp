@@ -191,7 +191,8 @@ std::vector<Variant> truncated(const Sample& s) {
     all.push_back(to("behind a chunk", chunk.end()));
     all.back().lost = s.from(3);
     all.push_back(to("in the summary", s.first(McapOpcode::statistics).begin + 20));
-    all.push_back(to("before the end", s.bytes.size() - 20));
+    for (const std::size_t missing : {20, 9, 8, 1})
+        all.push_back(to("before the end", s.bytes.size() - missing));
     return all;
 }
 
