@@ -7,7 +7,7 @@ const address = (() => {
 
     /** @returns {string} */
     function text() {
-        const { t, speed, storey, view, span, robots: chosen, message, filter, panel, trails, links: lines, runs } = selection.state, p = new URLSearchParams(), shown = Math.max(message, awaited);
+        const { t, speed, storey, view, span, robots: chosen, message, filter, panel, trails, links: lines, all, coverage: covers, runs } = selection.state, p = new URLSearchParams(), shown = Math.max(message, awaited);
         /** @param {string} key @param {unknown} wanted @param {unknown} value */
         const put = (key, wanted, value) => {
             if (wanted) p.set(key, String(value));
@@ -23,6 +23,8 @@ const address = (() => {
         put("panel", panel !== "events", panel);
         put("trails", !trails, 0);
         put("links", lines, 1);
+        put("all", all, 1);
+        put("coverage", covers >= 0, covers);
         put("of", filter.robot >= 0, filter.robot);
         put("on", filter.message >= 0, filter.message);
         put("signs", filter.signs !== selection.everything, filter.signs);
@@ -61,7 +63,7 @@ const address = (() => {
             span: span?.length === 2 && span[1] - span[0] > 998 && span[0] >= 0 && span[1] <= r.duration ? { from: span[0], to: span[1] } : null,
             robots: (numbers("robots", Number) ?? []).filter(i => r.head.robots[i]).slice(0, 2),
             message: whole("message", 0, r.messages - 1),
-            panel: panels.find(text => text === p.get("panel")) ?? "events", trails: p.get("trails") !== "0", links: p.get("links") === "1",
+            panel: panels.find(text => text === p.get("panel")) ?? "events", trails: p.get("trails") !== "0", links: p.get("links") === "1", all: p.get("all") === "1", coverage: whole("coverage", 0, r.robots - 1),
             filter: {
                 robot: whole("of", 0, r.robots - 1), message: whole("on", 0, r.messages - 1),
                 signs: whole("signs", 0, selection.everything, selection.everything), kinds: whole("kinds", 0, selection.everything, selection.everything)

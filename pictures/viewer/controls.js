@@ -47,13 +47,8 @@ const controls = (() => {
             out.title = `floor at ${words.number(floor, 4)} m`;
             return out;
         }));
-        const all = dom.button("All", "", () => {
-            robots.others.shown = !robots.others.shown;
-            all.setAttribute("aria-pressed", String(robots.others.shown));
-            main.redraw();
-        });
-        all.title = "Robots of other storeys, too";
-        all.setAttribute("aria-pressed", "false");
+        const all = dom.button("All", "", () => set({ all: !state.all }));
+        all.title = "Robots of all storeys";
         dom.by_id("storeys").append(all);
     }
 
@@ -141,6 +136,7 @@ const controls = (() => {
             const here = robots.at.storey.reduce((n, storey) => n + (storey === i ? 1 : 0), 0);
             tab.textContent = `Storey ${i + 1} \u00b7 ${words.counted(here, "robot")}`;
         });
+        dom.by_id("storeys").lastElementChild?.setAttribute("aria-pressed", String(state.all));
         const chosen = state.robots.map(i => words.visible(own.run.name(i)));
         const label = `${words.seconds(state.t, 3)} s, ${words.counted(head.robots.length, "robot")}${chosen.length ? `, ${chosen.join(" and ")} selected` : ""}`;
         if (!state.playing) {

@@ -40,6 +40,7 @@ const coverage = (() => {
             own.heat = heat_of(answer, r, robot, answer.t_ns ?? t, storey, model);
             own.version++;
             own.say("");
+            selection.set({ coverage: robot });
             own.changed();
         } catch (error) {
             own.say(/** @type {Error} */ (error).message);
@@ -51,6 +52,7 @@ const coverage = (() => {
         if ((own.heat?.robot !== robot || own.heat.run !== own.run) && robot >= 0) return ask(robot);
         own.heat = null;
         own.version++;
+        selection.set({ coverage: -1 });
         own.changed();
     }
 
@@ -135,7 +137,10 @@ const coverage = (() => {
     }
 
     /** @param {() => void} changed @param {(text: string) => void} say */
-    function begin(changed, say) { Object.assign(own, { changed, say }); }
+    function begin(changed, say) {
+        Object.assign(own, { changed, say });
+        if (selection.state.coverage >= 0) ask(selection.state.coverage);
+    }
 
     /** @param {Run} r */
     function show(r) { own.run = r; }

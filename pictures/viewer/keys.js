@@ -63,7 +63,7 @@ const keys = (() => {
     /** @param {KeyboardEvent} event */
     function pressed(event) {
         const target = event.target instanceof HTMLElement ? event.target : document.body;
-        if (event.ctrlKey || event.metaKey || target.closest("dialog") || target.matches("input:not([type=range]), select")) return;
+        if (event.ctrlKey || event.metaKey || target.closest("dialog[open]") || target.matches("input:not([type=range]), select")) return;
         if (target.id === "map" && arrows[event.key] && !event.shiftKey && !event.altKey) {
             selection.set({ view: camera.moved(...arrows[event.key]) });
             return event.preventDefault();

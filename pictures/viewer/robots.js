@@ -121,9 +121,6 @@ const robots = (() => {
         }
     }
 
-    /** Whether robots of other storeys are shown, too. */
-    const others = { shown: false };
-
     /** Robots of other storeys, pale: a triangle on the first storey, a square on the second, and so on. @param {CanvasRenderingContext2D} c @param {Run} r @param {number} storey that is shown */
     function elsewhere(c, r, storey) {
         const color = theme.colors().muted;
@@ -160,19 +157,19 @@ const robots = (() => {
         const here = shown.length > many ? state.robots.filter(i => at.storey[i] === state.storey) : shown;
         pen.clear(here.map(i => [at.x[i] - 5, at.y[i] - 5, at.x[i] + 5, at.y[i] + 5]));
         if (here.length <= most_named) names(c, r, [...state.robots.filter(i => here.includes(i)), ...here.filter(i => !state.robots.includes(i))]);
-        if (others.shown) elsewhere(c, r, state.storey);
+        if (state.all) elsewhere(c, r, state.storey);
     }
 
     /** Robot at a pixel, or -1. @param {Run} r @param {number} px @param {number} py @param {number} storey */
     function near(r, px, py, storey) {
         let best = -1, nearest = Infinity;
         for (let i = 0; i < at.x.length; i++) {
-            if (at.storey[i] !== storey && (!others.shown || at.storey[i] === nowhere)) continue;
+            if (at.storey[i] !== storey && (!selection.state.all || at.storey[i] === nowhere)) continue;
             const away = Math.hypot(at.x[i] - px, at.y[i] - py);
             if (away < nearest && away <= radius(r, i) + 6) [best, nearest] = [i, away];
         }
         return best;
     }
 
-    return { at, place, begin, trails, draw, near, disc, radius, others };
+    return { at, place, begin, trails, draw, near, disc, radius };
 })();

@@ -2,7 +2,7 @@
 // What is shown: one state, and those who want to know of its changes.
 /** @typedef {{robot: number, message: number, signs: number, kinds: number}} Filter */
 /** @typedef {{x: number, y: number, scale: number}} View */
-/** @typedef {{t: number, playing: boolean, speed: number, storey: number, view: View|null, span: {from: number, to: number}|null, robots: number[], message: number, filter: Filter, panel: string, trails: boolean, links: boolean, coverage: number, runs: string}} State */
+/** @typedef {{t: number, playing: boolean, speed: number, storey: number, view: View|null, span: {from: number, to: number}|null, robots: number[], message: number, filter: Filter, panel: string, trails: boolean, links: boolean, all: boolean, coverage: number, runs: string}} State */
 /** @typedef {(changed: Set<keyof State>, state: State) => void} Listener */
 const selection = (() => {
     "use strict";
@@ -14,7 +14,7 @@ const selection = (() => {
     /** @type {State} */
     const state = {
         t: 0, playing: false, speed: 1, storey: 0, view: null, span: null, robots: [], message: -1,
-        filter: no_filter(), panel: "events", trails: true, links: false, coverage: -1, runs: "A"
+        filter: no_filter(), panel: "events", trails: true, links: false, all: false, coverage: -1, runs: "A"
     };
     /** @type {Listener[]} */ const listeners = [];
 

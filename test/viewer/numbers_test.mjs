@@ -46,6 +46,11 @@ test("view page, coverage: the page shows the level at the pointer; for two mode
     await page.locator("#robot-panel select").selectOption("friis");
     await page.waitForFunction(() => document.getElementById("legend").textContent.includes("friis \u2212"));
     assert.match(await hover(4), /^\u2212[\d.]+ dBm, friis \u2212[\d.]+ dBm \(\+[\d.]+ dB\)$/);
+    await page.waitForFunction(() => /[#&]coverage=1/.test(location.hash));
+    await page.reload();
+    await page.waitForFunction(() => document.getElementById("legend").textContent.includes("coverage of B"));
+    await page.keyboard.press("c");
+    await page.waitForFunction(() => !location.hash.includes("coverage"));
 }));
 
 test("view page, links: the map shows as many links as rovernet links prints, in line widths by margin, also after a change of time", () => of_run("rescue", "#t=10", async page => {

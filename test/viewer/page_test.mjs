@@ -256,7 +256,7 @@ test("view page: while the run is not playing, the page redraws nothing, with an
 });
 
 test("view page: a copied address restores time, speed, storey, robots, message, panel, filter and view", async () => {
-    const chosen = { t: 13106000001, speed: 0.01, storey: 1, robots: [2, 1], message: 3, panel: "message", trails: false };
+    const chosen = { t: 13106000001, speed: 0.01, storey: 1, robots: [2, 1], message: 3, panel: "message", trails: false, all: true };
     let hash = "";
     await with_page("storeys", {}, async page => {
         await page.evaluate(state => window.rovernet.select({ ...state, filter: { robot: 1, message: -1, signs: 1, kinds: 24 }, view: { x: 3, y: 4, scale: 20 } }), chosen);
