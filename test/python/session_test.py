@@ -247,6 +247,13 @@ class Steps(unittest.TestCase):
         self.assertIn("b'\\x00F'", repr(heard[0]))
         self.assertAlmostEqual(heard[0].rssi, session.neighbors("B")["rssi"][1], places=9)
 
+    def test_a_message_that_a_flow_sends_at_the_beginning_has_its_level(self):
+        flow = {"from": "C", "payload": "x", "every": "1 s"}
+        session = rn.Session(ROW | {"traffic": [flow]}, robots=["B"])
+        first = session.step()[0]
+        self.assertLess(first.t_ns, 1_000_000)
+        self.assertAlmostEqual(first.rssi, session.neighbors("B")["rssi"][1], places=9)
+
     def test_a_unicast_is_received_only_by_its_destination(self):
         session = rn.Session(ROW)
         session.send("B", b"x", to="C")
