@@ -5,6 +5,7 @@ import fs from "node:fs";
 import path from "node:path";
 import test from "node:test";
 import { folder, launched, scenario, with_command, with_served } from "./page.mjs";
+import { html } from "./run_file.mjs";
 
 const state = page => page.evaluate(() => rovernet.parts.live.state());
 /** Resident memory of a process [bytes]. */
@@ -76,3 +77,16 @@ test("live view page: ten pages of one run show the same counts and positions at
         }
         assert.equal(new Set(seen).size, 1);
     })));
+
+test("view page: a page that is cut off before its script says so", async () => {
+    const cut = path.join(folder, "cut.html"), whole = html("rescue");
+    fs.writeFileSync(cut, whole.slice(0, whole.indexOf('id="run"') + 1000));
+    const browser = await launched();
+    try {
+        const page = await browser.newPage();
+        await page.goto(`file://${cut}`);
+        assert.match(await page.textContent("#caption"), /the file is cut off/);
+    } finally {
+        await browser.close();
+    }
+});
