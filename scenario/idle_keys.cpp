@@ -49,6 +49,9 @@ class IdleKeys {
     /// @param needed   assignment that would give the key an effect, such as `scheme = "location"`
     void note_unless(std::string_view table, std::string_view key, std::string_view of,
                      bool is_idle, std::string_view needed);
+    template <class Model, class T>
+    void note_part(std::string_view table, const Model& model, std::string_view key,
+                   T Model::*member, std::string_view of, bool is_active, std::string_view needed);
     void note_variation();
     void note_parts_of_models();
     void note_traces();
@@ -121,51 +124,47 @@ void IdleKeys::note_unless(std::string_view table, std::string_view key, std::st
     note(*entry, fmt::format(" without [{}] {}", table, needed));
 }
 
-void IdleKeys::note_variation() {
-    const Shadowing& shadowing = scenario_.shadowing;
-    const Shadowing usual_shadowing;
-    note_unless("shadowing", "sigma", "model",
-                shadowing.model == ShadowingModel::none && shadowing.sigma != usual_shadowing.sigma,
-                "model = \"link\" or \"field\"");
-    note_unless("shadowing", "decorrelation_distance", "model",
-                shadowing.model != ShadowingModel::field &&
-                    shadowing.decorrelation_distance != usual_shadowing.decorrelation_distance,
-                "model = \"field\"");
-    const Fading& fading = scenario_.fading;
-    const Fading usual;
-    note_unless("fading", "coherence", "model",
-                fading.model == FadingModel::none && fading.coherence != usual.coherence,
-                "model = \"rayleigh\", \"rician\" or \"nakagami\"");
-    note_unless("fading", "k_factor", "model",
-                fading.model != FadingModel::rician && fading.k_factor != usual.k_factor,
-                "model = \"rician\"");
-    note_unless("fading", "m", "model",
-                fading.model != FadingModel::nakagami && fading.m != usual.m,
-                "model = \"nakagami\"");
+/// Notices a key of a model that differs from its default while the key `of` switches it off.
+template <class Model, class T>
+void IdleKeys::note_part(std::string_view table, const Model& model, std::string_view key,
+                         T Model::*member, std::string_view of, bool is_active,
+                         std::string_view needed) {
+    note_unless(table, key, of, !is_active && model.*member != Model{}.*member, needed);
 }
 
-/// Notices keys of chosen models and protocols that other keys of them switch off.
+void IdleKeys::note_variation() {
+    const Shadowing& s = scenario_.shadowing;
+    note_part("shadowing", s, "sigma", &Shadowing::sigma, "model", s.model != ShadowingModel::none,
+              "model = \"link\" or \"field\"");
+    note_part("shadowing", s, "decorrelation_distance", &Shadowing::decorrelation_distance, "model",
+              s.model == ShadowingModel::field, "model = \"field\"");
+    const Fading& f = scenario_.fading;
+    note_part("fading", f, "coherence", &Fading::coherence, "model", f.model != FadingModel::none,
+              "model = \"rayleigh\", \"rician\" or \"nakagami\"");
+    note_part("fading", f, "k_factor", &Fading::k_factor, "model", f.model == FadingModel::rician,
+              "model = \"rician\"");
+    note_part("fading", f, "m", &Fading::m, "model", f.model == FadingModel::nakagami,
+              "model = \"nakagami\"");
+}
+
+/// Notices keys of the chosen models and protocols that other keys of these models switch off.
 void IdleKeys::note_parts_of_models() {
     if (const auto* two_ray = scenario_.propagation.as<TwoRay>()) {
-        const TwoRay usual;
         const bool is_exact = two_ray->form == TwoRayForm::exact;
-        note_unless("propagation", "polarization", "form",
-                    !is_exact && two_ray->polarization != usual.polarization, "form = \"exact\"");
-        note_unless("propagation", "ground_permittivity", "form",
-                    !is_exact && two_ray->ground_permittivity != usual.ground_permittivity,
-                    "form = \"exact\"");
+        note_part("propagation", *two_ray, "polarization", &TwoRay::polarization, "form", is_exact,
+                  "form = \"exact\"");
+        note_part("propagation", *two_ray, "ground_permittivity", &TwoRay::ground_permittivity,
+                  "form", is_exact, "form = \"exact\"");
     }
     if (const auto* aodv = scenario_.routing.as<Aodv>()) {
-        note_unless("routing", "gratuitous", "destination_only",
-                    aodv->gratuitous && aodv->destination_only, "destination_only = false");
+        note_part("routing", *aodv, "gratuitous", &Aodv::gratuitous, "destination_only",
+                  !aodv->destination_only, "destination_only = false");
     }
     if (const auto* suppression = scenario_.routing.as<Suppression>()) {
-        note_unless("routing", "range", "scheme",
-                    suppression->scheme != SuppressionScheme::location, "scheme = \"location\"");
-        note_unless("routing", "hello", "scheme",
-                    suppression->scheme != SuppressionScheme::cluster &&
-                        suppression->hello != Suppression{}.hello,
-                    "scheme = \"cluster\"");
+        note_part("routing", *suppression, "range", &Suppression::range, "scheme",
+                  suppression->scheme == SuppressionScheme::location, "scheme = \"location\"");
+        note_part("routing", *suppression, "hello", &Suppression::hello, "scheme",
+                  suppression->scheme == SuppressionScheme::cluster, "scheme = \"cluster\"");
     }
     note_unless("access", "arp_timeout", "arp", !scenario_.arp.arp, "arp = true");
 }

@@ -114,8 +114,8 @@ class TrafficReader {
         if (v < least || v > 1e9) fail(word, expected);
         return v;
     }
-    /// Number with a suffix: the number, and the factor that the list has for the suffix; 0 if the
-    /// word has another form.
+    /// Value of a number with a suffix: the number times the factor of its suffix; 0 if the word is
+    /// no number, or the list has no such suffix.
     static double with_suffix(const Word& word,
                               std::initializer_list<std::pair<std::string_view, double>> factors) {
         double v = 0;

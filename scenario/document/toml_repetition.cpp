@@ -131,7 +131,7 @@ std::optional<TomlMistake> toml_repetition(std::string_view line, std::size_t at
         const std::size_t brackets = std::min(line.find_first_not_of('[', first), line.size());
         const KeyPath name(line, brackets, line.size());
         // The parser stops at the bracket if the last key of the name has a value.
-        const bool inside = is_inline || at > first;
+        const bool inside = at > first;
         return TomlMistake{header_message(name, what, inside), number, column_of(line, first)};
     }
     // The parser stops at the key that has a value, or behind the sign = of the last key.

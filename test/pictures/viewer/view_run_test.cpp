@@ -91,8 +91,8 @@ std::vector<SeenFrame> frames_of(const test::ViewReader& view) {
     return frames;
 }
 
-/// The same from the records. Every reception belongs to the last frame of its sender and message
-/// that was over.
+/// Frames of a recorded trace, read from its records. A reception belongs to the last frame of its
+/// sender and message that was over.
 std::vector<SeenFrame> frames_of(const std::string& trace) {
     std::vector<SeenFrame> frames;
     std::vector<Time> ends;
