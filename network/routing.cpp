@@ -125,6 +125,7 @@ std::size_t Routing::size() const { return world_.size(); }
 const Message& Routing::message(MessageId id) const { return world_.messages[id]; }
 bool Routing::is_on(NodeId node) const { return world_.medium.stations().is_on(node); }
 std::uint64_t Routing::key(NodeId node) const { return world_.key(node); }
+void Routing::prefetch(NodeId node) const { world_.medium.stations().prefetch(node); }
 Vec3 Routing::position(NodeId node) const { return world_.legs.position(node, world_.now); }
 std::string_view Routing::role(NodeId node) const {
     return node.index() < roles_.size() ? roles_[node.index()] : std::string_view{};

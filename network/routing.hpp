@@ -84,6 +84,7 @@ class Routing final : public LinkLayer, public MacUser, public ArpUser {
     const Message& message(MessageId id) const override;
     bool is_on(NodeId node) const override;
     std::uint64_t key(NodeId node) const override;
+    void prefetch(NodeId node) const override;
     Vec3 position(NodeId node) const override;
     std::string_view role(NodeId node) const override;
     MessageId originate(NodeId from, NodeId to, std::string_view kind, std::uint32_t bytes,

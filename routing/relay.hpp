@@ -28,6 +28,7 @@ inline QueuedFrame passed_on(const LinkLayer& link, const Frame& frame, NodeId n
 /// time are sent in the order in which they were passed to the link layer; after this sort, the ids
 /// of nodes have no effect on the order.
 inline void sort_by_keys(const LinkLayer& link, std::span<Reception*> receptions) {
+    for (const Reception* each : receptions) link.prefetch(each->node);
     if (receptions.size() < 2) return;
     std::sort(receptions.begin(), receptions.end(), [&](const auto* a, const auto* b) {
         return a->time != b->time ? a->time < b->time : link.key(a->node) < link.key(b->node);

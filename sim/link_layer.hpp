@@ -75,6 +75,9 @@ class LinkLayer {
     /// Key of the node, for random draws and for orderings; unlike the id, the key does not depend
     /// on other nodes.
     virtual std::uint64_t key(NodeId) const = 0;
+    /// Fetches what key() and draw() read of the node into the processor's cache. A protocol that
+    /// serves several nodes calls this for all of them first, so that it waits for memory once.
+    virtual void prefetch(NodeId) const {}
     /// Current position of the node [m].
     virtual Vec3 position(NodeId) const = 0;
     /// Role of the node in the protocol, Robot::role; empty if none was given.
