@@ -67,19 +67,20 @@ const std::vector<std::string> result_files = {"scenario.toml", "summary.json", 
 
 }  // namespace
 
-TEST_CASE("command line: an option before its command gets an error that says so") {
+TEST_CASE("command line: the error for an option before its command says where to write it") {
     const TemporaryFolder folder;
     for (const char* option : {"-q", "--quiet", "--json"}) {
         CAPTURE(option);
         const Ended ended = command(folder, {option, "scene", "s.toml"});
         CHECK(ended.exit == 2);
-        CHECK(ended.err == fmt::format("rovernet: the option {} is before the command; write it "
-                                       "behind \"scene\"\n",
-                                       option));
+        CHECK(ended.err ==
+              fmt::format("rovernet: the option \"{}\" is before the command; write it "
+                          "after \"scene\"\n",
+                          option));
     }
 }
 
-TEST_CASE("run --json prints one document with the results") {
+TEST_CASE("run --json prints the results as one JSON document") {
     const TemporaryFolder folder;
     const Json run =
         json_of(folder, {"run", folder.write("s.toml", relay), "--out", folder.path("out")});
@@ -128,7 +129,7 @@ TEST_CASE(
     CHECK(names_in(out).size() == 4);
 }
 
-TEST_CASE("run: another value of --set gives a results folder with another name") {
+TEST_CASE("run: runs with different values of --set have folders with different names") {
     const TemporaryFolder folder;
     folder.write("s.toml", relay);
     for (const std::string set : {"", "--set 'radio.power=20 dBm'", "--set routing.ttl=1"}) {
@@ -238,7 +239,7 @@ TEST_CASE("the delivery ratio can be counted from the columns of a trace") {
                    run["delivery_ratio"].get<double>()) < 1e-12);
 }
 
-TEST_CASE("loss: free space at one metre and 2450 MHz is 40.23 dB") {
+TEST_CASE("loss: the free-space loss at one metre and 2450 MHz is 40.23 dB") {
     constexpr double half_digit = 0.005;
     const TemporaryFolder folder;
     const Json loss = json_of(folder, {"loss", "friis", "--distance", "1,10,1 km"});
@@ -250,7 +251,7 @@ TEST_CASE("loss: free space at one metre and 2450 MHz is 40.23 dB") {
     CHECK(std::abs(loss["rows"][1]["loss_db"].get<double>() - 60.23) < half_digit);
 }
 
-TEST_CASE("loss --wall: half a metre at 2 dB per centimetre costs 100 dB") {
+TEST_CASE("loss --wall: half a metre of wall at 2 dB per centimetre attenuates by 100 dB") {
     const TemporaryFolder folder;
     const auto loss = [&](std::vector<std::string> more) {
         std::vector<std::string> arguments = {"loss", "raytrace_2007", "wall_factor=2",
@@ -262,7 +263,7 @@ TEST_CASE("loss --wall: half a metre at 2 dB per centimetre costs 100 dB") {
     CHECK(command(folder, {"loss", "friis", "--distance", "1", "--wall", "2"}).exit == 2);
 }
 
-TEST_CASE("loss --heights: the loss between antennas 1.5 m high equals the test vectors two_ray") {
+TEST_CASE("loss --heights: for antennas 1.5 m high, the loss equals the test vectors (two_ray)") {
     const TemporaryFolder folder;
     const auto loss = [&](const std::string& heights) {
         return json_of(
@@ -466,7 +467,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("run --speed gives the same fingerprint as an unpaced run") {
+TEST_CASE("run --speed gives the same fingerprint as a run without --speed") {
     const TemporaryFolder folder;
     std::vector<std::string> arguments = {"run",   folder.write("s.toml", relay),
                                           "--out", folder.path("out"),
@@ -493,7 +494,7 @@ TEST_CASE("Ctrl-C ends a run with exit code 130 and leaves no trace file, comple
     CHECK(names_in(out).empty());
 }
 
-TEST_CASE("a run that needs more events than allowed exits with 1 and leaves no trace") {
+TEST_CASE("a run that needs more events than allowed exits with code 1 and writes no trace") {
     const TemporaryFolder folder;
     const Ended ended = command(folder, {"run", folder.write("s.toml", relay), "--out",
                                          folder.path("out"), "--set", "scenario.event_limit=5"});
@@ -503,8 +504,7 @@ TEST_CASE("a run that needs more events than allowed exits with 1 and leaves no 
     CHECK(names_in(folder.path("out")).empty());
 }
 
-TEST_CASE(
-    "message storm: the run fails with an error that explains it; results of an earlier run stay") {
+TEST_CASE("message storm: the run fails, the error explains the storm, and older results stay") {
     const TemporaryFolder folder;
     const std::string out = folder.path("out");
     const std::string calm = folder.write("s.toml", R"([scenario]
@@ -570,9 +570,7 @@ TEST_CASE("a run whose results cannot be written exits with 1, and the message n
     CHECK(ended.err.find(file + "/out") != std::string::npos);
 }
 
-TEST_CASE(
-    "trace: diff reports a part of a trace as different, a converted trace as equal; follow "
-    "describes a message") {
+TEST_CASE("trace diff: a part of a trace differs from the trace; a converted trace does not") {
     const TemporaryFolder folder;
     const std::string out = folder.path("out"), trace = out + "/trace.tr";
     json_of(folder, {"run", folder.write("s.toml", relay), "--out", out, "--set", "trace.ns2=old",

@@ -123,14 +123,16 @@ TEST_CASE(
     const Inputs in;
     REQUIRE(mkfifo(in.path("fifo").c_str(), 0600) == 0);
     const std::string fifo = in.path("fifo"), one_toml = in.path("one.toml");
-    check_told(in.run({"fit", one_toml, "--links", fifo}), "a FIFO into which nobody has written");
+    check_told(in.run({"fit", one_toml, "--links", fifo}),
+               "a FIFO into which no program has "
+               "written");
     check_told(in.run({"results", fifo}), "it is a pipe, not a regular file");
     check_told(in.run({"sweep", one_toml, "--store", fifo}), "it is a pipe, not a regular file");
     check_told(in.run({"where", in.scenario("[movement]\nfile = \"fifo\"\n"), "--at", "1s"}),
                "a movement file is read twice");
 }
 
-TEST_CASE("input kinds: measured levels are read from a pipe like from a file") {
+TEST_CASE("input kinds: measured levels can be read from a pipe, as from a file") {
     const Inputs in;
     const std::string levels =
         in.folder.write("l.csv",

@@ -59,8 +59,7 @@ TEST_CASE("input: paths in a scenario from standard input are relative to the cu
     CHECK(contains(ended.out, "n0"));
 }
 
-TEST_CASE(
-    "input: errors in a scenario from standard input have a line; a sweep of it needs --store") {
+TEST_CASE("input: an error in a scenario from standard input has its line; a sweep needs --store") {
     const TemporaryFolder folder;
     const Ended wrong = with_input(folder, "[radio]\npower = 15\n", "run -");
     CHECK(wrong.exit == 3);
@@ -93,7 +92,9 @@ TEST_CASE("input: for a file of the wrong kind the error states its kind and the
     CHECK(contains(said("q.cfg", player + ")\n"), "NAME.world"));
     CHECK(contains(said("x.db", ""), "rovernet results"));
     CHECK(contains(said("x.tr", ""), "rovernet trace stats"));
-    const std::string recorded = "this is a recorded trace, not a scenario; rovernet replay plays";
+    const std::string recorded =
+        "this is a recorded trace, not a scenario; the command \"rovernet "
+        "replay\" plays";
     CHECK(contains(said("x.mcap", ""), recorded));
     CHECK(contains(said("renamed", "\x89MCAP0\r\n..."), recorded));
     const std::string capture = "this is a capture of packets, not a scenario";
@@ -107,7 +108,7 @@ TEST_CASE("input: for a file of the wrong kind the error states its kind and the
     CHECK(!contains(empty, "the key"));
 }
 
-TEST_CASE("input: an impossible number in an option is an error in plain words") {
+TEST_CASE("input: the error for an impossible number in an option states what is expected") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", two);
     const auto said = [&](const std::string& option, const std::string& value) {
@@ -142,9 +143,9 @@ TEST_CASE("input: compare prints the names of the robots that have their own pro
     const Ended ended = command(folder, {"compare", file, "--models", "friis,two_ray", "--workers",
                                          "1", "--replications", "2"});
     CHECK(ended.exit == 0);
-    CHECK(
-        contains(ended.err,
-                 "have their own propagation model, so [propagation] does not affect them: \"C\""));
+    CHECK(contains(ended.err,
+                   "[propagation] do not affect these robots, which have their own propagation "
+                   "model: \"C\""));
 }
 
 }  // namespace input_test

@@ -163,7 +163,10 @@ const std::vector<Mistake> mistakes = {
     {robot_a + "name = \"B\"", "4:1", {"the key \"name\" occurs a second time"}},
     {"scenario:\n  duration: 5\n", "1:9", {"KEY = VALUE"}},
     {robot_a + "[medium]\npropagation_delay = True", "5:21", {"small letters"}},
-    {robot_a + "radio = {\n power = \"5 dBm\"\n}", "4:10", {"on the same line"}},
+    {robot_a + "radio = {\n power = \"5 dBm\"\n}",
+     "4:10",
+     {"must end on the line on which it "
+      "begins"}},
     {std::string("\xff\xfe[\0", 4), "1:1", {"save the file as UTF-8"}},
     {robot_a + "[routing]\nttl = 3.0", "5:7", {"found the number 3.0", "a whole number"}},
     {robot_a + "[scenario]\nduration = \"5 minutes\"", "5:12", {"did you mean \"min\"?"}},
@@ -293,15 +296,15 @@ const std::vector<Mistake> mistakes = {
     // Values so large or so small that sums of them overflow.
     {robot_a + "[access]\nmodel = \"csma\"\nbasic_rates = [\"1e-9 b/s\"]", "6:16", {">= 1 bit/s"}},
     {robot_a + "[propagation]\nsigma = \"1e308 dB\"", "5:9", {"at most 10000 dB"}},
-    {robot_a + "[propagation]\nwall_factor = 1e308", "5:15", {"at most 1e9"}},
-    {robot_a + "[propagation]\nexponent = 1e308", "5:12", {"at most 1e9"}},
+    {robot_a + "[propagation]\nwall_factor = 1e308", "5:15", {"from -1e9 to 1e9"}},
+    {robot_a + "[propagation]\nexponent = 1e308", "5:12", {"from -1e9 to 1e9"}},
     {robot_a +
          "[[robot]]\nname = \"B\"\nat = [\"1 m\", \"1 m\"]\nmove = { model = \"group\", leader "
          "= \"A\", radius = \"1e308 m\" }",
      "7:50",
      {"at most 1e6 km"}},
     // What cannot be meant.
-    {robot_a + "[radio]\nsensitivity = \"80 dBm\"", "5:15", {"gets nothing", "\"-80 dBm\"?"}},
+    {robot_a + "[radio]\nsensitivity = \"80 dBm\"", "5:15", {"receives nothing", "\"-80 dBm\"?"}},
     {traffic("payload = \"F\"\nevery = \"1 s\"\nstart = \"5 s\"\nstop = \"5 s\""),
      "9:8",
      {"start is 5 s", "later"}},
@@ -563,7 +566,7 @@ TEST_CASE("bad input: mistakes in options exit with 2 and quote the option") {
     }
 }
 
-TEST_CASE("bad input: unknown commands and options exit with 2") {
+TEST_CASE("bad input: unknown commands and options end with exit code 2") {
     const TemporaryFolder folder;
     folder.write("s.toml", robot_a);
     for (const char* arguments :

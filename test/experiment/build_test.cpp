@@ -46,7 +46,7 @@ TEST_CASE(
     CHECK(classic.scenario.notices[0].find("falls from 10.5 to 6.34 m/s") != std::string::npos);
 }
 
-TEST_CASE("build: the notice about a falling mean speed respects the robot's top_speed") {
+TEST_CASE("build: the notice about a falling mean speed takes account of the robot's top_speed") {
     const auto notices = [](const std::string& top_speed) {
         return Built("[[robot]]\nname = \"r\"\nat = [\"1 m\", \"1 m\"]\ntop_speed = \"" +
                      top_speed +

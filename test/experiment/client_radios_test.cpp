@@ -47,9 +47,7 @@ TEST_CASE(
     CHECK_FALSE(heard[0].is_for_everyone);
 }
 
-TEST_CASE(
-    "client radios: a client gets simultaneous messages in the order of their receivers, not of "
-    "sending") {
+TEST_CASE("client radios: a client gets simultaneous messages in the order of the receivers") {
     Three robots;
     ClientRadios radios(robots.net);
     radios.join(1, {robots.b, robots.c}, true);

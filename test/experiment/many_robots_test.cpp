@@ -64,7 +64,7 @@ TEST_CASE(
     CHECK(net.name(NodeId{2}) == "late0");
 }
 
-TEST_CASE("many robots: reserving memory does not change the run") {
+TEST_CASE("many robots: reserving memory for robots does not change their movements") {
     std::vector<Vec3> places[2];
     for (const std::size_t reserved : {std::size_t{0}, std::size_t{100}}) {
         Network net;
@@ -125,8 +125,7 @@ TEST_CASE("many robots: a request about a robot that does not exist is refused")
     CHECK_THROWS_AS(net.on_receive({1}, [](const Message&) {}), std::out_of_range);
 }
 
-TEST_CASE(
-    "flood bench: counts of received and lost frames are the same with and without recording") {
+TEST_CASE("flood benchmark: counts of received and lost frames do not depend on recording") {
     for (const std::size_t model :
          {ReceptionTable::place_of<Threshold>(), ReceptionTable::place_of<Collision>()}) {
         const ReceptionTable reception{.model = model};

@@ -109,7 +109,7 @@ TEST_CASE(
         folder.write("own.toml", text + "[[robot]]\nname = \"n0\"\nat = [\"2 m\", \"2 m\"]\n");
     const auto idle = [](const Scenario& each) {
         return std::count_if(each.notices.begin(), each.notices.end(), [](const auto& notice) {
-            return notice.find("at has no effect on robot \"n0\"") != notice.npos;
+            return notice.find("the key \"at\" has no effect on robot \"n0\"") != notice.npos;
         });
     };
     CHECK(idle(s) == 0);

@@ -55,7 +55,7 @@ std::pair<std::uint64_t, std::uint64_t> through(double success_rate, bool crowd,
 
 }  // namespace
 
-TEST_CASE("success rate: a message that a routing protocol sends again has a new chance") {
+TEST_CASE("success rate: if a frame is sent again, a new random draw decides on reception") {
     for (const AccessModel& access : std::vector<AccessModel>{NoAccess{}, Aloha{}}) {
         Network net({.seed = 5, .propagation = Friis{}, .access = access});
         net.route(Dsr{});

@@ -117,7 +117,9 @@ TEST_CASE(
     };
     // The reaction comes after the end of the run, so its movement never begins.
     CHECK(error_of("\"wander\"").starts_with(":15:35: wander: "));
-    CHECK(error_of("\"random_direction\"").starts_with(":15:35: random_direction: area must be"));
+    CHECK(error_of("\"random_direction\"")
+              .starts_with(":15:35: random_direction: the key \"area\" "
+                           "must be"));
     const std::string area = "area = [[\"50 m\", \"0 m\"], [\"90 m\", \"9 m\"]]";
     CHECK(error_of("\"random_waypoint\", min_speed = \"9 m/s\", max_speed = \"3 m/s\", " + area) ==
           ":15:35: random_waypoint: max_speed must be >= min_speed = 9, got 3");
@@ -138,11 +140,11 @@ TEST_CASE(
         error = std::string(thrown.what()).substr(file.size());
     }
     CHECK(error ==
-          ":15:36: on_time of robot \"b\" at 1.5 s: random_walk: the robot must be in the area "
-          "(50, 0) to (90, 9) m to begin, but is at (8, 0) m");
+          ":15:36: on_time of robot \"b\" at 1.5 s: random_walk: the robot must begin inside the "
+          "area (50, 0) to (90, 9) m, but is at (8, 0) m");
 }
 
-TEST_CASE("movement file: creates the robots that it names, and moves existing robots") {
+TEST_CASE("movement file: the file creates the robots that it names, and moves existing robots") {
     const TemporaryFolder folder;
     folder.write("walk.tcl",
                  "$node_(0) set X_ 1\n$node_(0) set Y_ 0\n$node_(1) set X_ 5\n$node_(1) set Y_ 0\n"

@@ -21,8 +21,7 @@ std::string folder(const std::vector<std::string>& set) {
 
 }  // namespace
 
-TEST_CASE(
-    "run folder: the path has the name of the scenario, the seed, and a replication other than 0") {
+TEST_CASE("run folder: the path has the scenario's name, the seed, and the replication if not 0") {
     Scenario scenario;
     scenario.scenario.name = "rescue";
     scenario.scenario.seed = 7;

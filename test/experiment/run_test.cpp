@@ -69,7 +69,7 @@ TEST_CASE("run: metrics of the trace equal those of the run to the last digit") 
     }
 }
 
-TEST_CASE("run: the fingerprint does not depend on writing a trace") {
+TEST_CASE("run: the fingerprint is the same with and without a trace file") {
     const TemporaryFolder folder;
     const RunOptions options{.folder = folder.path("out"), .speed = {}};
     const std::string once = run_scenario(three_robots("none"), options).fingerprint;

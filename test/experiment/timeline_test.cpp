@@ -55,7 +55,7 @@ TEST_CASE("timeline: a message with a size but without a text has no entry") {
     CHECK((*said.timeline)[1].text == "hears \"F\" from A over 1 hop");
 }
 
-TEST_CASE("timeline: the timeline ends after 10,000 entries and counts the rest") {
+TEST_CASE("timeline: after 10,000 entries, further entries are only counted") {
     std::string off, on;
     // B is switched off and on again 5,100 times: 10,200 entries.
     for (int i = 0; i < 5100; ++i) {

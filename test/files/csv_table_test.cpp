@@ -50,7 +50,7 @@ TEST_CASE(
     CHECK(error_of("a,b\n1\n").find("t.csv:2") == 0);
     CHECK(error_of("a,b\n1\n").find("found 1 fields; expected 2") != std::string::npos);
     CHECK(error_of("a,b\n1,2,\n").find("found 3 fields; expected 2") != std::string::npos);
-    CHECK(error_of("# only\n").find("no line of column names") != std::string::npos);
+    CHECK(error_of("# only\n").find("no line with the names of the columns") != std::string::npos);
     CHECK(error_of("level,b\n1,2\n", "levl")
               .find("no column \"levl\"; expected one of level, b; did you mean \"level\"?") !=
           std::string::npos);

@@ -43,8 +43,8 @@ TEST_CASE(
     CHECK(said(folder.path("link")) == "read: text");
     CHECK(said(folder.path("none")) == begin + "no such file");
     CHECK(said(folder.path("x.txt/y")) == begin + "no such file");
-    CHECK(said(folder.path("loop")) == begin + "a loop of symbolic links");
-    CHECK(said(folder.path("a")) == begin + "a loop of symbolic links");
+    CHECK(said(folder.path("loop")) == begin + "its path is a loop of symbolic links");
+    CHECK(said(folder.path("a")) == begin + "its path is a loop of symbolic links");
     CHECK(said(folder.path(".")) == begin + "it is a folder");
     CHECK(said(folder.path(std::string(300, 'x'))) ==
           begin + "its folder cannot be entered, or its name is too long");
@@ -63,7 +63,9 @@ TEST_CASE(
     std::thread writer([&] { std::ofstream(path) << "late"; });
     CHECK(said(path) == "read: late");
     writer.join();
-    CHECK(said(path) == "cannot read the file: it is a FIFO into which nobody has written for 5 s");
+    CHECK(said(path) ==
+          "cannot read the file: it is a FIFO into which no program has written for "
+          "5 s");
 }
 
 TEST_CASE("input file: a pipe is refused where a regular file is needed") {

@@ -121,7 +121,7 @@ TEST_CASE("part file: a path that cannot be written is reported at once") {
         (folder.path("no/f") + ": cannot be written: No such file or directory").c_str(), RunError);
     CHECK_THROWS_WITH_AS(
         PartFile("/dev/null"),
-        "/dev/null: cannot be written: something that is not a regular file has this name",
+        "/dev/null: cannot be written: a file of this name exists, and it is not a regular file",
         RunError);
 }
 

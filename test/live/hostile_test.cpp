@@ -118,9 +118,7 @@ TEST_CASE("hostile: connections beyond the limit are closed until another connec
     served.end();
 }
 
-TEST_CASE(
-    "hostile: at the connection limit, each listener closes its oldest silent client for a new "
-    "one") {
+TEST_CASE("hostile: at the connection limit, a new client displaces the oldest silent client") {
     const Served served;
     const Live controlled({"--listen-json", "127.0.0.1:0", "--unix", "SOCKET"}, long_live_row());
     const int port = controlled.port();
@@ -192,7 +190,7 @@ TEST_CASE("hostile: no request of a web page drives a robot, on any listener") {
     CHECK(controlled.replay().out.starts_with("identical: 0 inputs"));
 }
 
-TEST_CASE("hostile: a first line that is not a JSON object is answered, and the client is closed") {
+TEST_CASE("hostile: a client whose first line is no JSON object is disconnected") {
     const Live live({"--listen-json", "127.0.0.1:0"}, long_live_row());
     const int port = live.port();
     const std::string rest = hello("\"A\"") + "\n";
@@ -229,7 +227,7 @@ TEST_CASE("hostile: a first line that is not a JSON object is answered, and the 
     CHECK(live.wait().exit == 0);
 }
 
-TEST_CASE("hostile: wrong sizes and counts from a Player client do no harm") {
+TEST_CASE("hostile: wrong sizes and counts from a Player client do not affect other clients") {
     const Served served;
     Good good(served);
     LineClient endless(served.player), liar(served.player);
@@ -265,7 +263,7 @@ TEST_CASE("hostile: ROS messages that are too long, nested too deeply or not JSO
     served.end();
 }
 
-TEST_CASE("hostile: lines of controllers that are nested too deeply or not text are refused") {
+TEST_CASE("hostile: a controller's line is refused if it is nested too deeply or is not text") {
     const Live live({"--listen-json", "127.0.0.1:0"});
     LineClient odd(live.port());
     CHECK(Json::parse(odd.ask("{}")).at("code") == "missing_key");
@@ -277,7 +275,7 @@ TEST_CASE("hostile: lines of controllers that are nested too deeply or not text 
     CHECK(live.wait().exit == 0);
 }
 
-TEST_CASE("hostile: a request sent byte by byte must be complete in time") {
+TEST_CASE("hostile: a client that sends a request byte by byte is disconnected after some time") {
     Listeners listeners;
     WebSockets web(listeners, {.request = 1s, .silence = 60s});
     const Address address = web.listen({"127.0.0.1", 0}, {});
@@ -317,7 +315,7 @@ TEST_CASE(
     served.end();
 }
 
-TEST_CASE("hostile: clients that disconnect while they receive much data do no harm") {
+TEST_CASE("hostile: clients that disconnect while they receive much data do not affect others") {
     const Served served(in_office());
     Good good(served);
     for (int i = 0; i < 20; ++i) {

@@ -63,9 +63,7 @@ std::string run_and_kill(const TemporaryFolder& words, const std::string& folder
 
 }  // namespace
 
-TEST_CASE(
-    "killed run: the folder or the unfinished input log of a killed run can be replayed, with its "
-    "scenario") {
+TEST_CASE("killed run: a killed run is replayed from its folder or its unfinished input log") {
     const TemporaryFolder folder;
     const std::string out = folder.path("out");
     const std::string part = run_and_kill(folder, out, "5", 9);
@@ -87,7 +85,7 @@ TEST_CASE(
     CHECK(command(folder, {"run", out + "/scenario.toml", "--print-scenario"}).exit == 0);
 }
 
-TEST_CASE("killed run: an incomplete last line of its input log is ignored, with a notice") {
+TEST_CASE("killed run: an incomplete last line of the input log is ignored, with a notice") {
     const TemporaryFolder folder;
     const std::string part = run_and_kill(folder, folder.path("out"), "1", 3);
     const std::string text = content(part);
@@ -109,9 +107,7 @@ TEST_CASE("killed run: an incomplete last line of its input log is ignored, with
     CHECK_THROWS_WITH_AS(replay_inputs(part, {}), doctest::Contains(".part:4"), InputError);
 }
 
-TEST_CASE(
-    "killed run: later runs into its folder keep the killed run's input log, which is replayed as "
-    "before") {
+TEST_CASE("killed run: later runs into the same folder keep the killed run's input log") {
     const TemporaryFolder folder, words;
     const std::string out = folder.path("out");
     const std::string first = run_and_kill(words, out, "1", 3);
@@ -164,7 +160,7 @@ TEST_CASE("killed run: a killed emulation can be replayed, too") {
     CHECK(replay_inputs(out, {}).inputs == 1);
 }
 
-TEST_CASE("killed run: a failed run keeps its inputs; a reset discards the inputs before it") {
+TEST_CASE("killed run: the input log of a failed run has only the inputs after the last reset") {
     const TemporaryFolder folder;
     const std::string out = folder.path("out");
     const std::string limited = [] {

@@ -117,9 +117,7 @@ TEST_CASE("lateness: while a client pauses the time, the run is not late") {
     CHECK(result.fault.empty());
 }
 
-TEST_CASE(
-    "lateness: a stop of the process counts as late only up to the time at which a client pauses "
-    "the run") {
+TEST_CASE("lateness: a stop of the process counts as late only until a client pauses the run") {
     const LiveResult result = run({.limit = start_of_run + 10min});
     CHECK(result.lateness->most > 9min);
     CHECK(result.lateness->most < 11min);
@@ -131,15 +129,13 @@ TEST_CASE("lateness: a run without a speed is never late") {
     CHECK(result.fault.empty());
 }
 
-TEST_CASE("lateness: messages that arrive while output is written slowly are late") {
+TEST_CASE("lateness: messages that arrive while the run writes output slowly count as late") {
     const LiveResult result = run({.away = 0s, .told = start_of_run + 1ms, .telling_takes = 30min});
     CHECK(result.lateness->most > 29min);
     CHECK_FALSE(result.fault.empty());
 }
 
-TEST_CASE(
-    "lateness: the share of late delays counts every requested time, but only those polls that are "
-    "late") {
+TEST_CASE("lateness: polls that are not late do not count in the share of late delays") {
     Lateness lateness;
     lateness.add_look(999us);
     CHECK(lateness.most == 999us);

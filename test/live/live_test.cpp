@@ -228,7 +228,7 @@ TEST_CASE("live: only this machine can connect, and an address in use is reporte
     CHECK(live.wait().exit == 0);
 }
 
-TEST_CASE("live: hostile connections are closed, take little memory and delay nobody") {
+TEST_CASE("live: hostile clients are disconnected, take little memory and delay nobody") {
     const Live live({"--listen-json", "127.0.0.1:0"});
     const int port = live.port();
     LineClient good(port);
@@ -319,7 +319,7 @@ TEST_CASE("live: a Player client in lock-step does not wait for delayed TCP ackn
     CHECK(fingerprints[0] == fingerprints[1]);
 }
 
-TEST_CASE("live: paced Player clients are served until Ctrl-C or the end of the scenario") {
+TEST_CASE("live: Player clients of a paced run are served until Ctrl-C or the scenario's end") {
     const Live live({"--player", "127.0.0.1:0", "--speed", "5"}, long_live_row());
     CHECK(live.said("listening").ends_with("(Player, robot A)"));
     LineClient client(live.port());
@@ -429,7 +429,7 @@ TEST_CASE(
     CHECK(live.replay().out.starts_with("identical: 3 inputs"));
 }
 
-TEST_CASE("live: a Player configuration names the world and the ports") {
+TEST_CASE("live: the world and the ports are read from a Player configuration file") {
     const TemporaryFolder folder;
     folder.write("two.world", R"(quit_time 1
 position ( name "r0" pose [0 0 0] wifi ( model "friis" ) )

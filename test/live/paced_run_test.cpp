@@ -211,7 +211,7 @@ TEST_CASE("paced run: commands take effect when they arrive, also in a run behin
     CHECK(paced.end().lateness->most > 0s);
 }
 
-TEST_CASE("paced run: only a protocol server that needs exact times changes the recorded trace") {
+TEST_CASE("paced run: a protocol server changes the recorded trace only if it needs exact times") {
     Scenario scenario = three_in_a_row("[[robot]]\nname = \"D\"\nat = [\"100 m\", \"0 m\"]\n");
     scenario.trace.record = true;
     const TemporaryFolder folder;
@@ -276,7 +276,7 @@ TEST_CASE("paced run: after a pause by a client, time continues without catching
     CHECK(paced.end().run.simulated < 2s);
 }
 
-TEST_CASE("paced run: a client that does not read is closed, and others are served") {
+TEST_CASE("paced run: a client that does not read is disconnected, and others are served") {
     Scenario scenario = three_in_a_row();
     scenario.scenario.duration = 1h;
     Paced<Patient> paced(std::nullopt, scenario, std::size_t{1} << 20U);
@@ -303,8 +303,7 @@ TEST_CASE("paced run: a client that does not read is closed, and others are serv
     CHECK(lines < 15);
 }
 
-TEST_CASE(
-    "paced run: a client that reads too late gets the number of lost messages, then is closed") {
+TEST_CASE("paced run: a late reader gets the number of lost messages, and is disconnected") {
     Paced<Patient> paced(std::nullopt, three_in_a_row(), std::size_t{1} << 20U);
     LineClient late(paced.port()), reader(paced.port());
     reader.line();  // the port
@@ -338,7 +337,7 @@ TEST_CASE("paced run: input of a client is read at a limited rate") {
     paced.end();
 }
 
-TEST_CASE("paced run: a protocol may close a connection, and may read bytes instead of lines") {
+TEST_CASE("paced run: a protocol server may disconnect a client, and may read bytes, not lines") {
     Paced<Parrot> paced(1, three_in_a_row());
     LineClient client(paced.port());
     client.line();

@@ -77,9 +77,7 @@ TEST_CASE("replay: a run with controllers over TCP and WebSocket is reproduced")
     CHECK(live.replay().out == "identical: 122 inputs, fingerprint " + live.fingerprint() + "\n");
 }
 
-TEST_CASE(
-    "replay: a log with a number that no client could send is refused, and the error has the "
-    "line") {
+TEST_CASE("replay: a log with a command that no client could send is refused, with its line") {
     const TemporaryFolder folder;
     folder.write("scenario.toml", live_row);
     const auto log = [&](const std::string& format, const std::string& what) {

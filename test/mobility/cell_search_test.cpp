@@ -143,7 +143,7 @@ int compare_with_boost(double cell_width, double cell_height, std::uint32_t seed
 
 }  // namespace
 
-TEST_CASE("cell search: paths over random maps are as long as the shortest paths of Boost") {
+TEST_CASE("cell search: paths over random maps are as long as those by Boost's Dijkstra search") {
     CHECK(compare_with_boost(1, 1, 41) > 100);
     CHECK(compare_with_boost(0.05, 0.08, 42) > 100);
 }

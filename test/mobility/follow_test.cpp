@@ -60,7 +60,7 @@ TEST_CASE("follow: behind a faster leader, the gap grows at the difference of th
     CHECK(std::abs(gap(net, 100s) - 110) < tolerance);
 }
 
-TEST_CASE("follow: a follower stands while the leader is nearer than the distance") {
+TEST_CASE("follow: a follower stands still while its leader is nearer than the distance to keep") {
     Network net;
     net.add({.name = "A", .at = {1, 0}});
     net.add({.name = "B", .at = {0, 0}, .move = Follow{}});

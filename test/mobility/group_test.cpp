@@ -28,9 +28,7 @@ constexpr double tolerance = 1e-9;  // [m]
 
 }  // namespace
 
-TEST_CASE(
-    "group: at the end of each interval, members are uniform in discs around leader position plus "
-    "offset") {
+TEST_CASE("group: at the end of each interval, members are uniformly distributed in a disc") {
     Network net;
     net.add({.name = "A", .at = {50, 0}, .move = ToGoal{.to = {1e4, 5e3}, .speed = {3}}});
     for (int i = 0; i < 20; ++i) {
@@ -118,7 +116,7 @@ TEST_CASE("group: members go around walls, and only to reachable positions") {
     }
 }
 
-TEST_CASE("group: a member without a path to its leader stands") {
+TEST_CASE("group: a member without a path to its leader stands still") {
     const auto map = std::make_shared<Scene>(test::drawn_map({"...#...", "...#..."}));
     Network net({.scene = map});
     net.add({.name = "A", .at = {1, 1}});

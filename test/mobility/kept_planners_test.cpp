@@ -32,7 +32,7 @@ TEST_CASE(
     CHECK(kept.of(nullptr) == nullptr);  // an open field
 }
 
-TEST_CASE("kept planners: a new scene at the address of a freed one gets its own planners") {
+TEST_CASE("kept planners: a new scene at the memory address of an old scene gets new planners") {
     KeptPlanners kept;
     for (std::size_t columns = 1; columns < 20; ++columns) {
         const auto scene = empty_map(columns, 1);

@@ -37,7 +37,7 @@ bool stands(const Leg& leg) {
 
 }  // namespace
 
-TEST_CASE("movement: a default-constructed movement and its copies stand still, as Fixed does") {
+TEST_CASE("movement: a default-constructed movement stands still, and so do its copies") {
     Movement none;
     Movement copy = none;
     Movement fixed = Fixed{};
@@ -47,7 +47,7 @@ TEST_CASE("movement: a default-constructed movement and its copies stand still, 
     CHECK(sizeof(Movement) == sizeof(void*));
 }
 
-TEST_CASE("movement: a moved-from movement (after std::move) stands still, as Fixed does") {
+TEST_CASE("movement: a movement stands still after its content is moved away (std::move)") {
     Movement goal = ToGoal{.to = {9, 2, 0}};
     Movement taken = std::move(goal);
     CHECK(leg_of(taken).to == Vec3{9, 2, 0});

@@ -67,7 +67,7 @@ TEST_CASE("random_walk: the mean squared distance from the start is that of inde
     CHECK(squares.errors_off(expected, expected) < most_errors);
 }
 
-TEST_CASE("random_walk: borders reflect like mirrors, without loss of time") {
+TEST_CASE("random_walk: borders reflect a robot like mirrors, without loss of time") {
     const Scene field;
     Planners planners(field);
     const double width = 3, height = 2;

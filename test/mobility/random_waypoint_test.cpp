@@ -225,7 +225,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("random_waypoint: the share of robots at rest is E[P] / (E[P] + E[T]) at every time") {
+TEST_CASE("random_waypoint: the share of robots at rest is always E[pause] / E[pause + trip]") {
     const double pause = 30, low = 0.5, high = 5;
     const double trip = 100 * 0.5214054331647207 * std::log(high / low) / (high - low);
     const double share = pause / (pause + trip);
@@ -377,7 +377,7 @@ TEST_CASE("random_waypoint: invalid parameters are refused") {
         return false;
     };
     const auto area = box(1, 1);
-    CHECK(refused({}, "area must be given on an open field"));
+    CHECK(refused({}, "the key \"area\" must be given, because the scene is an open field"));
     CHECK(refused({.area = {{0, 0}}}, "area must be two corners"));
     CHECK(refused({.area = {{0, 0}, {0, 5}}}, "right of and above"));
     CHECK(refused({.area = {{0, 0}, {-1, 5}}}, "right of and above"));

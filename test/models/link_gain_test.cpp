@@ -23,25 +23,24 @@ constexpr double tolerance = 1e-12;  // [dB]
 
 }  // namespace
 
-TEST_CASE("link gain: two radios with the default values have a budget of 91.53 dB") {
+TEST_CASE("link gain: two radios with the default values have a link budget of 91.53 dB") {
     constexpr double half_a_digit = 0.005;  // [dB]
     CHECK(near(link_budget(Radio{}, Radio{}).value, 91.53, half_a_digit));
 }
 
-TEST_CASE("link gain: the budget is power plus gains, minus cable losses, minus the sensitivity") {
+TEST_CASE("link gain: the link budget is power plus gains minus cable losses minus sensitivity") {
     const Radio base{.power = 20_dBm, .antenna_gain = 5_dB, .cable_loss = 2_dB};
     const Radio robot{.sensitivity = -90_dBm, .antenna_gain = 3_dB, .cable_loss = 0.5_dB};
     // 20 + 5 - 2 + 3 - 0.5 + 90
     CHECK(near(link_budget(base, robot).value, 115.5, tolerance));
 }
 
-TEST_CASE("link gain: a receiver with a sensitivity 10 dB worse has a budget 10 dB smaller") {
+TEST_CASE("link gain: a sensitivity that is 10 dB worse makes the link budget 10 dB smaller") {
     const Radio deaf{.sensitivity = -70_dBm}, keen{.sensitivity = -80_dBm};
     CHECK(near((link_budget({}, keen) - link_budget({}, deaf)).value, 10, tolerance));
 }
 
-TEST_CASE(
-    "link gain: the budgets of a link's two directions differ only by the difference of powers") {
+TEST_CASE("link gain: link budgets in both directions differ only by the difference of powers") {
     const Radio loud{.power = 20_dBm, .antenna_gain = 5_dB, .cable_loss = 2_dB};
     const Radio quiet{.power = 10_dBm, .antenna_gain = 3_dB};
     CHECK(near((link_budget(loud, quiet) - link_budget(quiet, loud)).value, 10, tolerance));

@@ -388,7 +388,7 @@ std::string flooded(const ReceptionModel& reception, const AccessModel& access, 
 
 }  // namespace
 
-TEST_CASE("reference mode: the fast mode gives the same records") {
+TEST_CASE("reference mode: the reference mode and the fast mode give the same records") {
     for (const Db shadowing : {Db{0}, Db{4}}) {
         for (const ReceptionModel& model :
              {ReceptionModel{Threshold{}}, ReceptionModel{Collision{}}, ReceptionModel{Sinr{}}}) {

@@ -281,8 +281,7 @@ Propagation listed<Disc>() {
 
 }  // namespace
 
-TEST_CASE(
-    "air: interference is that of a check of all pairs, while robots move, jump and switch off") {
+TEST_CASE("air: interference agrees with a check of all pairs as robots move, jump, switch off") {
     for (const Propagation& model :
          {Propagation{LogDistance{.exponent = 2, .sigma = Db{0}}},
           Propagation{LogDistance{.exponent = 2, .sigma = Db{4}}}, Propagation{Slope{}}}) {
@@ -293,8 +292,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "air: interference is that of a check of all pairs of frames, with every propagation model") {
+TEST_CASE("air: with every propagation model, interference agrees with a check of all pairs") {
     for_each_model([]<class Model>() {
         auto fates = play(listed<Model>(), 6);
         CHECK(fates[Fate::waiting] > 20);

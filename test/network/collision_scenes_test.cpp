@@ -230,7 +230,7 @@ Counts compare(bool far, int scenes) {
 
 }  // namespace
 
-TEST_CASE("collision scenes: what is received is what the receiver of ns-2 receives") {
+TEST_CASE("collision scenes: the same frames are received as by the receiver of ns-2") {
     for (const bool far : {true, false}) {
         CAPTURE(far);
         const Counts counts = compare(far, 20'000);

@@ -6,7 +6,7 @@
 namespace few_test {
 using namespace rovernet;
 
-TEST_CASE("list Few: an empty list is as small as a pointer, and grows like any other list") {
+TEST_CASE("list Few: an empty list is as small as a pointer, and values can be appended to it") {
     CHECK(sizeof(Few<int>) == sizeof(void*));
     Few<int> list;
     CHECK(list.empty());

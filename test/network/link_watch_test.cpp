@@ -99,9 +99,7 @@ TEST_CASE(
     CHECK_FALSE(network.watch.next());  // nobody moves
 }
 
-TEST_CASE(
-    "link watch: as a robot passes, the link in each direction goes up and down by the sender's "
-    "model") {
+TEST_CASE("link watch: two robots that pass each other are each heard within their own range") {
     const Scene field;
     Harness network{&field};
     network.add(Disc{.range = 10_m}, resting({}));

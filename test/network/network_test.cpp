@@ -222,8 +222,7 @@ TEST_CASE("network: a run in parts of any size gives the same result as one run"
     }
 }
 
-TEST_CASE(
-    "network: with a late limit, steps of advance() do not separate the receptions of a frame") {
+TEST_CASE("network: if its limit allows, advance() serves all receptions of a frame together") {
     const auto counts_in_steps = [](Duration step, Time limit) {
         Busy busy(5);
         const auto counts = std::make_shared<ReceptionCounts>();
@@ -319,7 +318,7 @@ TEST_CASE("network: if no size is given, the size of a message on air is that of
     CHECK(heard->all[0].time == start_of_run + airtime_64_bytes);
 }
 
-TEST_CASE("network: a plain struct can be a router or a sink") {
+TEST_CASE("network: a plain struct can be a routing protocol or a listener to records (sink)") {
     struct Count {
         int* received;
         KindMask kinds() const { return kind_of<Received>(); }
@@ -337,7 +336,7 @@ TEST_CASE("network: a plain struct can be a router or a sink") {
     CHECK(net.metrics().transmissions == 1);
 }
 
-TEST_CASE("network: a router that sends during reception gets an error") {
+TEST_CASE("network: a routing protocol that sends a frame while it receives one gets an error") {
     struct Hasty : OneHop {
         void on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions) {
             link.send(frame, receptions.front().node, link.now());

@@ -115,7 +115,7 @@ struct Line {
 
 }  // namespace
 
-TEST_CASE("own phy: which robots receive a frame depends on its coding, with every search method") {
+TEST_CASE("user's phy: the coding of a frame decides which robots receive the frame") {
     for (const bool reference : {false, true}) {
         for (const auto& model :
              {Propagation{Friis{}}, Propagation{LogDistance{.exponent = 2, .sigma = Db{0}}}}) {
@@ -133,7 +133,7 @@ TEST_CASE("own phy: which robots receive a frame depends on its coding, with eve
     }
 }
 
-TEST_CASE("own phy: a radio may change its coding during the run") {
+TEST_CASE("user's phy: a radio may change its coding during the run") {
     Line line({.access = AtOnce{}}, fast);
     CHECK(line.hear() == 1);
     line.net.set_rate({0}, slow);
@@ -142,7 +142,7 @@ TEST_CASE("own phy: a radio may change its coding during the run") {
     CHECK(line.hear() == 1);
 }
 
-TEST_CASE("own phy: the coding determines the duration of the preamble") {
+TEST_CASE("user's phy: the coding determines the duration of the preamble") {
     for (const auto& [rate, expected] :
          {std::pair{slow, Duration{80ms + 80ms}}, std::pair{fast, Duration{10ms + 10ms}}}) {
         Network net({.access = AtOnce{}, .propagation_delay = false});
@@ -156,7 +156,7 @@ TEST_CASE("own phy: the coding determines the duration of the preamble") {
     }
 }
 
-TEST_CASE("own phy: sinr and capture reject interference from frames of other codings") {
+TEST_CASE("user's phy: sinr and capture reject interference from frames of other codings") {
     const auto delivered = [](const ReceptionModel& reception, BitRate second, double other) {
         Network net({.reception = reception, .access = AtOnce{.phy = {.other = other}}});
         for (const double x : {0.0, 10.0, 20.0}) {

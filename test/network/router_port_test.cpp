@@ -365,7 +365,7 @@ TEST_CASE("router port: if the protocol only floods, a unicast is sent directly,
     CHECK_THROWS_AS(row.net.send({0}, {9}, "x"), std::invalid_argument);
 }
 
-TEST_CASE("send: returns the message's uid; a robot that is off sends nothing") {
+TEST_CASE("send: the call returns the message's uid; a robot that is off sends nothing") {
     Row row;
     const auto first = row.net.send({0}, {1}, "a"), second = row.net.send({1}, {2}, "b");
     REQUIRE((first && second));

@@ -268,7 +268,7 @@ TEST_CASE(
     CHECK(row.lines("sf") == Lines{"s0", "s0"});
 }
 
-TEST_CASE("take_queued: after a failed frame, it returns all queued frames for the same next hop") {
+TEST_CASE("take_queued: after a failed frame, all queued frames for its next hop are returned") {
     for (const std::uint32_t rts : {2347U, 0U}) {
         CAPTURE(rts);
         Row row(Csma{.rts_threshold = rts});

@@ -76,7 +76,7 @@ TEST_CASE(
     CHECK(second->lines.size() == 6);  // two sent, two cut off
 }
 
-TEST_CASE("sinks: receptions have received powers only on request") {
+TEST_CASE("sinks: records of receptions have received powers only if a sink requests them") {
     struct Levels {
         KindMask more;
         std::vector<double> levels{};

@@ -113,8 +113,7 @@ TEST_CASE(
     CHECK(node.link.sent.size() == 1);
 }
 
-TEST_CASE(
-    "managed, rule M2: an SNR of -20 to 10 dB gives a CW of 3 to 8; values beyond are clamped") {
+TEST_CASE("managed, rule M2: an SNR of -20 to 10 dB gives a contention window (CW) of 3 to 8") {
     const std::vector<std::pair<double, int>> windows{
         {-40, 3},  {-20, 3}, {-15, 3},  {-14.5, 4},       {-14, 4}, {-8.1, 5},
         {-7.5, 5}, {-2, 6},  {-0.9, 6}, {0, 6},           {3.9, 6}, {4, 7},

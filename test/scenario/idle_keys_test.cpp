@@ -39,17 +39,17 @@ void check_notice(const std::string& text, const std::string& words) {
 TEST_CASE("idle keys: a parameter of a model that is not chosen gives a notice") {
     const std::string routing = "[routing]\nprotocol = ";
     check_notice(routing + "\"dsr\"\nttl = 5\n",
-                 "3:1: ttl has no effect under [routing] protocol = \"dsr\": only flood, aodv and "
-                 "suppression use this key");
+                 "3:1: the key \"ttl\" has no effect with [routing] protocol = \"dsr\": only "
+                 "flood, aodv and suppression use this key");
     check_notice("[access]\nstandard = \"802.11g\"\n",
-                 "2:1: standard has no effect under [access] model = \"none\": only csma uses this "
-                 "key");
+                 "2:1: the key \"standard\" has no effect with [access] model = \"none\": only "
+                 "csma uses this key");
     check_notice("[reception]\ncapture_ratio = \"6 dB\"\n",
-                 "2:1: capture_ratio has no effect under [reception] model = \"threshold\": only "
-                 "collision uses this key");
+                 "2:1: the key \"capture_ratio\" has no effect with [reception] model = "
+                 "\"threshold\": only collision uses this key");
     check_notice("[propagation]\nexponent = 4\n",
-                 "2:1: exponent has no effect under [propagation] model = \"friis\": only "
-                 "log_distance and multi_wall use this key");
+                 "2:1: the key \"exponent\" has no effect with [propagation] model = \"friis\": "
+                 "only log_distance and multi_wall use this key");
     CHECK(notices_of(routing + "\"aodv\"\nttl = 5\n").empty());
     CHECK(notices_of("[access]\nstandard = \"802.11b\"\n").empty());  // the default
 }
@@ -68,9 +68,9 @@ TEST_CASE(
 TEST_CASE("idle keys: a key of a suppression scheme that is not chosen gives a notice") {
     const std::string counter = "[routing]\nprotocol = \"suppression\"\n";
     check_notice(counter + "range = \"60 m\"\n",
-                 "3:1: range has no effect without [routing] scheme = \"location\"");
+                 "3:1: the key \"range\" has no effect without [routing] scheme = \"location\"");
     check_notice(counter + "hello = \"2 s\"\n",
-                 "3:1: hello has no effect without [routing] scheme = \"cluster\"");
+                 "3:1: the key \"hello\" has no effect without [routing] scheme = \"cluster\"");
     CHECK(notices_of(counter + "scheme = \"location\"\nrange = \"60 m\"\n").empty());
     CHECK(notices_of(counter + "scheme = \"cluster\"\nhello = \"2 s\"\n").empty());
     CHECK(notices_of(counter + "hello = \"2 s\"\n[study]\n" +
@@ -94,10 +94,11 @@ TEST_CASE("idle keys: a key that a different key of its model switches off gives
               "[propagation] form = \"exact\""}}) {
         const std::string name = each.key.substr(0, each.key.find(' '));
         check_notice(each.head + each.key + "\n",
-                     "3:1: " + name + " has no effect without " + each.needed);
+                     "3:1: the key \"" + name + "\" has no effect without " + each.needed);
     }
     check_notice("[routing]\nprotocol = \"aodv\"\ngratuitous = true\ndestination_only = true\n",
-                 "3:1: gratuitous has no effect without [routing] destination_only = false");
+                 "3:1: the key \"gratuitous\" has no effect without [routing] destination_only = "
+                 "false");
     const std::string two_ray = "[propagation]\nmodel = \"two_ray\"\n";
     CHECK(notices_of(two_ray + "form = \"exact\"\nground_permittivity = 5\n").empty());
     CHECK(notices_of(two_ray + "ground_permittivity = 15\n").empty());  // the default
@@ -112,14 +113,14 @@ TEST_CASE(
     "idle keys: arp_timeout without arp, or a choice of trace lines without a trace, gives a "
     "notice") {
     check_notice("[access]\narp_timeout = \"1 s\"\n",
-                 "2:1: arp_timeout has no effect without [access] arp = true");
+                 "2:1: the key \"arp_timeout\" has no effect without [access] arp = true");
     CHECK(notices_of("[access]\narp_timeout = \"1 s\"\narp = true\n").empty());
     check_notice("[trace]\nlinks = true\n",
-                 "2:1: links has no effect: without [trace] record = true, no recorded trace is "
-                 "written");
+                 "2:1: the key \"links\" has no effect: without [trace] record = true, no recorded "
+                 "trace is written");
     check_notice("[trace]\nmac = true\n",
-                 "2:1: mac has no effect: without [trace] ns2 = \"new\" or \"old\", no ns-2 trace "
-                 "is written");
+                 "2:1: the key \"mac\" has no effect: without [trace] ns2 = \"new\" or \"old\", no "
+                 "ns-2 trace is written");
     CHECK(notices_of("[trace]\nlinks = false\nmac = false\n").empty());
     // A recorded trace converts to an ns-2 trace with these lines.
     CHECK(notices_of("[trace]\nmac = true\nlinks = true\nrecord = true\n").empty());
@@ -130,7 +131,8 @@ TEST_CASE("idle keys: materials and heights of walls on an open field give notic
     check_notice("[scene.materials]\nm = { grey = 3, per_crossing = \"1 dB\" }\n",
                  "2:1: material \"m\" has no effect: the scene is an open field without walls");
     check_notice("[scene]\nwall_height = \"2 m\"\n",
-                 "2:1: wall_height has no effect: the scene is an open field without walls");
+                 "2:1: the key \"wall_height\" has no effect: the scene is an open field without "
+                 "walls");
 }
 
 TEST_CASE("idle keys: a printed scenario gives no notices that the scenario did not give") {

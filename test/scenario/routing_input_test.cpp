@@ -185,8 +185,8 @@ TEST_CASE(
     };
     CHECK(notice_with(16).empty());
     CHECK(notice_with(18) ==
-          "dsr: 1 pair of robots lost messages after a route request had reached 16 robots without "
-          "finding the destination; a route of dsr has at most 16 robots");
+          "dsr: messages between 1 pair of robots were lost, because a route request passed 16 "
+          "robots without finding the destination; a route of dsr has at most 16 robots");
 }
 
 }  // namespace routing_input_test

@@ -239,7 +239,7 @@ void list_keys(const Value& value, const std::string& path, std::vector<std::str
 
 }  // namespace
 
-TEST_CASE("scenario: one robot is enough, and all else has the documented default") {
+TEST_CASE("scenario: one robot is enough, and all other keys have the documented defaults") {
     const Scenario s = read(robot_a);
     CHECK(s.scenario.name == "run");
     CHECK(s.scenario.duration == 60s);

@@ -141,8 +141,9 @@ TEST_CASE("traffic file: content other than CBR over UDP is refused, with line a
               .find("found a second start of this application") != std::string::npos);
     CHECK(error_of(with(good, "at 30.0", "at 0.5")).find("stops before it starts") !=
           std::string::npos);
-    CHECK(error_of(with(good, "$cbr_(0) start", "$cbr_(7) start")).find("made before") !=
-          std::string::npos);
+    CHECK(
+        error_of(with(good, "$cbr_(0) start", "$cbr_(7) start")).find("an earlier line creates") !=
+        std::string::npos);
 }
 
 TEST_CASE("traffic file: a file named in [traffic] or [[traffic]] adds its flows to the scenario") {

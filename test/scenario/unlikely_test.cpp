@@ -145,11 +145,12 @@ TEST_CASE(
     };
     const std::string file = folder.path("s.toml"), why = " has no effect on robot \"n0\": the ";
     REQUIRE(notices(at).size() == 1);
-    CHECK(notices(at)[0].starts_with(file + ":5:6: at" + why));
-    CHECK(notices(move)[0].starts_with(file + ":5:8: move" + why));
+    CHECK(notices(at)[0].starts_with(file + ":5:6: the key \"at\"" + why));
+    CHECK(notices(move)[0].starts_with(file + ":5:8: the key \"move\"" + why));
     CHECK(notices("place = { model = \"choice\", points = [[\"2 m\", \"2 m\"]] }\n")[0].starts_with(
-        file + ":5:9: place" + why));
-    CHECK(notices(at + move + "[[robot]]\nname = \"n1\"\n" + at)[0].ends_with("and 2 more"));
+        file + ":5:9: the key \"place\"" + why));
+    CHECK(notices(at + move + "[[robot]]\nname = \"n1\"\n" + at)[0].ends_with(
+        "and 2 more like this"));
     CHECK(notices("radius = \"1 m\"\nmove = { model = \"fixed\" }\n").empty());
     CHECK(notices("[[robot]]\nname = \"own\"\n" + at).empty());
 }
@@ -167,9 +168,10 @@ TEST_CASE(
     "unlikely input: with model rays, a wall drawn 1 m thick without a material gives a notice") {
     const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n";
     const std::string rays = "[propagation]\nmodel = \"rays\"\n";
-    check_notice(on_map + robot + rays,
-                 {":7:1: the wall drawn at x = ",
-                  "thicker than 0.5 m (walls of this scene: up to 1 m", "0.5 m thick"});
+    check_notice(
+        on_map + robot + rays,
+        {":7:1: the wall drawn at x = ",
+         "thicker than 0.5 m (thickest wall without a material in this scene: 1 m", "0.5 m thick"});
     CHECK(notices_of(on_map + robot).empty());
     CHECK(notices_of(robot + rays).empty());
     const std::string given =
@@ -193,9 +195,9 @@ TEST_CASE(
         notices(map + robot + "[propagation]\n" + walls + "heavy_wall = \"9 dB\"\n");
     REQUIRE(noticed.size() == 1);
     CAPTURE(noticed[0]);
-    for (const char* part :
-         {":7:1: the wall drawn at x = ", "is thicker than 0.8 m",
-          "(walls of this scene: up to 0.9 m)", "the loss of one wall, 9 dB, at any thickness"})
+    for (const char* part : {":7:1: the wall drawn at x = ", "is thicker than 0.8 m",
+                             "(thickest wall without a material in this scene: 0.9 m)",
+                             "one wall of 9 dB, however thick"})
         CHECK(noticed[0].find(part) != std::string::npos);
     const std::string own = "propagation = { model = \"multi_wall\" }\n";
     const auto of_robot = notices(map + robot + own);
@@ -300,9 +302,7 @@ radius = "0.01 m"
     CHECK(refused.find("its radius of 0.01 m (clearance 0.00996 m)") != std::string::npos);
 }
 
-TEST_CASE(
-    "unlikely input: a robot with a model of its own uses that model's parameters, not "
-    "[propagation]") {
+TEST_CASE("unlikely input: a robot with its own model has no parameters from [propagation]") {
     const TemporaryFolder folder;
     const auto loss = [&](const std::string& own) {
         const Scenario s = loaded(folder,
@@ -435,7 +435,7 @@ TEST_CASE("traffic: robots that send simultaneously give a notice if their frame
         const Scenario scenario =
             loaded(folder, head + robots + flow + "\"A\"\n" + a + flow + "\"B\"\n" + b);
         return std::ranges::count_if(scenario.notices, [](const std::string& text) {
-            return text.find("start messages at the same times") != std::string::npos;
+            return text.find("send messages at the same times") != std::string::npos;
         });
     };
     const std::string csma = "[reception]\nmodel = \"collision\"\n[access]\nmodel = \"csma\"\n";

@@ -96,8 +96,7 @@ TEST_CASE("layers: a box turned by 45 degrees is crossed along its diagonal") {
     CHECK(near(scene.wall_length({0, std::sqrt(2)}, {10, std::sqrt(2)}), 2 * std::sqrt(2)));
 }
 
-TEST_CASE(
-    "layers: a link above the walls crosses none; a link through a wall's top is partly inside") {
+TEST_CASE("layers: a link above a wall is outside the wall; a link through its top partly inside") {
     const Scene scene(box(4, 0, 2, 1), {Material{.height = Meters{2}}});
     CHECK(near(scene.wall_length({0, 0.5, 1}, {10, 0.5, 1}), 2));
     CHECK(scene.wall_length({0, 0.5, 2}, {10, 0.5, 2}) == 0);

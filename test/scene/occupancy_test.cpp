@@ -131,7 +131,7 @@ TEST_CASE("ROS map: gray exactly at a threshold is unknown; the defaults are 0.6
           Cells{free_cell, occupied});
 }
 
-TEST_CASE("ROS map: negate exchanges black and white") {
+TEST_CASE("ROS map: the key negate exchanges black and white") {
     CHECK(cells_of({0, 255}) == Cells{occupied, free_cell});
     for (const char* yes : {"1", "true", "True", "yes", "2"})
         CHECK(cells_of({0, 255}, std::string("negate: ") + yes + "\n") ==
@@ -211,7 +211,7 @@ TEST_CASE(
     CHECK(notices_of("occupied_thresh: 0.05\n") ==
           std::vector<std::string>{
               "map.yaml:4:18: the key free_thresh is missing, and its default 0.25 contradicts "
-              "occupied_thresh 0.05: both keys are taken as 0.05"});
+              "occupied_thresh = 0.05, so both keys get the value 0.05"});
     CHECK(notices_of("free_thresh: 0.7\n").size() == 1);
     CHECK(notices_of("occupied_thresh: 0.3\n").empty());
     CHECK(notices_of("free_thresh: 0.6\n").empty());

@@ -10,7 +10,7 @@
 namespace once_test {
 using namespace rovernet;
 
-TEST_CASE("once: simultaneous threads do the work exactly once") {
+TEST_CASE("once: if threads request a piece of work at the same time, it is done exactly once") {
     for (int turn = 0; turn < 100; ++turn) {
         Once once;
         int works = 0;  // without a lock: whoever asked may read it

@@ -89,7 +89,7 @@ TEST_CASE("range finder: another robot is measured as a disc, at the distance of
     }
 }
 
-TEST_CASE("range finder: measures the nearest object, wall or robot") {
+TEST_CASE("range finder: a beam measures the distance to the nearest wall or robot") {
     const RangeFinder one{.beams = 1, .from = Radians{0}, .to = Radians{0}};
     const Scene scene(room());
     CHECK(near(measured(one, scene, {5, 5}, 0, {{{8, 5}, Meters{1}}})[0], 2));

@@ -232,9 +232,7 @@ TEST_CASE(
     });
 }
 
-TEST_CASE(
-    "wall index: a ray's length inside walls is exact up to a given limit; for a longer one, a "
-    "lower bound above the limit is found") {
+TEST_CASE("wall index: up to a limit the length inside walls is exact, above it a lower bound") {
     for_random_rays(15, [](const World& world, const Ray& ray, test::Draw& draw) {
         const double all = std::numeric_limits<double>::infinity();
         const double exact = world.index.solid_length(ray.a, ray.b, length_of(ray), all);

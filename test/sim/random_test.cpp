@@ -281,7 +281,7 @@ TEST_CASE("random: incrementing any field of a key flips each bit of the result 
     }
 }
 
-TEST_CASE("random: keys with small numbers never collide") {
+TEST_CASE("random: keys with small numbers never give equal random numbers") {
     std::vector<std::uint64_t> all;
     for (std::size_t i = 0; i < samples; ++i) {
         all.push_back(bits(small_key(i)));

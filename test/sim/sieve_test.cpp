@@ -11,7 +11,7 @@
 namespace sieve_test {
 using namespace rovernet;
 
-TEST_CASE("sieve: keeps the selected values in order, for any number of values and calls") {
+TEST_CASE("sieve: selected values are kept in order, for any number of values and calls") {
     test::Draw draw(3);
     Sieve<int> sieve;
     CHECK(sieve.kept().empty());

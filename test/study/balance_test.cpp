@@ -150,7 +150,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("balance: a single row is not averaged either if it lacks runs") {
+TEST_CASE("balance: a single row that lacks runs is not averaged, either") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), biased);
     CHECK(has(refusal(store, {.group_by = by_ttl, .where = {{"routing.ttl", "8"}}}),
@@ -186,7 +186,7 @@ TEST_CASE("balance: a key with only one value in each row is reported, and not a
     const Answers all = answers(store, {.metrics = {"reach"}, .group_by = by_ttl});
     CHECK(all.averaged.empty());
     CHECK(all.along == std::vector<std::string>{"radio.power"});
-    CHECK(has(coverage_text(all), "not averaged over radio.power (one value in each row)"));
+    CHECK(has(coverage_text(all), "not averaged over radio.power (each row has only one value)"));
 }
 
 TEST_CASE("balance: runs of a combination of values that the study lacks count as missing runs") {

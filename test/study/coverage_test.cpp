@@ -113,7 +113,7 @@ double coverage(const Distribution& all, std::size_t n, int studies, IntervalMet
 
 }  // namespace
 
-TEST_CASE("coverage: betting intervals cover the truth in 95 % of studies, for any distribution") {
+TEST_CASE("coverage: betting intervals cover the mean in 95 % of studies, for any distribution") {
     constexpr int studies = 200;
     for (const IntervalMethod method : {IntervalMethod::betting, IntervalMethod::star}) {
         for (const Distribution& all : distributions()) {
@@ -150,8 +150,7 @@ TEST_CASE("coverage: for a fixed n, STaR-Bets reject the true mean in at most 5 
     }
 }
 
-TEST_CASE(
-    "coverage: if checked repeatedly, STaR-Bets fail, but betting intervals cover the truth") {
+TEST_CASE("coverage: STaR-Bets fail if checked repeatedly, but betting intervals cover the mean") {
     constexpr int studies = 400;
     constexpr double level = 0.05;
     const Distribution all = distributions().back();
@@ -170,14 +169,12 @@ TEST_CASE(
     CHECK(betting <= most * studies);
 }
 
-TEST_CASE(
-    "coverage: intervals by Student's t cover the truth too seldom, and the coverage test detects "
-    "this") {
+TEST_CASE("coverage: intervals by Student's t cover the mean too seldom, and a test detects this") {
     CHECK(coverage(density(250), 30, 200, IntervalMethod::t) < 0.6);
     CHECK(coverage(density(300), 100, 200, IntervalMethod::t) < 0.5);
 }
 
-TEST_CASE("coverage: if a study stops at a precision of 0.1, the interval still covers the truth") {
+TEST_CASE("coverage: if a study stops at a precision of 0.1, the interval still covers the mean") {
     constexpr int studies = 200;
     StudyTable table;
     table.precision = 0.1;

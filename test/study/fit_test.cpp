@@ -93,7 +93,7 @@ std::vector<Case> cases() {
 
 }  // namespace
 
-TEST_CASE("least squares: coefficients and their errors equal numpy") {
+TEST_CASE("least squares: coefficients and their errors equal those of numpy") {
     const Vectors expected("fit_least_squares.csv");
     int compared = 0;
     for (const Case& each : cases()) {

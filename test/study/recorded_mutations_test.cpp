@@ -250,14 +250,14 @@ TEST_CASE("missing, short, doubled or wrong names in a recorded trace are report
     CHECK(refusal(attachment("robots.txt", "B\nA\n")) ==
           "robot 0 is named \"B\" in the trace, but \"A\" in the scenario of the trace");
     CHECK(refusal(right + attachment("robots.txt", "A\nC\n")) ==
-          "the file contains two different files robots.txt");
+          "this trace contains two different files with the name robots.txt; expected one");
     CHECK(refusal(right + attachment("x/a", "1") + attachment("x/a", "2")) ==
-          "the file contains two different files x/a");
+          "this trace contains two different files with the name x/a; expected one");
     CHECK(refusal(right + attachment("x", "1") + attachment("x/a", "2")) ==
           "the file x/a, which this trace contains, cannot be stored in a temporary folder");
 }
 
-TEST_CASE("control of the flipped bits: some give records of robots whose name the trace lacks") {
+TEST_CASE("some flipped bits give records of robots whose name the recorded trace lacks") {
     const Sample s;
     int beyond = 0;
     for (std::size_t i = 0; i < s.records.size(); ++i) {

@@ -76,11 +76,12 @@ TEST_CASE(
     store.set_points(points);
     CHECK_THROWS_WITH_AS(
         points_where(store, {{"robot.r.count", "3"}}),
-        "no point has robot.r.count = 3; the values in this study are 2, 10, 100, 30",
+        "no run of this study has robot.r.count = 3; the values in this study are 2, 10, 100, 30",
         std::invalid_argument);
-    CHECK_THROWS_WITH_AS(points_where(store, {{"robot.r.count", "2"}, {"speed", "1"}}),
-                         "no point has speed = 1; the values in this study are 9 m/s, 10 m/s",
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(
+        points_where(store, {{"robot.r.count", "2"}, {"speed", "1"}}),
+        "no run of this study has speed = 1; the values in this study are 9 m/s, 10 m/s",
+        std::invalid_argument);
 }
 
 TEST_CASE("results: a ratio has an interval by STaR-Bets within its bounds, or t on request") {

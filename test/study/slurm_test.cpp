@@ -56,7 +56,7 @@ TEST_CASE("slurm: a task has the requested number of runs, or more, to need at m
     CHECK(chunk_for_array(50'001, 50) == 51);
 }
 
-TEST_CASE("slurm: the chunks to submit are those with an unfinished run") {
+TEST_CASE("slurm: only those chunks of runs that have an unfinished run are submitted") {
     for (unsigned open = 0; open < 1U << 10; ++open) {
         std::vector<RunState> runs;
         for (unsigned i = 0; i < 10; ++i) {

@@ -146,7 +146,7 @@ TEST_CASE("store: points keep their runs and get new numbers when the study grow
     CHECK(store.values("reach", 2).size() == 2);
 }
 
-TEST_CASE("store: others may read during a write, and only one process writes") {
+TEST_CASE("store: other processes may read a store that is being written, but not write to it") {
     const TemporaryFolder folder;
     const std::string path = folder.path("s.db");
     Store store = two_points(path);

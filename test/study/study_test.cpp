@@ -292,7 +292,7 @@ TEST_CASE("study: a different movement file under the same name is a different p
     CHECK(id("7") != id("8"));
 }
 
-TEST_CASE("study: notices are about the study's points, not about the file without [study]") {
+TEST_CASE("study: notices are about the study's points, not about the scenario's own values") {
     const TemporaryFolder folder;
     const auto notices = [&](const std::string& protocols) {
         const Study study(folder.write("s.toml", two_robots +

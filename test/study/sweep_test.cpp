@@ -316,7 +316,7 @@ TEST_CASE("sweep: states of runs are listed in the order in which runs are divid
     CHECK(finished_runs(store).size() == 2);
 }
 
-TEST_CASE("sweep: runs that another given store already has are not repeated") {
+TEST_CASE("sweep: runs that are already in another given store are not repeated") {
     const Bench bench(scattered + study_keys), other(scattered + study_keys);
     other.sweep({.workers = 1, .shard = Shard{0, 4}});
     const SweepResult rest = bench.sweep({.elsewhere = finished_runs(Store::open(other.store()))});

@@ -77,7 +77,7 @@ TEST_CASE("workers: an exception ends the task, and its process continues") {
     CHECK(ends.at(0).text == ends.at(2).text);
 }
 
-TEST_CASE("workers: a crash affects only its task, and reports its last output") {
+TEST_CASE("workers: a crash of a task affects no other task, and the error has its last output") {
     Workers workers(1,
                     [](std::uint64_t task) -> std::string {
                         if (task == 1) {

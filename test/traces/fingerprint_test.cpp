@@ -48,7 +48,7 @@ struct Run {
 
 }  // namespace
 
-TEST_CASE("fingerprint: without records, it is the XXH64 of an empty input") {
+TEST_CASE("fingerprint: without records, the fingerprint is the XXH64 of an empty input") {
     CHECK(Fingerprint{}.text() == "ef46db3751d8e999");  // the reference value of xxHash
     CHECK(Fingerprint{}.value() == 0xef46db3751d8e999);
 }

@@ -97,8 +97,7 @@ TEST_CASE(
     CHECK(run.values().saved_rebroadcasts == 1.0);
 }
 
-TEST_CASE(
-    "metrics: a message that reuses the table entry of an old one does not inherit its relays") {
+TEST_CASE("metrics: a message in the reused table entry of an old message has no old relays") {
     LineOfFour run;
     REQUIRE(run.messages.release(MessageId{0}));
     const auto m = run.send(at(9'000), a, 2);
@@ -202,8 +201,7 @@ TEST_CASE("metrics: every reason of a drop is counted under its own code") {
     });
 }
 
-TEST_CASE(
-    "metrics: a control packet that reuses a message's table entry does not inherit its counts") {
+TEST_CASE("metrics: a control packet in the reused table entry of a message has no old counts") {
     Measured run;
     for (int i = 0; i < 3; ++i) run.place(Vec3{10.0 * i, 0, 0});
     const auto m = run.send(at(0), a, 2, 64, 2);

@@ -159,7 +159,7 @@ std::size_t count_fields() {
 
 }  // namespace
 
-TEST_CASE("kinds of records: fields() describes every member") {
+TEST_CASE("kinds of records: fields() describes every data member of each kind of record") {
     struct Forgetful {
         Time time;
         std::optional<NodeId> node;

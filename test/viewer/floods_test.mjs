@@ -25,7 +25,7 @@ function flood_of(count, sent, columns) {
     return floods.of({ robots: 2, columns: values, col: name => values[name] }, all, 0).then(flood => ({ ...flood, read }));
 }
 
-test("view page, search for a message's frames: a frame 30 data blocks after the message is found, and no earlier block is read", async () => {
+test("view page, search for a message's frames: a frame in data block 30 is found, and no earlier block is read", async () => {
     const flood = await flood_of(40, [30], { "messages.frames": [1], "messages.block": [30] });
     assert.deepEqual([flood.frames, flood.whole, flood.left_out, flood.first.get(1).at], [1, true, 0, 30e9]);
     assert.deepEqual(flood.read, [30]);

@@ -74,7 +74,7 @@ test("view page, links: the map shows as many links as rovernet links prints, in
     await page.waitForFunction(() => links_shown().every(l => l.from === 0 || l.to === 0));
 }));
 
-test("view page, links: a page without a server shows the links recorded in the trace, and its legend says so", () => with_page("linked", { hash: "#t=20&links=1" }, async page => {
+test("view page, links: a page without a server shows the links recorded in the trace, as its legend states", () => with_page("linked", { hash: "#t=20&links=1" }, async page => {
     const tables = told("links", scenario("linked"), "--at", "20", "--json"), pairs = new Set();
     for (const { robot, links } of tables.robots) for (const link of links) pairs.add([robot, link.robot].sort().join());
     assert.equal((await page.evaluate(() => links_shown())).length, pairs.size);

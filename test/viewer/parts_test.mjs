@@ -9,7 +9,7 @@ import { html, sections, view_file } from "./run_file.mjs";
 
 const text = (page, id) => page.evaluate(name => document.getElementById(name).textContent, id);
 
-test("view page: a vehicle's state is the presence printed by the command where; it is drawn only while present", () => with_page("fcd", {}, async page => {
+test("view page: a vehicle has the state that the command where prints, and is drawn only while it is present", () => with_page("fcd", {}, async page => {
     for (const t of [0, 2, 5, 7, 10, 12, 18]) {
         for (const [i, { presence }] of told("where", scenario("fcd"), "--at", `${t}s`, "--json").times[0].robots.entries()) {
             await page.evaluate(([at, robot]) => window.rovernet.select({ t: at, robots: [robot], panel: "robot" }), [t * 1e9, i]);
@@ -53,7 +53,7 @@ test("view page, metrics of a run: whole numbers are shown with all digits, othe
     values.forEach((value, i) => assert.ok(Number.isInteger(value) ? shown[i] === value : Math.abs(shown[i] - value) <= 1e-6 * Math.abs(value), `${value}, ${shown[i]}`));
 }));
 
-test("view page, messages of a robot: at the begin of a data block, the panel still shows messages of the block before", () => with_page("many", {}, async page => {
+test("view page, messages of a robot: at the start of a data block, the panel still shows messages of the previous block", () => with_page("many", {}, async page => {
     const { blocks } = sections(view_file("many")).head;
     assert.ok(blocks.length > 1);
     await page.evaluate(t => window.rovernet.select({ t, robots: [0], panel: "robot" }), blocks[1].begin_ns);
@@ -77,7 +77,7 @@ test("view page, address: a map view or time span that no window can show is lef
     });
 });
 
-test("view page, address: Back and Forward go through the selections, each once, and keep the time", () => with_page("csma", {}, async page => {
+test("view page, address: the browser's Back and Forward go through the selections, each once, and keep the time", () => with_page("csma", {}, async page => {
     const shown = () => page.evaluate(() => `${window.rovernet.state.robots} ${window.rovernet.t / 1e9}`);
     const rest = () => page.waitForTimeout(500);  // until the address is that of the time
     for (const [t, robot] of [[1, 0], [5, 1], [7, 1], [9, -1]]) {
@@ -95,7 +95,7 @@ test("view page, address: Back and Forward go through the selections, each once,
     }
 }));
 
-test("view page, address: Back to a page that has played since it was opened keeps its time, speed and view", () => with_page("csma", {}, async page => {
+test("view page, address: the browser's Back keeps the time, speed and view of a page that has played since it was opened", () => with_page("csma", {}, async page => {
     await page.evaluate(() => window.rovernet.select({ speed: 0.5, trails: false }));
     await page.keyboard.press(" ");
     await page.waitForFunction(() => window.rovernet.t > 2e8);
@@ -107,7 +107,7 @@ test("view page, address: Back to a page that has played since it was opened kee
     assert.deepEqual({ speed, trails, playing }, { speed: 0.5, trails: false, playing: true });
 }));
 
-test("view page, events: a saved table ends after the largest allowed number of rows, and the page says so", () => with_page("csma", {}, async page => {
+test("view page, events: a saved table ends after the largest allowed number of rows, and the page says where it ends", () => with_page("csma", {}, async page => {
     await page.evaluate(() => window.rovernet.parts.files.most_rows = 1000);
     const saved = page.waitForEvent("download");
     await page.click("#table");
@@ -133,7 +133,7 @@ test("view page: labels of long names with a common beginning differ; a page tha
     await with_page("none", { error: /no run/ }, async page => assert.equal(await text(page, "caption"), ""));
 });
 
-test("view page, link budget: each wall of a link between storeys is marked on the map of its own storey only", () => with_server(path.join(folder, "storeys"), address => with_served(address, { hash: "#t=13" }, async page => {
+test("view page, link budget: each wall of a link between storeys is marked only on the map of the wall's storey", () => with_server(path.join(folder, "storeys"), address => with_served(address, { hash: "#t=13" }, async page => {
     const walls = await page.evaluate(async () => {
         const { server } = window.rovernet.parts, robots = window.rovernet.parts.sides.own.all[0].run.robots;
         window.marks = 0;

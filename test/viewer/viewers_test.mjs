@@ -17,7 +17,7 @@ const spare = 8e6;
 /** How to wait for a page whose process was stopped: its browser draws no frame by itself for a while. */
 const polled = { timeout: 60000, polling: 100 };
 
-test("live view page: a page that does not read for a while delays nobody, takes little memory, and catches up later", async () => {
+test("live view page: a page that does not read for a while takes little memory, delays no other page, and catches up later", async () => {
     const out = path.join(folder, "slow");
     await with_command(["live", path.join(folder, "many.toml"), "--view", "--set", "scenario.duration=600 s", "--out", out], (address, server, ended) => with_served(address, {}, async page => {
         let got = 0;
@@ -59,7 +59,7 @@ test("live view page: a page that does not read for a while delays nobody, takes
     }));
 });
 
-test("live view page: ten pages of one run show the same counts and positions at its end", () =>
+test("live view page: ten pages of one run show the same counts and positions at the end of the run", () =>
     with_command(["run", scenario("rescue"), "--view", "--speed", "30", "--out", path.join(folder, "ten")], address => with_served(address, {}, async (page, context) => {
         const pages = [page];
         while (pages.length < 10) {
@@ -78,7 +78,7 @@ test("live view page: ten pages of one run show the same counts and positions at
         assert.equal(new Set(seen).size, 1);
     })));
 
-test("view page: a page that is cut off before its script says so", async () => {
+test("view page: a page whose file is cut off before the script says that the file is cut off", async () => {
     const cut = path.join(folder, "cut.html"), whole = html("rescue");
     fs.writeFileSync(cut, whole.slice(0, whole.indexOf('id="run"') + 1000));
     const browser = await launched();

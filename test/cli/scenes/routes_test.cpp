@@ -117,7 +117,7 @@ TEST_CASE("routes: the CSV and the text output have a line for each route of the
     CHECK(begin.out == "n2 has no routes at 0 s\n");
 }
 
-TEST_CASE("routes: the error for an impossible request states what is possible") {
+TEST_CASE("routes: the error for an invalid time, robot or protocol states what is expected") {
     const TemporaryFolder folder;
     const std::string file = folder.write("row.toml", row);
     const auto refusal = [&](std::vector<std::string> more, int exit) {
@@ -140,8 +140,7 @@ TEST_CASE("routes: the error for an impossible request states what is possible")
     CHECK(refusal({"--at", "5s", "--csv", "--json"}, 2).find("excludes") != std::string::npos);
 }
 
-TEST_CASE(
-    "draw --routes, --search: draws route and last route request, and refuses invalid options") {
+TEST_CASE("draw --routes, --search: the route and the last route request are drawn") {
     const TemporaryFolder folder;
     const std::string file = folder.write("row.toml", row);
     const auto draw = [&](std::vector<std::string> more) {

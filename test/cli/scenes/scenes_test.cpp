@@ -140,8 +140,7 @@ TEST_CASE("where: positions, speeds and headings are printed at several times") 
     CHECK(times["times"][2]["robots"][0]["vx"] == 0.0);
 }
 
-TEST_CASE(
-    "where and move convert: a movement file is read, written in either format, and read back") {
+TEST_CASE("move convert: the positions in a written movement file equal those in the original") {
     const TemporaryFolder folder;
     folder.write("walk.tcl",
                  "$node_(0) set X_ 1\n$node_(0) set Y_ 2\n$node_(0) set Z_ 0\n"
@@ -163,7 +162,7 @@ TEST_CASE(
         2);
 }
 
-TEST_CASE("move convert: nodes keep their numbers, and a notice shows the names that change") {
+TEST_CASE("move convert: ns-2 files keep numbers of nodes, and a notice lists changed names") {
     const TemporaryFolder folder;
     folder.write("five.tcl", "$node_(5) set X_ 1\n");
     folder.write("v.xml",
@@ -225,9 +224,7 @@ range = "10 m"
     CHECK(scene["robots"][3]["x_m"] == 99.0);
 }
 
-TEST_CASE(
-    "scene: of the diameters of all connected parts the largest is printed, in any order of "
-    "robots") {
+TEST_CASE("scene: the largest diameter of all connected parts is printed, in any robot order") {
     const TemporaryFolder folder;
     folder.write("parts.toml", R"(robot = [{ name = "lone", at = ["500 m", "0 m"] },
         { name = "c", at = ["18 m", "0 m"] }, { name = "x", at = ["99 m", "0 m"] },
@@ -262,7 +259,7 @@ TEST_CASE("worlds: a Stage world is accepted as FILE by every command") {
     CHECK(command(folder, {"run", file, "--out", folder.path("out")}).exit == 0);
 }
 
-TEST_CASE("worlds: a missing bitmap is an error that lists all paths tried; --bitmap replaces it") {
+TEST_CASE("worlds: the error for a missing bitmap lists paths tried; --bitmap replaces the file") {
     const TemporaryFolder folder;
     folder.write("other.png", hall_picture());
     folder.write("w.world", world);
@@ -331,8 +328,8 @@ TEST_CASE("scene: a robot whose name has a dot, as in flows of SUMO, may have it
         return command(folder, {"scene", folder.path("r.toml")}).err;
     };
     CHECK(refused("\"flow.2\"")
-              .find("without dots and quotes; only robots of a movement file have") !=
-          std::string::npos);
+              .find("without dots and quotes; only robots of a movement file may have names with "
+                    "dots") != std::string::npos);
     CHECK(refused("'flow\"0'").find("without dots and quotes\n") != std::string::npos);
 }
 
@@ -378,7 +375,7 @@ TEST_CASE("where, link, links, scene, draw: a time after the end of the run give
     }
 }
 
-TEST_CASE("draw: robots of a movement file are drawn, with and without a [[robot]]") {
+TEST_CASE("draw: robots of a movement file are drawn, with and without [[robot]] tables") {
     const TemporaryFolder folder;
     folder.write("mv.tcl",
                  "$node_(0) set X_ 1\n$node_(0) set Y_ 2\n$node_(1) set X_ 50\n"

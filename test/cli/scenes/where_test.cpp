@@ -62,7 +62,7 @@ TEST_CASE(
           2);
 }
 
-TEST_CASE("where: a list of robots can have names with a comma, in quotes") {
+TEST_CASE("where: in a list of robots, a name that contains a comma is written in quotes") {
     const TemporaryFolder folder;
     std::string renamed = pair;
     renamed.replace(renamed.find("\"A\""), 3, "\"desk, no 1\"");

@@ -124,7 +124,7 @@ TEST_CASE("advise: at the end of the time budget or at Ctrl-C, the preliminary a
     const Ended nothing = command(advised.folder, strict({"--budget", "1us"}));
     CHECK(nothing.exit == 0);
     CHECK(nothing.out.find("Interim: nothing is known yet") != std::string::npos);
-    CHECK(nothing.err.find("the budget of 1us is used up") != std::string::npos);
+    CHECK(nothing.err.find("the time of --budget 1us is used up") != std::string::npos);
     CHECK(nothing.out.find("Take ") == std::string::npos);
     CHECK(nothing.out.find("[propagation]") == std::string::npos);
     CHECK(nothing.out.find("friis + sinr             undecided  -  -     -") != std::string::npos);
@@ -156,8 +156,8 @@ TEST_CASE("advise: a metric without bounds needs --tolerance, and is tested by S
                                              "transmissions"};
     const Ended ended = command(advised.folder, metric);
     CHECK(ended.exit == 2);
-    CHECK(ended.err.find("--metric transmissions: transmissions has no upper bound; expected also "
-                         "a --tolerance") != std::string::npos);
+    CHECK(ended.err.find("--metric transmissions: transmissions has no upper bound, so there is "
+                         "no default tolerance; expected --tolerance") != std::string::npos);
     const Json json = json_of(
         advised.folder, {"advise", advised.file, "--no-cost", "--metric", "transmissions",
                          "--tolerance", "30", "--models", "two_ray", "--max-replications", "40"});

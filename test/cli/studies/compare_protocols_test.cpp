@@ -142,8 +142,9 @@ TEST_CASE(
 TEST_CASE("compare --protocols: a notice says if protocols count unfinished unicasts differently") {
     const TemporaryFolder folder;
     const std::string notice =
-        "some unicasts are still on their way at the end of a run: delivery_ratio leaves them out "
-        "under flood (3 in all runs), and counts them as not delivered under aodv";
+        "some unicasts are still on their way when a run ends. With flood (3 such unicasts in all "
+        "runs), delivery_ratio leaves these unicasts out; with aodv, delivery_ratio counts them as "
+        "not delivered";
     const auto errors = [&](const std::string& stop, const std::string& names) {
         return command(folder, protocols(folder.write("s.toml", three + stop), names)).err;
     };
@@ -155,7 +156,7 @@ TEST_CASE("compare --protocols: a notice says if protocols count unfinished unic
     CHECK(errors("", "flood,aodv").find("on their way") == std::string::npos);
 }
 
-TEST_CASE("compare --protocols: an impossible comparison ends at once with an error") {
+TEST_CASE("compare --protocols: unknown names, or fewer than two protocols, are refused") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", three);
     const auto refusal = [&](const std::vector<std::string>& words) {

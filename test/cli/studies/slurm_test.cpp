@@ -143,7 +143,7 @@ TEST_CASE(
     CHECK(cluster.csv() == Cluster::local_csv());
 }
 
-TEST_CASE("sweep on Slurm: a task skips runs that are in the store or in its shard") {
+TEST_CASE("sweep on Slurm: a task skips runs that are in the store or in the task's shard file") {
     const Cluster cluster;
     CHECK(cluster.sweep({"--shard", "0", "--chunk", "3"}).exit == 0);
     fs::create_directories(cluster.shards());
@@ -203,7 +203,7 @@ TEST_CASE("sweep on Slurm: a dry run deletes nothing, and the printed command ha
     CHECK_FALSE(has(fresh, "--fresh"));
 }
 
-TEST_CASE("sweep on Slurm: a missing sbatch, or one that refuses the job, is reported") {
+TEST_CASE("sweep on Slurm: an error says that sbatch is missing, or that it refuses the job") {
     const Cluster cluster;
     const Ended none = cluster.sweep({"--executor", "slurm"}, "/nowhere");
     CHECK(none.exit == 1);
@@ -263,7 +263,7 @@ TEST_CASE(
     CHECK(cluster.csv() == Cluster::local_csv());
 }
 
-TEST_CASE("sweep --fresh: also deletes shards that are not merged, after confirmation") {
+TEST_CASE("sweep --fresh: shard files that are not merged are deleted after confirmation") {
     const Cluster cluster;
     fs::create_directories(cluster.shards());
     CHECK(cluster.sweep({"--store", cluster.shards() + "/0.db"}).exit == 0);

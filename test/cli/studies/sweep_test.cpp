@@ -225,7 +225,7 @@ TEST_CASE("sweep: Ctrl-C keeps finished runs and prints the command that continu
     for (const auto& [id, making] : kept) CHECK(all.at(id) == making);
 }
 
-TEST_CASE("sweep: a second Ctrl-C does not wait for endless runs") {
+TEST_CASE("sweep: a second Ctrl-C ends the sweep without waiting for its runs") {
     const Place place(chatter + "[links]\n");
     const Process sweep(place.folder,
                         {"sweep", place.file, "--set", "scenario.duration=1e8", "--set",
@@ -288,7 +288,7 @@ TEST_CASE("sweep: a run whose worker process is killed is repeated once") {
     CHECK(finished(place.store()).size() == 15);
 }
 
-TEST_CASE("compare: paths around walls are searched only once, by any number of workers") {
+TEST_CASE("compare: paths around walls are searched only once, with any number of workers") {
     const TemporaryFolder folder;
     std::string wall = "P1 20 20\n";
     for (int row = 0; row < 20; ++row)
@@ -414,7 +414,7 @@ TEST_CASE("plot: --y-title sets the title of the y axis for each metric") {
           std::string::npos);
 }
 
-TEST_CASE("results: an unfinished study is marked, and a failed run is counted in its row") {
+TEST_CASE("results: an unfinished study is marked, and a missing run is counted in its row") {
     const Place place;
     const std::string plan = "study.replications=3";
     command(place.folder, {"sweep", place.file, "--set", plan, "--shard", "0", "--chunk", "12"});
@@ -452,9 +452,7 @@ TEST_CASE("results: options that exclude each other are refused") {
     CHECK(std::count(csv.out.begin(), csv.out.end(), '\n') == 2);
 }
 
-TEST_CASE(
-    "compare: keys of the study that are not compared have the scenario's value; an impossible "
-    "comparison ends at once") {
+TEST_CASE("compare: other keys of the study have the scenario's value; invalid names are refused") {
     const Place place(chatter + "vary.routing.ttl = [1, 2]\n");
     const std::vector<std::string> models = {"compare", place.file, "--replications", "5"};
     const auto with = [&](std::vector<std::string> more) {
@@ -498,7 +496,7 @@ TEST_CASE("compare: the values of any key are compared in pairs, with the first 
     CHECK(with("routing.ttl=1,2", {"--models", "disc,friis"}).exit == 2);
 }
 
-TEST_CASE("compare: uses the runs of its points in a sweep's store, and adds new runs") {
+TEST_CASE("compare: runs in the store of a sweep are used, and new runs are added to the store") {
     const Place place;
     CHECK(command(place.folder, {"sweep", place.file, "--replications", "3"}).exit == 0);
     const auto before = finished(place.store());
@@ -516,7 +514,7 @@ TEST_CASE("compare: uses the runs of its points in a sweep's store, and adds new
     CHECK(finished(place.store()).size() == 25);
 }
 
-TEST_CASE("compare: runs that a store has for a value are used; runs of missing values are added") {
+TEST_CASE("compare: a store's runs of a value are used, and runs of missing values are added") {
     const Place place;
     CHECK(command(place.folder, {"sweep", place.file, "--replications", "3"}).exit == 0);
     const std::size_t before = finished(place.store()).size();
@@ -545,7 +543,7 @@ TEST_CASE("compare: runs that a store has for a value are used; runs of missing 
     CHECK(joined["rows"].size() == 7);
 }
 
-TEST_CASE("compare: uses only the requested replications of a store that has more") {
+TEST_CASE("compare: of a store with more replications, only the requested ones are used") {
     const Place place;
     CHECK(command(place.folder, {"sweep", place.file, "--replications", "6"}).exit == 0);
     const auto with = [&](const std::vector<std::string>& more) {
@@ -615,7 +613,7 @@ TEST_CASE(
     CHECK(content(place.folder.path("c.pdf")).starts_with("%PDF"));
 }
 
-TEST_CASE("compare: with failed runs, compares the finished ones and exits with 4") {
+TEST_CASE("compare: if runs fail, the finished runs are compared, and the exit code is 4") {
     const Place place;
     const Ended ended =
         command(place.folder, {"compare", place.file, "--models", "disc,friis", "--replications",

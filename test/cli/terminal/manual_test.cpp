@@ -56,7 +56,7 @@ std::vector<std::string> completed(const TemporaryFolder& folder, const std::str
 
 }  // namespace
 
-TEST_CASE("every command has examples in its --help, and they run") {
+TEST_CASE("every command has examples in its --help, and the examples work") {
     const TemporaryFolder folder;
     for (const std::string& name : commands) {
         const std::vector<std::string> examples =

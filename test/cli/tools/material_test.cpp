@@ -26,7 +26,7 @@ bool near(const Json& value, double expected) {
 
 }  // namespace
 
-TEST_CASE("material: losses of 20 cm of concrete equal the test vectors slab_transmission") {
+TEST_CASE("material: losses of 20 cm of concrete equal the test vectors (slab_transmission)") {
     const Ended ended = material(
         {"concrete", "--thickness", "0.2", "--frequency", "2.4 GHz", "--angle", "30", "--json"});
     REQUIRE(ended.exit == 0);
@@ -41,7 +41,7 @@ TEST_CASE("material: losses of 20 cm of concrete equal the test vectors slab_tra
     CHECK(json["angle_deg"] == 30);
 }
 
-TEST_CASE("material: by default the wave is perpendicular (TE equals TM), at 2450 MHz") {
+TEST_CASE("material: by default the wave is perpendicular to the wall, and has 2450 MHz") {
     const Json json = Json::parse(material({"brick", "--thickness", "10 cm", "--json"}).out);
     CHECK(json["frequency_hz"] == 2.45e9);
     CHECK(json["angle_deg"] == 0);

@@ -45,7 +45,7 @@ ns2 = "old"
 
 }  // namespace
 
-TEST_CASE("trace follow --json agrees with the text, and has the frames of a recorded trace") {
+TEST_CASE("trace follow --json: an ns-2 trace and a recorded trace of a run give the same result") {
     const Run run;
     const Json from_text = json_of(run.folder, {"trace", "follow", run.text, "--message", "0"});
     const Json recorded = json_of(run.folder, {"trace", "follow", run.recorded, "--message", "0"});
@@ -66,7 +66,7 @@ TEST_CASE("trace follow --json agrees with the text, and has the frames of a rec
         "B was never in range: the only frame came 2.7 dB below the sensitivity of the receiver.");
 }
 
-TEST_CASE("trace follow needs no scenario to print what an ns-2 trace has about a robot") {
+TEST_CASE("trace follow needs no scenario to print what an ns-2 trace says about a robot") {
     const Run run;
     const Ended ended =
         command(run.folder, {"trace", "follow", run.text, "--message", "0", "--robot", "B"});
@@ -128,7 +128,7 @@ TEST_CASE("trace stats of a recorded trace has the metrics of the summary, also 
     }
 }
 
-TEST_CASE("trace convert, trace cut: the input is refused as the output") {
+TEST_CASE("trace convert, trace cut: the input file is refused as the output file") {
     const Run run;
     const std::string before = content(run.recorded);
     for (const std::vector<std::string>& arguments :
@@ -155,7 +155,7 @@ TEST_CASE("trace follow: an ns-2 trace shows the names of robots that only the m
     CHECK(ended.out.find("n3") != std::string::npos);
 }
 
-TEST_CASE("trace convert: to pcapng, a recorded trace is converted, and an ns-2 trace is refused") {
+TEST_CASE("trace convert: a recorded trace is converted to pcapng; an ns-2 trace is refused") {
     const Run run;
     const std::string out = run.folder.path("x.pcapng");
     const Ended ended = command(run.folder, {"trace", "convert", run.text, out, "--to", "pcapng"});
@@ -202,8 +202,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "an ns-2 movement file may begin with the command `set`; one compressed by bzip2 is refused") {
+TEST_CASE("an ns-2 movement file may begin with the command `set`; a bzip2 file is refused") {
     const TemporaryFolder folder;
     const std::string moves =
         "set opt(nn) 3\n$node_(0) set X_ 5.0\n$ns_ at 1.0 \"$node_(0) setdest 10.0 0.0 1.0\"\n";

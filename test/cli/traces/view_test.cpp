@@ -103,7 +103,7 @@ TEST_CASE("view: an invalid input or option is an error that says what to do") {
     has(error_of(folder, {folder.path("empty"), "-o", page}, 3),
         "record a trace with `rovernet run");
     has(error_of(folder, {folder.write("a.tr", "s 1.0 _0_"), "-o", page}, 3),
-        "no line of this file is one of an ns-2 trace");
+        "no line of this file is a line of an ns-2 trace");
     has(error_of(folder, {folder.path("no.toml"), "-o", page}, 3), "no such file");
     has(error_of(folder, {rescue, "-o", folder.path("no/page.html")}, 1), "cannot be written");
     has(error_of(folder, {rescue, "-o", page, "--from", "20 s", "--to", "10 s"}, 2),

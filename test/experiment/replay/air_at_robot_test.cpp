@@ -74,8 +74,7 @@ TEST_CASE(
     CHECK(run.at(0, 1050ms + 1ms).busy == 9 * airtime + 1ms + (airtime - 1ms));
 }
 
-TEST_CASE(
-    "air at a robot: overlapping frames count once, and a sensitive robot senses more frames") {
+TEST_CASE("air at a robot: overlapping frames count once; a sensitive robot senses more frames") {
     const Run run(traffic("A", "50 ms") + traffic("B", "50 ms"));
     const AirAtRobot there = run.at(0, 3s);
     CHECK(there.sending == 10 * airtime);

@@ -128,7 +128,7 @@ TEST_CASE("message at a robot: a collision names the other frames on air and the
     CHECK(run.says(1, 1) == sentence(there));
 }
 
-TEST_CASE("message at a robot: a message is lost because the receiver was sending") {
+TEST_CASE("message at a robot: the reason for a loss may be that the receiver was sending") {
     const Run run({0, 200}, "[reception]\nmodel = \"collision\"\n" + one_message +
                                 "[[traffic]]\nfrom = \"B\"\npayload = \"y\"\nstart = \"1 s\"\n");
     const MessageAtRobot there = run.look(0, 1);
@@ -184,8 +184,7 @@ TEST_CASE(
     CHECK(run.says(0, 4).find("wall") != std::string::npos);
 }
 
-TEST_CASE(
-    "message at a robot: the answer is the same with an index, which lets the reader skip chunks") {
+TEST_CASE("message at a robot: the answer is the same with and without an index of the trace") {
     // Robots walk and switch off; their frames overlap, and waiting makes messages long.
     const Run run({0, 100, 200, 300}, R"([access]
 model = "csma"

@@ -125,8 +125,7 @@ TEST_CASE(
     CHECK(deliveries(day, {"radio.power=0 dBm"}) == 0);
 }
 
-TEST_CASE(
-    "replay of an ns-2 trace: messages without routing reach the robots that hear their sender") {
+TEST_CASE("replay of an ns-2 trace: without routing, messages reach robots that hear the sender") {
     const RecordedDay day = read_ns2_day(sample, {.routing = DayRouting::direct, .movements = {}});
     CHECK(deliveries(day) == 0);
     const PlayedDay strong = day.play({"radio.power=50 dBm"});
@@ -150,7 +149,7 @@ TEST_CASE("replay of an ns-2 trace: simultaneous senders draw a backoff first, a
     CHECK(together.starts_together({}).empty());
     for (const char* access :
          {"access.immediate_access=true", "access.model=aloha", "access.model=none"}) {
-        CHECK(together.starts_together({access}).starts_with("80 of 80 messages start less than "));
+        CHECK(together.starts_together({access}).starts_with("80 of 80 messages are sent at "));
         CHECK(day_of(0.002).starts_together({access}).empty());
     }
     // Within a frame of 118 bytes and its preamble, 1.1 ms, where nobody listens.
@@ -264,7 +263,7 @@ TEST_CASE("replay of an ns-2 trace: a trace without robots is refused") {
                          InputError);
 }
 
-TEST_CASE("replay of an ns-2 trace: M lines alone reproduce the motion within 15 cm") {
+TEST_CASE("replay of an ns-2 trace: M lines (movements) alone give positions within 15 cm") {
     std::string traces, movements;
     if (!find_pair(traces, movements)) return;
     for (const char* name : {"old_aodv_mac.tr", "old_dsdv.tr", "old_dsr.tr"}) {

@@ -75,9 +75,7 @@ start = "1 s"
 
 const std::string examples = ROVERNET_EXAMPLES;
 
-TEST_CASE(
-    "the recorded trace of an example gives the run's fingerprint and ns-2 trace, and can be "
-    "repeated") {
+TEST_CASE("an example's run is repeated from its trace, with equal fingerprint and ns-2 trace") {
     for (const char* name : {"patrol/patrol.toml", "rescue/rescue.toml", "stage/office.world"}) {
         CAPTURE(name);
         const RecordedRunOf run(examples + "/" + name, {});
@@ -110,7 +108,7 @@ TEST_CASE("metrics from a recorded trace equal those of the run") {
     }
 }
 
-TEST_CASE("a run is repeatable with each model of propagation, reception and access") {
+TEST_CASE("a run can be repeated from its trace with models of propagation, reception and access") {
     TempFolder folder;
     const std::string path = folder / "busy.toml";
     testing::write_file(path, busy);
@@ -147,7 +145,7 @@ TEST_CASE("a run that stopped between the receptions of a frame can be repeated 
     CHECK(again.same > records);
 }
 
-TEST_CASE("a trace of format 3, without the bit rates of its frames, can be repeated") {
+TEST_CASE("a run can be repeated from a trace of format 3, which lacks bit rates of frames") {
     // Two robots with 802.11b, recorded by the commit 155f421f.
     const std::string path = std::string(ROVERNET_TEST_DATA) + "/recorded_format3.mcap";
     RecordedReader trace(path);
@@ -157,7 +155,7 @@ TEST_CASE("a trace of format 3, without the bit rates of its frames, can be repe
     CHECK(again.same == 28);
 }
 
-TEST_CASE("a trace of format 4, without the sizes of its frames, can be repeated") {
+TEST_CASE("a run can be repeated from a trace of format 4, which lacks sizes of frames") {
     // Two robots with AODV, recorded before format 5.
     const std::string path = std::string(ROVERNET_TEST_DATA) + "/recorded_format4.mcap";
     CHECK(RecordedReader(path).format() == 4);
@@ -188,7 +186,7 @@ TEST_CASE("an incomplete trace is compared up to its end, and the missing end is
     CHECK(again.damage == std::vector<std::string>{"the end is missing"});
 }
 
-TEST_CASE("a recorded trace is repeatable without the files of its scenario") {
+TEST_CASE("a run can be repeated from its recorded trace without the files of its scenario") {
     TempFolder folder;
     for (const char* name : {"rescue.toml", "map.yaml", "office.png"}) {
         std::filesystem::copy(examples + "/rescue/" + name, folder / name);
@@ -200,7 +198,7 @@ TEST_CASE("a recorded trace is repeatable without the files of its scenario") {
     CHECK_FALSE(verify_replay(run.trace, {}).difference);
 }
 
-TEST_CASE("a recorded trace of several storeys is repeatable without the maps") {
+TEST_CASE("a run on several storeys can be repeated from its recorded trace without the maps") {
     TempFolder folder;
     for (const char* name : {"storeys.toml", "ground.png", "upper.png"}) {
         std::filesystem::copy(examples + "/storeys/" + name, folder / name);

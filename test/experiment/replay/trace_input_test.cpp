@@ -128,7 +128,7 @@ TEST_CASE(
     CHECK(text.find("_0_ RTR  --- 3 cbr 64 ") != text.npos);
 }
 
-TEST_CASE("a file of ns-2 text is read unchanged") {
+TEST_CASE("the text of an ns-2 trace is read unchanged") {
     const Rescue run("new", "false");
     const TraceInput trace(run.text, {});
     CHECK_FALSE(trace.is_recorded());

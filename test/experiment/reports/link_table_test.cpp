@@ -32,7 +32,7 @@ place = { area = [["0 m", "0 m"], ["1 m", "1 m"]] }
     CHECK(told == 2);
 }
 
-TEST_CASE("where: traffic is simulated only if a message can make a robot move") {
+TEST_CASE("where: the command simulates traffic only if a message can make a robot move") {
     const test::TemporaryFolder folder;
     const std::string text = R"([[robot]]
 name = "a"

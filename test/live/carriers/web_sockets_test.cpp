@@ -139,8 +139,7 @@ TEST_CASE("web sockets: fragments form one message, and a ping between them is a
     CHECK(client.message() == "one and two");
 }
 
-TEST_CASE(
-    "web sockets: a client that violates protocol or limits is closed with a code of RFC 6455") {
+TEST_CASE("web sockets: a client that violates protocol or limits gets a close code of RFC 6455") {
     const Echo echo;
     WebClient long_one(echo.port), no_text(echo.port), unmasked(echo.port);
     long_one.send(std::string(longest + 1, 'a'));
@@ -169,7 +168,7 @@ TEST_CASE(
     CHECK(another.message() == "still there");
 }
 
-TEST_CASE("web sockets: a client that does not read is closed, and others are served") {
+TEST_CASE("web sockets: a client that does not read is disconnected, and others are served") {
     const Echo echo;
     WebClient deaf(echo.port), crowded(echo.port), reader(echo.port);
     CHECK(echo.has(3));
@@ -192,10 +191,7 @@ TEST_CASE(
     CHECK(reader.message().size() == 1);
 }
 
-TEST_CASE(
-    "web sockets: a stopping server sends all data to a client that reads slowly, but does not "
-    "wait "
-    "long for a client that reads nothing") {
+TEST_CASE("web sockets: a stopping server waits for slow readers, but not long for non-readers") {
     Echo echo;
     WebClient slow(echo.port), deaf(echo.port);
     for (WebClient* each : {&slow, &deaf}) {
@@ -216,7 +212,7 @@ TEST_CASE(
     CHECK(std::chrono::steady_clock::now() - begun < 30s);
 }
 
-TEST_CASE("web sockets: the server closes after all data is sent, with a close frame") {
+TEST_CASE("web sockets: the server sends all data and a close frame before it disconnects") {
     Echo echo;
     WebClient closed(echo.port), stays(echo.port);
     closed.send("close");
@@ -229,7 +225,7 @@ TEST_CASE("web sockets: the server closes after all data is sent, with a close f
     stop.join();
 }
 
-TEST_CASE("web sockets: silent clients are pinged, and closed if they do not answer") {
+TEST_CASE("web sockets: silent clients get a ping, and are disconnected if they do not answer") {
     const Echo echo({.request = 100ms, .silence = 1s});
     WebClient alive(echo.port), dead(echo.port);
     LineClient asks_nothing(echo.port);

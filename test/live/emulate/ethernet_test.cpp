@@ -99,14 +99,14 @@ TEST_CASE("ethernet: frames to unknown addresses, or without a header, are dropp
     CHECK(programs.got.size() == 1);
 }
 
-TEST_CASE("ethernet: messages that are not frames, or for other robots, do not reach programs") {
+TEST_CASE("ethernet: programs get only messages that are Ethernet frames for their robot") {
     Programs programs =
         programs_of("[[traffic]]\nfrom = \"B\"\npayload = \"not to your address\"\n");
     programs.run_to(start_of_run + 1s);
     CHECK(programs.got.empty());
 }
 
-TEST_CASE("ethernet: addresses are printed and parsed") {
+TEST_CASE("ethernet: the text of a MAC address is read as bytes, and invalid text is refused") {
     CHECK(mac_bytes("02:00:00:00:00:01") == a);
     CHECK(mac_bytes("AA:bb:0c:d0:00:ff") == "\xaa\xbb\x0c\xd0\x00\xff"s);
     for (const char* bad :

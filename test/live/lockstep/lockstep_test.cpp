@@ -260,7 +260,7 @@ TEST_CASE("lockstep: results do not depend on the order in which controllers lea
     CHECK(run(0) == run(1));
 }
 
-TEST_CASE("lockstep: controllers that leave together do so in the order of their robots") {
+TEST_CASE("lockstep: controllers that leave at one time are removed in the order of their robots") {
     for (const bool is_a_first : {true, false}) {
         CAPTURE(is_a_first);
         Talk talk(three_in_a_row(), {.wait_for = 2});
@@ -304,7 +304,7 @@ TEST_CASE(
     CHECK(lists.fingerprint->text() == objects.fingerprint->text());
 }
 
-TEST_CASE("lockstep: a robot is placed elsewhere, at rest, with a given or its old heading") {
+TEST_CASE("lockstep: a robot placed elsewhere rests, with the given heading or its old heading") {
     Talk talk(three_in_a_row());
     talk.say(0, hello_a);
     talk.say(0, step(1, R"(,"do":{"A":{"v":1,"w":0.5}})"));
@@ -411,7 +411,7 @@ TEST_CASE(
     CHECK(turned.at("yaw") == 0.3);
 }
 
-TEST_CASE("lockstep: a robot climbs stairs to its goals, and heights are sent") {
+TEST_CASE("lockstep: a robot climbs stairs to its goal, and its height is sent") {
     Talk talk(load_scenario(ROVERNET_EXAMPLES "/storeys/storeys.toml", {}));
     const Json welcome = Json::parse(talk.ask(
         0, R"({"type":"hello","protocol":1,"robots":["courier","landing"],"step":"100 ms"})"));
@@ -569,7 +569,7 @@ TEST_CASE(
     CHECK(run(true) == run(false));
 }
 
-TEST_CASE("lockstep: a first line that is not a JSON object is recognised also during a step") {
+TEST_CASE("lockstep: a first line that is not a JSON object is refused, also during a step") {
     Talk talk(three_in_a_row());
     talk.say(0, hello_a);
     talk.lockstep.received(0, step(1));

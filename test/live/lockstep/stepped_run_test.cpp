@@ -201,7 +201,7 @@ TEST_CASE("stepped run: numbers out of range are refused without effect") {
           }) == "robot A is listed twice");
 }
 
-TEST_CASE("stepped run: commands from the callback of a record take effect in the next step") {
+TEST_CASE("stepped run: commands that a callback gives during a step act in the next step") {
     struct Echo {
         SteppedRun** run;
         KindMask kinds() const { return kind_of<Sent>(); }

@@ -72,8 +72,7 @@ std::vector<std::string> heard_of(const std::string& message) {
 
 }  // namespace
 
-TEST_CASE(
-    "comdriver: robots decrement the first byte of a message, and forward it while it is above 0") {
+TEST_CASE("comdriver: robots decrement a message's first byte, and stop forwarding at 0") {
     using Heard = std::vector<std::string>;
     CHECK(heard_of("\x01"
                    "F") == Heard{"", "0046", "", ""});

@@ -286,7 +286,7 @@ TEST_CASE("player: a driven robot follows the commanded arc, in its odometry and
     CHECK(double_at(world[0].payload, 16) == doctest::Approx(double_at(pose, 0) - 3));
 }
 
-TEST_CASE("player: odometry is set and reset, and a robot is placed elsewhere") {
+TEST_CASE("player: a client sets and resets the odometry, and places a robot elsewhere") {
     PlayerTalk talk(player_scenario(pair));
     const auto client = talk.come();
     const std::string name = counted(std::string("robot2\0", 7));
@@ -605,7 +605,7 @@ TEST_CASE("player: malformed messages are refused or end their connection withou
     CHECK(talk.session.network().position(NodeId{0}) == Vec3{-3, 0, 0});
 }
 
-TEST_CASE("player: bytes may arrive in any pieces") {
+TEST_CASE("player: messages may arrive in pieces of any size") {
     const std::string words = mode(pull) + device(4, 0) + drive(1, 0) + ask();
     std::string whole;
     for (const std::size_t piece : {words.size(), std::size_t{1}, std::size_t{39}}) {

@@ -105,9 +105,7 @@ TEST_CASE(
     CHECK(answer(talk, sonar, 0, 9) == "refused");
 }
 
-TEST_CASE(
-    "player: robots at one port have equally many device indices of a kind, even if some have "
-    "fewer devices") {
+TEST_CASE("player: at one port, each robot has equally many device indices, even without devices") {
     const std::vector<PlayerPlace> places = {{"robot1", 0, 0}, {"robot2", 0, 1}};
     PlayerTalk alike(player_scenario(with_scans("{ range = \"1 m\" }", "{ range = \"2 m\" }")),
                      {.places = places});

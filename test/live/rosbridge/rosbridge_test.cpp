@@ -148,7 +148,7 @@ TEST_CASE(
     CHECK(talk.messages("/B/radio/received", 1).size() == 2);
 }
 
-TEST_CASE("rosbridge: a queue keeps at most 256 KiB, the newest messages") {
+TEST_CASE("rosbridge: a queue keeps only the newest messages, at most 256 KiB") {
     RosStream stream;
     stream.add("1", {.interval = 1s, .queue_length = 1'000});
     std::vector<std::string> emitted;
@@ -244,7 +244,7 @@ TEST_CASE("rosbridge: neighbours are the robots in range, with the time of their
     CHECK(later["neighbors"][1]["last_heard"].is_null());
 }
 
-TEST_CASE("rosbridge: constant topics are sent once to each subscriber") {
+TEST_CASE("rosbridge: topics that never change, such as /map, are sent once to each subscriber") {
     RosTalk talk(office());
     talk.subscribe("/map");
     const auto maps = talk.messages("/map");
@@ -329,7 +329,7 @@ TEST_CASE("rosbridge: CBOR bytes equal the examples of RFC 8949 and RFC 8746") {
     CHECK(bytes == std::string("\xd8\x55\x4c\x00\x00\x80\x3f\x00\x00\x20\x40\x00\x00\x40\xc0", 15));
 }
 
-TEST_CASE("rosbridge: a robot goes to a goal, and is placed elsewhere") {
+TEST_CASE("rosbridge: a client sends a robot to a goal, and places the robot elsewhere") {
     RosTalk talk(office());
     talk.publish("/A/goal_pose", {{"header", {{"frame_id", "map"}}},
                                   {"pose", {{"position", {{"x", 25}, {"y", 12}}}}}});
@@ -678,7 +678,7 @@ TEST_CASE("rosbridge: an invalid message gets an error, and the connection conti
     CHECK(talk.call("rosapi/nodes")["nodes"] == Json{"/rovernet"});
 }
 
-TEST_CASE("rosbridge: a failed call is answered by a result with its id") {
+TEST_CASE("rosbridge: the answer to a failed service call has the id of the call") {
     struct Row {
         const char* call;
         const char* why;

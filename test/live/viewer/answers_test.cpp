@@ -142,7 +142,7 @@ TEST_CASE("viewer answers: links equal the robots' link tables, also at earlier 
     CHECK(error_of(answers, R"({"id": 1, "op": "links", "t_ns": 0, "robot": 5})") != "");
 }
 
-TEST_CASE("viewer answers: the terms of a budget add up to the received power and the margin") {
+TEST_CASE("viewer answers: terms of a link budget add up to the received power and the margin") {
     const Recorded run({"radio.antenna_gain=2.1 dB", "radio.cable_loss=0.7 dB"});
     ViewerAnswers answers({run.path()});
     const Value pair =
@@ -270,7 +270,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("viewer answers: coverage under the model disc is its range, without levels") {
+TEST_CASE("viewer answers: with the model disc, coverage is the disc's range, without levels") {
     const Recorded run({"propagation.model=disc", "propagation.range=12 m"});
     ViewerAnswers answers({run.path()});
     const Value answer =

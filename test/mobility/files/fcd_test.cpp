@@ -99,8 +99,7 @@ TEST_CASE("fcd: a robot in a first timestep after the start appears at that time
     CHECK(near(p.position("a", 1.5), {7, 0, 0}));
 }
 
-TEST_CASE(
-    "fcd: persons and containers become robots, z is read, and a parked vehicle stays in place") {
+TEST_CASE("fcd: persons and containers become robots, with z, and may rest between timesteps") {
     const auto p = played(
         fcd(step("0",
                  "<person id='p' y='1' x='2' z='3.5' edge='e'/><container id='c' x='0' "

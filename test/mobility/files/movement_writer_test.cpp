@@ -200,7 +200,7 @@ TEST_CASE("writer: a BonnMotion file has the expected positions and parameters")
     CHECK(bonnmotion_params(high, at(20)).find("J=3D\n") != std::string::npos);
 }
 
-TEST_CASE("writer: the parameter file gives a BonnMotion file its number of dimensions") {
+TEST_CASE("writer: the .params file states that positions of a BonnMotion file have a z") {
     const TemporaryFolder folder;
     // A single node, three places in space: twelve numbers.
     const std::vector<Track> tracks = {

@@ -84,7 +84,7 @@ TEST_CASE(
     CHECK(p.file.end() == start_of_run + from_seconds(6));
 }
 
-TEST_CASE("setdest: a node moves around a square") {
+TEST_CASE("setdest: four motions in a row lead a node around a square") {
     const auto p = played(
         "$node_(0) set X_ 0.0\n$node_(0) set Y_ 0.0\n"
         "$ns_ at 1.0 \"$node_(0) setdest 5 0 5\"\n"

@@ -132,7 +132,7 @@ TEST_CASE("backoff: a longer DIFS delays the slots") {
     CHECK(busy.backoff.grant() == at(108));
 }
 
-TEST_CASE("backoff: slots that are counted between several frames add up") {
+TEST_CASE("backoff: idle slots that are counted between several frames add up") {
     Station s;
     s.good_frame(20, 60);
     s.ask_while_busy(60, 6);

@@ -177,8 +177,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "medium: losses from the search for receivers are not computed again for their receptions") {
+TEST_CASE("medium: losses computed in the search for receivers are reused for the receptions") {
     const CountedRays counted;
     Twins twins(6);
     for (std::uint32_t i = 0; i < 20; ++i) {

@@ -203,9 +203,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "variation: a shadowed loss is symmetric, within the model's reach, and exact up to the "
-    "cut-off") {
+TEST_CASE("variation: a shadowed loss is equal in both directions, and exact up to the cut-off") {
     for (const Shadowing& shadowing : {link_shadowing, field_shadowing}) {
         const Propagation model = Shadowed(Friis{}, shadowing, 3, 5);
         CHECK(model.as<Shadowed>()->base().name() == Friis::name);

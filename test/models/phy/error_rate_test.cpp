@@ -282,8 +282,7 @@ TEST_CASE("cck: 11 Mb/s has the bit error rate of 5.5 Mb/s at half the SINR") {
     }
 }
 
-TEST_CASE(
-    "cck: without a signal, a symbol is right with probability 1/16 or 1/256, by the bit rate") {
+TEST_CASE("cck: without a signal, a symbol is right with probability 1/16 or, at 11 Mb/s, 1/256") {
     constexpr double faint = 1e-12;
     CHECK(test::near(success(4 * log_success(Modulation::cck_5_5, faint)), 1.0 / 16, 1e-5));
     CHECK(test::near(success(8 * log_success(Modulation::cck_11, faint)), 1.0 / 256, 1e-5));

@@ -74,7 +74,7 @@ TEST_CASE("every phy: a bit rate that the phy does not list has no coding") {
     });
 }
 
-TEST_CASE("wifi: twelve rates have the error rates of their modulations") {
+TEST_CASE("wifi: there are twelve bit rates, with the error rates of their modulations") {
     const Phy phy = Wifi{};
     CHECK(phy.rates().size() == 12);
     CHECK(phy.log_success(*phy.coding(54_Mbps), 30) == log_success(Modulation::ofdm_54, 30));

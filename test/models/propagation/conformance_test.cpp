@@ -298,8 +298,7 @@ TEST_CASE("every model: infinite parameters are refused") {
     CHECK_THROWS_AS(Propagation{Raytrace2007{.wall_factor = inf}}, std::invalid_argument);
 }
 
-TEST_CASE(
-    "every model: its name is unique and has only lower-case letters, digits and underscores") {
+TEST_CASE("every model: the name is unique, of lower-case letters, digits and underscores") {
     std::vector<std::string> names;
     for_each_model([&]<class Model>() { names.emplace_back(Model::name); });
     std::sort(names.begin(), names.end());

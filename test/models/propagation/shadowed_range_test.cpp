@@ -246,9 +246,7 @@ TEST_CASE("shadowed range: with sigma 0, the range is the model's largest distan
     }
 }
 
-TEST_CASE(
-    "shadowed range: with a budget that every link or no link meets, all links are up or all are "
-    "down") {
+TEST_CASE("shadowed range: with a negative budget no link is up, with an infinite budget all are") {
     for (const double d2 : {0.0, 1e-300, 1.0, 1e4, 1e300, infinity}) {
         CAPTURE(d2);
         for (std::uint64_t key = 0; key < 50; ++key) {
@@ -343,8 +341,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "shadowed range: only log_distance has a shadowed range, which decides links like the loss") {
+TEST_CASE("shadowed range: only log_distance offers a range; links by range equal links by loss") {
     for_each_model([]<class Model>() {
         const Propagation model{[] {
             if constexpr (std::same_as<Model, Disc>)

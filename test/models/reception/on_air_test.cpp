@@ -137,7 +137,7 @@ TEST_CASE("frames on air: ended frames are removed, oldest first") {
     CHECK(on_air.frames().empty());
 }
 
-TEST_CASE("frames on air: ended frames are found as past frames for the given time") {
+TEST_CASE("frames on air: for a given time after its end, a frame is found as a past frame") {
     for (const int kept : {0, 1, 7, 40}) {
         CAPTURE(kept);
         test::Draw draw(static_cast<std::uint32_t>(kept));

@@ -153,7 +153,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("fading: as one end moves, the correlation of the power is J0^2 (table of Jakes)") {
+TEST_CASE("fading: as one end moves, the power has the correlation J0^2 of Jakes' model") {
     const test::Vectors vectors("jakes_autocorr_2450MHz.csv");
     std::vector<Fades> seeds;
     for (std::uint64_t seed = 0; seed < 300; ++seed) {
@@ -188,7 +188,7 @@ TEST_CASE("fading: as one end moves, the correlation of the power is J0^2 (table
     CHECK(rows >= 4);
 }
 
-TEST_CASE("fading: a moving robot crosses levels as often as in Rice's formula (table)") {
+TEST_CASE("fading: a moving robot crosses levels as often as Rice's formula predicts") {
     const test::Vectors vectors("rayleigh_lcr_afd.csv");
     constexpr int seeds = 40, steps = 2000;
     constexpr double step = 0.02;  // wavelengths

@@ -181,7 +181,7 @@ TEST_CASE("chart axis: a value is printed with a resolution of a hundredth of th
     CHECK(number_axis(range({0, 2000}), false, 6).text(1234.4) == "1234");
 }
 
-TEST_CASE("chart axis: numbers have four digits and no unnecessary zeros") {
+TEST_CASE("chart axis: numbers are rounded to four digits or to integers, without needless zeros") {
     CHECK(number_text(0) == "0");
     CHECK(number_text(0.25) == "0.25");
     CHECK(number_text(-3.14159) == "-3.142");

@@ -72,7 +72,7 @@ std::vector<Chart> gallery(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("chart: an empty chart of any kind has a text that says so") {
+TEST_CASE("chart: an empty chart of any kind says that there are no results") {
     CHECK(has(chart_svg({}), "no results"));
     for (const ChartKind kind : chart_kinds) {
         for (const Chart& each : {Chart{.kind = kind}, one_series(kind, {}),

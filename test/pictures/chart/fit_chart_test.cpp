@@ -57,18 +57,14 @@ TEST_CASE(
     CHECK(cost_text(10) == "10 times");
 }
 
-TEST_CASE(
-    "fit chart: the least error of a row is the smaller of its errors as given and after the fit, "
-    "or its only error") {
+TEST_CASE("fit chart: a row's least error is the smaller of its two errors, or its only error") {
     CHECK(FitRow{"a", 0.4, {}}.least_error() == 0.4);
     CHECK(FitRow{"a", {}, 0.3}.least_error() == 0.3);
     CHECK(FitRow{"a", 0.1, 0.3}.least_error() == 0.1);
     CHECK(std::isinf(FitRow{"a"}.least_error()));
 }
 
-TEST_CASE(
-    "fit chart: a hollow dot is the error as given, a filled dot the error after the fit, on one "
-    "scale") {
+TEST_CASE("fit chart: a hollow dot is the error before the fit, a filled dot the error after it") {
     const std::string svg = fit_chart_svg(two_scenes());
     const auto given = places(svg, "as-given"), fitted = places(svg, "fitted");
     REQUIRE(given.size() == 3);

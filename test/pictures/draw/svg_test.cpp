@@ -57,7 +57,7 @@ TEST_CASE(
     CHECK(text_width("\xe6\x9c\xba", 10) >= 10);
 }
 
-TEST_CASE("svg: a path has the given commands") {
+TEST_CASE("svg: the text of a path has one SVG command for each drawing call") {
     SvgPath path;
     CHECK(path.empty());
     path.move(1, 2.004).horizontal(3).vertical(-4).line(0.5, 0.25).close();

@@ -93,7 +93,7 @@ TEST_CASE("contour: the line around a hole is clockwise") {
     CHECK(area(lines[0]) + area(lines[1]) > 0);
 }
 
-TEST_CASE("contour: teeth of a comb that are finer than the smoothing are removed") {
+TEST_CASE("contour: details finer than the smoothing, such as teeth of a comb, are removed") {
     const auto comb = [](double tooth) {
         return mask([=](Vec3 p) {
             const bool in_tooth = std::fmod(p.y + 20, 3 * tooth) < tooth;
@@ -156,7 +156,7 @@ TEST_CASE("contour: lines never cross themselves, for any map") {
     }
 }
 
-TEST_CASE("contour: smoothing must be above 0") {
+TEST_CASE("contour: a smoothing length that is not above 0 is refused") {
     CHECK_THROWS_AS(contours(mask([](Vec3) { return true; }), sensitivity, {0}),
                     std::invalid_argument);
 }

@@ -192,7 +192,7 @@ TEST_CASE("picture: a robot is drawn to scale if it is large enough") {
     CHECK(std::abs(number(circle_of(svg, "b"), "r") - 0.2 * scale) < rounding);
 }
 
-TEST_CASE("picture: the tick of a robot shows its direction, and north is up") {
+TEST_CASE("picture: a short line at a robot shows its direction, and north is up") {
     const auto walker = [](const char* to) {
         return robot("n", 0, 0,
                      fmt::format("move = {{ model = \"waypoints\", path = [[{}]] }}\n", to));

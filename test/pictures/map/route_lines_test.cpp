@@ -112,8 +112,7 @@ TEST_CASE(
     CHECK(has(svg, "sent the last request"));
 }
 
-TEST_CASE(
-    "route lines: a DSR search is one search, although each robot sends a packet of its own") {
+TEST_CASE("route lines: a DSR search is drawn as one search, although each robot sends a packet") {
     PictureOptions options{.at = start_of_run + 5s, .search = true};
     const std::string svg = draw_svg(row("dsr"), options);
     CHECK(in_group(svg, "search", "circle").size() == 4);  // all but the target

@@ -161,7 +161,7 @@ TEST_CASE("aodv 6.9: HELLOs are sent only while the node's routes carry messages
     CHECK(hellos(n).size() == 3);
 }
 
-TEST_CASE("aodv 6.9: the destination of messages also sends HELLOs, in both profiles") {
+TEST_CASE("aodv 6.9: the destination of messages also sends HELLOs, with profile rfc and ns2") {
     for (const AodvProfile profile : {AodvProfile::rfc, AodvProfile::ns2}) {
         Hellos n({.profile = profile});
         n.forward(7, 2, 0);
@@ -256,9 +256,7 @@ TEST_CASE("aodv 6.9, 6.13: a node that is off, or silent after a restart, sends 
     CHECK_FALSE(hellos(n).empty());  // the timer goes on
 }
 
-TEST_CASE(
-    "aodv 6.11: a message without a route prolongs the time for which the route's sequence number "
-    "is kept") {
+TEST_CASE("aodv 6.11: a message for a broken route extends the time for which the route is kept") {
     AodvNode n;
     n.learn(5, 1, 20);
     n.link.time = start + 17s;  // broken at 3 s with number 21, to be deleted at 18 s
@@ -271,7 +269,7 @@ TEST_CASE(
     CHECK_FALSE(n.route(5));
 }
 
-TEST_CASE("aodv 6.11: if lost routes have several users, one RERR is broadcast to all of them") {
+TEST_CASE("aodv 6.11: if several neighbours use the lost routes, they get one broadcast RERR") {
     AodvNode n;
     n.pass_reply(7, 2, 5, 1);
     n.pass_reply(8, 3, 6, 1, 30);
@@ -285,7 +283,7 @@ TEST_CASE("aodv 6.11: if lost routes have several users, one RERR is broadcast t
     CHECK(error.lost.size() == 3);  // 1, 5, 6
 }
 
-TEST_CASE("aodv 6.11: a RERR is forwarded to the users of the routes that it ends") {
+TEST_CASE("aodv 6.11: a RERR is forwarded to the neighbours that use the broken routes") {
     AodvNode n;
     n.pass_reply(7, 2, 5, 1);
     n.learn(6, 1, 4);  // used by node 0 alone
@@ -350,7 +348,7 @@ TEST_CASE(
     CHECK(n.route(5)->number == std::optional<std::uint32_t>(21));
 }
 
-TEST_CASE("aodv 6.11: the users of a broken route are remembered until a RERR can be sent") {
+TEST_CASE("aodv 6.11: neighbours that use a broken route are stored until a RERR can be sent") {
     AodvNode n;
     n.pass_reply(7, 2, 5, 1);
     for (int i = 0; i < 10; ++i) n.forward(8, 3, 9);  // ten reports in this second
@@ -451,8 +449,7 @@ TEST_CASE(
     CHECK(n.link.drops.size() == 1);
 }
 
-TEST_CASE(
-    "aodv 6.12: a node repairs a route if the destination is at most 0.3 net diameters away") {
+TEST_CASE("aodv 6.12: a node repairs a route if the destination is within 0.3 network diameters") {
     const auto repairs = [](int net_diameter, int hops) {
         AodvNode n({.net_diameter = net_diameter, .local_repair = true});
         n.pass_reply(7, 2, 5, 1, 9, static_cast<std::uint8_t>(hops - 2));

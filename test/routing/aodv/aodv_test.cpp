@@ -215,7 +215,7 @@ TEST_CASE("aodv 6.8: if a neighbour did not get a reply, its requests are ignore
     CHECK(n.link.sent.size() == 2);
 }
 
-TEST_CASE("aodv 6.11: a broken link is reported only to the users of the routes") {
+TEST_CASE("aodv 6.11: a broken link is reported only to neighbours that use routes over it") {
     AodvNode n;
     n.hear(2, request(7, 5), 3);
     n.hear(1,

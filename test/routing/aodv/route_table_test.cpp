@@ -46,7 +46,7 @@ TEST_CASE(
     CHECK(table.stored().empty());
 }
 
-TEST_CASE("route table: the users of a route are removed together with the route") {
+TEST_CASE("route table: the list of a route's users is removed together with the route") {
     RouteTable table;
     table.add_precursor(a, b);  // no entry
     make_valid(table.add(a, start, 10s), start + 5s);
@@ -88,8 +88,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "seen ids: after a higher id, earlier ids stay remembered, and unseen ids within 64 are new") {
+TEST_CASE("seen ids: after a higher id, older ids stay known; unseen ids up to 64 lower are new") {
     for (const std::uint32_t step : {1U, 63U, 64U, 65U, 1000U}) {
         SeenIds seen;
         CHECK(seen.note(a, 100, start, 5s));
@@ -139,7 +138,7 @@ TEST_CASE(
     CHECK(buffer.packets().empty());
 }
 
-TEST_CASE("sequence numbers: a number is newer if it is less than half the circle ahead") {
+TEST_CASE("sequence numbers: a number is newer if it is ahead by less than half of all numbers") {
     CHECK(is_newer(1, 0));
     CHECK_FALSE(is_newer(0, 0));
     CHECK_FALSE(is_newer(0, 1));

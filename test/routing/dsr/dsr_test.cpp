@@ -301,8 +301,8 @@ TEST_CASE(
     CHECK(n.link.drops[1].reason == DropReason::timeout);   // not heard of
     CHECK(n.router.pairs_too_far() == 1);
     CHECK(n.router.notice() ==
-          "dsr: 1 pair of robots lost messages after a route request had reached 16 robots without "
-          "finding the destination; a route of dsr has at most 16 robots");
+          "dsr: messages between 1 pair of robots were lost, because a route request passed 16 "
+          "robots without finding the destination; a route of dsr has at most 16 robots");
 }
 
 TEST_CASE(

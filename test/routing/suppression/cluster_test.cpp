@@ -114,7 +114,7 @@ TEST_CASE("cluster: a member that hears a node of another cluster is a gateway a
     CHECK(!node.relays());
 }
 
-TEST_CASE("cluster: neighbours silent for three periods are forgotten") {
+TEST_CASE("cluster: neighbours that are silent for three HELLO periods are forgotten") {
     Member node;
     node.hear(1, 1);
     node.link.time += 1s;
@@ -172,7 +172,7 @@ TEST_CASE("cluster: a copy to be forwarded waits for the delay, any other copy i
     }
 }
 
-TEST_CASE("cluster: any threshold, and a HELLO period of 0, are refused") {
+TEST_CASE("cluster: a threshold of any value, and a HELLO period of 0, are refused") {
     const auto make = [](const Suppression& settings) { return Router(settings); };
     CHECK_THROWS_WITH_AS(make({.scheme = SuppressionScheme::cluster, .threshold = 3}),
                          "suppression: threshold must be left out for scheme \"cluster\", got 3",

@@ -76,7 +76,7 @@ TEST_CASE("disc cover: two discs on opposite sides cover two lenses that do not 
     CHECK(std::abs(uncovered({{1, 0, 0}, {-1, 0, 0}}) - (2 * outside_lens(1) - 1)) < rounding);
 }
 
-TEST_CASE("disc cover: three discs at distance r, a third of a turn apart, cover all") {
+TEST_CASE("disc cover: three discs at distance r, 120 degrees apart, cover the whole disc") {
     const Vec3 a{1, 0, 0}, b{-0.5, std::sqrt(0.75), 0}, c{-0.5, -std::sqrt(0.75), 0};
     CHECK(uncovered({a, b, c}) < rounding);
     // Two of them share a lens of centres sqrt(3) apart, which lies in the disc.
@@ -106,7 +106,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("disc cover: k random neighbours leave .41, .19, .095 and .048 uncovered on average") {
+TEST_CASE("disc cover: 1 to 4 random neighbours leave .41, .19, .095, .048 of a disc uncovered") {
     // Ni et al., section 2.2 (EAC); 3 sqrt(3) / (4 pi) for one. Four sigma of 4,000 draws.
     constexpr double four_sigma = 0.011;
     const std::vector<double> expected{3 * std::sqrt(3) / (4 * pi), 0.189, 0.095, 0.048};

@@ -73,9 +73,7 @@ TEST_CASE(
     CHECK(hint("move", "ConstantPositionMobilityModel") == meant("fixed"));
 }
 
-TEST_CASE(
-    "for a known model that rovernet lacks, the hint names it and the page that lists "
-    "replacements") {
+TEST_CASE("for a model that rovernet lacks, the hint names the page that lists replacements") {
     const std::string there =
         " is not available: \"rovernet help not-there\" lists what to use instead";
     for (const char* protocol : {"OLSR", "DSDV", "Olsr", "TORA"})

@@ -73,7 +73,7 @@ TEST_CASE("toml: a real number without a fraction is printed as a real number, s
     CHECK(to_toml(*parse_toml("a = 30.0", "").table()) == "a = 30.0\n");
 }
 
-TEST_CASE("toml: an option finds a key with dots, in quotes or without") {
+TEST_CASE("toml: an option finds a key whose name contains dots, with or without quotes") {
     const std::string text = "vary = { \"radio.power\" = [1], b = 2 }\n";
     for (const char* path : {"vary.radio.power", "vary.\"radio.power\""}) {
         CHECK(after_option(text, std::string(path) + "=[3]") ==
@@ -111,11 +111,10 @@ TEST_CASE("toml: an error says what is probably wrong with quotes, commas and li
     check("a = \u201c1 m\u201d", "1:5", "typographic quote \u201c; expected the straight quote \"");
     check("a = [0 m, 1 m]", "1:8", "texts and quantities in quotes");
     check("x = { bb = 1, bb = 2 }", "1:15", "the key \"bb\" occurs a second time");
-    check("a = 1979-05-27", "1:5", "a date or a time of day, which is the value of no key");
+    check("a = 1979-05-27", "1:5", "a date or a time of day, but no key has such a value");
 }
 
-TEST_CASE(
-    "toml: if a key or table occurs twice, the error names it, in whatever form it is written") {
+TEST_CASE("toml: if a key or table occurs twice in any notation, the error has its name") {
     const auto check = [](const std::string& text, const std::string& error) {
         CAPTURE(text);
         try {
@@ -143,14 +142,14 @@ TEST_CASE(
           "table");
     check("x.y = 1\n[x]", "2:1: [x] occurs a second time; expected one [x] with all its keys");
     const std::string inside =
-        "2:1: [x.y]: a key before the last dot of this name already has a value, to which no "
-        "keys can be added; expected all keys of a table in one place";
+        "2:1: [x.y]: this name begins with a key that already has a value, so no keys can be added "
+        "to that key; expected all keys of a table in one place";
     check("x = 1\n[x.y]", inside);
     check("x = 1\n[x.y]\nk = 1", inside);
     check("x = 1\n[[x . \"y\"]]\n[[robot]]", std::string(inside).replace(6, 3, "x.\"y\""));
     const std::string braces =
-        ": a table before the last dot of this name is written in braces, to which no keys can be "
-        "added; write all keys of that table inside the braces, or all of them under a header "
+        ": this name begins with a table that is written in braces, so no keys can be added to "
+        "that table; write all keys of that table inside the braces, or all of them under a header "
         "[NAME], without braces";
     check("x = { a = 1 }\n[x.y]\n", "2:1: [x.y]" + braces);
     check("x = { a = 1 }\n[x.y]\nk = 1", "2:1: [x.y]" + braces);
@@ -196,7 +195,8 @@ TEST_CASE(
     CHECK(contains(after_option(text, "robot.\"a=b\".radius=2"), "name = \"a=b\"\nradius = 2\n"));
     CHECK(after_option("", "\"a.b\"=1") == "\"a.b\" = 1\n");
     CHECK(contains(error_of_option(text, "robot.flow.0.radio.power=2"),
-                   "no item of the list is named \"flow\"; write a name with dots as \"flow.0\""));
+                   "no item of the list is named \"flow\"; write a name that contains dots in "
+                   "quotes: \"flow.0\""));
     for (const char* option : {"\"a.b=1", "\"a\"b=1", "\"\".a=1"}) {
         CAPTURE(option);
         CHECK(error_of_option(text, option).starts_with("--set " + std::string(option) + ": "));
@@ -209,7 +209,7 @@ TEST_CASE("set_option: a number that is the name of a robot never changes a diff
     CHECK(after_option(text, "robot.\"1\".radius=9") == first);
     CHECK(after_option(text, "robot.0.radius=9") == first);
     CHECK(after_option(text, "robot.2.radius=9") == text + "radius = 9\n");
-    CHECK(contains(error_of_option(text, "robot.1.radius=9"), "write the name as \"1\""));
+    CHECK(contains(error_of_option(text, "robot.1.radius=9"), "write \"1\" in quotes"));
     CHECK(contains(error_of_option(text, "robot.3.radius=9"), "there is no item 3"));
     CHECK(contains(error_of_option(text, "robot.\"0\".radius=9"), "no item of the list is named"));
     const std::string same = "[[robot]]\nname = \"0\"\n";

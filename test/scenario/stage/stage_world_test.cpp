@@ -212,8 +212,8 @@ TEST_CASE(
     CHECK(value(none.propagation(1), "coefficient") == "22.0");
     REQUIRE(none.notices.size() == 1);
     CHECK(none.notices[0] ==
-          "a.world:1: the wifi of these robots has no model and uses the model of [propagation], "
-          "by default friis: a, b");
+          "a.world:1: the wifi of these robots has no model, so the model of [propagation] is used "
+          "(default: friis): a, b");
     CHECK(mistake(robot_with + "\nmodel \"ITU Indoor\" ) )\n") ==
           "2:1: model: found \"ITU Indoor\"; expected one of \"friis\", \"ITU indoor\", \"log "
           "distance\", \"raytrace\", \"simple\"; did you mean \"ITU indoor\"?");
@@ -223,7 +223,7 @@ TEST_CASE(
     REQUIRE(simple.notices.size() == 1);
     CHECK(simple.notices[0] ==
           "a.world:1: a wifi of model \"simple\" without a range has the range 0 m, as in Stage; "
-          "to connect robots, give it a range");
+          "to connect robots, give this wifi a range");
 }
 
 TEST_CASE(
@@ -274,8 +274,8 @@ TEST_CASE("stage world: poses of four numbers, unit_length and unit_angle of Sta
     CHECK(value(world.propagation(0), "range") == "2.5 m");
     REQUIRE(world.notices.size() == 1);
     CHECK(world.notices[0] ==
-          "a.world:2: the height z of these robots is ignored, as in the wifi model of the 2007 "
-          "thesis: a");
+          "a.world:2: the height z of these robots is ignored, as in the original wifi model for "
+          "Stage: a");
 }
 
 TEST_CASE("stage world: a robot that is part of another model has the combined pose of both") {
@@ -310,8 +310,8 @@ TEST_CASE(
     CHECK(value(world.propagation(1), "model") == "friis");
     REQUIRE(world.notices.size() == 1);
     CHECK(world.notices[0] ==
-          "a.world:1: robots without a wifi have the radio of [radio] and the model of "
-          "[propagation], friis by default: truck");
+          "a.world:1: robots without a wifi get the radio of [radio] and the model of "
+          "[propagation] (default: friis): truck");
 }
 
 TEST_CASE("stage world: robots without a wifi have the scenario's radio, with one notice for all") {
@@ -327,7 +327,7 @@ TEST_CASE("stage world: robots without a wifi have the scenario's radio, with on
     CHECK(alone.robots[0].scan.size() == 1);
     const auto about_radio = std::count_if(
         alone.notices.begin(), alone.notices.end(),
-        [](const std::string& n) { return n.find("have the radio of [radio]") != n.npos; });
+        [](const std::string& n) { return n.find("get the radio of [radio]") != n.npos; });
     CHECK(about_radio == 1);
 
     const Scenario over = load_scenario(
@@ -453,7 +453,9 @@ TEST_CASE("stage world: if two robots have the same address, a notice names both
         "position ( name \"a\" wifi ( model \"friis\" ip \"1.2\" mac \"1.2\" ) )\n"
         "position ( name \"b\" wifi ( model \"friis\" ip \"1.2\" mac \"1.3\" ) )\n");
     REQUIRE(twice.notices.size() == 1);
-    CHECK(twice.notices[0] == "a.world:2: ip \"1.2\" of b is also used by a, at a.world:1:42");
+    CHECK(twice.notices[0] ==
+          "a.world:2: ip \"1.2\" of robot \"b\" is also used by robot \"a\" "
+          "(a.world:1:42)");
 }
 
 TEST_CASE("stage world: models that are neither robots nor walls are listed in one line") {
@@ -464,8 +466,8 @@ TEST_CASE("stage world: models that are neither robots nor walls are listed in o
     CHECK(world.robots().size() == 3);
     REQUIRE(world.notices.size() == 4);
     CHECK(world.notices[1] ==
-          "a.world:4: robots without a wifi have the radio of [radio] and the model of "
-          "[propagation], friis by default: b, robot2");
+          "a.world:4: robots without a wifi get the radio of [radio] and the model of "
+          "[propagation] (default: friis): b, robot2");
     CHECK(world.notices[2] ==
           "a.world:6: a wifi that belongs to no model of type position is ignored: wifi");
     CHECK(world.notices[3] == "a.world: models of these types are ignored: laser (1), window (1)");
@@ -540,7 +542,7 @@ TEST_CASE("stage world: a world file in the style of the 2007 thesis is read wit
     CHECK(walls.materials[0].name == "black");
 }
 
-TEST_CASE("stage world: the worlds that came with Stage load") {
+TEST_CASE("stage world: the worlds that came with Stage can be loaded") {
     const auto folder = stage_worlds();
     if (!folder) return;
     struct Row {
@@ -560,8 +562,9 @@ TEST_CASE("stage world: the worlds that came with Stage load") {
     }
     const Read commando = read_shipped(*folder, "commando.world");
     REQUIRE(commando.notices.size() == 2);
-    CHECK(commando.notices[0].find("commando.world:53: mac \"00:03:03:ac:a7:b5\" of robot2 is "
-                                   "also used by robot1") != std::string::npos);
+    CHECK(commando.notices[0].find("commando.world:53: mac \"00:03:03:ac:a7:b5\" of robot "
+                                   "\"robot2\" is also used by robot \"robot1\"") !=
+          std::string::npos);
 }
 
 TEST_CASE("stage world: a world with a missing bitmap is refused, and loads with a replacement") {

@@ -236,8 +236,9 @@ TEST_CASE("stage walls: a model with a boundary but no bitmap stays a solid box,
     const StageWalls walls = world.walls("\nmodel ( size [4 2] boundary 1 )\n");
     CHECK(walls.grids.size() == 1);
     REQUIRE(walls.notices.size() == 1);
-    CHECK(
-        contains(walls.notices[0], "a.world:2: a model with a boundary and no bitmap is a solid"));
+    CHECK(contains(walls.notices[0],
+                   "a.world:2: a model with a boundary and without a bitmap is a "
+                   "solid"));
 }
 
 TEST_CASE("stage walls: rectangular polygons of Stage 2 and blocks of Stage 4 become exact boxes") {

@@ -261,7 +261,7 @@ TEST_CASE("scheduler: too many events end the run with an error, and keep the qu
     CHECK(served(brief) == std::vector{1});
 }
 
-TEST_CASE("scheduler: in steady state nothing is allocated, however many events are cancelled") {
+TEST_CASE("scheduler: in steady state no memory is allocated, however many events are cancelled") {
     Scheduler<std::array<int, 12>> queue;
     Dice dice(1);
     const auto soon = [&] { return Duration{static_cast<std::int64_t>(dice(1000))}; };
@@ -287,7 +287,7 @@ TEST_CASE("scheduler: in steady state nothing is allocated, however many events 
     CHECK(test::allocations() == before);
 }
 
-TEST_CASE("scheduler: in steady state nothing is allocated, however many events are served") {
+TEST_CASE("scheduler: in steady state no memory is allocated, however many events are served") {
     Scheduler<int> queue;
     Dice dice(2);
     const auto serve = [&](int events) {

@@ -59,7 +59,7 @@ constexpr int distributions = 6;
 
 }  // namespace
 
-TEST_CASE("decision: verdicts by Student's t equal those of the test vectors decide_looks") {
+TEST_CASE("decision: verdicts by Student's t equal the test vectors (table decide_looks)") {
     const test::Vectors values("decide_looks_series.csv"), expected("decide_looks.csv");
     for (std::size_t row = 0; row < expected.size(); ++row) {
         const std::string name = expected.text(row, "series");
@@ -83,7 +83,7 @@ TEST_CASE("decision: by Student's t a verdict is possible only after 10, 20, 40,
     CHECK(decision.decided_at() == 10U);
 }
 
-TEST_CASE("decision: verdicts about the mean equal those of the test vectors decide_betting") {
+TEST_CASE("decision: verdicts about the mean equal the test vectors (table decide_betting)") {
     const test::Vectors all("decide_series.csv"), expected("decide_betting.csv");
     for (std::size_t row = 0; row < expected.size(); ++row) {
         const std::string name = expected.text(row, "series");
@@ -98,9 +98,7 @@ TEST_CASE("decision: verdicts about the mean equal those of the test vectors dec
     }
 }
 
-TEST_CASE(
-    "decision: differences that cancel out are within the tolerance for the mean, but not for "
-    "single runs") {
+TEST_CASE("decision: differences that cancel out are tolerable for the mean, not for single runs") {
     const DecisionRule rule{.tolerance = 0.1, .bounds = share};
     DecisionRule of_runs = rule;
     of_runs.criterion = ErrorCriterion::run;
@@ -188,7 +186,7 @@ TEST_CASE(
     CHECK(*student.deciding_tolerance() == doctest::Approx(1.7).epsilon(0.1));
 }
 
-TEST_CASE("decision: if candidates differ by just the tolerance, at most 5 % of studies err") {
+TEST_CASE("decision: if candidates differ by the tolerance, at most 5 % of studies are wrong") {
     // Six candidates each, one for each distribution, with E D = 0.05, the tolerance: neither
     // within nor outside. Half of the studies judge the mean, half the single run, where E|D| =
     // 0.05: those distributions that are negative at times are left as they are only for the mean.
@@ -254,7 +252,7 @@ TEST_CASE("advise: the cheapest candidate within the tolerance is chosen") {
     CHECK_FALSE(ladder.wants(3));
 }
 
-TEST_CASE("advise: an undecided candidate cheaper than the sufficient one is still tested") {
+TEST_CASE("advise: an undecided candidate cheaper than a sufficient candidate is tested further") {
     Ladder ladder(3, {.tolerance = 0.1, .bounds = share, .family = 3});
     for (int r = 0; r < 300; ++r) {
         add(ladder, 0, r % 2 == 0 ? 0.6 : -0.4);  // the tolerance itself

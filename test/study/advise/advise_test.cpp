@@ -340,7 +340,7 @@ TEST_CASE("advise: without a sufficient cheaper model the reference is advised")
     CHECK(advice_text(advice).starts_with("Take the reference, top + all:"));
 }
 
-TEST_CASE("advise: an undecided candidate counts as insufficient, and is named") {
+TEST_CASE("advise: an undecided candidate counts as insufficient, and the advice names it") {
     // The tolerance itself, with much noise: 150 replications do not tell.
     MadeUp study([](std::size_t p, std::size_t, std::uint32_t r) {
         return p == 0 ? (r % 2 == 0 ? 1.0 : 0.4) : 0.5;

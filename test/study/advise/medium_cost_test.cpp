@@ -50,8 +50,7 @@ every = "100 ms"
 
 }  // namespace
 
-TEST_CASE(
-    "medium cost: recorded frames that are replayed reach about as many receivers as in the run") {
+TEST_CASE("costs of the medium: replayed frames reach about as many receivers as in the run") {
     for (const char* more : {"[propagation]\nmodel = \"disc\"\nrange = \"90 m\"\n",
                              "[propagation]\nmodel = \"log_distance\"\nsigma = \"4 dB\"\n",
                              "[propagation]\nmodel = \"friis\"\n[access]\nmodel = \"csma\"\n",
@@ -76,9 +75,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "medium cost: a model with a longer range is measured with the same recorded frames, and finds "
-    "more receivers") {
+TEST_CASE("costs of the medium: a model with a longer range finds more receivers of the frames") {
     const Scenario near = walkers("[propagation]\nmodel = \"disc\"\nrange = \"50 m\"\n");
     const Scenario far = walkers("[propagation]\nmodel = \"disc\"\nrange = \"1 km\"\n");
     const MediumRecord record = record_medium(near, go_on);
@@ -89,8 +86,7 @@ TEST_CASE(
     CHECK(few.receivers > 0);
 }
 
-TEST_CASE(
-    "medium cost: the median cost of each model lies between its lowest and its highest cost") {
+TEST_CASE("costs of the medium: each model's median cost is between its lowest and highest cost") {
     const std::vector<Scenario> scenarios = {
         walkers("[propagation]\nmodel = \"disc\"\nrange = \"90 m\"\n"),
         walkers("[propagation]\nmodel = \"friis\"\n")};
@@ -108,8 +104,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "medium cost: without recorded frames, or if the measurement is stopped, no model has a cost") {
+TEST_CASE("costs of the medium: without recorded frames, or after a stop, no model has a cost") {
     Scenario silent = walkers("");
     silent.traffic.clear();
     const MediumRecord none = record_medium(silent, go_on);

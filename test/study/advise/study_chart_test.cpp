@@ -187,7 +187,7 @@ TEST_CASE(
     fails("ttl,robots,latency_mean_s\n2,10 m,0.5\n", "found \"10 m\", expected a number");
     fails("ttl,robots,latency_mean_s\n2,10,0.5,\n", "found 4 fields; expected 3");
     fails("ttl,robots,latency_mean_s\n2,10\n", "found 2 fields; expected 3");
-    fails("", "no line of column names");
+    fails("", "no line with the names of the columns");
 }
 
 TEST_CASE("study chart: a quotient of metrics is computed run by run") {

@@ -162,9 +162,7 @@ at = ["0 m", "90 m"]
     CHECK(std::string(known.group_name) == "sender");
 }
 
-TEST_CASE(
-    "calibration: a sample of links enlarged in steps equals one drawn at once, and computes no "
-    "link twice") {
+TEST_CASE("calibration: a sample of links that grows in steps equals a sample drawn at once") {
     const Scenario scenario = scenario_from(wanderers + "[[robot]]\nname = \"still\"\ncount = 2\n" +
                                             "at = [\"9 m\", \"9 m\"]\n");
     int asked = 0;
@@ -223,9 +221,7 @@ every = "1 s"
     CHECK(links_with("1 dB") > 10);
 }
 
-TEST_CASE(
-    "calibration: if a loss exceeds the link budget by more than a given limit, only a lower bound "
-    "of it is used") {
+TEST_CASE("calibration: of a loss far above the link budget, only a lower bound is used") {
     KnownLinks known;
     for (const double loss : {99.0, 120.0, 120.5}) {
         KnownLink& link = known.links.emplace_back();
@@ -294,7 +290,7 @@ TEST_CASE(
     CHECK(std::abs(by_jackknife / by_group - 1) < 0.15);
 }
 
-TEST_CASE("calibration: if some links are unseen, fitted losses of walls are still not negative") {
+TEST_CASE("calibration: if some links are too weak to be seen, no fitted wall loss is negative") {
     // Links through a light wall lose less than others of their length.
     KnownLinks known;
     OccupancyGrid map = test::drawn_map(std::vector<std::string>(10, "#........."), 0.05);

@@ -202,7 +202,7 @@ TEST_CASE("probe: a scenario in which no robots come into range is refused") {
         InputError);
 }
 
-TEST_CASE("probe: reports progress from 0 to 1") {
+TEST_CASE("probe: the reported progress goes from 0 to 1") {
     double last = 0;
     probe(scenario_from(two_robots(50, "")), {}, [&](double share) {
         CHECK(share >= last);

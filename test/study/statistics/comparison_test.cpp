@@ -102,7 +102,7 @@ TEST_CASE("comparison: fewer than two pairs give no comparison") {
     CHECK(compare_pairs(std::array{1.0, 2.0}, std::array{2.0, 4.0}));
 }
 
-TEST_CASE("comparison: exchanging a and b changes only the sign") {
+TEST_CASE("comparison: exchanging the two samples changes only the sign of the difference") {
     const Pairs pairs(12, 1, 0.5);
     const auto forth = compare_pairs(pairs.a, pairs.b), back = compare_pairs(pairs.b, pairs.a);
     CHECK(forth->difference.mean == -back->difference.mean);
@@ -113,7 +113,7 @@ TEST_CASE("comparison: exchanging a and b changes only the sign") {
     CHECK(forth->detectable == back->detectable);
 }
 
-TEST_CASE("comparison: p is at most the level exactly when the interval excludes 0") {
+TEST_CASE("comparison: the p-value is at most the level exactly when the interval excludes 0") {
     int found = 0;
     for (std::uint32_t study = 0; study < 300; ++study) {
         const Pairs pairs(8, study, 1);
@@ -139,7 +139,7 @@ TEST_CASE("comparison: of 5 comparisons in a family, each is made at a fifth of 
     CHECK(together->confidence == 0.95);
 }
 
-TEST_CASE("comparison: if all differences are equal, p is 0, or 1 if they are all 0") {
+TEST_CASE("comparison: if all differences are equal, the p-value is 0, or 1 if they are all 0") {
     const std::array a{1.0, 2.0, 4.0}, less{0.5, 1.5, 3.5}, constant{3.0, 3.0, 3.0};
     const auto apart = compare_pairs(a, less);
     CHECK(apart->difference.mean == 0.5);
@@ -197,7 +197,7 @@ TEST_CASE("comparison: a true difference of the detectable size is found in 80 %
     CHECK(std::abs(found - 8000) < 160);  // 4 standard deviations
 }
 
-TEST_CASE("comparison: without a difference, p is uniform") {
+TEST_CASE("comparison: without a difference, the p-value is uniformly distributed") {
     std::array<int, 10> counts{};
     for (std::uint32_t study = 0; study < 2000; ++study) {
         const Pairs pairs(5, study, 0);
@@ -220,7 +220,7 @@ TEST_CASE("comparison: input that is not pairs of numbers is refused") {
                          std::invalid_argument);
 }
 
-TEST_CASE("comparison in words: states a significant difference") {
+TEST_CASE("comparison in words: a sentence states a significant difference") {
     CHECK(comparison_text("friis", "disc", comparison(0.2131, 0.0332, 1e-5)) ==
           "friis is 0.213 above disc (95 % interval 0.180 to 0.246, n = 30, p < 0.001, by "
           "Student's t)");
@@ -229,7 +229,7 @@ TEST_CASE("comparison in words: states a significant difference") {
           "Student's t)");
 }
 
-TEST_CASE("comparison in words: states that no difference is found, and the detectable size") {
+TEST_CASE("comparison in words: a sentence states that nothing is found, and the detectable size") {
     PairedComparison c = comparison(0.0021, 0.0119, 0.0501);
     CHECK(comparison_text("friis", "disc", c) ==
           "no detectable difference between friis and disc (0.002, 95 % interval -0.010 to 0.014, "
@@ -245,7 +245,7 @@ TEST_CASE("comparison in words: states that no difference is found, and the dete
           "detected with 30 replications");
 }
 
-TEST_CASE("comparison in words: states that two models are equal in all replications") {
+TEST_CASE("comparison in words: a sentence states that two models are equal in all replications") {
     const std::array a{1.0, 2.0, 4.0}, less{0.9, 1.9, 3.9}, equal{1.0, 2.0, 4.0};
     CHECK(comparison_text("a", "b", *compare_pairs(a, equal)) ==
           "a and b are equal in each of 3 replications");
@@ -281,7 +281,7 @@ TEST_CASE("comparison in words: a number that rounds to 0 has no sign") {
                   "no detectable difference between a and b (0.00, 95 % interval -0.50 to 0.50,"));
 }
 
-TEST_CASE("comparison in words: states whether two models are equivalent") {
+TEST_CASE("comparison in words: a sentence states whether two models are equivalent") {
     PairedComparison c = comparison(0.01, 0.02, 0.5);
     EquivalenceVerdict verdict;
     verdict.method = IntervalMethod::betting;
@@ -347,7 +347,7 @@ TEST_CASE(
     CHECK(compare_pairs(a, a, share)->sign_p == 1.0);
 }
 
-TEST_CASE("comparison: by STaR-Bets p is at most the level exactly when 0 is excluded") {
+TEST_CASE("comparison: by STaR-Bets, the p-value is at most the level exactly if 0 is excluded") {
     int found = 0, studies = 0;
     for (std::uint32_t study = 0; study < 100; ++study) {
         Pairs pairs(60, study, 1.2);

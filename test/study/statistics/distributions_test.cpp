@@ -56,7 +56,7 @@ TEST_CASE(
     CHECK(*t_shift(33, 0.05, 0.8) / std::sqrt(34) < 0.5);
 }
 
-TEST_CASE("distributions: to reach a power slightly above the level, hardly any shift is needed") {
+TEST_CASE("distributions: a power slightly above the level of the test needs hardly any shift") {
     CHECK(*t_shift(9, 0.05, 0.05 + 1e-9) < 1e-3);  // the power grows with the square of it
 }
 

@@ -56,8 +56,7 @@ EquivalenceVerdict by_betting(std::span<const double> values, double tolerance,
 
 }  // namespace
 
-TEST_CASE(
-    "equivalence: the four wealths of the betting test equal the test vectors decide_betting") {
+TEST_CASE("equivalence: the wealths of the betting test equal the test vectors (decide_betting)") {
     const test::Vectors all("decide_series.csv"), expected("decide_betting.csv");
     const char* const names[] = {"not_above", "not_below", "above", "below"};
     for (std::size_t row = 0; row < expected.size(); ++row) {
@@ -78,7 +77,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("equivalence: verdicts and their replications equal the test vectors decide_betting") {
+TEST_CASE("equivalence: verdicts and their replications equal the test vectors (decide_betting)") {
     const test::Vectors all("decide_series.csv"), expected("decide_betting.csv");
     for (std::size_t row = 0; row < expected.size(); ++row) {
         const std::string name = expected.text(row, "series");
@@ -96,7 +95,7 @@ TEST_CASE("equivalence: verdicts and their replications equal the test vectors d
     }
 }
 
-TEST_CASE("equivalence: the wealth after three differences equals a manual computation") {
+TEST_CASE("equivalence: the bets' wealth after three differences equals a manual computation") {
     // Margin 1/2, differences 1/2, 0, 0; the bet against "D >= 1/2": s = -1, m = 1/2.
     // 1: mean 0, var 1/4: lambda = (1/2) / (1/4 + 1/4) = 1, cut at 0.9 / 1.5 = 0.6; W = 1.
     // 2: mean 1/4, var (1/4 + 1/16) / 2 = 5/32: (1/4) / (5/32 + 1/16) = 8/7, cut; W = 1.3.
@@ -149,7 +148,7 @@ TEST_CASE("equivalence: a margin that no difference can exceed needs no replicat
     CHECK(result.decided_at == 0U);
 }
 
-TEST_CASE("equivalence: at the margin itself at most 5 % of studies have a false verdict") {
+TEST_CASE("equivalence: if the difference equals the margin, at most 5 % of verdicts are false") {
     // One replication in 50 loses everything: E D = -0.02, neither within nor outside.
     constexpr int studies = 400;
     std::map<IntervalMethod, int> within, outside;
@@ -172,7 +171,7 @@ TEST_CASE("equivalence: at the margin itself at most 5 % of studies have a false
     }
 }
 
-TEST_CASE("equivalence: at a fixed n STaR-Bets are used, unless Student's t is requested") {
+TEST_CASE("equivalence: STaR-Bets test a fixed number of values, unless Student's t is requested") {
     const auto values = normals(150, 0, 0.02, 5);
     const auto fixed = equivalence_of(values, 0.05, share);
     CHECK(fixed.verdict == Equivalence::within);

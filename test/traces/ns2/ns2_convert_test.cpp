@@ -159,7 +159,7 @@ TEST_CASE(
     CHECK(routing.converted.left_out.size() == 1);
     const Made unplaced = converted(cbr, TraceForm::ns2_new);
     CHECK(unplaced.text.empty());
-    CHECK(unplaced.converted.left_out.begin()->first.find("no earlier M line") !=
+    CHECK(unplaced.converted.left_out.begin()->first.find("without an earlier M line") !=
           std::string::npos);
 }
 

@@ -103,7 +103,7 @@ TEST_CASE("damaged trace: every line is counted once, whatever it contains") {
     }
 }
 
-TEST_CASE("damaged trace: a broken line affects only itself") {
+TEST_CASE("damaged trace: a broken line does not affect other lines") {
     for (const auto format : {Ns2Format::old_format, Ns2Format::new_format}) {
         const std::string text = sample(format);
         const TempFolder folder;

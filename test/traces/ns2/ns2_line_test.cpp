@@ -56,7 +56,7 @@ TEST_CASE("ns-2 line: all fields of the old format are read") {
     CHECK_FALSE(p.energy);
 }
 
-TEST_CASE("ns-2 line: all fields of a line in the new format are read; a drop is written d there") {
+TEST_CASE("ns-2 line: all fields of a line in the new format are read, also those of a drop") {
     const auto p = packet_of(
         "d -t 1.500000000 -Hs 2 -Hd -2 -Ni 2 -Nx 10.25 -Ny 20.50 -Nz 0.00 -Ne 99.500000 -Nl IFQ "
         "-Nw ARP -Ma 13a -Md a -Ms b -Mt 800 -Is 5.0 -Id 3.1 -It tcp -Il 1040 -If 2 -Ii 7 -Iv 29 "
@@ -164,7 +164,7 @@ TEST_CASE("ns-2 line: the unusual MAC addresses of Mac/Simple are read unchanged
     CHECK(p.mac == Ns2Mac{0, 0x1000000, 0xffff0008, 0});
 }
 
-TEST_CASE("ns-2 line: M, N and v lines are read, with the annotation that rovernet writes") {
+TEST_CASE("ns-2 line: M (movement), N (energy) and v (annotation) lines are read") {
     const Ns2Line m = parse_ns2_line("M 2.00000 3 (6.59, 418.73, 1.00), (67.99, 108.50), 14.52");
     REQUIRE(std::holds_alternative<Ns2Move>(m));
     CHECK(std::get<Ns2Move>(m).from == Vec3{6.59, 418.73, 1});
@@ -196,7 +196,7 @@ TEST_CASE("ns-2 line: a line that begins with S is a statistic of DSR, not a sen
     CHECK(is_refused("S 1.0 _1_ AGT  --- 0 cbr 512"));
 }
 
-TEST_CASE("ns-2 line: wired lines, nam lines and output of ns are recognised by kind") {
+TEST_CASE("ns-2 line: lines of wired links, of nam and of ns itself are recognised and skipped") {
     for (const char* line :
          {"+ 0.1 1 2 cbr 1000 ------- 2 1.0 3.1 0 0", "- 0.108 1 2 cbr 1000 ------- 2 1.0 3.1 1 1",
           "r 0.80000000000000004 1 2 tcp 40 ------- 2 1.0 3.1 0 0",

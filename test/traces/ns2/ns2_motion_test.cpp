@@ -89,7 +89,7 @@ TEST_CASE("ns-2 motion: positions in packet lines refine the rounded speed of a 
     check_place(motion, 60500ms, {100, 0});
 }
 
-TEST_CASE("ns-2 motion: without M lines a robot moves straight from position to position") {
+TEST_CASE("ns-2 motion: without M lines (movements), robots go straight between known positions") {
     Ns2Motion motion;
     motion.is_at(robot, at(1s), {5, 5});
     motion.is_at(robot, at(10s), {5, 5});  // it rested until here

@@ -218,7 +218,7 @@ TEST_CASE(
     CHECK_FALSE(annotated("7"));
 }
 
-TEST_CASE("reader: robots move as in their M lines") {
+TEST_CASE("reader: robots move as in the M lines (movements) of the trace") {
     const auto r = records_of(old_lines);
     REQUIRE(r.moved.size() == 2);
     CHECK(r.legs.leg(NodeId{0}).end == never);
@@ -371,7 +371,7 @@ TEST_CASE("reader: a file without any line of an ns-2 trace is refused") {
         FAIL("it was read");
     } catch (const InputError& e) {
         CHECK(e.where().line == 2);
-        CHECK(std::string(e.what()).find("no line of this file is one of an ns-2 trace") !=
+        CHECK(std::string(e.what()).find("no line of this file is a line of an ns-2 trace") !=
               std::string::npos);
     }
     // A run in which nobody says anything leaves a trace as well.

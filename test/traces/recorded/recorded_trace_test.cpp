@@ -318,11 +318,11 @@ TEST_CASE("a file that is not a recorded trace is refused with the reason") {
     CHECK(refused("\x1f\x8b\x08 and more") ==
           "the file is compressed by gzip; expected a recorded trace (.mcap), not compressed");
     CHECK(refused("") ==
-          "this file is not a recorded trace; expected a file in the format MCAP, as rovernet run "
-          "--record writes it");
+          "this file is not a recorded trace; expected a file in the format MCAP, as \"rovernet "
+          "run --record\" writes it");
     CHECK(refused("s 1.0 _0_ AGT") ==
-          "this file is not a recorded trace; expected a file in the format MCAP, as rovernet run "
-          "--record writes it");
+          "this file is not a recorded trace; expected a file in the format MCAP, as \"rovernet "
+          "run --record\" writes it");
     CHECK(refused(std::string(mcap_magic)) ==
           "this MCAP file is cut off before its first data; record the run again");
     CHECK_THROWS_AS(RecordedReader("/nowhere/at/all"), InputError);

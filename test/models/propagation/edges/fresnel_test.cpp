@@ -20,7 +20,7 @@ bool same_digits(double a, double b) { return near(a, b, 2e-14 * std::abs(b)); }
 
 }  // namespace
 
-TEST_CASE("fresnel: f and g equal values computed with 50 digits") {
+TEST_CASE("fresnel: the auxiliary functions f and g equal values computed with 50 digits") {
     struct Row {
         double t, f, g;
     };
