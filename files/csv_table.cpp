@@ -36,14 +36,16 @@ CsvTable::CsvTable(const std::string& path) : path_(path) {
         if (fields.size() != names_.size()) {
             throw InputError(
                 lines.where(),
-                fmt::format("found {} fields; expected {}, as in the line of column names",
-                            fields.size(), names_.size()));
+                fmt::format(
+                    "found {} fields; expected {}, as in the line with the names of the columns",
+                    fields.size(), names_.size()));
         }
         rows_.push_back({fields, lines.where()});
     }
     if (names_.empty())
         throw InputError({path_, 0, 0},
-                         "the file has no line of column names; expected one as its first line");
+                         "the file has no line with the names of the columns; expected this line "
+                         "before all other lines");
 }
 
 bool CsvTable::has(std::string_view column) const {

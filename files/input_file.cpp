@@ -69,7 +69,7 @@ InputKind input_kind(const std::string& path) {
 std::string_view fault_of(InputKind kind) {
     switch (kind) {
         case InputKind::nothing: return "no such file";
-        case InputKind::loop: return "a loop of symbolic links";
+        case InputKind::loop: return "its path is a loop of symbolic links";
         case InputKind::closed: return "its folder cannot be entered, or its name is too long";
         case InputKind::folder: return "it is a folder";
         case InputKind::device: return "it is a device, not a regular file";
@@ -110,8 +110,8 @@ void InputFile::wait_for_writer() const {
         // A hang-up means that a writer was there and has closed the FIFO: the end of its data.
         if (poll(&events, 1, a_while) > 0 || has_writer(file_)) return;
     }
-    fail(
-        fmt::format("it is a FIFO into which nobody has written for {} s", writer_timeout.count()));
+    fail(fmt::format("it is a FIFO into which no program has written for {} s",
+                     writer_timeout.count()));
 }
 
 std::string InputFile::read(std::size_t most) {

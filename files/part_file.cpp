@@ -70,7 +70,7 @@ PartFile::PartFile(std::string path, Failed failed, Orphans orphans)
     const auto status = fs::status(path_, ignored);
     // A rename would replace a device by a file.
     if (exists(status) && !is_regular_file(status))
-        fail("something that is not a regular file has this name");
+        fail("a file of this name exists, and it is not a regular file");
     if (orphans == Orphans::are_removed) remove_orphans(path_);
     for (auto n = static_cast<std::uint64_t>(getpid());; ++n) {
         const std::string part = fmt::format("{}.{}.part", path_, n);

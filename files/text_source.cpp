@@ -37,7 +37,7 @@ constexpr Mark marks[] = {
     {0, "Rar!\x1a\x07", "the file is a RAR archive"},
     {0, "\x04\x22\x4d\x18", "the file is compressed by lz4"},
     {0, "LZIP", "the file is compressed by lzip"},
-    {0, "\x1f\x9d", "the file is compressed by compress"},
+    {0, "\x1f\x9d", "the file is compressed by the program compress"},
     {0, "\x1f\x8b", "the file is compressed by gzip"},
     {0, "\x28\xb5\x2f\xfd", "the file is compressed by zstd"},
     {257, "ustar", "the file is a tar archive"},
@@ -67,8 +67,7 @@ void TextSource::Close::operator()(ZSTD_DCtx_s* context) const { ZSTD_freeDCtx(c
 
 TextSource::TextSource(const std::string& path, Reads reads) : name_(path), buffer_(portion) {
     if (reads == Reads::twice && input_kind(path) == InputKind::stream) {
-        fail(
-            "is not a regular file; a movement file is read twice, so it has to be a regular file");
+        fail("this is a pipe; expected a regular file, because a movement file is read twice");
     }
     InputFile input(path);
     const int descriptor = input.release();

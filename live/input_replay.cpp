@@ -145,7 +145,7 @@ class Replayed {
         const Input input = input_in(line, session_.network(), format_);
         if (input.time < session_.network().now()) {
             line.fail("out_of_range",
-                      "the time of this input is earlier than the time of the input before");
+                      "the time of this input is earlier than the time of the previous input");
         }
         run_to(input.time);
         session_.carry_out(driver_of(input.robot), input.robot, input.command);

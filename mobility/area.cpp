@@ -44,7 +44,9 @@ Area::Area(const std::vector<Vec3>& corners, const Scene& scene, std::string_vie
     : lower(scene.lower_left()), upper(scene.upper_right()) {
     if (corners.empty()) {
         if (scene.open_field())
-            refuse(model, "area must be given on an open field: [[x, y], [x, y]]");
+            refuse(model,
+                   "the key \"area\" must be given, because the scene is an open field without a "
+                   "map: area = [[x, y], [x, y]]");
         return;
     }
     if (corners.size() != 2) {
@@ -61,8 +63,8 @@ Area::Area(const std::vector<Vec3>& corners, const Scene& scene, std::string_vie
     const bool map = scene.has_border();
     if (map && !(std::max(a.x, lower.x) < std::min(b.x, upper.x) &&
                  std::max(a.y, lower.y) < std::min(b.y, upper.y))) {
-        refuse(model, fmt::format("area {} lies off the map, which is {}", text(a, b),
-                                  text(lower, upper)));
+        refuse(model, fmt::format("area {} does not overlap the map, which goes from {}",
+                                  text(a, b), text(lower, upper)));
     }
     lower = map ? Vec3{std::max(a.x, lower.x), std::max(a.y, lower.y)} : a;
     upper = map ? Vec3{std::min(b.x, upper.x), std::min(b.y, upper.y)} : b;
@@ -107,7 +109,7 @@ std::optional<Vec3> Area::first_place(const Mover& mover, StartPlace start, Draw
     if (start == StartPlace::uniform && mover.now == start_of_run) return free_place(mover, draws);
     const Vec3 p = mover.position;
     if (contains(p)) return p;
-    refuse(model, fmt::format("the robot must be in the area {} to begin, but is at ({}, {}) m",
+    refuse(model, fmt::format("the robot must begin inside the area {}, but is at ({}, {}) m",
                               text(lower, upper), p.x, p.y));
 }
 

@@ -28,7 +28,7 @@ struct Follow {
     static constexpr auto fields() {
         return describe(field("distance", &Follow::distance, non_negative,
                               "distance that the robot keeps from the leader, along the path"),
-                        field("speed", &Follow::speed, positive, "largest speed"),
+                        field("speed", &Follow::speed, positive, "largest speed of the robot"),
                         field("every", &Follow::every, step_length,
                               "time between two updates of the path to the leader"));
     }

@@ -39,14 +39,14 @@ struct FollowWall {
     Meters range{8};             ///< largest distance that the robot's range finder measures, > 0
 
     static constexpr auto fields() {
-        return describe(
-            field("side", &FollowWall::side, "side of the robot on which the wall is"),
-            field("speed", &FollowWall::speed, positive, "speed along the wall"),
-            field("keep", &FollowWall::keep, positive,
-                  "distance from the robot's body to the wall"),
-            field("stride", &FollowWall::stride, positive, "distance between two measurements"),
-            field("range", &FollowWall::range, positive,
-                  "longest distance that the robot's range finder measures"));
+        return describe(field("side", &FollowWall::side, "side of the robot on which the wall is"),
+                        field("speed", &FollowWall::speed, positive, "speed along the wall"),
+                        field("keep", &FollowWall::keep, positive,
+                              "distance from the robot's body to the wall"),
+                        field("stride", &FollowWall::stride, positive,
+                              "distance that the robot moves between two measurements"),
+                        field("range", &FollowWall::range, positive,
+                              "longest distance that the robot's range finder measures"));
     }
 
     /// @throws std::invalid_argument for a parameter out of its range, or without a map

@@ -41,25 +41,25 @@ struct GaussMarkov {
         constexpr Range share{.low = 0, .high = 1, .text = "from 0 to 1"};
         constexpr Range angle{.low = -1e6, .high = 1e6, .text = "from -1e6 to 1e6 rad"};
         constexpr Range spread{.low = 0, .high = 1e6, .text = "from 0 to 1e6 rad"};
-        return describe(
-            field("area", &GaussMarkov::area,
-                  "lower-left and upper-right corner; the whole map if not given"),
-            field("mean_speed", &GaussMarkov::mean_speed, non_negative, "mean of the drawn speeds"),
-            field("speed_sigma", &GaussMarkov::speed_sigma, non_negative,
-                  "standard deviation of the speed"),
-            field("mean_direction", &GaussMarkov::mean_direction, angle,
-                  "mean direction at the start, counter-clockwise from the x axis; drawn if not "
-                  "given"),
-            field("direction_sigma", &GaussMarkov::direction_sigma, spread,
-                  "standard deviation of the direction from its mean"),
-            field("memory", &GaussMarkov::memory, share,
-                  "a, correlation of one step with the next; 0: no correlation; 1: the velocity "
-                  "never changes"),
-            field("step", &GaussMarkov::step, step_length,
-                  "time between two draws of speed and direction"),
-            field("start", &GaussMarkov::start,
-                  "uniform: at a place drawn uniformly from the area; here: at the robot's own "
-                  "place"));
+        return describe(field("area", &GaussMarkov::area,
+                              "lower-left and upper-right corner of the area in which the robot "
+                              "moves; if not given, the whole map"),
+                        field("mean_speed", &GaussMarkov::mean_speed, non_negative, "mean speed"),
+                        field("speed_sigma", &GaussMarkov::speed_sigma, non_negative,
+                              "standard deviation of the speed"),
+                        field("mean_direction", &GaussMarkov::mean_direction, angle,
+                              "mean direction at the start, counter-clockwise from the x axis; if "
+                              "not given, a random direction"),
+                        field("direction_sigma", &GaussMarkov::direction_sigma, spread,
+                              "standard deviation of the direction from its mean"),
+                        field("memory", &GaussMarkov::memory, share,
+                              "the factor a: correlation between the velocities of two successive "
+                              "steps; 0: no correlation; 1: the velocity never changes"),
+                        field("step", &GaussMarkov::step, step_length,
+                              "time between two draws of speed and direction"),
+                        field("start", &GaussMarkov::start,
+                              "place at which the movement begins. uniform: a place drawn "
+                              "uniformly from the area; here: the robot's `at` or `place`"));
     }
 
     /// @throws std::invalid_argument for a parameter out of its range

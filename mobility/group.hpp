@@ -29,10 +29,10 @@ struct Group {
     static constexpr auto fields() {
         return describe(
             field("radius", &Group::radius, non_negative,
-                  "radius of the disc around the reference point, in which the robot stays"),
+                  "radius of the disc in which the robot's goals are drawn"),
             field("every", &Group::every, step_length,
-                  "time between two draws of the robot's goal in the disc"),
-            field("offset", &Group::offset, "offset of the reference point from the leader"));
+                  "time between two draws of a new goal in the disc"),
+            field("offset", &Group::offset, "vector from the leader to the centre of the disc"));
     }
 
     /// @throws std::invalid_argument for a parameter out of its range or an unknown leader

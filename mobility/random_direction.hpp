@@ -49,18 +49,19 @@ struct RandomDirection {
     static constexpr auto fields() {
         return describe(
             field("area", &RandomDirection::area,
-                  "lower-left and upper-right corner; the whole map if not given"),
+                  "lower-left and upper-right corner of the area in which the robot moves; if not "
+                  "given, the whole map"),
             field("min_speed", &RandomDirection::min_speed, non_negative,
                   "smallest speed of a straight trip"),
             field("max_speed", &RandomDirection::max_speed, positive,
                   "largest speed of a straight trip"),
             field("pause", &RandomDirection::pause, rest_length, "rest after each straight trip"),
-            field("border_turn", &RandomDirection::border_turn,
-                  "distribution of the new direction at the border, by its angle to "
-                  "the border's normal"),
+            field(
+                "border_turn", &RandomDirection::border_turn,
+                "distribution of the angle between the new direction and the normal of the border"),
             field("start", &RandomDirection::start,
-                  "uniform: at a place drawn uniformly from the area; here: at the "
-                  "robot's own place"));
+                  "place at which the movement begins. uniform: a place drawn uniformly from the "
+                  "area; here: the robot's `at` or `place`"));
     }
 
     /// @throws std::invalid_argument for a parameter out of its range

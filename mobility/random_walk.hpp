@@ -33,14 +33,15 @@ struct RandomWalk {
     static constexpr auto fields() {
         return describe(
             field("area", &RandomWalk::area,
-                  "lower-left and upper-right corner; the whole map if not given"),
+                  "lower-left and upper-right corner of the area in which the robot moves; if not "
+                  "given, the whole map"),
             field("min_speed", &RandomWalk::min_speed, non_negative, "smallest speed of a step"),
             field("max_speed", &RandomWalk::max_speed, positive, "largest speed of a step"),
             field("step", &RandomWalk::step, step_length,
                   "time between two changes of speed and direction"),
             field("start", &RandomWalk::start,
-                  "uniform: at a place drawn uniformly from the area; here: at the robot's own "
-                  "place"));
+                  "place at which the movement begins. uniform: a place drawn uniformly from the "
+                  "area; here: the robot's `at` or `place`"));
     }
 
     /// @throws std::invalid_argument for a parameter out of its range

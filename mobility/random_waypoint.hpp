@@ -55,15 +55,17 @@ struct RandomWaypoint {
     static constexpr auto fields() {
         return describe(
             field("area", &RandomWaypoint::area,
-                  "lower-left and upper-right corner; the whole map if not given"),
+                  "lower-left and upper-right corner of the area in which the robot moves; if not "
+                  "given, the whole map"),
             field("min_speed", &RandomWaypoint::min_speed, non_negative,
-                  "smallest speed of a trip; > 0 for a stationary start"),
+                  "smallest speed of a trip; must be > 0 for a stationary start"),
             field("max_speed", &RandomWaypoint::max_speed, positive, "largest speed of a trip"),
             field("pause", &RandomWaypoint::pause, rest_length, "rest after each trip"),
-            field("start", &RandomWaypoint::start,
-                  "stationary: in the state that is reached after a long time; uniform: with a new "
-                  "trip from a place drawn uniformly from the area; here: with a new trip from the "
-                  "robot's own place"));
+            field(
+                "start", &RandomWaypoint::start,
+                "how the movement begins. stationary: with place, speed and rest as they are "
+                "distributed after a long time; uniform: with a new trip from a place drawn "
+                "uniformly from the area; here: with a new trip from the robot's `at` or `place`"));
     }
 
     /// State of one robot in this movement, for the model only.

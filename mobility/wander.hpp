@@ -29,14 +29,16 @@ struct Wander {
     Meters run{10};   ///< longest straight path, > 0
 
     static constexpr auto fields() {
-        return describe(field("speed", &Wander::speed, positive, "speed straight ahead"),
-                        field("turn_rate", &Wander::turn_rate, turn_rates,
-                              "turn rate while the robot turns in place"),
-                        field("keep", &Wander::keep, positive,
-                              "free distance that the robot keeps ahead of its body"),
-                        field("range", &Wander::range, positive,
-                              "longest distance that the robot's range finder measures"),
-                        field("run", &Wander::run, positive, "longest distance straight ahead"));
+        return describe(
+            field("speed", &Wander::speed, positive, "speed while the robot moves straight ahead"),
+            field("turn_rate", &Wander::turn_rate, turn_rates,
+                  "rate at which the robot turns in place"),
+            field("keep", &Wander::keep, positive,
+                  "free distance that the robot keeps ahead of its body"),
+            field("range", &Wander::range, positive,
+                  "longest distance that the robot's range finder measures"),
+            field("run", &Wander::run, positive,
+                  "longest distance that the robot moves straight ahead before it turns"));
     }
 
     /// @throws std::invalid_argument for a parameter out of its range, or without a map

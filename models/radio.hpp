@@ -96,17 +96,18 @@ struct Radio {
     /// Parameters in scenario files; RadioLabels::fields() has the labels beside them.
     static constexpr auto fields() {
         return describe(
-            field("power", &Radio::power, "transmitter output power"),
-            field("sensitivity", &Radio::sensitivity, "the weakest signal that is received"),
+            field("power", &Radio::power, "output power of the transmitter"),
+            field("sensitivity", &Radio::sensitivity, "weakest signal that the radio decodes"),
             field("carrier_sense_threshold", &Radio::carrier_sense_threshold,
-                  "the weakest signal that is sensed; the sensitivity if not given"),
-            field("frequency", &Radio::frequency, positive, "carrier frequency"),
+                  "weakest signal that the radio senses, even if it cannot decode the signal; if "
+                  "not given, the sensitivity"),
+            field("frequency", &Radio::frequency, positive, "frequency of the carrier"),
             field("rate", &Radio::rate, Range{.low = 1, .text = ">= 1 bit/s"},
-                  "bit rate on air; if not given, the rate of [access] standard"),
+                  "bit rate on air; if not given, the default of the [access] standard"),
             field("preamble", &Radio::preamble,
                   Range{.low = 0, .high = 1e9, .text = "from 0 to 1e9 s"},
                   "duration of the preamble, which is sent before the first bit; if not given, the "
-                  "duration of [access] standard"),
+                  "default of the [access] standard"),
             field("antenna_gain", &Radio::antenna_gain,
                   "antenna gain, for sending and for receiving"),
             field("antenna", &Radio::antenna,
@@ -115,28 +116,31 @@ struct Radio {
             field("antenna_direction", &Radio::antenna_direction,
                   "direction of a directional antenna, counter-clockwise from the robot's heading"),
             field("antenna_beamwidth", &Radio::antenna_beamwidth, beamwidths,
-                  "for cosine: angle between the directions of -3 dB"),
+                  "for cosine: angle between the two directions in which the gain is 3 dB below "
+                  "its maximum"),
             field("front_to_back", &Radio::front_to_back, non_negative,
-                  "for cosine: gain of the strongest direction relative to the weakest one"),
-            field(
-                "antenna_pattern", &Radio::antenna_pattern,
-                "for table: points [degrees, dB], counter-clockwise from the antenna's direction"),
-            field("cable_loss", &Radio::cable_loss, non_negative, "loss between radio and antenna"),
+                  "for cosine: gain in the strongest direction relative to the gain in the weakest "
+                  "direction"),
+            field("antenna_pattern", &Radio::antenna_pattern,
+                  "for table: points [angle in degrees, gain in dB]; the angles are "
+                  "counter-clockwise from the antenna's direction"),
+            field("cable_loss", &Radio::cable_loss, non_negative,
+                  "loss between radio and antenna, for sending and for receiving"),
             field("antenna_height", &Radio::antenna_height,
-                  "height of the antenna above the robot's own z"),
+                  "height of the antenna above the z coordinate of the robot"),
             field("bandwidth", &Radio::bandwidth, positive, "bandwidth of the receiver's filter"),
             field("noise_figure", &Radio::noise_figure, non_negative,
                   "noise figure of the receiver"),
             field("success_rate", &Radio::success_rate,
                   Range{.low = 0, .high = 1, .text = "from 0 to 1"},
-                  "probability that a receiver in range gets a frame of this sender"),
+                  "probability that a receiver in range receives a frame of this sender"),
             field("essid", &Radio::essid,
                   "name of the radio's network; \"any\" joins all networks"),
             field("channel", &Radio::channel, non_negative,
                   "channel number; both robots of a link must have the same number"),
             field("gate", &Radio::gate,
                   "network: only radios with the same essid, channel and frequency receive each "
-                  "other; none: all radios do"));
+                  "other; none: all radios receive each other"));
     }
 };
 

@@ -42,17 +42,19 @@ struct RadioLabels {
     /// parameters of Radio.
     static constexpr auto fields() {
         return describe(
-            field("ip", &RadioLabels::ip, "IP address; unique; if left out, one is generated"),
+            field("ip", &RadioLabels::ip,
+                  "IP address, different for each robot; if not given, an address is generated"),
             field("netmask", &RadioLabels::netmask,
-                  "netmask of the IP address; without effect on radio"),
+                  "netmask of the IP address; it has no effect on radio"),
             field("mac", &RadioLabels::mac,
-                  "hardware address; unique; if left out, one is generated"),
+                  "hardware (MAC) address, different for each robot; if not given, an address is "
+                  "generated"),
             field("mode", &RadioLabels::mode,
-                  "role of the radio in the network; without any effect"),
+                  "role of the radio in the network: a label without any effect"),
             field("encryption", &RadioLabels::encryption,
-                  "encryption of the network; without any effect"),
+                  "encryption of the network: a label without any effect"),
             field("range_db", &RadioLabels::range_db,
-                  "received level at which pictures draw a contour line"));
+                  "received level of the dashed contour line in pictures of coverage"));
     }
 };
 

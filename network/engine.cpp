@@ -114,8 +114,8 @@ void Engine::count_events() {
     constexpr std::uint64_t most_pending = SchedulerLimits{}.pending / 16 * 15;
     if (events.size() > most_pending) {
         throw RunError(
-            fmt::format("{} events wait at {:.9f} s, more than a run can hold; lower the load: "
-                        "fewer messages, a smaller ttl",
+            fmt::format("{} scheduled events wait at {:.9f} s of simulated time, which is more "
+                        "than a run can hold; lower the load: fewer messages, a smaller ttl",
                         events.size(), seconds(world.now)));
     }
     const std::uint64_t limit = world.settings.event_limit;

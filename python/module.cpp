@@ -61,7 +61,7 @@ void add_run(py::module_& m) {
                                "Names of all robots, in the order of their numbers.")
         .def_property_readonly(
             "fingerprint", [](const RunObject& run) { return run.result().fingerprint; },
-            "16 hexadecimal digits, equal for equal behaviour of runs, on every machine.")
+            "16 hexadecimal digits that are the same for identical runs, on every machine.")
         .def_property_readonly(
             "folder",
             [](const RunObject& run) {
@@ -94,7 +94,7 @@ void add_run(py::module_& m) {
         "seed:     seed of the random draws; None: the scenario's seed\n"
         "out:      folder for the results, as `rovernet run` writes them; None: no files\n"
         "records:  kinds of records to keep for Run.records()\n"
-        "progress: function that is called now and then with the finished share, 0 ... 1\n\n"
+        "progress: function that is called repeatedly with the finished share, 0 ... 1\n\n"
         "Raises InputError for a mistake in the scenario, RunError if the scenario cannot be run.");
 }
 
@@ -226,7 +226,7 @@ void add_commands(SessionClass& session) {
              "[m/s].\nWithout z the robot stays at its height.")
         .def("place", &place, "robot"_a, "x"_a, "y"_a, "heading"_a = py::none(), "z"_a = py::none(),
              "Moves a robot to (x, y, z) [m] with a heading [rad] when the next step begins;\n"
-             "there it is at rest. None: the current height or heading.")
+             "there it stands still. None: the current height or heading.")
         .def("stop", stop, "robot"_a, "Stops a robot.")
         .def("command", &command, "robot"_a,
              "Gives a robot any command. The keywords are keys of the lock-step protocol, such "
@@ -310,7 +310,7 @@ void add_state(SessionClass& session) {
         .def_property_readonly("metrics", &metrics, "dict of the metrics so far.")
         .def_property_readonly(
             "fingerprint", [](SessionObject& self) { return self.run().fingerprint(); },
-            "16 hexadecimal digits, equal for equal behaviour so far.");
+            "16 hexadecimal digits that are the same for runs that are identical so far.");
 }
 
 }  // namespace

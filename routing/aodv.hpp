@@ -72,37 +72,46 @@ struct Aodv {
         constexpr Range seconds_range{.low = 0, .high = 1e4, .text = "from 0 to 10000 s"};
         constexpr Range hops_range{.low = 1, .high = 255, .text = "from 1 to 255"};
         return describe(
-            field("profile", &Aodv::profile, "rfc: as in RFC 3561; ns2: as in ns-2.35"),
+            field("profile", &Aodv::profile,
+                  "variant of the protocol. rfc: as in the text of RFC 3561; ns2: as in ns-2.35, "
+                  "with its defaults"),
             field("active_route_timeout", &Aodv::active_route_timeout, seconds_range,
-                  "time for which an unused route is kept; 3 s if not given"),
+                  "time after which a route ends if no message uses it; if not given, 3 s (10 s "
+                  "with profile ns2)"),
             field("my_route_timeout", &Aodv::my_route_timeout, seconds_range,
-                  "lifetime of a route in the reply of its destination; if not given, 2 * "
-                  "active_route_timeout"),
+                  "lifetime of a route if the destination itself answers the request; if not "
+                  "given, 2 * active_route_timeout (10 s with profile ns2)"),
             field("node_traversal_time", &Aodv::node_traversal_time, seconds_range,
-                  "longest time that a packet needs for one hop; 40 ms if not given"),
+                  "longest time that a packet is assumed to need for one hop; if not given, 40 ms "
+                  "(30 ms with profile ns2)"),
             field("net_diameter", &Aodv::net_diameter, hops_range,
-                  "largest number of hops in a search of the whole network; 35 if not given"),
+                  "TTL of a search of the whole network; if not given, 35 (30 with profile ns2)"),
             field("rreq_retries", &Aodv::rreq_retries,
                   Range{.low = 0, .high = 100, .text = "from 0 to 100"},
-                  "number of repeated searches of the whole network; 2 if not given"),
-            field("rings", &Aodv::rings, "whether a search begins with small TTLs"),
+                  "number of times that a search of the whole network is repeated if it gets no "
+                  "answer; if not given, 2 (3 with profile ns2)"),
+            field("rings", &Aodv::rings,
+                  "true: a search begins with requests with small TTLs; false: every search begins "
+                  "with the whole network"),
             field("destination_only", &Aodv::destination_only,
-                  "whether only the destination may answer a request"),
+                  "true: only the destination answers requests; false: a robot with a route to the "
+                  "destination also answers"),
             field("gratuitous", &Aodv::gratuitous,
-                  "whether a node that answers a request also sends the destination a route back "
-                  "to the origin"),
+                  "true: a robot that answers a request in place of the destination also sends the "
+                  "destination a route to the originator of the request"),
             field("hello", &Aodv::hello, seconds_range,
-                  "time between HELLO packets; 0: no HELLO packets, because the link layer reports "
-                  "broken links"),
+                  "time between the HELLO packets of a robot; 0 s: no HELLO packets (csma reports "
+                  "broken links without them)"),
             field("local_repair", &Aodv::local_repair,
-                  "whether a node near the destination repairs a broken route by a search of its "
-                  "own"),
+                  "true: a robot that cannot forward a message may search for a new route itself; "
+                  "if not given, false (true with profile ns2)"),
             field("buffer", &Aodv::buffer, Range{.low = 1, .high = 1e6, .text = "from 1 to 1e6"},
-                  "packets that may wait at a node for routes"),
-            field("ttl", &Aodv::ttl, Range{.low = 1, .high = 65535, .text = "from 1 to 65535"},
-                  "hops that a message may cross; 64 if not given"),
+                  "largest number of messages that wait for routes at a robot"),
+            field(
+                "ttl", &Aodv::ttl, Range{.low = 1, .high = 65535, .text = "from 1 to 65535"},
+                "number of hops that a message may cross; if not given, 64 (30 with profile ns2)"),
             field("jitter", &Aodv::jitter, Range{.low = 0, .high = 1e9, .text = "from 0 to 1e9 s"},
-                  "largest value of the uniform random delay before a node forwards a request"));
+                  "upper limit of the uniform random delay before a robot forwards a request"));
     }
 
     operator Router() const;

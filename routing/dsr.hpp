@@ -46,16 +46,17 @@ struct Dsr {
 
     static constexpr auto fields() {
         return describe(
-            field("profile", &Dsr::profile, "rfc: as in RFC 4728; ns2: as in ns-2.35"),
+            field("profile", &Dsr::profile,
+                  "variant of the protocol. rfc: as in the text of RFC 4728; ns2: as in ns-2.35"),
             field("promiscuous", &Dsr::promiscuous,
-                  "whether nodes learn routes from packets for others"),
+                  "true: robots also learn routes and broken links from packets to other robots"),
             field("salvage", &Dsr::salvage, Range{.low = 0, .high = 15, .text = "from 0 to 15"},
-                  "number of times that the route of a message may be replaced while the message "
-                  "is forwarded"),
+                  "largest number of times that a message may be salvaged (sent along a different "
+                  "route after a broken link)"),
             field("buffer", &Dsr::buffer, Range{.low = 1, .high = 1e6, .text = "from 1 to 1e6"},
-                  "packets that may wait at a node for routes"),
+                  "largest number of messages that wait for routes at a robot"),
             field("jitter", &Dsr::jitter, Range{.low = 0, .high = 1e9, .text = "from 0 to 1e9 s"},
-                  "largest value of the uniform random delay before a node forwards or answers a "
+                  "upper limit of the uniform random delay before a robot forwards or answers a "
                   "request"));
     }
 

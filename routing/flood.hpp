@@ -38,16 +38,18 @@ struct Flood {
     static constexpr auto fields() {
         return describe(
             field("ttl", &Flood::ttl, Range{.low = 1, .high = 65535, .text = "from 1 to 65535"},
-                  "hops that a message may cross"),
+                  "number of hops that a message may cross (time-to-live, TTL)"),
             field("duplicates", &Flood::duplicates,
-                  "what a node does with further copies of a message"),
+                  "what a robot does with a further copy of a message. suppress: does not forward "
+                  "it; forward: forwards it, too"),
             field("upgrade", &Flood::upgrade,
-                  "with \"suppress\": a second copy with a higher TTL raises the TTL of the first "
-                  "copy, if the first copy still waits"),
+                  "for suppress: a further copy with a higher TTL raises the TTL of the first "
+                  "copy, if the first copy still waits to be forwarded"),
             field("jitter", &Flood::jitter, Range{.low = 0, .high = 1e9, .text = "from 0 to 1e9 s"},
-                  "largest value of the uniform random delay before a node forwards a message"),
+                  "upper limit of the uniform random delay before a robot forwards a message"),
             field("ttl_in_payload", &Flood::ttl_in_payload,
-                  "the first byte of a payload is the message's TTL, as in the 2007 thesis"));
+                  "true: the first byte of the payload of a message is its TTL, as in the 2007 "
+                  "thesis on a wifi model for Stage"));
     }
 
     operator Router() const;

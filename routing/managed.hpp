@@ -36,9 +36,9 @@ struct Managed {
             field("hop_limit", &Managed::hop_limit,
                   Range{.low = 1, .high = 7, .text = "from 1 to 7"},
                   "number of times that a message may be relayed"),
-            field(
-                "slot", &Managed::slot, Range{.low = 0, .high = 1e3, .text = "from 0 to 1000 s"},
-                "duration of a slot, the unit of the random delay before a node relays a message"));
+            field("slot", &Managed::slot, Range{.low = 0, .high = 1e3, .text = "from 0 to 1000 s"},
+                  "duration of a slot, the unit of the random delay before a robot relays a "
+                  "message"));
     }
 
     operator Router() const;

@@ -57,23 +57,23 @@ struct Suppression {
     static constexpr auto fields() {
         return describe(
             field("scheme", &Suppression::scheme,
-                  "rule by which a node decides not to forward a message"),
+                  "rule by which a robot decides not to forward a message: counter, probability, "
+                  "distance, location or cluster"),
             field("threshold", &Suppression::threshold, non_negative,
-                  "threshold of the scheme: a number of copies, a probability, a distance in "
-                  "metres, or a share of the disc"),
-            field("range", &Suppression::range, positive,
-                  "range of the radios, for the scheme \"location\""),
+                  "threshold of the scheme. counter: number of copies; probability: probability of "
+                  "forwarding; distance: distance in metres; location: share of the disc of radius "
+                  "`range`; not for cluster"),
+            field("range", &Suppression::range, positive, "for location: range of the radios"),
             field("hello", &Suppression::hello,
                   Range{.low = 0, .high = 1e4, .text = "from 0 to 10000 s"},
-                  "time between HELLO packets, for the scheme \"cluster\", which needs a value > 0 "
-                  "s"),
+                  "for cluster: time between HELLO packets, > 0 s"),
             field("delay", &Suppression::delay,
                   Range{.low = 0, .high = 1e9, .text = "from 0 to 1e9 s"},
-                  "largest value of the uniform random delay in which a node listens for further "
-                  "copies"),
+                  "upper limit of the uniform random time for which a robot waits for further "
+                  "copies before it forwards a message"),
             field("ttl", &Suppression::ttl,
                   Range{.low = 1, .high = 65535, .text = "from 1 to 65535"},
-                  "hops that a message may cross"));
+                  "number of hops that a message may cross"));
     }
 
     operator Router() const;

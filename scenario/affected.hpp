@@ -25,7 +25,8 @@ struct Affected {
     }
     void note(std::vector<std::string>& notices) const {
         if (first.empty()) return;
-        add_notice(notices, others == 0 ? first : fmt::format("{}; and {} more", first, others));
+        add_notice(notices,
+                   others == 0 ? first : fmt::format("{}; and {} more like this", first, others));
     }
 };
 

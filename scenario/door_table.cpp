@@ -42,8 +42,9 @@ DoorTable read_door(const Value& value) {
     if (!table.table().find("to")) table.missing("to", "to = [\"13 m\", \"4 m\"]");
     if (door.closes.empty()) table.missing("closes", "closes = [\"10 s\"]");
     if (door.from.x == door.to.x && door.from.y == door.to.y) {
-        throw InputError(table.take("to")->where,
-                         "to: found the same place as in from; expected the other end of the door");
+        throw InputError(
+            table.take("to")->where,
+            "to: found the same place as in the key \"from\"; expected the other end of the door");
     }
     if (door.material) door.material_where = table.take("material")->where;
     check_times(door, table);
@@ -55,8 +56,11 @@ DoorTable read_door(const Value& value) {
 std::vector<DoorTable> read_doors(const Value& value) {
     const Array* list = value.array();
     if (!list) {
-        throw InputError(value.where, fmt::format("door: found {}; expected [[scene.door]]",
-                                                  value.description()));
+        throw InputError(
+            value.where,
+            fmt::format(
+                "door: found {}; expected a list of tables, each with the header [[scene.door]]",
+                value.description()));
     }
     std::vector<DoorTable> doors;
     for (const Value& each : *list) doors.push_back(read_door(each));

@@ -40,15 +40,16 @@ struct DoorTable {
     Location where = {}, material_where = {};
 
     static constexpr auto fields() {
-        return describe(
-            field("name", &DoorTable::name, "name of the door, by which messages mention it"),
-            field("from", &DoorTable::from, "one end of the door"),
-            field("to", &DoorTable::to, "other end of the door"),
-            field("thickness", &DoorTable::thickness, positive,
-                  "thickness, half of it on each side of the line from one end to the other"),
-            field("material", &DoorTable::material, "material, one of [scene.materials]"),
-            field("closes", &DoorTable::closes, "times at which the door closes"),
-            field("opens", &DoorTable::opens, "times at which the door opens"));
+        return describe(field("name", &DoorTable::name, "name of the door, for error messages"),
+                        field("from", &DoorTable::from, "position of one end of the door"),
+                        field("to", &DoorTable::to, "position of the other end of the door"),
+                        field("thickness", &DoorTable::thickness, positive,
+                              "thickness of the door; half of the thickness lies on each side of "
+                              "the line between the two ends"),
+                        field("material", &DoorTable::material,
+                              "material of the door: a name from [scene.materials]"),
+                        field("closes", &DoorTable::closes, "times at which the door closes"),
+                        field("opens", &DoorTable::opens, "times at which the door opens"));
     }
 };
 

@@ -84,11 +84,14 @@ void note_equal_starts(Scenario& out) {
                 continue;
             together.add([&] {
                 return fmt::format(
-                    "{}: \"{}\" and \"{}\" start messages at the same times, or within {:g} s; "
-                    "access.model = \"{}\" does not separate their frames, so robots in range of "
-                    "both senders lose both frames; expected different starts{}",
+                    "{}: the flows from \"{}\" and \"{}\" send messages at the same times, or at "
+                    "most {:g} s apart; [access] model = \"{}\" does not keep the frames of these "
+                    "flows apart, so robots in range of both senders lose both frames; expected "
+                    "different start times{}",
                     b.from_where.text(), a.from, b.from, seconds(apart), out.access.name(),
-                    repeats ? ", or access.immediate_access = false, which draws a backoff" : "");
+                    repeats ? ", or [access] immediate_access = false, with which each sender "
+                              "first waits for a random backoff"
+                            : "");
             });
             break;
         }

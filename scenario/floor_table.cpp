@@ -61,16 +61,19 @@ void check_map_size(const std::vector<Meters>& size, const Location& where) {
 std::vector<FloorTable> read_floors(const Value& value) {
     const Array* list = value.array();
     if (!list || list->empty()) {
-        throw InputError(value.where, fmt::format("floor: found {}; expected [[scene.floor]]",
-                                                  value.description()));
+        throw InputError(
+            value.where,
+            fmt::format(
+                "floor: found {}; expected a list of tables, each with the header [[scene.floor]]",
+                value.description()));
     }
     std::vector<FloorTable> floors;
     for (const Value& each : *list) floors.push_back(read_floor(each));
     check_order(floors, *list);
     if (!floors.back().ceiling) return floors;
     throw InputError(list->back().table()->find("ceiling")->where,
-                     "ceiling: the highest storey has no ceiling, because there is no storey above "
-                     "it; expected this key at a lower floor");
+                     "ceiling: found this key at the highest floor, but a ceiling lies between two "
+                     "storeys; expected this key only at lower floors");
 }
 
 Array floors_document(const std::vector<FloorTable>& floors) {

@@ -38,10 +38,13 @@ struct CeilingTable {
     std::optional<Meters> thickness;
 
     static constexpr auto fields() {
-        return describe(
-            field("per_crossing", &CeilingTable::per_crossing, non_negative, "loss of the ceiling"),
-            field("itu", &CeilingTable::itu, "loss of a slab of this material of ITU-R P.2040"),
-            field("thickness", &CeilingTable::thickness, positive, "thickness of the slab"));
+        return describe(field("per_crossing", &CeilingTable::per_crossing, non_negative,
+                              "loss of a path through the ceiling"),
+                        field("itu", &CeilingTable::itu,
+                              "material of the ceiling, from ITU-R P.2040, which gives the loss; "
+                              "needs `thickness`"),
+                        field("thickness", &CeilingTable::thickness, positive,
+                              "thickness of the ceiling, for `itu`"));
     }
 };
 
@@ -61,10 +64,12 @@ struct FloorTable {
     static constexpr auto fields() {
         return describe(
             field("height", &FloorTable::height,
-                  "height of the floor, which is the z of robots on it"),
+                  "height of the floor: the z coordinate of robots on this floor"),
             field("map", &FloorTable::map,
-                  "ROS map.yaml, or a picture with a size; relative to the scenario file"),
-            field("size", &FloorTable::size, "width and height of a picture"));
+                  "map of the floor: a map.yaml of ROS, or a picture (then `size` is needed); the "
+                  "path is relative to the folder of the scenario file"),
+            field("size", &FloorTable::size,
+                  "width and height of the area that the picture shows; only for a picture"));
     }
 };
 

@@ -38,8 +38,8 @@ class IdleKeys {
     /// `of`, or only the command line sets it.
     bool is_for_other(std::string_view table, const Entry& key, std::string_view of) const;
     void note(const Entry& key, const std::string& why) {
-        add_notice(scenario_.notices,
-                   fmt::format("{}: {} has no effect{}", key.key_where.text(), key.key, why));
+        add_notice(scenario_.notices, fmt::format("{}: the key \"{}\" has no effect{}",
+                                                  key.key_where.text(), key.key, why));
     }
 
     template <class Choice>
@@ -112,7 +112,7 @@ void IdleKeys::note_other_models(std::string_view table, std::string_view key,
         });
         if (!entry || is_used || is_for_other(table, *entry, key)) continue;
         note(*entry,
-             fmt::format(" under [{}] {} = \"{}\": only {} {} this key", table, key, choice.name(),
+             fmt::format(" with [{}] {} = \"{}\": only {} {} this key", table, key, choice.name(),
                          in_words(users), users.size() == 1 ? "uses" : "use"));
     }
 }

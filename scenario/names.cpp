@@ -35,15 +35,17 @@ class Names {
     void add(const std::string& name, const RobotTable& robot) {
         const auto [first, added] = names_.emplace(name, &robot);
         if (added) return;
-        throw InputError(robot.where, fmt::format("two robots are named \"{}\"; the first of them "
-                                                  "is at {}; give each robot a different name",
-                                                  name, first->second->where.text()));
+        throw InputError(robot.where,
+                         fmt::format("two robots are named \"{}\"; the first of them is defined at "
+                                     "{}; give each robot a different name",
+                                     name, first->second->where.text()));
     }
     std::string suggestion(const std::string& name) const {
         for (const RobotTable& robot : scenario_.robots) {
             if (robot.count && robot.name == name) {
-                return fmt::format("the robots of this table are named {}0 to {}{}", name, name,
-                                   *robot.count - 1);
+                return fmt::format(
+                    "the [[robot]] of this name has a count, so its robots are named {}0 to {}{}",
+                    name, name, *robot.count - 1);
             }
         }
         constexpr std::size_t most_compared = 1000;

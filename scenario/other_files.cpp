@@ -28,7 +28,7 @@ const Kind a_map = {
     {".yaml", ".yml"},
     {"\x89PNG\r\n"},
     "this is a map, not a scenario; expected a scenario (.toml) that names this map: [scene] map = "
-    "\"...\"; rovernet scene shows a map alone"};
+    "\"...\"; the command \"rovernet scene\" shows a map without a scenario"};
 const Kind kinds[] = {
     a_map,
     {{".inc"},
@@ -36,20 +36,23 @@ const Kind kinds[] = {
      "this is a part of a Stage world; expected the world (.world) that includes this part"},
     {{".db"},
      {"SQLite format 3"},
-     "this is a study's store, not a scenario; rovernet results shows the results in a store"},
+     "this file is the store with the results of a study, not a scenario; the command \"rovernet "
+     "results\" shows these results"},
     {{".tr"},
      {},
-     "this is a trace, not a scenario; rovernet trace stats shows the metrics of a trace"},
+     "this is a trace, not a scenario; the command \"rovernet trace stats\" shows the metrics of a "
+     "trace"},
     {{".mcap"},
      {"\x89MCAP0\r\n"},
-     "this is a recorded trace, not a scenario; rovernet replay plays a trace again, and rovernet "
-     "trace stats shows the metrics of a trace"},
+     "this is a recorded trace, not a scenario; the command \"rovernet replay\" plays a trace "
+     "again, and \"rovernet trace stats\" shows its metrics"},
     {{".pcap", ".pcapng"},
      {"\n\r\r\n", "\xd4\xc3\xb2\xa1", "\xa1\xb2\xc3\xd4", "\x4d\x3c\xb2\xa1", "\xa1\xb2\x3c\x4d"},
      "this is a capture of packets, not a scenario; Wireshark shows the packets of a capture"},
     {{".json"},
      {},
-     "this is not a scenario; the scenario of a run is the file scenario.toml in the same folder"}};
+     "this is a JSON file, not a scenario; if a run wrote this file, the scenario of the run is "
+     "the file scenario.toml in the same folder"}};
 
 /// World named in a Player configuration; "NAME.world" if it names none.
 std::string world_of(const std::string& player_file) {

@@ -11,12 +11,13 @@ namespace {
 /// Checks the destination of a message: `to` needs `send`, and "sender" needs on_receive.
 void check_receiver(const ReactionTable& reaction, TableReader& table) {
     if (!reaction.to) return;
-    if (!reaction.send) table.missing("send", "send = \"F\", which the key \"to\" needs");
+    if (!reaction.send)
+        table.missing("send", "send = \"F\"; the key \"to\" needs the key \"send\"");
     if (*reaction.to != ReactionTable::sender || reaction.trigger == Trigger::on_receive) return;
     throw InputError(
         reaction.to_where,
-        fmt::format("to: found \"sender\" in {}, but only the table on_receive has a received "
-                    "message and its sender; expected the name of a robot, or the table on_receive",
+        fmt::format("to: found \"sender\" in the table {}, but only the table on_receive reacts to "
+                    "a message that has a sender; expected the name of a robot",
                     name_of(reaction.trigger)));
 }
 
@@ -62,7 +63,7 @@ ReactionTable read_reaction(const Value& value, Trigger trigger) {
     check_receiver(reaction, table);
     if (reaction.stop && reaction.move) table.only_one_of("move", "stop");
     if (reaction.size && !reaction.send)
-        table.missing("send", "send = \"F\", which the key \"size\" needs");
+        table.missing("send", "send = \"F\"; the key \"size\" needs the key \"send\"");
     if (!reaction.move && !reaction.send && !reaction.stop) {
         table.missing("move",
                       "move = { model = \"goal\", to = [...] }, send = \"F\" or stop = true");

@@ -82,17 +82,22 @@ struct ReactionTable {
         using R = ReactionTable;
         return describe(
             field("payload", &R::payload,
-                  "beginning of the messages to which the robot reacts; if not given, the robot "
-                  "reacts to every message"),
+                  "text with which a message must begin; if not given, the robot reacts to every "
+                  "message"),
             field("hops", &R::hops, hop_counts,
-                  "largest number of hops of a message to which the robot reacts"),
-            field("from", &R::from, "sender of the message, or robot whose link is lost"),
+                  "the robot reacts only to messages that came over at most this number of hops"),
+            field("from", &R::from,
+                  "the robot reacts only to messages of this robot, or only if the link from this "
+                  "robot is lost"),
             field("time", &R::time, non_negative, "time at which the robot reacts"),
-            field("once", &R::once, "react only the first time"),
-            field("send", &R::send, "text of a message to send"),
-            field("to", &R::to, "receiver of the message to send: a robot, or \"sender\""),
-            field("size", &R::size, sizes_of_messages, "size of the message to send"),
-            field("stop", &R::stop, "stop the robot where it is"));
+            field("once", &R::once,
+                  "true: the robot reacts only to the first such event; false: to each such event"),
+            field("send", &R::send, "text of a message that the robot sends"),
+            field("to", &R::to,
+                  "receiver of the message that the robot sends: the name of a robot, or "
+                  "\"sender\", the sender of the received message"),
+            field("size", &R::size, sizes_of_messages, "size of the message that the robot sends"),
+            field("stop", &R::stop, "true: the robot stops where it is"));
     }
     /// Whether the reaction to this trigger has a key.
     static constexpr bool has_key(Trigger trigger, std::string_view key) {

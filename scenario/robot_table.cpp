@@ -57,10 +57,11 @@ void check_name(const Value& value, const std::string& name, bool may_have_dots)
     check_printable(value, "name", name);
     const bool has_dot = !may_have_dots && name.find('.') != std::string::npos;
     if (!name.empty() && !has_dot && name.find('"') == std::string::npos) return;
-    throw InputError(value.where,
-                     fmt::format("name: found {}; expected a name, without dots and quotes{}",
-                                 value.description(),
-                                 has_dot ? "; only robots of a movement file have dots" : ""));
+    throw InputError(
+        value.where,
+        fmt::format("name: found {}; expected a name, without dots and quotes{}",
+                    value.description(),
+                    has_dot ? "; only robots of a movement file may have names with dots" : ""));
 }
 
 void check_switching(TableReader& table, RobotTable& robot) {

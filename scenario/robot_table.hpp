@@ -45,9 +45,11 @@ struct PlaceTable {
     static constexpr auto fields() {
         return describe(
             field("model", &PlaceTable::model,
-                  "uniform: drawn uniformly from an area; choice: drawn from a list of points"),
-            field("area", &PlaceTable::area, "uniform: lower-left and upper-right corner"),
-            field("points", &PlaceTable::points, "choice: the places to draw from"));
+                  "uniform: the place is drawn uniformly from an area; choice: the place is drawn "
+                  "from a list of points"),
+            field("area", &PlaceTable::area,
+                  "for uniform: lower-left and upper-right corner of the area"),
+            field("points", &PlaceTable::points, "for choice: the points, one of which is drawn"));
     }
 };
 /// Names of PlaceTable::Model in scenario files.
@@ -117,13 +119,14 @@ struct RobotTable {
         return describe(
             field("name", &R::name, "name of the robot"),
             field("count", &R::count, counts,
-                  "number of robots with these keys, named name0, name1, ..."),
+                  "number of robots with these keys; the robots are named NAME0, NAME1, ..., where "
+                  "NAME is the value of `name`"),
             field("at", &R::at, "place at which the robot starts"),
             field("heading", &R::heading, "heading of the robot at the start"),
             field("radius", &R::radius, non_negative, "radius of the robot's body"),
             field("top_speed", &R::top_speed, positive, "speed that the robot never exceeds"),
             field("turn_rate", &R::turn_rate, turn_rates,
-                  "turn rate while the robot turns in place"),
+                  "rate at which the robot turns in place; if not given, the robot turns at once"),
             field("off", &R::off, "times at which the robot is switched off"),
             field("on", &R::on, "times at which the robot is switched on"));
     }

@@ -55,8 +55,8 @@ void check_traffic(const Scenario& scenario) {
 void check_coding(const Phy& phy, std::string_view key, BitRate rate, Location where) {
     if (phy.coding(rate)) return;
     throw InputError(where,
-                     fmt::format("{}: found {} Mbit/s; expected a rate for which [reception] model "
-                                 "= \"sinr\" can compute bit errors: {} Mbit/s",
+                     fmt::format("{}: found {} Mbit/s; expected one of the rates for which "
+                                 "[reception] model = \"sinr\" can compute bit errors: {} Mbit/s",
                                  key, rate.value / 1e6, megabits_text(phy.rates())));
 }
 
@@ -94,9 +94,13 @@ std::vector<T> read_list(TableReader& document, std::string_view key, auto&& rea
     const Value* value = document.take(key);
     if (!value) return list;
     if (!value->array()) {
-        const char* why = value->where.is_option ? " in the file: an option cannot add one" : "";
-        throw InputError(value->where, fmt::format("{}: found {}; expected [[{}]]{}", key,
-                                                   value->description(), key, why));
+        const char* why = value->where.is_option
+                              ? " in the scenario file, because an option cannot add a table"
+                              : "";
+        throw InputError(
+            value->where,
+            fmt::format("{}: found {}; expected a list of tables, each with the header [[{}]]{}",
+                        key, value->description(), key, why));
     }
     for (const auto& item : *value->array()) list.push_back(read_item(item));
     return list;
@@ -242,8 +246,9 @@ void note_decay(Scenario& out) {
         if (low == high) continue;
         const double settled = low > 0 ? (high - low) / math::log(high / low) : 0;
         out.notices.push_back(fmt::format(
-            "{}: robot \"{}\" starts its random_waypoint from \"{}\": its mean speed falls from "
-            "{:.3g} to {:.3g} m/s; start = \"stationary\" (without at and place) avoids this",
+            "{}: robot \"{}\" moves by random_waypoint with start = \"{}\", so its mean speed "
+            "falls from {:.3g} to {:.3g} m/s during the run; start = \"stationary\" (without the "
+            "keys \"at\" and \"place\") avoids this",
             robot.move.where.text(), robot.name, name_of(model->start), (low + high) / 2, settled));
     }
 }
@@ -295,7 +300,7 @@ void note_idle_motion(const Value& robots, const std::set<std::string_view>& in_
             if (out.scene.world && given->where.source != out.file) continue;
             idle.add([&] {
                 return fmt::format(
-                    "{}: {} has no effect on robot \"{}\": the movement file places "
+                    "{}: the key \"{}\" has no effect on robot \"{}\": the movement file places "
                     "and moves this robot",
                     given->where.text(), key, moved.name);
             });

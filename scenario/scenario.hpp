@@ -52,12 +52,13 @@ struct ScenarioTable {
             .low = 0, .high = 4294967295, .text = "from 0 to 4294967295"};
         return describe(
             field("name", &ScenarioTable::name, "name of the run and of its output folder"),
-            field("duration", &ScenarioTable::duration, positive, "simulated time"),
+            field("duration", &ScenarioTable::duration, positive, "simulated time of the run"),
             field("seed", &ScenarioTable::seed, "seed of all random draws"),
             field("replication", &ScenarioTable::replication, thirty_two_bits,
-                  "number of the replication (independent repetition), from 0"),
+                  "number of this run among the replications (independent repetitions) of the "
+                  "scenario, from 0"),
             field("event_limit", &ScenarioTable::event_limit, positive,
-                  "largest number of events; a run that needs more fails"));
+                  "largest number of events; a run that needs more events fails"));
     }
 };
 
@@ -67,9 +68,9 @@ struct MediumTable {
     bool propagation_delay = true;
 
     static constexpr auto fields() {
-        return describe(
-            field("propagation_delay", &MediumTable::propagation_delay,
-                  "frames travel at the speed of light; false: they arrive without a delay"));
+        return describe(field(
+            "propagation_delay", &MediumTable::propagation_delay,
+            "true: frames travel at the speed of light; false: frames arrive without a delay"));
     }
 };
 
@@ -86,10 +87,11 @@ struct LinksTable {
         constexpr Range dwell{.low = 1e-6, .high = 1e6, .text = "from 1 us to 1e6 s"};
         return describe(
             field("tolerance", &LinksTable::tolerance, step,
-                  "largest error of the time at which walls change a link"),
+                  "for propagation models with walls: largest error of the time at which a link "
+                  "changes"),
             field("min_dwell", &LinksTable::min_dwell, dwell,
-                  "for models of unknown shape: states of a link that are shorter than this may be "
-                  "missed"));
+                  "for propagation models for which the time at which a link changes cannot be "
+                  "computed: a link that is up or down for less than this time may be missed"));
     }
 };
 

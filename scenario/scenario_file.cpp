@@ -92,16 +92,17 @@ Value movement_alone(const std::string& path) {
     const MovementFile file(path, MovementSyntax::tolerant);
     if (begins_as_tcl(path) && file.robots().empty()) {
         throw InputError({path},
-                         "no line places or moves a robot; expected a movement file with "
-                         "lines such as $node_(0) set X_ 10.0; rovernet help "
-                         "coming-from-ns shows what replaces a script of ns-2");
+                         "no line of this file places or moves a robot; expected a movement file "
+                         "with lines such as $node_(0) set X_ 10.0; \"rovernet help "
+                         "coming-from-ns\" shows what replaces a script of ns-2");
     }
     const Time end = file.end();
     if (end > last_of_run) {
         throw InputError(
             file.end_where(),
-            fmt::format("the movements end after {:.10g} s, expected at most 1e9 s (31 years); a "
-                        "scenario with [movement] file and a duration plays a part of them",
+            fmt::format("the movements end after {:.10g} s, expected at most 1e9 s (31 years); to "
+                        "play only the first part of the movements, write a scenario with the keys "
+                        "[movement] file and [scenario] duration",
                         seconds(end - start_of_run)));
     }
     movement.set("file", fs::path(path).filename().string());
@@ -203,8 +204,11 @@ ScenarioFile::ScenarioFile(const std::string& path, const ScenarioOptions& optio
 ScenarioFile::ScenarioFile(Value document, const std::string& path, const ScenarioOptions& options)
     : path_(path), document_(std::move(document)), needs_robots_(options.needs_robots) {
     if (!document_.table()) {
-        throw InputError(document_.where, fmt::format("found {}; expected a table of tables",
-                                                      document_.description()));
+        throw InputError(
+            document_.where,
+            fmt::format(
+                "found {}; expected a table with the tables of a scenario, such as [[robot]]",
+                document_.description()));
     }
     Table& table = *document_.table();
     const fs::path folder = fs::path(path).parent_path();

@@ -40,8 +40,9 @@ OccupancyGrid load_grid(const FloorTable& floor, const fs::path& path,
     const auto extension = path.extension();
     const bool yaml = extension == ".yaml" || extension == ".yml";
     if (yaml && floor.size) {
-        throw InputError(floor.map_where,
-                         "map: a map.yaml contains its own size; leave out the key size");
+        throw InputError(
+            floor.map_where,
+            "map: a map.yaml contains the size of the map; leave out the key \"size\"");
     }
     if (!yaml && input_kind(path.string()) == InputKind::file && !floor.size) {
         throw InputError(
@@ -69,8 +70,8 @@ void note_pixels(const MaterialTable& material, Pixels pixels, std::string_view 
     const bool has_grey = material.grey || material.greys;
     if (!has_grey) {
         return notices.push_back(
-            fmt::format("{}: material \"{}\" is not used: in a map, only the key grey or greys "
-                        "gives walls a material, and this material has neither key",
+            fmt::format("{}: material \"{}\" is not used: in a map, only the key \"grey\" or "
+                        "\"greys\" gives walls a material, and this material has neither key",
                         material.where.text(), material.name));
     }
     if (pixels.all == 0) {
@@ -118,7 +119,7 @@ void Palette::append(const std::vector<MaterialTable>& more) {
     if (tables_.size() <= most) return;
     throw InputError(
         tables_[most].where,
-        fmt::format("materials: found {} tables; expected at most {}", tables_.size(), most));
+        fmt::format("materials: found {} materials; expected at most {}", tables_.size(), most));
 }
 
 void Palette::paint(OccupancyGrid& grid, const fs::path& map, const std::string& name) {
@@ -293,8 +294,8 @@ std::vector<SceneChange> load_doors(const SceneTable& scene,
     for (std::size_t i = 0; i < doors.size(); ++i) {
         if (!open) {
             throw InputError(scene.doors[i].where,
-                             "door: the scene is an open field; expected also a map, floors or a "
-                             "world with walls for the door");
+                             "door: found a door in a scene without walls (an open field); "
+                             "expected also a map, floors or a world with walls");
         }
         check_place(doors[i], scene.doors[i], *open);
     }

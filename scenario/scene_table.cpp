@@ -62,9 +62,11 @@ void check_doors(const SceneTable& scene) {
         for (const MaterialTable& material : scene.materials) names.push_back(material.name);
         if (std::find(names.begin(), names.end(), *door.material) != names.end()) continue;
         const std::string near = did_you_mean(*door.material, names);
-        throw InputError(door.material_where,
-                         fmt::format("material: found \"{}\"; expected one of [scene.materials]{}",
-                                     *door.material, near.empty() ? "" : "; " + near));
+        throw InputError(
+            door.material_where,
+            fmt::format(
+                "material: found \"{}\"; expected the name of a material in [scene.materials]{}",
+                *door.material, near.empty() ? "" : "; " + near));
     }
 }
 
@@ -72,8 +74,9 @@ void check_size(const SceneTable& scene, TableReader& table) {
     if (!scene.size) return;
     const Location& where = table.take("size")->where;
     if (!scene.map) {
-        throw InputError(where,
-                         "size: found a size without a map; expected also map = \"office.png\"");
+        throw InputError(
+            where,
+            "size: found a size without a map; expected also a map, such as map = \"office.png\"");
     }
     check_map_size(*scene.size, where);
 }
@@ -90,8 +93,10 @@ void check_world(const SceneTable& scene, TableReader& table) {
     if (scene.map && scene.world) table.only_one_of("map", "world");
     for (const char* key : {"world_path", "bitmaps", "lenient"}) {
         if (table.table().find(key) && !scene.world) {
-            table.missing("world",
-                          fmt::format("world = \"robots.world\", which the key \"{}\" needs", key));
+            table.missing(
+                "world",
+                fmt::format("world = \"robots.world\"; the key \"{}\" needs the key \"world\"",
+                            key));
         }
     }
     for (const std::string& pair : scene.bitmaps.value_or(std::vector<std::string>{})) {

@@ -56,17 +56,23 @@ struct MaterialTable {
 
     static constexpr auto fields() {
         constexpr Range level{.low = 0, .high = 255, .text = "from 0 to 255"};
-        return describe(
-            field("grey", &MaterialTable::grey, level, "grey level of its walls in the map"),
-            field("greys", &MaterialTable::greys, "first and last of a range of grey levels"),
-            field("color", &MaterialTable::color, "colour of its walls in a Stage world"),
-            field("per_crossing", &MaterialTable::per_crossing, non_negative,
-                  "loss of each crossing of a wall"),
-            field("per_metre", &MaterialTable::per_metre, non_negative,
-                  "loss per metre of the path inside the wall"),
-            field("itu", &MaterialTable::itu, "loss of a slab of this material of ITU-R P.2040"),
-            field("thickness", &MaterialTable::thickness, positive, "thickness of the slab"),
-            field("height", &MaterialTable::height, positive, "height of its walls"));
+        return describe(field("grey", &MaterialTable::grey, level,
+                              "grey level of the walls of this material in the map"),
+                        field("greys", &MaterialTable::greys,
+                              "instead of `grey`: first and last grey level of a range"),
+                        field("color", &MaterialTable::color,
+                              "colour of the walls of this material in a Stage world"),
+                        field("per_crossing", &MaterialTable::per_crossing, non_negative,
+                              "loss each time that a signal crosses a wall"),
+                        field("per_metre", &MaterialTable::per_metre, non_negative,
+                              "loss for each metre of the signal's path inside a wall"),
+                        field("itu", &MaterialTable::itu,
+                              "material of ITU-R P.2040; the loss of a wall is that of a flat slab "
+                              "of this material; needs `thickness`"),
+                        field("thickness", &MaterialTable::thickness, positive,
+                              "thickness of the slab, for `itu`"),
+                        field("height", &MaterialTable::height, positive,
+                              "height of the walls of this material"));
     }
     /// Whether walls of the map or of the Stage world can have this material. A material without
     /// grey level and colour is for doors only.
@@ -115,20 +121,24 @@ struct SceneTable {
     static constexpr auto fields() {
         return describe(
             field("map", &SceneTable::map,
-                  "ROS map.yaml, or a picture with a size; relative to the scenario file"),
-            field("size", &SceneTable::size, "width and height of a picture used as a map"),
+                  "map: a map.yaml of ROS, or a picture (then `size` is needed); the path is "
+                  "relative to the folder of the scenario file"),
+            field("size", &SceneTable::size,
+                  "width and height of the area that a picture used as a map shows"),
             field("world", &SceneTable::world, "Stage world file, instead of a map"),
             field("world_path", &SceneTable::world_path,
                   "further folders to search for includes and bitmaps of the world"),
             field("bitmaps", &SceneTable::bitmaps,
-                  "\"OLD=NEW\": read bitmap NEW wherever the world names OLD"),
+                  "\"OLD=NEW\": the bitmap NEW is read wherever the world names the bitmap OLD"),
             field("lenient", &SceneTable::lenient,
-                  "a missing include or bitmap of the world is a notice, not an error"),
+                  "true: a missing include or bitmap of the world causes a notice; false: it "
+                  "causes an error"),
             field("floor_height", &SceneTable::floor_height, positive,
-                  "height of one storey; if not given, storeys are not counted"),
-            field(
-                "wall_height", &SceneTable::wall_height, positive,
-                "height of walls whose material has no height of its own; infinite if not given"));
+                  "height of one storey, from which the number of floors between two antennas is "
+                  "computed; if not given, floors are not counted"),
+            field("wall_height", &SceneTable::wall_height, positive,
+                  "height of the walls whose material has no `height`; if not given, these walls "
+                  "have no upper end"));
     }
 };
 

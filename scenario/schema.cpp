@@ -16,7 +16,7 @@ template <class Choice, Described... Common>
 Table choice_schema(std::string_view key) {
     Table keys;
     add_key(keys, key, schema_of_words(listed(Choice::names())),
-            "name of the model or protocol that is used");
+            "name of the chosen model or protocol");
     Choice::for_each_type([&]<class M>() { add_keys<M>(keys, M::name); });
     (add_keys<Common>(keys), ...);
     return schema_of_table(std::move(keys));
@@ -29,10 +29,11 @@ Table move_schema() {
         const auto add = [&]<class M>(std::type_identity<M>) {
             Table keys;
             Array required{"model"};
-            add_key(keys, "model", schema_of_words({M::name}), "model of the movement");
+            add_key(keys, "model", schema_of_words({M::name}), "movement model");
             add_keys<M>(keys);
             if constexpr (LedModel<M>) {
-                add_key(keys, "leader", schema_of_type("string"), "robot to follow");
+                add_key(keys, "leader", schema_of_type("string"),
+                        "name of the robot that this robot follows");
                 required.emplace_back("leader");
             }
             models.emplace_back(schema_of_table(std::move(keys), required));
@@ -51,7 +52,7 @@ Table reaction_schema(Trigger trigger) {
     Table keys;
     add_keys_if<ReactionTable>(
         keys, {}, [&](std::string_view key) { return ReactionTable::has_key(trigger, key); });
-    add_key(keys, "move", move_schema(), "movement that begins");
+    add_key(keys, "move", move_schema(), "movement that the robot begins");
     return schema_of_table(std::move(keys), trigger == Trigger::on_time ? Array{"time"} : Array{});
 }
 
@@ -66,14 +67,16 @@ Table radio_schema() {
 Table robot_schema() {
     Table keys;
     add_keys<RobotTable>(keys);
-    add_key(keys, "place", table_schema<PlaceTable>(), "random start");
+    add_key(keys, "place", table_schema<PlaceTable>(), "random start position");
     add_key(keys, "move", move_schema(), "movement");
     Table scanner;
     add_keys<RangeFinder>(scanner);
     add_keys<Scanner>(scanner);
-    add_key(keys, "scan", one_or_more(schema_of_table(std::move(scanner))), "range finders");
-    add_key(keys, "role", schema_of_words(listed(all_roles())), "role in the routing protocol");
-    add_key(keys, "radio", radio_schema(), "keys of [radio] for this robot only");
+    add_key(keys, "scan", one_or_more(schema_of_table(std::move(scanner))),
+            "range finders of the robot");
+    add_key(keys, "role", schema_of_words(listed(all_roles())),
+            "role of the robot in the routing protocol");
+    add_key(keys, "radio", radio_schema(), "keys that replace those of [radio] for this robot");
     add_key(keys, "propagation", choice_schema<PropagationTable>("model"),
             "propagation model of the frames that this robot sends");
     for (std::size_t i = 0; i < EnumNames<Trigger>::values.size(); ++i) {
@@ -88,11 +91,13 @@ Table scene_schema() {
     add_keys<SceneTable>(keys);
     Table floor;
     add_keys<FloorTable>(floor);
-    add_key(floor, "ceiling", table_schema<CeilingTable>(), "slab above this storey");
+    add_key(floor, "ceiling", table_schema<CeilingTable>(),
+            "ceiling between this storey and the storey above");
     Table floors = schema_of_list(schema_of_table(std::move(floor), {"map", "height"}), 1);
-    add_key(keys, "floor", std::move(floors), "storeys, from the lowest up");
+    add_key(keys, "floor", std::move(floors),
+            "floors of the building, from the lowest to the highest");
     add_key(keys, "door", schema_of_list(table_schema<DoorTable>({"from", "to", "closes"})),
-            "walls that close and open");
+            "doors, which are walls while they are closed");
     Table materials = schema_of_type("object");
     materials.set("additionalProperties", table_schema<MaterialTable>());
     add_key(keys, "materials", std::move(materials), "materials of walls, by name");
@@ -106,7 +111,7 @@ Table traffic_schema() {
         keys, "start",
         schema_of_either(schema_of_quantity(Dimension::time, false),
                          schema_of_words({TrafficTable::at_arrival})),
-        "start of the flow: time of the first message, or \"arrival\" (when the robot arrives)");
+        "time of the first message, or \"arrival\": the sender reaches the end of its movement");
     return schema_of_table(std::move(keys), {"from"});
 }
 
@@ -145,9 +150,12 @@ Table study_schema() {
         schema_of_either(schema_of_quantity(Dimension::time, false), schema_of_words({"mser5"})),
         "first part of each run, which the metrics leave out");
     add_key(keys, "vary", vary_schema(),
-            "lists of values, by the path of the key: vary.\"radio.power\" = [...]");
-    add_key(keys, "zip", value_schema<decltype(StudyTable::zip)>(any), "paths that vary together");
-    add_key(keys, "exclude", schema_of_list(schema_of_type("object")), "combinations left out");
+            "values of each key that the study varies: vary.\"radio.power\" = [...]");
+    add_key(keys, "zip", value_schema<decltype(StudyTable::zip)>(any),
+            "groups of varied keys that change together: the i-th value of one key is combined "
+            "only with the i-th values of the others");
+    add_key(keys, "exclude", schema_of_list(schema_of_type("object")),
+            "combinations of values that the study leaves out");
     return schema_of_table(std::move(keys));
 }
 

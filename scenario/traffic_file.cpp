@@ -63,17 +63,17 @@ class TrafficReader {
         TrafficFile file;
         for (const std::string& name : order_) add_flow(apps_.find(name)->second, file);
         if (random_ > 0) {
-            file.notices.push_back(
-                fmt::format("{}: random_ of {} flow{} is ignored: ns-2 makes each interval up to "
-                            "50 % longer or shorter, but rovernet makes all intervals equal",
-                            lines_.where().source, random_, random_ == 1 ? "" : "s"));
+            file.notices.push_back(fmt::format(
+                "{}: the setting random_ of {} flow{} is ignored: ns-2 makes each interval up to "
+                "50 % longer or shorter, but rovernet makes all intervals equal",
+                lines_.where().source, random_, random_ == 1 ? "" : "s"));
         }
         if (left_out_ > 0) {
-            file.notices.push_back(
-                fmt::format("{}: this line about an agent is left out{}; of the settings of "
-                            "agents, only packetSize_ is read",
-                            first_left_out_.text(),
-                            left_out_ > 1 ? fmt::format(", and {} more", left_out_ - 1) : ""));
+            file.notices.push_back(fmt::format(
+                "{}: this line about an agent is left out{}; of the settings of "
+                "agents, only packetSize_ is read",
+                first_left_out_.text(),
+                left_out_ > 1 ? fmt::format(", and {} more like this", left_out_ - 1) : ""));
         }
         return file;
     }
@@ -186,7 +186,7 @@ void TrafficReader::command() {
     if (!first.text.starts_with('$')) fail(first, "set, $ns_ ..., $cbr_(0) ... or a comment (#)");
     const std::string name = reference(first);
     if (const auto app = apps_.find(name); app != apps_.end()) return tell(app->second);
-    tell(named(agents_, first, "an agent or an application that was made before"));
+    tell(named(agents_, first, "an agent or an application that an earlier line creates"));
 }
 
 /// Size of a packet [bytes], at least `least`.
@@ -231,12 +231,12 @@ void TrafficReader::tell_simulator() {
     const Word verb = word(1);
     if (verb.text == "at") return schedule();
     if (verb.text == "attach-agent") {
-        Agent& agent = named(agents_, word(3), "an agent that was made before");
+        Agent& agent = named(agents_, word(3), "an agent that an earlier line creates");
         agent.node = node_number(word(2), lines_.where());
         agent.where = here(word(2));
     } else if (verb.text == "connect") {
-        named(agents_, word(2), "an agent that was made before").peer = reference(word(3));
-        named(agents_, word(3), "an agent that was made before");
+        named(agents_, word(2), "an agent that an earlier line creates").peer = reference(word(3));
+        named(agents_, word(3), "an agent that an earlier line creates");
     } else {
         fail(verb, "attach-agent, connect or at");
     }
@@ -246,7 +246,7 @@ void TrafficReader::tell_simulator() {
 void TrafficReader::schedule() {
     const Time time = moment(word(2), lines_.where());
     if (word(3).text.starts_with("$god")) return;
-    App& app = named(apps_, word(3), "an application that was made before");
+    App& app = named(apps_, word(3), "an application that an earlier line creates");
     const Word verb = word(4);
     if (verb.text != "start" && verb.text != "stop") fail(verb, "start or stop");
     std::optional<Time>& at = verb.text == "start" ? app.start : app.stop;
@@ -263,7 +263,7 @@ void TrafficReader::schedule() {
 void TrafficReader::tell(App& app) {
     if (word(1).text == "attach-agent") {
         app.agent = reference(word(2));
-        named(agents_, word(2), "an agent that was made before");
+        named(agents_, word(2), "an agent that an earlier line creates");
         return;
     }
     if (word(1).text != "set") fail(word(1), "set or attach-agent");
@@ -293,13 +293,14 @@ void TrafficReader::add_flow(const App& app, TrafficFile& file) {
     if (!app.start || app.most < 1) return;
     const auto from = agents_.find(app.agent);
     if (from == agents_.end())
-        fault("is attached to no agent; expected a command attach-agent for it");
+        fault("is attached to no agent; expected a command attach-agent for this application");
     const auto to = agents_.find(from->second.peer);
     if (!from->second.sends || to == agents_.end())
-        fault("has no destination; expected a command connect for its agent");
+        fault("has no destination; expected a command connect for the agent of this application");
     if (!from->second.node || !to->second.node)
         fault(
-            "has an agent that is on no node; expected a command $ns_ attach-agent for the agent");
+            "sends from or to an agent that is on no node; expected a command $ns_ attach-agent "
+            "for both agents");
     constexpr double most = std::numeric_limits<int>::max();
     TrafficTable flow;
     flow.kind = TrafficKind::unicast;

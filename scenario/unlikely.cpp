@@ -27,7 +27,7 @@ void check_sensitivity(const Radio& radio, const RadioPlaces& places) {
     const double dbm = radio.sensitivity.value;
     if (dbm <= 0) return;
     throw InputError(places.sensitivity,
-                     fmt::format("sensitivity: found {0} dBm, with which a receiver gets nothing; "
+                     fmt::format("sensitivity: found {0} dBm, with which a robot receives nothing; "
                                  "expected at most 0 dBm; did you mean \"-{0} dBm\"?",
                                  dbm));
 }
@@ -271,8 +271,8 @@ void note_own_models(Scenario& scenario) {
     names.resize(names.size() - others);
     add_notice(
         scenario.notices,
-        fmt::format("these robots have their own propagation model, so [propagation] does not "
-                    "affect them: {}{}",
+        fmt::format("the varied keys of [propagation] do not affect these robots, which have their "
+                    "own propagation model: {}{}",
                     fmt::join(names, ", "), others > 0 ? fmt::format(" and {} more", others) : ""));
 }
 

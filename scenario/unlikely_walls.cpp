@@ -67,14 +67,14 @@ std::optional<ThicknessLimit> thickness_limit(const Propagation& model, const Sc
         constexpr double limit = thickest_default_wall.value;
         return ThicknessLimit{
             limit,
-            fmt::format("rays treats walls without a given material as at most {} m thick", limit)};
+            fmt::format("rays treats walls without a material as at most {} m thick", limit)};
     }
     if (const auto* counted = model.as<MultiWall>()) {
         constexpr double thickest = 0.8;  // [m]: walls of buildings are thinner
         const double cell = std::max(scene.frame().cell_width(), scene.frame().cell_height());
         const double limit = std::max(thickest, 2 * cell);  // a coarse map has no thinner walls
-        return ThicknessLimit{limit, fmt::format("multi_wall gives a wall without a given material "
-                                                 "the loss of one wall, {} dB, at any thickness",
+        return ThicknessLimit{limit, fmt::format("multi_wall counts a wall without a material as "
+                                                 "one wall of {} dB, however thick this wall is",
                                                  counted->heavy_wall.value)};
     }
     return std::nullopt;
@@ -118,7 +118,7 @@ void note_coherent_slants(Scenario& scenario, const Scene* scene) {
             return fmt::format(
                 "{}: sum: {} faces of walls are oblique to the cells of the map, so the positions "
                 "of these faces are inaccurate by some centimetres; with sum = \"coherent\", "
-                "levels then have errors of 3 to 5 dB (rms), and at most 30 dB; did you mean sum = "
+                "levels then have errors of 3 to 5 dB (rms), and up to 30 dB; did you mean sum = "
                 "\"power\"?",
                 where.text(), slanting);
         });
@@ -140,9 +140,9 @@ void note_thick_walls(Scenario& scenario, const Scene* scene) {
         const Vec3 at = 0.5 * (thick.first->from + thick.first->to);
         doubtful.add([&] {
             return fmt::format(
-                "{}: the wall drawn at x = {:.2f} m, y = {:.2f} m is thicker than {} m (walls of "
-                "this scene: up to {:.2g} m), but {}; give furniture, pillars and shafts a colour "
-                "and a material of their own in [scene.materials]",
+                "{}: the wall drawn at x = {:.2f} m, y = {:.2f} m is thicker than {} m (thickest "
+                "wall without a material in this scene: {:.2g} m), but {}; give furniture, pillars "
+                "and shafts a colour and a material of their own in [scene.materials]",
                 where.text(), at.x, at.y, limit->thickest, thick.thickest, limit->treatment);
         });
     });

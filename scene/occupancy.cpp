@@ -231,7 +231,7 @@ class MapFile {
     /// Adapts the default of a missing threshold to the one in the file.
     void give_way(const char* missing, double& usual, const char* key, double given) const {
         note(root_[key].Mark(), fmt::format("the key {} is missing, and its default {} contradicts "
-                                            "{} {}: both keys are taken as {}",
+                                            "{} = {}, so both keys get the value {}",
                                             missing, usual, key, given, given));
         usual = given;
     }

@@ -59,10 +59,13 @@ struct RangeFinder {
             field("beams", &RangeFinder::beams,
                   Range{.low = 1, .high = 10'000, .text = "from 1 to 10,000"}, "number of beams"),
             field("from", &RangeFinder::from, whole_turn,
-                  "direction of the first beam, from the heading"),
+                  "direction of the first beam, counter-clockwise from the heading of the range "
+                  "finder"),
             field("to", &RangeFinder::to, whole_turn,
-                  "direction of the last beam, counter-clockwise from the first one"),
-            field("range", &RangeFinder::range, positive, "longest distance that it measures"),
+                  "direction of the last beam, counter-clockwise from the heading of the range "
+                  "finder; the beams are evenly spaced between `from` and `to`"),
+            field("range", &RangeFinder::range, positive,
+                  "longest distance that the range finder measures"),
             field("every", &RangeFinder::every, Range{.low = 1e-3, .text = ">= 1 ms"},
                   "time between two measurements"));
     }

@@ -56,11 +56,11 @@ struct Scanner {
     /// Parameters of a scanner, in addition to the parameters of `finder`.
     static constexpr auto fields() {
         return describe(
-            field("name", &Scanner::name, "name by which programs find the range finder"),
+            field("name", &Scanner::name, "name of the range finder, for external programs"),
             field("at", &Scanner::at, "position of the range finder on the robot"),
             field("heading", &Scanner::heading, "direction of the range finder on the robot"),
             field("angles", &Scanner::angles,
-                  "direction of each beam, instead of `beams`, `from` and `to`"),
+                  "instead of `beams`, `from` and `to`: direction of each beam"),
             field("places", &Scanner::places,
                   "with `angles`: position at which each beam begins, relative to `at`"));
     }

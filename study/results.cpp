@@ -107,8 +107,8 @@ std::vector<StoredPoint> points_where(const Store& store, const std::vector<Cond
         std::erase_if(points, [&](const StoredPoint& p) { return !meets(p, condition); });
         if (!points.empty()) continue;
         throw std::invalid_argument(
-            fmt::format("no point has {} = {}; the values in this study are {}", condition.path,
-                        condition.value, fmt::join(values, ", ")));
+            fmt::format("no run of this study has {} = {}; the values in this study are {}",
+                        condition.path, condition.value, fmt::join(values, ", ")));
     }
     return points;
 }
@@ -180,7 +180,7 @@ std::string coverage_text(const Answers& answers) {
         texts.push_back(fmt::format("averaged over {}", fmt::join(answers.averaged, ", ")));
     }
     if (!answers.along.empty()) {
-        texts.push_back(fmt::format("not averaged over {} (one value in each row)",
+        texts.push_back(fmt::format("not averaged over {} (each row has only one value)",
                                     fmt::join(answers.along, ", ")));
     }
     std::map<std::string, std::uint64_t> undefined;

@@ -32,10 +32,9 @@ struct RoutedMetrics {
     static constexpr auto fields() {
         using R = RoutedMetrics;
         return describe(
-            field("data_transmissions", &R::data,
-                  "transmissions of messages to one robot; each hop counts"),
+            field("data_transmissions", &R::data, "transmissions of unicasts; each hop counts"),
             field("path_stretch", &R::path_stretch,
-                  "hops divided by the hops of the shortest path"),
+                  "hops of routed unicasts, divided by the hops of the shortest path"),
             field("delay_waiting", &R::waiting, "mean time that a message waits in routers"),
             field("delay_travelling", &R::travelling,
                   "mean time that a message travels between routers"));
@@ -62,17 +61,19 @@ struct RoutingValues {
 
     static constexpr auto fields() {
         using R = RoutingValues;
-        return describe(field("routing_packets", &R::packets, "control packets, each hop counts"),
-                        field("routing_bytes", &R::bytes, "size of the control packets"),
-                        field("routing_load", &R::load, "control packets divided by deliveries"),
-                        field("routing_load_bytes", &R::load_bytes,
-                              "bytes of control packets divided by delivered bytes"),
-                        field("routing_requests", &R::requests, "control packets: requests"),
-                        field("routing_replies", &R::replies, "control packets: replies"),
-                        field("routing_errors", &R::errors, "control packets: errors"),
-                        field("routing_hellos", &R::hellos, "control packets: HELLOs"),
-                        field("routes_broken", &R::broken,
-                              "links that broke while a packet was sent over them"));
+        return describe(
+            field("routing_packets", &R::packets,
+                  "transmissions of control packets; each hop counts"),
+            field("routing_bytes", &R::bytes, "bytes of all transmitted control packets"),
+            field("routing_load", &R::load, "control packets divided by deliveries"),
+            field("routing_load_bytes", &R::load_bytes,
+                  "bytes of control packets divided by delivered bytes"),
+            field("routing_requests", &R::requests, "control packets: requests"),
+            field("routing_replies", &R::replies, "control packets: replies"),
+            field("routing_errors", &R::errors, "control packets: errors"),
+            field("routing_hellos", &R::hellos, "control packets: HELLOs"),
+            field("routes_broken", &R::broken,
+                  "links that broke while a packet was sent over them"));
     }
     friend bool operator==(const RoutingValues&, const RoutingValues&) = default;
 };

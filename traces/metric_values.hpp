@@ -31,10 +31,11 @@ struct LatencyValues {
     double max = 0;   ///< largest latency [s]
 
     static constexpr auto fields() {
-        return describe(field("latency_mean_s", &LatencyValues::mean, "mean latency"),
-                        field("latency_p50_s", &LatencyValues::p50, "median latency"),
-                        field("latency_p95_s", &LatencyValues::p95, "95th percentile"),
-                        field("latency_max_s", &LatencyValues::max, "largest latency"));
+        return describe(
+            field("latency_mean_s", &LatencyValues::mean, "mean latency"),
+            field("latency_p50_s", &LatencyValues::p50, "median latency"),
+            field("latency_p95_s", &LatencyValues::p95, "95th percentile of the latency"),
+            field("latency_max_s", &LatencyValues::max, "largest latency"));
     }
     friend bool operator==(const LatencyValues&, const LatencyValues&) = default;
 };
@@ -72,15 +73,15 @@ struct PartMetrics {
 
     static constexpr auto fields() {
         using P = PartMetrics;
-        return describe(
-            field("messages", &P::messages,
-                  "messages that were sent in this flow, or to this robot"),
-            field("deliveries", &P::deliveries,
-                  "messages that reached a robot; a message counts once for each robot"),
-            field("delivery_ratio", &P::delivery_ratio,
-                  "deliveries divided by expected deliveries"),
-            field("throughput_bps", &P::throughput_bps, "delivered bits a second"),
-            field("latency_mean_s", &P::latency_mean_s, "mean latency"));
+        return describe(field("messages", &P::messages,
+                              "messages that were sent in this flow, or to this robot"),
+                        field("deliveries", &P::deliveries,
+                              "deliveries of messages to robots; a message counts once for each "
+                              "robot that it reached"),
+                        field("delivery_ratio", &P::delivery_ratio,
+                              "deliveries, divided by the number of deliveries that were possible"),
+                        field("throughput_bps", &P::throughput_bps, "delivered bits per second"),
+                        field("latency_mean_s", &P::latency_mean_s, "mean latency"));
     }
 };
 
@@ -178,20 +179,21 @@ struct MetricValues {
             field("transmissions", &M::transmissions, "frames transmitted"),
             field("receptions", &M::receptions, "copies of messages that robots decoded"),
             field("deliveries", &M::deliveries,
-                  "messages that reached a robot; a message counts once for each robot"),
+                  "deliveries of messages to robots; a message counts once for each robot that it "
+                  "reached"),
             field("delivery_ratio", &M::delivery_ratio,
-                  "deliveries divided by expected deliveries"),
-            field(
-                "reach", &M::reach,
-                "deliveries, divided by the number of robots that were connected with the sender"),
+                  "deliveries, divided by the number of deliveries that were possible"),
+            field("reach", &M::reach,
+                  "deliveries, divided by the number of robots to which the sender had a link, "
+                  "directly or over other robots"),
             field("saved_rebroadcasts", &M::saved_rebroadcasts,
-                  "share of rebroadcasts that were saved, compared with a plain flood"),
+                  "share of receiving robots that did not forward a broadcast"),
             field("latency", &M::latency, "latency of the deliveries"),
             field("hops_mean", &M::mean_hops, "mean number of hops of a delivery"),
             field("hops_max", &M::max_hops, "most hops of a delivery"),
             field("routing", &M::routing, "cost of the routing protocol"),
             field("routed", &M::routed, "paths and delays of routed unicasts"),
-            field("drops", &M::drops, "lost copies of messages, by reason"));
+            field("drops", &M::drops, "lost copies of messages, for each reason of the loss"));
     }
 
     friend bool operator==(const MetricValues&, const MetricValues&) = default;

@@ -33,7 +33,8 @@ struct TopologyValues {
         using T = TopologyValues;
         return describe(
             field("degree_mean", &T::degree_mean, "mean number of robots that a robot hears"),
-            field("components_mean", &T::components_mean, "mean number of connected components"),
+            field("components_mean", &T::components_mean,
+                  "mean number of connected components of the network"),
             field("speed_mean_m_s", &T::speed_mean, "mean speed of the robots"),
             field("link_lifetime_mean_s", &T::link_lifetime_mean, "mean lifetime of a link"),
             field("links_ended", &T::links_ended,

@@ -28,7 +28,7 @@ std::string progress_text(const SweepProgress& p, double elapsed_s) {
     const auto over = static_cast<double>(p.finished + p.failed);
     if (over > 0 && elapsed_s > 0) {
         const double rate = over / elapsed_s;
-        text += fmt::format("; {:.3g} runs/s, {} to go", rate,
+        text += fmt::format("; {:.3g} runs/s, {} left", rate,
                             duration_text(static_cast<double>(p.left) / rate));
     }
     return text;

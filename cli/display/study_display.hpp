@@ -27,7 +27,7 @@ class SweepDisplay {
     Clock::time_point last_ = started_;
 };
 
-/// Text of a sweep's progress: "12 runs finished, 1 failed, 87 left; 3.4 runs/s, 26 s to go".
+/// Text of a sweep's progress: "12 runs finished, 1 failed, 87 left; 3.4 runs/s, 26 s left".
 /// @param elapsed_s  time since the start of the sweep [s]
 std::string progress_text(const SweepProgress& progress, double elapsed_s);
 

@@ -5,10 +5,11 @@
 namespace rovernet::cli {
 namespace {
 
-constexpr const char* only_points = "use only points of the study with KEY=VALUE, such as ttl=6";
+constexpr const char* only_points =
+    "use only the runs with this value of a varied key, such as ttl=6";
 constexpr const char* only_cells =
-    "if runs are missing from some rows, average each row only over the combinations of values and "
-    "replications that all rows have";
+    "if some rows lack runs: average all rows over the same combinations of values and "
+    "replications, those that every row has";
 
 void add_results(Command app) {
     const auto [results, a] =
@@ -16,7 +17,9 @@ void add_results(Command app) {
     results.add_examples({"rovernet results patrol.db --metric delivery_ratio",
                           "rovernet results patrol.db --sql 'SELECT * FROM result'",
                           "rovernet results patrol.db --csv > patrol.csv"});
-    results.add_option("STUDY", a.store, "store of a study, as written by rovernet sweep")
+    results
+        .add_option("STUDY", a.store,
+                    "store (file with the results) of a study, as written by rovernet sweep")
         .required();
     Option metric = results
                         .add_option("--metric", a.metrics,
@@ -84,8 +87,8 @@ void add_plot(Command app) {
         {"rovernet plot density.db -x robot.r.count -y delivery_ratio -o density.svg",
          "rovernet plot measured.csv -x distance -y level --by robot -o measured.svg"});
     plot.add_option("STUDY", p.store,
-                    "store of a study, as written by rovernet sweep; or a table NAME.csv, whose "
-                    "columns are keys and metrics")
+                    "store (file with the results) of a study, as written by rovernet sweep; or a "
+                    "table NAME.csv, whose columns are keys and metrics")
         .required();
     plot.add_option("-x", p.x, "varied key along the x axis, such as robots or radio.power");
     plot.add_option("-y", p.y,
@@ -124,8 +127,10 @@ void add_plot(Command app) {
                     "width of the picture in pixels (for a PDF: in points); the text is scaled "
                     "with the width (default: 672 for one chart, 352 for each of several charts)")
         .range(100, 10000);
-    plot.add_option("--font-size", p.font_size,
-                    "font size in points; a chart is 672 points wide, or 352 beside other charts")
+    plot.add_option(
+            "--font-size", p.font_size,
+            "font size in points; without --width, one chart is 672 points wide, and each of "
+            "several charts 352 points")
         .range(4, 36)
         .shows_default();
     plot.add_option(
@@ -138,7 +143,9 @@ void add_explain(Command app) {
     const auto [explain, e] =
         add_command(app, "explain", "Print how to repeat one run of a study", cli::explain);
     explain.add_examples({"rovernet explain patrol.db 0/2"});
-    explain.add_option("STUDY", e.store, "store of a study, as written by rovernet sweep")
+    explain
+        .add_option("STUDY", e.store,
+                    "store (file with the results) of a study, as written by rovernet sweep")
         .required();
     explain
         .add_option("RUN", e.run,

@@ -20,8 +20,10 @@ void add_run_options(Command run, RunArguments& a) {
         .transform(
             [](const std::string& text) { return text.starts_with('x') ? text.substr(1) : text; })
         .check(speed_of_time());
-    run.add_flag("--record", a.record,
-                 "also write trace.mcap, a recorded trace with all records, for replay and view");
+    run.add_flag(
+        "--record", a.record,
+        "also write trace.mcap, a record of the whole run that rovernet replay and rovernet view "
+        "read");
     add_json(run, a.json);
     run.add_flag("--print-scenario", a.print_scenario,
                  "print the scenario with all defaults, without running it");

@@ -132,15 +132,16 @@ void run_in(const InArguments& a) {
 
 void add_emulate(Command app) {
     const auto [command, a] = add_command(
-        app, "emulate", "Pass the packets of real programs over the robots' radios, in real time",
+        app, "emulate", "Pass the packets of real programs over simulated radios, in real time",
         emulate);
     command.add_examples({"rovernet emulate examples/emulate/emulate.toml",
                           "rovernet emulate examples/rescue/rescue.toml --udp --rosbridge"});
     add_file(command, a, any_file);
     command
         .add_option("--udp", a.udp,
-                    "serve UDP datagrams, one port for each robot: 127.0.0.1:PORT and the ports "
-                    "that follow; port 0 selects free ports (default port: 7100)")
+                    "exchange packets with programs as UDP datagrams, at one port for each robot: "
+                    "127.0.0.1:PORT and the ports that follow; port 0 selects free ports (default "
+                    "port: 7100)")
         .usually(relay_address.data());
     command
         .add_option("--player", a.player,
@@ -157,9 +158,10 @@ void add_emulate(Command app) {
                     "happens if the run lags more")
         .shows_default();
     command
-        .add_option("--on-late", a.on_late,
-                    "what to do when the run lags behind by more than --late: warn (once), or fail "
-                    "(end the run)")
+        .add_option(
+            "--on-late", a.on_late,
+            "what to do when the run lags behind real time by more than --late: warn (once), or "
+            "fail (end the run)")
         .one_of({"warn", "fail"})
         .shows_default();
     command.add_option("--out", a.out, "folder for the results (default: as for rovernet run)");
@@ -169,7 +171,8 @@ void add_emulate(Command app) {
 
 void add_in(Command app) {
     const auto [command, a] = add_command(
-        app, "in", "Run a program in the network of a robot of rovernet emulate", run_in);
+        app, "in", "Run a program in the network of a robot that rovernet emulate simulates",
+        run_in);
     command.add_examples(
         {"rovernet in A -- ping 10.0.0.2", "rovernet in --run runs/emulate-s1 A -- ping 10.0.0.2"});
     command.add_option("ROBOT", a.robot, "name of the robot").required();

@@ -119,9 +119,10 @@ void run_live(const LiveArguments& a) {
             "--listen-json, --listen-web, --unix, --player, --rosbridge or --view");
     }
     if (!a.is_by_clock() && a.speed) {
-        throw CommandEnd(usage,
-                         "live: --speed needs --player, --rosbridge or --view, because controllers "
-                         "alone decide when the next step begins");
+        throw CommandEnd(
+            usage,
+            "live: --speed needs --player, --rosbridge or --view; without these options, the "
+            "controllers decide when the next step begins");
     }
     const LiveResult result = run_by_fronts(a);
     print_run(result.scenario, result.run, a.json);
@@ -130,20 +131,21 @@ void run_live(const LiveArguments& a) {
 
 /// Options of runs in lock-step, by JSON lines.
 void add_lockstep(Command live, LiveArguments& a) {
-    live.add_option("--controller", a.controllers,
-                    "controller program to start, which exchanges lines by standard input and "
-                    "output; may be given several times")
+    live.add_option(
+            "--controller", a.controllers,
+            "controller program to start; it exchanges JSON lines by standard input and output; "
+            "this option may be given several times")
         .one_word();
     live.add_option("--listen-json", a.listen,
                     "listen for controllers at 127.0.0.1:PORT; port 0 selects a free port");
     live.add_option(
         "--listen-web", a.web,
-        "listen for controllers by WebSocket at 127.0.0.1:PORT; each message is one line");
+        "listen for controllers by WebSocket at 127.0.0.1:PORT; each message is one JSON line");
     live.add_option("--unix", a.unix_path,
                     "listen for controllers at a Unix socket with this path");
     live.add_option("--patience", a.patience,
-                    "longest real time that a controller may take for a step, or a started program "
-                    "until its hello, such as 30s (default: no limit)");
+                    "longest real time that a controller may take for a step, and that a started "
+                    "program may take until it sends hello, such as 30s (default: no limit)");
     live.add_option("--on-loss", a.on_loss,
                     "what to do when a controller disconnects without `bye`: end the run, stop its "
                     "robots, or wait for it")
@@ -161,8 +163,8 @@ void add_by_clock(Command live, LiveArguments& a) {
     const std::vector<Option> others = a.fronts.add_to(live);
     a.view.add_to(live);
     live.add_flag("--player-one-port", a.one_port,
-                  "serve all robots at one port: devices of the first robot have index 0, of the "
-                  "second index 1, and so on")
+                  "serve the Player devices of all robots at one port: devices of the first robot "
+                  "have index 0, devices of the second robot index 1, and so on")
         .needs(player);
     const Option lockstep = live.add_flag("--player-lockstep", a.lockstep,
                                           "advance the simulated time by 0.1 s whenever all "

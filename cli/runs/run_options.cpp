@@ -9,9 +9,10 @@ void add_run(Command app) {
     const auto [run, a] = add_command(app, "run", "Run a scenario", run_or_view);
     add_run_options(run, a);
     const Option view = a.view.add_to(run);
-    run.add_option("--listen", a.reach.listen,
-                   "serve the page to other machines, too, at this IP address of this machine "
-                   "(0.0.0.0: at all its addresses); they need the token in the printed address")
+    run.add_option(
+           "--listen", a.reach.listen,
+           "serve the page to other machines, too, at this IP address of this machine "
+           "(0.0.0.0: at all its addresses); browsers there need the token in the printed address")
         .needs(view);
 }
 
@@ -66,7 +67,9 @@ void add_sweep(Command app, const std::string& typed) {
     add_study_run(sweep, a);
     Option resume = sweep.add_flag("--resume", a.resume,
                                    "make only the runs that the store lacks (this is the default)");
-    sweep.add_flag("--fresh", a.fresh, "ask, delete the runs in the store, then make all runs anew")
+    sweep
+        .add_flag("--fresh", a.fresh,
+                  "ask for confirmation, delete the runs in the store, then make all runs again")
         .excludes(resume);
     sweep.add_flag("--yes", a.yes, "with --fresh: delete the runs without asking");
     const Option shard =
@@ -83,9 +86,9 @@ void add_sweep(Command app, const std::string& typed) {
         sweep.add_option("--merge", a.merge, "move the runs of these stores into the study's store")
             .excludes(shard);
     sweep
-        .add_option(
-            "--executor", a.executor,
-            "where runs are made: local, in worker processes (default), or slurm, in a job array")
+        .add_option("--executor", a.executor,
+                    "where runs are made: local, in worker processes (default), or slurm, in a job "
+                    "array of Slurm")
         .one_of({"local", "slurm"})
         .excludes(shard)
         .excludes(merge);
@@ -179,7 +182,7 @@ void add_advise(Command app, const std::string& typed) {
                     "the reference)")
         .delimiter(',');
     advise.add_flag("--as-given", a.question.as_given,
-                    "use the parameters in the file, without first fitting the models");
+                    "do not fit the models: use their parameters in the scenario file");
     advise
         .add_option("--max-replications", a.max_replications,
                     "largest number of replications; a model that is still undecided after these "

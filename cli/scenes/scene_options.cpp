@@ -122,10 +122,11 @@ void add_draw(Command app) {
                   "draw the robots that sent or forwarded the last route request: with --routes "
                   "A,B the last request of robot A, otherwise the last request of any robot");
     Option trails = draw.add_flag("--trails", a.trails, "draw the paths of the robots so far");
-    Option margin_to =
-        draw.add_option("--margin-to", a.margin_to,
-                        "colour the trails by the margin of the link to a robot (with A,B: the "
-                        "larger of the two margins), and mark where there is no link");
+    Option margin_to = draw.add_option(
+        "--margin-to", a.margin_to,
+        "colour the trails by the margin (level minus sensitivity) of the link to this "
+        "robot, and mark where there is no link; with A,B: by the larger of the "
+        "two margins");
     margin_to.delimiter(',').needs(trails);
     draw.add_option(
             "--over", a.over,
@@ -140,7 +141,7 @@ void add_draw(Command app) {
         .range(100, 10000)
         .shows_default();
     draw.add_option("--font-size", a.font_size,
-                    "font size in points; the picture is 1200 points wide")
+                    "font size in points; without --width, the picture is 1200 points wide")
         .range(4, 36)
         .shows_default();
     draw.add_option("-o,--output", a.out, "picture to write: NAME.svg, NAME.png or NAME.pdf")

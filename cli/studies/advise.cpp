@@ -43,8 +43,9 @@ DecisionRule rule_for(const AdviseArguments& a, const StudyTable& study, std::si
     const Bounds range = difference_bounds(rule.bounds);
     if (!range.closed() && !a.tolerance) {
         throw InputError({"--metric " + a.metric, 0, 0, true},
-                         fmt::format("{} has no upper bound; expected also a --tolerance, in the "
-                                     "unit of the metric, such as --tolerance 0.1",
+                         fmt::format("{} has no upper bound, so there is no default tolerance; "
+                                     "expected --tolerance in the unit of the metric, such as "
+                                     "--tolerance 0.1",
                                      a.metric));
     }
     if (range.closed() && rule.tolerance >= *range.high) {
@@ -167,7 +168,8 @@ void check_not_stopped(const AdviseArguments& a) {
 void tell_advice(const AdviseArguments& a, const Advice& advice) {
     print_advice(advice, a.json);
     if (advice.stopped && stops_asked() == 0) {
-        notice(fmt::format("the budget of {} is used up; this verdict is preliminary", a.budget));
+        notice(fmt::format("the time of --budget {} is used up; this verdict is preliminary",
+                           a.budget));
     }
     check_not_stopped(a);
 }

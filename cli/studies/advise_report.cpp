@@ -130,8 +130,8 @@ void print_report(const Advice& advice) {
         100 * (1 - rule.alpha), rule.family);
     print_judged(advice);
     fmt::print(
-        "\nn: replications on which the verdict rests; bias: mean difference from the reference; "
-        "run error: mean absolute difference of a single run from the reference\n");
+        "\nn: replications on which the verdict is based; bias: mean difference from the "
+        "reference; run error: mean absolute difference of a single run from the reference\n");
     if (!advice.cost_text.empty()) fmt::print("{}\n", advice.cost_text);
     print_models(advice);
     fmt::print("\n{}\n", advice_text(advice));

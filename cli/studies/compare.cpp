@@ -210,8 +210,9 @@ void tell_cut_off(Study& study, const Store& store, const Vary& vary,
     }
     if (routing.empty() || most_of_others <= most_of_routing) return;
     notice(fmt::format(
-        "some unicasts are still on their way at the end of a run: delivery_ratio leaves them out "
-        "under {} ({}{} in all runs), and counts them as not delivered under {}",
+        "some unicasts are still on their way when a run ends. With {} ({}{} such unicasts in all "
+        "runs), delivery_ratio leaves these unicasts out; with {}, delivery_ratio counts them as "
+        "not delivered",
         fmt::join(others, ", "), others.size() > 1 ? "up to " : "",
         most_of_others - most_of_routing, fmt::join(routing, ", ")));
 }

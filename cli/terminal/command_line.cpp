@@ -72,7 +72,7 @@ std::string usage_error(const CLI::App* app, const CLI::Error& error) {
         const std::vector<std::string> options = options_of(command);
         if (is_option && std::find(options.begin(), options.end(), word) != options.end()) {
             return fmt::format(
-                "rovernet: the option {} is before the command; write it behind \"{}\"\n", word,
+                "rovernet: the option \"{}\" is before the command; write it after \"{}\"\n", word,
                 command.get_name());
         }
         if (is_option) {

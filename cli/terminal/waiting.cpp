@@ -57,7 +57,7 @@ std::string share_text(double share, double elapsed_s) {
     const int full = static_cast<int>(share * width);
     std::string text =
         fmt::format("[{:=<{}}{: <{}}] {:3.0f} %", "", full, "", width - full, 100 * share);
-    if (share > 0) text += ", " + duration_text(elapsed_s * (1 - share) / share) + " to go";
+    if (share > 0) text += ", " + duration_text(elapsed_s * (1 - share) / share) + " left";
     return text;
 }
 

@@ -35,7 +35,7 @@ class Waiting {
     double told_share_ = 0;
 };
 
-/// Text of a progress bar: "[====      ]  42 %, 26 s to go". If the finished share (0 ... 1) is 0,
+/// Text of a progress bar: "[====      ]  42 %, 26 s left". If the finished share (0 ... 1) is 0,
 /// the remaining time is omitted.
 std::string share_text(double share, double elapsed_s);
 

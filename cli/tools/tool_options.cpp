@@ -116,7 +116,8 @@ void add_validate(Command app) {
         .required();
     validate.add_option(
         "--field", a.field,
-        "folder of measured levels (with flat/ and lab/), with which models are compared");
+        "folder of measured levels, with the subfolders flat/ and lab/; models are compared with "
+        "these levels");
     validate.add_flag("--quick", a.quick, "use fewer samples: takes seconds instead of minutes");
 }
 

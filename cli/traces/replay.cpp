@@ -393,7 +393,7 @@ void add_replay(Command app) {
         "for an ns-2 trace: routing of its messages, flood or direct (default: flood)")
         .one_of({"flood", "direct"});
     add("--movements", a.movements, "for an ns-2 trace: movement file of its robots");
-    add("--store", a.store, "also write the rows to this store, which results and plot read");
+    add("--store", a.store, "also write the rows to this file, for rovernet results and plot");
     add_json(replay, a.json);
 }
 

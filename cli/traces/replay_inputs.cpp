@@ -55,9 +55,10 @@ void tell_of_log(const InputReplay& replay) {
                ": the run of this log did not end; the log is replayed up to the last input");
     }
     for (const std::string& other : replay.others) {
-        notice(other +
-               ": this folder contains the log of a different run that did not end; to replay that "
-               "log, give the name of the log");
+        notice(
+            other +
+            ": this is the log of a different run that did not end; to replay this log, give its "
+            "name instead of the folder");
     }
 }
 

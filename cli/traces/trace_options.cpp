@@ -88,7 +88,7 @@ void add_trace_diff(Command trace) {
     diff.add_option("A", a.a, any_trace).required().transform(trace_of_run);
     diff.add_option("B", a.b, any_trace).required().transform(trace_of_run);
     diff.add_option("--time-tolerance", a.time_tolerance,
-                    "largest difference of two times that count as equal")
+                    "two times count as equal if they differ by at most this time")
         .shows_default();
     add_strict(diff, a.strict);
 }

@@ -342,7 +342,8 @@ void add_view(Command app) {
         .shows_default();
     view.add_option("--listen", a.listen,
                     "serve the page to other machines, too, at this IP address of this machine "
-                    "(0.0.0.0: at all its addresses); they need the token in the printed address");
+                    "(0.0.0.0: at all its addresses); browsers there need the token in the printed "
+                    "address");
     view.add_option("--from", a.from, "show only frames from this time of the run on");
     view.add_option("--to", a.to, "show only frames up to this time of the run");
     view.add_option(

@@ -159,10 +159,10 @@ std::string RecordedDay::starts_together(const std::vector<std::string>& set) co
     const auto met = static_cast<std::size_t>(std::count(together.begin(), together.end(), true));
     if (met == 0 || met * 10 < log_.said.size()) return "";
     return fmt::format(
-        "{} of {} messages start less than the duration of a frame before or after a message of a "
-        "different robot. access.model={} does not separate the frames of these messages, so the "
-        "frames collide. access.model=csma with access.immediate_access=false draws a backoff "
-        "before each frame, as ns-2 does",
+        "{} of {} messages are sent at nearly the same time as a message of a different robot (the "
+        "frames overlap in time). access.model={} does not separate these frames, so the frames "
+        "collide. access.model=csma with access.immediate_access=false draws a backoff before "
+        "each frame, as ns-2 does",
         met, log_.said.size(), scenario.access.name());
 }
 

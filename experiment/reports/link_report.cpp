@@ -230,7 +230,8 @@ LinkReport report_at(const Network& network, NodeId from, NodeId to, Time at) {
 
 void check_two(const Network& network, NodeId a, NodeId b) {
     if (a != b) return;
-    throw std::invalid_argument("a link needs two robots, got \"" + network.name(a) + "\" twice");
+    throw std::invalid_argument("a link needs two different robots, got \"" + network.name(a) +
+                                "\" twice");
 }
 
 }  // namespace

@@ -45,7 +45,10 @@ Admission::Admission(Address address, std::string token)
 std::string Admission::refusal(const WebRequest& request) const {
     const bool knows = !token_.empty() && are_equal(token_in(request.target), token_);
     if (!address_.is_loopback()) {
-        return knows ? "" : "expected ?token= with the token that this server printed at its start";
+        return knows
+                   ? ""
+                   : "expected ?token= at the end of the address, with the token that this server "
+                     "printed at its start";
     }
     const std::array<std::string, 4> names = {
         address_.text(), fmt::format("127.0.0.1:{}", address_.port),
@@ -56,14 +59,15 @@ std::string Admission::refusal(const WebRequest& request) const {
     if (!request.origin || *request.origin == fmt::format("http://{}", request.host)) return {};
     if (knows) return {};
     return fmt::format(
-        "Origin: found \"{}\"; a page needs the token that this server printed at its start",
+        "Origin: found \"{}\"; a page of a different server needs the token that this server "
+        "printed at its start",
         *request.origin);
 }
 
 std::string random_token() {
     std::array<unsigned char, 16> bytes{};
     if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
-        throw RunError("the system gives no random bytes");
+        throw RunError("cannot make a token: the operating system provides no random bytes");
     }
     return fmt::format("{:02x}", fmt::join(bytes, ""));
 }

@@ -149,14 +149,14 @@ void DeviceAddresses::check_host(const Addressed& each, Network4 network) {
                                          ip_text(network.first()), network.bits());
     const RadioPlaces& places = each.places();
     const std::string mend =
-        "expected the address of a host in this network, or a netmask with fewer ones";
+        "expected the address of a host in this network, or a netmask with fewer bits that are 1";
     if (!places.ip.source.empty()) each.fail(places.ip, what + "; " + mend);
     if (!places.netmask.source.empty()) each.fail(places.netmask, what + "; " + mend);
     if (has_told_made_) return;
     has_told_made_ = true;
     notices_.push_back(
         fmt::format("robot {}: {}, so programs cannot reach it; give [radio] a netmask with fewer "
-                    "ones (a larger network), such as netmask = \"255.255.0.0\"",
+                    "bits that are 1 (a larger network), such as netmask = \"255.255.0.0\"",
                     each.device.robot, what));
 }
 

@@ -34,8 +34,8 @@ class ListenerAddress {
         const std::string name =
             fmt::format("{}{}{}/{}", socket_prefix, listener.run, listener.mark, listener.robot);
         if (name.size() >= sizeof address_.sun_path) {
-            throw RunError(
-                fmt::format("robot {}: the name is too long for its namespace", listener.robot));
+            throw RunError(fmt::format("robot {}: this name is too long; expected a shorter name",
+                                       listener.robot));
         }
         address_.sun_family = AF_UNIX;
         std::memcpy(address_.sun_path + 1, name.data(), name.size());
@@ -99,9 +99,8 @@ int open_listener(pid_t run, const std::string& robot) {
         (void)!getrandom(&number, sizeof number, 0);
         listener.mark = fmt::format(".{}", number);
     }
-    throw RunError(
-        fmt::format("cannot listen for programs that enter the namespace of robot {}: {}", robot,
-                    std::strerror(errno)));
+    throw RunError(fmt::format("cannot listen for programs that enter the network of robot {}: {}",
+                               robot, std::strerror(errno)));
 }
 
 std::vector<RobotListener> all_listeners() {

@@ -85,10 +85,11 @@ bool Lockstep::come_back(Connection from, const HelloRequest& hello) {
     Controller* controller = controllers_.named(hello.name);
     if (!controller || controller->connection) return false;
     if (controller->hello.robots != hello.robots || controller->hello.step != hello.step) {
-        throw RequestError("taken", "name",
-                           fmt::format("expected the same robots and the same step as before {} "
-                                       "disconnected, or a different name",
-                                       hello.name));
+        throw RequestError(
+            "taken", "name",
+            fmt::format("expected the robots and the step that controller {} had before it "
+                        "disconnected, or a different name",
+                        hello.name));
     }
     controller->connection = from;
     controller->hello = hello;

@@ -56,7 +56,8 @@ std::vector<ConfiguredDevice> configured_devices(const WorldEntity& driver, std:
     if (!property) return devices;
     for (const WorldAtom& each : property->values) {
         const auto* text = std::get_if<std::string>(&each);
-        if (!text) throw InputError(property->where, fmt::format("{}: expected texts", key));
+        if (!text)
+            throw InputError(property->where, fmt::format("{}: expected texts in quotes", key));
         devices.push_back(read_device(key, *text, property->where));
     }
     return devices;

@@ -91,7 +91,7 @@ std::string ViewerAnswers::answer(std::string_view question, const Others& other
             throw RequestError(
                 "too_long", "",
                 fmt::format(
-                    "found a question of {} bytes from a page; expected at most {} bytes (64 KiB)",
+                    "found a request of {} bytes from a page; expected at most {} bytes (64 KiB)",
                     question.size(), longest_question));
         }
         const std::string_view op = member(asked, "op").text();

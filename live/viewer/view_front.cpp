@@ -210,7 +210,7 @@ void ViewFront::check_control(bool is_allowed, std::string_view what) const {
 Table ViewFront::pace(const JsonElement& question) {
     const auto [id, op, speed, paused] =
         members(question, std::array<std::string_view, 4>{"id", "op", "speed", "paused"});
-    check_control(control_.of_time, "pace this run");
+    check_control(control_.of_time, "pause this run or change its speed");
     if (speed) {
         speed_ = speed->value.is_null() ? std::nullopt : std::optional(speed->number(speeds));
         carrier_.set_speed(speed_);
@@ -225,7 +225,7 @@ Table ViewFront::pace(const JsonElement& question) {
 Table ViewFront::step(const JsonElement& question) {
     const auto [id, op, length] =
         members(question, std::array<std::string_view, 3>{"id", "op", "ns"});
-    check_control(control_.of_time, "pace this run");
+    check_control(control_.of_time, "pause this run or change its speed");
     const std::uint64_t ns =
         needed(length, question, "ns", "\"ns\":1000").whole_number(1, longest_step);
     limit_ = now() + Duration{static_cast<std::int64_t>(ns)};

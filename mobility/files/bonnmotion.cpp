@@ -117,11 +117,11 @@ void BonnMotionReader::refuse_track() const {
     if (times_.empty() || times_.front() == times_.back()) return;
     throw InputError(
         {.source = numbers_.source()},
-        fmt::format(
-            "each of its {} lines has one place, at a later time than the line before: this is a "
-            "track, with a line for each time; expected a line for each robot, with \"time x y\" "
-            "once or more (to convert a track of one robot: tr '\\n' ' ' < TRACK > FILE)",
-            robots.size()));
+        fmt::format("each of the {} lines of this file has one place, at a later time than the "
+                    "line before: this is a track, with a line for each time; expected a line for "
+                    "each robot, with \"time x y\" once or more (to convert a track of one robot: "
+                    "tr '\\n' ' ' < TRACK > FILE)",
+                    robots.size()));
 }
 
 void BonnMotionReader::line_up() {

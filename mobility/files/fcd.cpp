@@ -176,7 +176,8 @@ void FcdReader::refuse_degrees() const {
             "the positions are in degrees: {}; expected metres, as SUMO writes them without "
             "--fcd-output.geo",
             is_told ? "the head of the file states that fcd-output.geo is on"
-                    : "the speeds give paths over a thousand times as long as the positions do"));
+                    : "the paths computed from the speeds are more than a thousand times as long "
+                      "as the paths between the positions"));
 }
 
 /// Adds the path from the previous position to both sums, if the speed is given.

@@ -173,10 +173,12 @@ struct ArpSettings {
 
     static constexpr auto fields() {
         return describe(field("arp", &ArpSettings::arp,
-                              "whether robots first ask for the hardware address of a next hop"),
+                              "true: before a robot sends its first unicast to a next hop, it "
+                              "requests the hardware address of this next hop"),
                         field("arp_timeout", &ArpSettings::arp_timeout,
                               Range{.low = 0, .high = 1e18, .low_included = false, .text = "> 0 s"},
-                              "time after which an address is forgotten; never if not given"));
+                              "time after which a robot forgets the hardware address of a next "
+                              "hop; if not given, never"));
     }
 };
 

@@ -46,7 +46,7 @@ struct Aloha {
                   "frames start only at multiples of this time"),
             field("queue", &Aloha::queue, counts, "largest number of frames that wait at a robot"),
             field("priority", &Aloha::priority,
-                  "whether control packets of the routing protocol are sent before messages"));
+                  "true: control packets of the routing protocol are sent before messages"));
     }
 
     /// Creates the access model for one Network.

@@ -88,37 +88,41 @@ struct Csma {
             field("slot", &Csma::slot, non_negative, "duration of a backoff slot"),
             field("queue", &Csma::queue, counts, "largest number of frames that wait at a robot"),
             field("standard", &Csma::standard,
-                  "standard whose timing and airtimes are used; with 802.11a and 802.11g, the "
-                  "defaults of [radio] rate and preamble are 54 Mb/s and 20 us"),
-            field("sifs", &Csma::sifs, non_negative, "short interframe space"),
-            field("difs", &Csma::difs, non_negative, "DCF interframe space"),
+                  "standard that gives the timing and the airtimes; with 802.11a and 802.11g, the "
+                  "defaults of the keys `rate` and `preamble` of [radio] are 54 Mb/s and 20 us"),
+            field("sifs", &Csma::sifs, non_negative, "short interframe space (SIFS)"),
+            field("difs", &Csma::difs, non_negative,
+                  "DCF interframe space (DIFS); if not given, a SIFS and two slots"),
             field("cca_time", &Csma::cca_time, non_negative,
                   "time from the arrival of a signal until a station senses the signal"),
             field("turnaround", &Csma::turnaround, non_negative,
-                  "time from the decision to send until the frame begins"),
+                  "time from the decision of a station to send until its frame begins"),
             field("rx_start_delay", &Csma::rx_start_delay, non_negative,
-                  "time after which an answer counts as missing, in addition to a SIFS and a slot"),
-            field("cw_min", &Csma::cw_min, window, "least contention window, in slots"),
+                  "part of the time limit for an answer (CTS or ACK): the answer counts as missing "
+                  "after a SIFS, a slot and this delay"),
+            field("cw_min", &Csma::cw_min, window, "smallest contention window, in slots"),
             field("cw_max", &Csma::cw_max, window, "largest contention window, in slots"),
             field("basic_rates", &Csma::basic_rates,
                   "broadcasts and RTS use the lowest of these rates; CTS and ACK use the highest "
-                  "of these rates that is not above the rate of the answered frame"),
+                  "of these rates that is not above the rate of the frame that they answer"),
             field("eifs", &Csma::eifs,
-                  "when a station waits for an EIFS instead of a DIFS: after a frame whose "
-                  "reception began and failed (standard), after every frame that was sensed but "
-                  "not decoded (ns2), or never (none)"),
+                  "when a station waits for an EIFS (extended interframe space) instead of a DIFS. "
+                  "standard: after a frame whose reception began and failed; ns2: after every "
+                  "frame that the station sensed but did not decode; none: never"),
             field("immediate_access", &Csma::immediate_access,
-                  "a station that finds the medium idle sends without a backoff"),
+                  "true: a station that finds the medium idle sends after a DIFS, without a "
+                  "backoff; false: a station draws a backoff before every frame"),
             field("short_retries", &Csma::short_retries, non_negative,
-                  "number of attempts for an RTS, or for a unicast without an RTS; 0: unlimited"),
+                  "largest number of attempts to send an RTS, or a unicast without an RTS; 0: no "
+                  "limit"),
             field("long_retries", &Csma::long_retries, non_negative,
-                  "number of attempts for frames that follow an RTS; 0: unlimited"),
+                  "largest number of attempts to send a unicast after an RTS; 0: no limit"),
             field("rts_threshold", &Csma::rts_threshold,
-                  "size above which an RTS precedes a unicast"),
+                  "before a unicast that is larger than this size, a station sends an RTS"),
             field("header", &Csma::header,
                   "size of the header that the access model adds to a message"),
             field("priority", &Csma::priority,
-                  "whether control packets of the routing protocol are sent before messages"));
+                  "true: control packets of the routing protocol are sent before messages"));
     }
 
     /// Complete timing: times that are not given have the values of the standard.

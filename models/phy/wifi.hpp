@@ -106,10 +106,10 @@ struct Wifi {
     std::optional<WifiStandard> framing = std::nullopt;
 
     static constexpr auto fields() {
-        return describe(field("framing", &Wifi::framing,
-                              "standard by whose symbols and fields the duration of a frame is "
-                              "computed; without a standard, the duration is the number of bits "
-                              "divided by the bit rate"));
+        return describe(field(
+            "framing", &Wifi::framing,
+            "standard that determines the duration of a frame (symbols and additional fields); "
+            "without a standard, the duration is the number of bits divided by the bit rate"));
     }
 
     /// Functions of a physical layer, see PhysicalLayer.

@@ -109,25 +109,26 @@ void ItuIndoor::check_frequency(Hertz f) const {
     if (!environment) {
         if (floors.value_or(0) > 0) {
             throw std::invalid_argument(
-                "itu_indoor: the key floors needs an environment, which gives the loss of a floor");
+                "itu_indoor: the key \"floors\" needs the key \"environment\", which determines "
+                "the loss of a floor");
         }
         return;
     }
     const auto env = name_of(*environment);
     if (!coefficient && !nearest_row(coefficients, *environment, mhz)) {
         throw std::invalid_argument(fmt::format(
-            "itu_indoor: no coefficient for environment \"{}\" within a factor {} of {} MHz; "
-            "the model has coefficients for {}; give coefficient = a number",
+            "itu_indoor: for environment \"{}\" the model has no coefficient at a frequency within "
+            "a factor {} of {} MHz, only coefficients at {}; give the key \"coefficient\"",
             env, widest_ratio, mhz, frequencies(coefficients, *environment)));
     }
     if (floors.value_or(0) == 0) return;
     const auto* row = nearest_row(floor_losses, *environment, mhz);
     if (!row || *floors > row->most_floors) {
-        throw std::invalid_argument(fmt::format(
-            "itu_indoor: no loss of {} floors for environment \"{}\" at {} MHz; the model has "
-            "floor losses for {}{}",
-            *floors, env, mhz, frequencies(floor_losses, *environment),
-            row ? fmt::format(", for up to {} floors", row->most_floors) : ""));
+        throw std::invalid_argument(
+            fmt::format("itu_indoor: the model has no loss of {} floors for environment \"{}\" at "
+                        "{} MHz; it has floor losses at {}{}",
+                        *floors, env, mhz, frequencies(floor_losses, *environment),
+                        row ? fmt::format(", for up to {} floors", row->most_floors) : ""));
     }
 }
 

@@ -51,14 +51,15 @@ struct ItuIndoor {
 
     static constexpr auto fields() {
         return describe(field("coefficient", &ItuIndoor::coefficient, positive,
-                              "N, distance power loss coefficient; 30 if no environment is given")
+                              "N, distance power loss coefficient; if not given, the coefficient "
+                              "of the environment, or 30 without an environment")
                             .linear(30),
                         field("environment", &ItuIndoor::environment,
-                              "kind of building, which determines the floor loss, and N if no "
-                              "coefficient is given"),
+                              "kind of building; determines the floor loss and, if no coefficient "
+                              "is given, also N"),
                         field("floors", &ItuIndoor::floors, non_negative,
-                              "number of floors between the antennas; counted from the heights of "
-                              "the antennas if not given"));
+                              "number of floors between the antennas; if not given, this number "
+                              "follows from the heights of the antennas"));
     }
 
     /// Shape of the loss: by_heights if floors are counted and have a loss.

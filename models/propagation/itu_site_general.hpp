@@ -62,7 +62,8 @@ struct ItuSiteGeneral {
         return describe(
             field("site", &ItuSiteGeneral::site, "kind of site: office, corridor or industrial"),
             field("los", &ItuSiteGeneral::los,
-                  "line of sight: map (decided by the scene's walls), yes or no"));
+                  "whether there is a line of sight between the antennas: map (the walls of the "
+                  "map decide), yes or no"));
     }
 
     LossShape shape() const {

@@ -36,15 +36,17 @@ struct LogDistance {
     static constexpr auto fields() {
         return describe(
             field("exponent", &LogDistance::exponent, positive,
-                  "n, path loss exponent: 2 is free space, about 4 an obstructed office")
+                  "n, path loss exponent: 2 in free space, about 4 in an obstructed office")
                 .linear(2),
             field("sigma", &LogDistance::sigma, non_negative,
                   "standard deviation of the shadowing of links; 0: the loss is the median")
                 .spread(),
             field("reference_distance", &LogDistance::reference_distance, positive,
-                  "d0; the median loss at shorter distances equals the loss at d0"),
+                  "reference distance d0; at shorter distances, the median loss equals the median "
+                  "loss at d0"),
             field("excess", &LogDistance::excess,
-                  "loss at d0 in addition to the loss of free space; a fit determines this loss")
+                  "loss at d0 in addition to the loss of free space; `rovernet fit` can determine "
+                  "this loss")
                 .constant(far_from_zero));
     }
 

@@ -53,24 +53,25 @@ struct MultiWall {
     static constexpr auto fields() {
         return describe(
             field("exponent", &MultiWall::exponent, positive,
-                  "n, path loss exponent without the walls: 2 is free space")
+                  "n, path loss exponent without the walls: 2 in free space")
                 .linear(2),
             field("excess", &MultiWall::excess,
-                  "loss at 1 m in addition to the loss of free space; a fit determines this loss")
+                  "loss at 1 m in addition to the loss of free space; `rovernet fit` can determine "
+                  "this loss")
                 .constant(far_from_zero),
             field("light_wall", &MultiWall::light_wall, non_negative,
-                  "loss of a wall that is drawn thinner than 10 cm, if its material has no loss of "
-                  "its own")
+                  "loss of a wall that is drawn thinner than 10 cm, if the scenario gives no loss "
+                  "for its material")
                 .linear(0),
             field("heavy_wall", &MultiWall::heavy_wall, non_negative,
-                  "loss of a wall that is drawn 10 cm thick or thicker, if its material has no "
-                  "loss of its own")
+                  "loss of a wall that is drawn 10 cm thick or thicker, if the scenario gives no "
+                  "loss for its material")
                 .linear(0),
             field("floor_loss", &MultiWall::floor_loss, non_negative, "loss of one floor"),
             field("floor_saving", &MultiWall::floor_saving,
                   Range{.low = 0, .high = 1, .text = "from 0 to 1"},
-                  "b in the exponent of the number of floors: the larger b, the less loss further "
-                  "floors add"));
+                  "b in the exponent of the number of floors: the larger b is, the less loss each "
+                  "further floor adds"));
     }
 
     LossShape shape() const { return LossShape::by_walls; }

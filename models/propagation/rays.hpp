@@ -97,21 +97,25 @@ struct Rays {
             field("order", &Rays::order, Range{.low = 0, .high = 3, .text = "from 0 to 3"},
                   "largest number of reflections of a path"),
             field("diffraction", &Rays::diffraction,
-                  "paths around edges of walls: none, knife_edge or utd"),
+                  "how paths around edges of walls are computed: none (no such paths), knife_edge "
+                  "or utd"),
             field("sum", &Rays::sum,
-                  "power: the local mean; coherent: the level at one place, with its fading, and "
-                  "errors of 3 to 5 dB (rms) where walls are not parallel to the cells of the map"),
+                  "power: the powers of the paths are added, which gives the local mean of the "
+                  "level; coherent: the waves are added with their phases, which gives the level "
+                  "at one place, with errors of 3 to 5 dB (rms) where walls are not parallel to "
+                  "the cells of the map"),
             field("wall", &Rays::wall, "material of walls for which the scenario gives no loss"),
             field("wall_loss", &Rays::wall_loss, non_negative,
-                  "loss of a crossing of a wall for which the scenario gives no loss, instead of "
-                  "the loss of the material `wall`")
+                  "loss each time that a path crosses a wall for which the scenario gives no loss; "
+                  "used instead of the loss of the material `wall`")
                 .searched(10),
             field("reflection_loss", &Rays::reflection_loss, non_negative,
-                  "loss of a reflection by a material whose loss is given in dB")
+                  "loss of a reflection by a wall whose material has a loss in dB")
                 .searched(6),
             field("max_paths", &Rays::max_paths,
                   Range{.low = 1, .high = 1000, .text = "from 1 to 1000"},
-                  "largest number of paths that are added; the strongest paths are taken"));
+                  "largest number of paths that are added; if there are more, the strongest paths "
+                  "are used"));
     }
 
     /// Forms of the model from the cheapest to the most detailed one, for `rovernet advise`.

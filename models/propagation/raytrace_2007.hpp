@@ -34,12 +34,13 @@ struct Raytrace2007 {
     double wall_factor = 1;
 
     static constexpr auto fields() {
-        return describe(field("coefficient", &Raytrace2007::coefficient, positive,
-                              "N, distance power loss coefficient")
-                            .linear(30),
-                        field("wall_factor", &Raytrace2007::wall_factor, non_negative,
-                              "loss in decibels per centimetre of wall")
-                            .linear(0));
+        return describe(
+            field("coefficient", &Raytrace2007::coefficient, positive,
+                  "N, distance power loss coefficient")
+                .linear(30),
+            field("wall_factor", &Raytrace2007::wall_factor, non_negative,
+                  "loss in decibels for each centimetre of the signal path that is inside walls")
+                .linear(0));
     }
 
     LossShape shape() const { return LossShape::by_walls; }

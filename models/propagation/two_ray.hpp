@@ -73,12 +73,13 @@ struct TwoRay {
     static constexpr auto fields() {
         return describe(
             field("lowest_antenna", &TwoRay::lowest_antenna, positive,
-                  "smallest antenna height above z = 0; lower antennas are treated as if they were "
-                  "at this height"),
+                  "smallest antenna height above the ground (z = 0) in the equations: the height "
+                  "of a lower antenna is replaced by this value"),
             field("form", &TwoRay::form,
-                  "ns2: free space, then the 4th power of the distance; exact: the sum of the two "
-                  "rays"),
-            field("polarization", &TwoRay::polarization, "for form exact: vertical or horizontal"),
+                  "ns2: as in free space up to the crossover distance, then proportional to the "
+                  "4th power of the distance; exact: the sum of the two rays"),
+            field("polarization", &TwoRay::polarization,
+                  "for form exact: polarization of the antennas, vertical or horizontal"),
             field("ground_permittivity", &TwoRay::ground_permittivity,
                   Range{.low = 1, .text = ">= 1"},
                   "for form exact: relative permittivity of the ground, from 3 (very dry) to 30 "

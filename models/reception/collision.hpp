@@ -61,10 +61,11 @@ struct Collision {
 
     static constexpr auto fields() {
         return describe(field("capture_ratio", &Collision::capture_ratio, positive,
-                              "a frame survives a collision if its level is higher than the other "
-                              "level by this ratio"),
+                              "a frame survives a collision (is received) if its level is higher "
+                              "than the level of the other frame by this ratio"),
                         field("capture", &Collision::capture,
-                              "which of two frames may survive: the first, or also the later one"));
+                              "which of two frames may survive a collision. first: only the frame "
+                              "that began first; later: either frame"));
     }
 
     /// Whether `frame` survives the overlap with `other` at a node. The result is valid if the

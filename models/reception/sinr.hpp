@@ -46,10 +46,11 @@ struct Sinr {
 
     static constexpr auto fields() {
         return describe(field("interference_cut", &Sinr::interference_cut, non_negative,
-                              "frames that are weaker than the sensitivity by more than this ratio "
-                              "do not interfere"),
+                              "a frame whose level is below the sensitivity by more than this "
+                              "ratio does not count as interference"),
                         field("preamble_threshold", &Sinr::preamble_threshold,
-                              "smallest SINR at which a receiver detects a preamble"));
+                              "smallest ratio of signal to interference and noise (SINR) at which "
+                              "a receiver detects a preamble"));
     }
 
     /// Creates the judge for one Network.

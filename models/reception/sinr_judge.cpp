@@ -21,7 +21,9 @@ class SinrJudge final : public Judge {
     void check(const Phy& phy, BitRate rate) const override {
         if (phy.coding(rate)) return;
         throw std::invalid_argument(
-            fmt::format("sinr knows the rates of 802.11b, a and g, not {} bit/s", rate.value));
+            fmt::format("found the rate {} bit/s; reception model \"sinr\" knows only the rates of "
+                        "802.11a, b and g",
+                        rate.value));
     }
     void begins(const SentFrame& frame) override;
     void judge(Interference& air, const Emission& judged, Frames others,

@@ -60,13 +60,14 @@ struct Fading {
     /// Parameters, which are the keys of [fading] in scenario files.
     static constexpr auto fields() {
         return describe(
-            field("model", &Fading::model, "none, rayleigh, rician or nakagami"),
+            field("model", &Fading::model,
+                  "distribution of the fading: none, rayleigh, rician or nakagami"),
             field("coherence", &Fading::coherence,
-                  "frame: each frame has its own fade at each receiver; place: the fade depends on "
-                  "the places of both robots"),
+                  "frame: the fading is drawn for each frame at each receiver; place: the fading "
+                  "depends on the places of both robots"),
             field("k_factor", &Fading::k_factor,
                   Range{.low = -100, .high = 30, .text = "from -100 dB to 30 dB"},
-                  "for rician: power of the line of sight relative to all other waves"),
+                  "for rician: power of the direct wave relative to the power of all other waves"),
             field("m", &Fading::m, Range{.low = 0.5, .high = 100, .text = "from 0.5 to 100"},
                   "for nakagami: shape parameter m; 1 is rayleigh. With coherence = \"place\", the "
                   "rate of level crossings agrees with theory only if 2 * m is a whole number"));

@@ -49,13 +49,13 @@ struct Shadowing {
     static constexpr auto fields() {
         return describe(
             field("model", &Shadowing::model,
-                  "none; link: one random value for each pair of robots; field: a random value "
-                  "that depends on the places of both robots"),
+                  "none: no shadowing; link: one random value for each pair of robots; field: a "
+                  "random value that depends on the places of both robots"),
             field("sigma", &Shadowing::sigma, non_negative, "standard deviation of the shadowing"),
             field("decorrelation_distance", &Shadowing::decorrelation_distance,
                   Range{.low = 1e-3, .text = ">= 1 mm"},
-                  "for field: distance after which the correlation falls to 1 / e if one end of "
-                  "the link moves"));
+                  "for field: if one end of a link moves by this distance, the correlation with "
+                  "its previous shadowing falls to 1 / e"));
     }
 };
 

@@ -80,8 +80,8 @@ std::string DsrRouter::notice() const {
     const std::size_t pairs = pairs_too_far();
     if (pairs == 0) return {};
     return fmt::format(
-        "dsr: {0} pair{1} of robots lost messages after a route request had reached {2} robots "
-        "without finding the destination; a route of dsr has at most {2} robots",
+        "dsr: messages between {0} pair{1} of robots were lost, because a route request passed {2} "
+        "robots without finding the destination; a route of dsr has at most {2} robots",
         pairs, pairs == 1 ? "" : "s", Path::longest);
 }
 

@@ -55,7 +55,7 @@ Value convert(const toml::node& node, const std::string& source) {
         out = truth->get();
     } else {
         throw InputError(location(source, node.source()),
-                         "found a date or a time of day, which is the value of no key; expected a "
+                         "found a date or a time of day, but no key has such a value; expected a "
                          "number, true, false, a list, or a text in quotes, such as \"10 s\"");
     }
     out.where = location(source, node.source());
@@ -140,7 +140,8 @@ bool is_list_of_tables(const Value& value) {
     const auto dotted = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
         return name.starts_with(step + ".");
     });
-    if (dotted != names.end()) near = fmt::format("write a name with dots as \"{}\"", *dotted);
+    if (dotted != names.end())
+        near = fmt::format("write a name that contains dots in quotes: \"{}\"", *dotted);
     throw InputError(option, fmt::format("no item of the list is named \"{}\"{}{}", step,
                                          near.empty() ? "" : "; ", near));
 }
@@ -165,9 +166,9 @@ Value& item_at(Array& list, const std::string& step, bool is_name, const Locatio
         Value& item = list[index];
         if (named == list.end() || &*named == &item) return item;
         throw InputError(
-            option, fmt::format("{0} is the number of an item, and the name of a different one; "
-                                "write the name as \"{0}\", or give the name of the item that has "
-                                "this number",
+            option, fmt::format("{0} is the number of one item of the list, and also the name of a "
+                                "different item; to mean the name, write \"{0}\" in quotes; to "
+                                "mean the number, give the name of the item that has this number",
                                 step));
     }
     if (named != list.end()) return *named;
@@ -182,8 +183,8 @@ Value& item_at(Array& list, const std::string& step, bool is_name, const Locatio
         if (const std::string* name = name_of(item)) names.push_back(*name);
     }
     if (names.empty()) {
-        throw InputError(option, fmt::format("\"{}\" is inside a list; expected the number of an "
-                                             "item before it, from 0 to {}",
+        throw InputError(option, fmt::format("\"{}\" is a key of an item of a list; expected the "
+                                             "number of the item before this key, from 0 to {}",
                                              step, list.size() - 1));
     }
     fail_unnamed(step, names, option);
@@ -248,7 +249,7 @@ Value read_toml(const std::string& path) {
     if (kind == InputKind::nothing) throw InputError({path}, "no such file; check the path");
     if (kind == InputKind::folder) {
         throw InputError({path},
-                         "this is a directory; expected a scenario file (.toml) in this directory");
+                         "this is a directory; expected the path of a scenario file (.toml)");
     }
     const std::string text = InputFile(path).read(largest_file + 1);
     if (text.size() > largest_file) fail_long(path);
@@ -316,8 +317,8 @@ void set_value(Value& document, const std::string& path, Value value, const Loca
         const std::string step(take_key(steps));
         if (step.empty()) {
             throw InputError(where,
-                             "expected keys joined by single dots, such as radio.power; a key that "
-                             "contains dots is in quotes");
+                             "expected keys joined by single dots, such as radio.power; write a "
+                             "key that contains dots in quotes");
         }
         at = &descend(*at, step, is_name, where);
     }

@@ -84,9 +84,9 @@ std::string_view advice_for(std::string_view description, const Place& place) {
         {"expected comma or closing ']'",
          "a list is [\"2 m\", \"3 m\"]: texts and quantities in quotes, commas between, ] at the "
          "end"},
-        {"parsing boolean", "true and false have small letters"},
-        {"dangling comma", "there must be no comma before }"},
-        {"inline table", "what begins with { ends with } on the same line"},
+        {"parsing boolean", "write true and false in small letters"},
+        {"dangling comma", "remove the comma before }"},
+        {"inline table", "a table in braces { } must end on the line on which it begins"},
         {"invalid utf-8", "save the file as UTF-8"},
     };
     if (contains(description, "expected a comment or whitespace")) return behind_value(place);

@@ -78,15 +78,15 @@ int column_of(std::string_view line, std::size_t byte) {
 std::string header_message(const KeyPath& name, std::string_view what, bool inside) {
     if (what.empty()) {
         return fmt::format(
-            "[{}]: a table before the last dot of this name is written in braces, to which no keys "
-            "can be added; write all keys of that table inside the braces, or all of them under a "
-            "header [NAME], without braces",
+            "[{}]: this name begins with a table that is written in braces, so no keys can be "
+            "added to that table; write all keys of that table inside the braces, or all of them "
+            "under a header [NAME], without braces",
             name.text);
     }
     if (inside) {
         return fmt::format(
-            "[{}]: a key before the last dot of this name already has a value, to which "
-            "no keys can be added; expected all keys of a table in one place",
+            "[{}]: this name begins with a key that already has a value, so no keys can be added "
+            "to that key; expected all keys of a table in one place",
             name.text);
     }
     if (name.text == "robot" || name.text == "traffic") {

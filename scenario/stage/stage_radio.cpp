@@ -128,9 +128,10 @@ void RadioReader::range() {
     const auto* model = wifi_.find("model");
     if (!model || model->text() != "simple") return;
     out_.propagation.set("range", text(0, "m", model->where));
-    out_.notices.push_back(world_notice(model->where,
-                                        "a wifi of model \"simple\" without a range has the range "
-                                        "0 m, as in Stage; to connect robots, give it a range"));
+    out_.notices.push_back(
+        world_notice(model->where,
+                     "a wifi of model \"simple\" without a range has the range 0 m, as in Stage; "
+                     "to connect robots, give this wifi a range"));
 }
 
 void RadioReader::seed() {

@@ -181,14 +181,15 @@ void ScannerReader::sensors(const WorldEntity& ranger,
         farthest = std::max(farthest, metres);
     }
     if (differ) {
-        note(ranger.where, fmt::format("the sensors of this ranger have different ranges; all "
-                                       "measure up to the largest, {}",
-                                       *range.string()));
+        note(ranger.where,
+             fmt::format("the sensors of this ranger have different ranges; in rovernet, all these "
+                         "sensors measure up to the largest range, {}",
+                         *range.string()));
     }
     if (several) {
         note(ranger.where,
-             "a ranger with several sensors gets one beam for each sensor: the middle sample of "
-             "that sensor");
+             "a ranger with several sensors gets only one beam for each sensor: the middle sample "
+             "of this sensor");
     }
     table.set("range", std::move(range));
     end_ring(std::move(table), ranger);
@@ -228,8 +229,8 @@ void ScannerReader::transducers(Table table, const WorldEntity& ranger,
             angles_.clear();
             places_.clear();
             return note(ranger.where,
-                        fmt::format("a ranger is left out, because it has {} sonars and no "
-                                    "spose[{}], which is the pose of one of them",
+                        fmt::format("this ranger is left out: it has {} sonars, but no spose[{}], "
+                                    "which is the pose of one of these sonars",
                                     count, i));
         }
         add_beam(world_pose(*found->second, units_), found->second->where);

@@ -176,9 +176,10 @@ void Gatherer::check_label(const Table& radio, std::string_view key, const std::
     const auto [other, is_new] =
         labels_.try_emplace(fmt::format("{} \"{}\"", key, *label->string()), name, label->where);
     if (is_new) return;
-    note(world_notice(label->where,
-                      fmt::format("{} of {} is also used by {}, at {}", other->first, name,
-                                  other->second.first, other->second.second.text())));
+    note(world_notice(
+        label->where,
+        fmt::format("{} of robot \"{}\" is also used by robot \"{}\" ({})", other->first, name,
+                    other->second.first, other->second.second.text())));
 }
 
 void Gatherer::scenario(Table& document) {
@@ -199,14 +200,14 @@ void Gatherer::summaries() {
     summary(nameless_, "names are generated for robots without a name");
     summary(namesakes_, "new names are generated for robots whose name is already in use");
     summary(modelless_,
-            "the wifi of these robots has no model and uses the model of [propagation], by default "
-            "friis");
+            "the wifi of these robots has no model, so the model of [propagation] is used "
+            "(default: friis)");
     summary(flying_,
-            "the height z of these robots is ignored, as in the wifi model of the 2007 thesis");
+            "the height z of these robots is ignored, as in the original wifi model for Stage");
     summary(doubled_, "only the first wifi of these robots is used");
     summary(plain_,
-            "robots without a wifi have the radio of [radio] and the model of [propagation], friis "
-            "by default");
+            "robots without a wifi get the radio of [radio] and the model of [propagation] "
+            "(default: friis)");
     summary(lone_, "a wifi that belongs to no model of type position is ignored");
     std::vector<std::string> kinds;
     for (const auto& [type, number] : ignored_) {

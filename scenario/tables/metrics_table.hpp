@@ -33,16 +33,18 @@ struct MetricsTable {
     static constexpr auto fields() {
         return describe(
             field("reach", &MetricsTable::reach,
-                  "compute the metric reach; if not given, reach is computed as long as this takes "
-                  "no longer than the simulation of the frames"),
+                  "true: compute the metric reach; if not given, reach is computed unless this "
+                  "takes longer than the simulation of the frames"),
             field("flows", &MetricsTable::flows,
-                  "compute delivery, throughput and latency of each flow"),
+                  "true: compute delivery, throughput and latency of each flow"),
             field("robots", &MetricsTable::robots,
-                  "compute delivery, throughput and latency of the messages for each robot"),
+                  "true: compute delivery, throughput and latency of the messages to each robot"),
             field("topology", &MetricsTable::topology,
-                  "compute degree, components, mean speed and lifetime of links"),
+                  "true: compute the number of neighbours, the connected components, the mean "
+                  "speed of robots and the lifetime of links"),
             field("path_stretch", &MetricsTable::path_stretch,
-                  "compute the hops of routed unicasts, divided by the hops of the shortest path"));
+                  "true: compute the hops of routed unicasts, divided by the hops of the shortest "
+                  "path"));
     }
 };
 

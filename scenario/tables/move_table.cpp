@@ -76,7 +76,7 @@ void settle_start(Model& model, TableReader& table, bool placed) {
             throw InputError(
                 given->where,
                 fmt::format("start: found \"{}\" for a robot with a given place; expected start = "
-                            "\"here\", or a robot without at and place",
+                            "\"here\", or a robot without the keys \"at\" and \"place\"",
                             name_of(model.start)));
         }
         if (given && !placed && model.start == Start::here) {

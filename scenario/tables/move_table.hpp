@@ -61,9 +61,11 @@ struct WaypointsTable {
             field("path", &WaypointsTable::path, "places to go to, one after the other"),
             field("speed", &WaypointsTable::speed, positive, "speed between the places"),
             field("times", &WaypointsTable::times,
-                  "times at which the robot is at each place of the path, instead of a speed"),
+                  "instead of `speed`: one time for each place of the path, at which the robot is "
+                  "there"),
             field("order", &WaypointsTable::order,
-                  "given: as listed; shuffled: drawn anew in each replication"));
+                  "order of the places. given: the order of `path`; shuffled: a random order, "
+                  "drawn anew in each replication"));
     }
 };
 /// Names of WaypointsTable::Order in scenario files.
@@ -86,10 +88,11 @@ struct GoalTable {
     MetersPerSecond speed{1};
 
     static constexpr auto fields() {
-        return describe(field("to", &GoalTable::to, "place to go to, around the walls"),
-                        field("among", &GoalTable::among,
-                              "instead of `to`: places, one of which is drawn in each replication"),
-                        field("speed", &GoalTable::speed, positive, "speed on the path"));
+        return describe(
+            field("to", &GoalTable::to, "place to which the robot goes, around the walls"),
+            field("among", &GoalTable::among,
+                  "instead of `to`: places, one of which is drawn as the goal in each replication"),
+            field("speed", &GoalTable::speed, positive, "speed on the way to the goal"));
     }
 };
 

@@ -42,7 +42,8 @@ struct MovementTable {
     static constexpr auto fields() {
         return describe(
             field("file", &MovementTable::file,
-                  "movements of ns-2 (setdest), BonnMotion or SUMO (FCD), for the robots it names"),
+                  "movement file of ns-2 (setdest), BonnMotion or SUMO (FCD); it moves the robots "
+                  "that it names"),
             field("syntax", &MovementTable::syntax,
                   "strict: a line that cannot be read is an error; tolerant: such lines are "
                   "ignored"));

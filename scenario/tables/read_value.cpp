@@ -109,7 +109,7 @@ void read_value(const Value& value, std::string_view key, bool& out) {
 void read_value(const Value& value, std::string_view key, int& out) {
     const auto number = as<std::int64_t>(value, key, "a whole number without a unit");
     if (number < std::numeric_limits<int>::min() || number > std::numeric_limits<int>::max()) {
-        wrong_type(value, key, "a whole number that fits 32 bits");
+        wrong_type(value, key, "a whole number from -2147483648 to 2147483647");
     }
     out = static_cast<int>(number);
 }
@@ -127,7 +127,7 @@ void read_value(const Value& value, std::string_view key, double& out) {
         out = as<double>(value, key, "a number without a unit");
     }
     constexpr double largest = 1e9;  // factors and exponents: their products stay finite
-    if (!(std::abs(out) <= largest)) wrong_type(value, key, "a number of at most 1e9");
+    if (!(std::abs(out) <= largest)) wrong_type(value, key, "a number from -1e9 to 1e9");
 }
 
 void read_value(const Value& value, std::string_view key, std::string& out) {
@@ -159,7 +159,8 @@ void read_value(const Value& value, std::string_view key, Bytes& out) {
 void read_value(const Value& value, std::string_view key, Vec3& out) {
     const Array* list = value.array();
     if (!list || list->size() < 2 || list->size() > 3) {
-        wrong_type(value, key, "a position such as [\"2 m\", \"3 m\"] or with a third, z");
+        wrong_type(value, key,
+                   "a position of two or three lengths (x, y, z), such as [\"2 m\", \"3 m\"]");
     }
     double* const axes[] = {&out.x, &out.y, &out.z};
     out.z = 0;
@@ -171,7 +172,7 @@ void read_value(const Value& value, std::string_view key, Vec3& out) {
 void read_value(const Value& value, std::string_view key, PatternPoint& out) {
     const Array* pair = value.array();
     if (!pair || pair->size() != 2) {
-        wrong_type(value, key, "a list of points, [degrees, dB] each, such as [180, -20]");
+        wrong_type(value, key, "a list of points [degrees, dB], such as [[0, 0], [180, -20]]");
     }
     const auto number = [&](const Value& each, Dimension dimension, double unit) {
         double plain = 0;
@@ -189,11 +190,9 @@ void check_printable(const Value& value, std::string_view key, std::string_view 
     };
     const auto found = std::find_if(text.begin(), text.end(), control);
     if (found == text.end()) return;
-    throw InputError(
-        value.where,
-        fmt::format("{}: found the control character 0x{:02x} in the text; expected a text "
-                    "that can be printed",
-                    key, static_cast<unsigned char>(*found)));
+    throw InputError(value.where, fmt::format("{}: found the control character 0x{:02x} in the "
+                                              "text; expected a text without control characters",
+                                              key, static_cast<unsigned char>(*found)));
 }
 
 std::size_t read_choice(const Value& value, std::string_view key,

@@ -91,9 +91,9 @@ void throw_outside(const Value& value, std::string_view key, const Range& range)
 
 void throw_not_given(const Location& where, std::string_view what, std::string_view model,
                      std::string_view key, std::string_view meaning) {
-    throw InputError(where, fmt::format("{} \"{}\" needs the key \"{}\", {}; for example {} = "
-                                        "\"50 m\"",
-                                        what, model, key, meaning, key));
+    throw InputError(
+        where, fmt::format("{} \"{}\" needs the key \"{}\" ({}); for example {} = \"50 m\"", what,
+                           model, key, meaning, key));
 }
 
 void append_differing(Table& table, const Table& given, const Table& defaults) {

@@ -33,7 +33,7 @@ void check_fan(const RangeFinder& fan, TableReader& table) {
     throw InputError(
         to ? to->where : table.where(),
         fmt::format(
-            "scan: expected a `to` that is 0 to 360 degrees after `from`; found {:.6g} degrees",
+            "scan: found a `to` that is {:.6g} degrees after `from`; expected 0 to 360 degrees",
             360 * spread.value / whole_turn));
 }
 

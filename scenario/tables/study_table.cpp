@@ -74,8 +74,8 @@ Array expand(const Value& range, std::string_view path) {
     const Amount step = read_amount(range, path, "step");
     if (from.unit != to.unit || from.unit != step.unit) {
         throw InputError(range.where,
-                         fmt::format("vary.\"{}\": from, to and step have different units; "
-                                     "expected the same in all three",
+                         fmt::format("vary.\"{}\": \"from\", \"to\" and \"step\" have different "
+                                     "units; expected the same unit in all three",
                                      path));
     }
     constexpr double slack = 1e-9;  // of a step: where rounding has moved the end
@@ -88,9 +88,10 @@ Array expand(const Value& range, std::string_view path) {
                         path, from.number, to.number));
     }
     if (steps >= most_values) {
-        throw InputError(range.where, fmt::format("vary.\"{}\": more than {} values; expected a "
-                                                  "larger step",
-                                                  path, most_values));
+        throw InputError(
+            range.where,
+            fmt::format("vary.\"{}\": found more than {} values; expected a larger step", path,
+                        most_values));
     }
     Array values;
     for (double i = 0; i <= steps; ++i) {
@@ -138,8 +139,9 @@ std::vector<Vary> read_vary(const Value& value) {
     flatten(TableReader(value, "[study] vary").table(), "", is_range,
             [&](const std::string& path, const Entry& entry) {
                 if (!seen.insert(path).second) {
-                    throw InputError(entry.key_where,
-                                     fmt::format("vary.\"{}\" is given twice", path));
+                    throw InputError(
+                        entry.key_where,
+                        fmt::format("vary.\"{}\" is given twice; expected each key once", path));
                 }
                 list.push_back({path, entry.key_where, values_of(entry.value, path)});
             });

@@ -85,17 +85,21 @@ struct StudyTable {
         constexpr Range counts{.low = 1, .high = 1'000'000, .text = "from 1 to 1000000"};
         constexpr Range share{.low = 0.5, .high = 0.9999, .text = "from 0.5 to 0.9999"};
         using S = StudyTable;
-        return describe(
-            field("replications", &S::replications, counts,
-                  "number of independent repetitions; with `precision`, the smallest number"),
-            field("confidence", &S::confidence, share, "confidence level of the intervals"),
-            field("interval", &S::interval, "method of the intervals of means: t, betting or star"),
-            field("precision", &S::precision, positive,
-                  "replications are added until the interval of the first metric has this "
-                  "half-width"),
-            field("max_replications", &S::max_replications, counts,
-                  "with `precision`: the largest number of replications"),
-            field("metrics", &S::metrics, "metrics that results and pictures show first"));
+        return describe(field("replications", &S::replications, counts,
+                              "number of replications (independent repetitions) of each "
+                              "combination of values; with `precision`, the smallest number"),
+                        field("confidence", &S::confidence, share,
+                              "confidence level of the confidence intervals"),
+                        field("interval", &S::interval,
+                              "method for the confidence intervals of means: t (Student's t), "
+                              "betting or star (STaR-Bets)"),
+                        field("precision", &S::precision, positive,
+                              "replications are added until half the width of the confidence "
+                              "interval of the first metric is at most this number"),
+                        field("max_replications", &S::max_replications, counts,
+                              "with `precision`: the largest number of replications"),
+                        field("metrics", &S::metrics,
+                              "metrics that tables of results and pictures show first"));
     }
 };
 

@@ -40,13 +40,15 @@ struct TraceTable {
     bool links = false;
 
     static constexpr auto fields() {
-        return describe(field("ns2", &TraceTable::ns2,
-                              "write a trace in the wireless format of ns-2.35, old or new"),
-                        field("mac", &TraceTable::mac,
-                              "also write the lines of the MAC layer to the ns-2 trace"),
-                        field("record", &TraceTable::record,
-                              "write a recorded trace with all records, for replay"),
-                        field("links", &TraceTable::links, "also record the changes of links"));
+        return describe(
+            field("ns2", &TraceTable::ns2,
+                  "write a trace in the wireless format of ns-2.35, old or new"),
+            field("mac", &TraceTable::mac,
+                  "true: the ns-2 trace also has the lines of the MAC layer"),
+            field("record", &TraceTable::record,
+                  "true: write a recorded trace with all events of the run, for replay"),
+            field("links", &TraceTable::links,
+                  "true: the recorded trace also has the changes of links"));
     }
 };
 

@@ -55,10 +55,11 @@ TrafficTable read_traffic(const Value& value) {
     read_start(table.take("start"), traffic, table);
     const auto given = [&](std::string_view key) { return table.table().find(key); };
     if (given("name") && !is_flow_name(traffic.name)) {
-        throw InputError(given("name")->where,
-                         fmt::format("name: found \"{}\"; expected a name without blanks and "
-                                     "commas, because it is a part of the names of metrics",
-                                     traffic.name));
+        throw InputError(
+            given("name")->where,
+            fmt::format("name: found \"{}\"; expected a name without blanks and commas, because "
+                        "the names of metrics contain the name of the flow",
+                        traffic.name));
     }
     if (!given("from")) table.missing("from", "from = \"A\"");
     traffic.from_where = given("from")->where;
@@ -74,7 +75,7 @@ TrafficTable read_traffic(const Value& value) {
     if (!given("payload") && !traffic.size) {
         table.missing("payload", "payload = \"F\", or size = \"64 B\"");
     }
-    if (to_one && !traffic.to) table.missing("to", "to = \"B\", the receiver of the unicast");
+    if (to_one && !traffic.to) table.missing("to", "to = \"B\" (the receiver of the unicast)");
     check_receiver(traffic);
     check_stop(traffic, table);
     if (traffic.saturate && traffic.every) {
@@ -83,7 +84,8 @@ TrafficTable read_traffic(const Value& value) {
             "every: saturated traffic always has a message to send; expected no key \"every\"");
     }
     if (!traffic.every && (traffic.stop || traffic.count)) {
-        table.missing("every", "every = \"3 s\", which the keys \"stop\" and \"count\" need");
+        table.missing("every",
+                      "every = \"3 s\"; the keys \"stop\" and \"count\" need the key \"every\"");
     }
     return traffic;
 }

@@ -77,21 +77,25 @@ struct TrafficTable {
             .low = 1, .high = 1, .text = "of 1: over one hop, without the routing protocol"};
         constexpr Range counts{.low = 1, .text = ">= 1"};
         using T = TrafficTable;
-        return describe(field("kind", &T::kind, "broadcast: to everyone; unicast: to one robot"),
-                        field("name", &T::name,
-                              "name of the flow, which is a part of the names of its metrics"),
-                        field("from", &T::from, "sending robot"),
-                        field("to", &T::to, "receiver of a unicast"),
-                        field("hops", &T::hops, one,
-                              "1: the messages go one hop, without the routing protocol"),
-                        field("saturate", &T::saturate,
-                              "send the next message as soon as the previous one is sent"),
-                        field("payload", &T::payload, "text of the message"),
-                        field("size", &T::size, sizes_of_messages,
-                              "size of the message, if it differs from the length of its text"),
-                        field("every", &T::every, positive, "interval between messages"),
-                        field("stop", &T::stop, non_negative, "end of the flow"),
-                        field("count", &T::count, counts, "number of messages"));
+        return describe(
+            field("kind", &T::kind,
+                  "broadcast: the messages are for every robot; unicast: they are for the robot "
+                  "`to`"),
+            field("name", &T::name, "name of the flow, which the names of its metrics contain"),
+            field("from", &T::from, "robot that sends the messages"),
+            field("to", &T::to, "robot that should receive the messages"),
+            field("hops", &T::hops, one,
+                  "1: the messages go over one hop, without the routing protocol"),
+            field(
+                "saturate", &T::saturate,
+                "true: the sender sends the next message as soon as the previous message is sent"),
+            field("payload", &T::payload, "text of the message"),
+            field("size", &T::size, sizes_of_messages,
+                  "size of the message on air; if not given, the length of `payload`"),
+            field("every", &T::every, positive,
+                  "time from one message to the next; if not given, one message is sent"),
+            field("stop", &T::stop, non_negative, "no message is sent at or after this time"),
+            field("count", &T::count, counts, "number of messages"));
     }
 };
 

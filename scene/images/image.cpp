@@ -167,7 +167,7 @@ Image read_image(const std::string& path) {
     if (start.starts_with("BM")) return read_by_library(path, file.get(), "BMP");
     if (start.starts_with("GIF8")) return read_by_library(path, file.get(), "GIF");
     image_error(path,
-                fmt::format("{}; expected {}; convert it to PNG",
+                fmt::format("{}; expected {}; convert the file to PNG",
                             count == 0 ? "an empty file" : "not a picture in a supported format",
                             expected_kinds));
 }

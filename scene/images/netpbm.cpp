@@ -38,7 +38,7 @@ class NetpbmReader {
     [[noreturn]] void fail(const std::string& message) const { image_error(path_, message); }
     [[noreturn]] void truncated() const {
         fail(fmt::format("truncated {}; expected one {} per pixel; save the picture again", name_,
-                         name_ == "PPM" ? "red, green and blue" : "sample"));
+                         name_ == "PPM" ? "red, green and blue sample" : "sample"));
     }
 
     /// Next character; a comment is read as the end of its line.

@@ -155,8 +155,8 @@ void Builder::add_model(const WorldEntity& model, const WorldPose& pose) {
     if (boundary && !is_box) add_boundary(body);
     if (boundary && is_box) {
         note(model.where,
-             "a model with a boundary and no bitmap is a solid box, as in Stage; for "
-             "the boundary alone write noblocks 1");
+             "a model with a boundary and without a bitmap is a solid box, as in Stage; for only "
+             "the boundary, write noblocks 1");
     }
 }
 

@@ -88,13 +88,14 @@ void Loader::enter(const std::string& path, const Location& where) {
     std::string canonical = std::filesystem::weakly_canonical(path, ignored).string();
     if (canonical.empty()) canonical = path;
     if (std::find(open_.begin(), open_.end(), canonical) != open_.end()) {
-        throw InputError(where, fmt::format("{} includes itself; expected includes without a "
-                                            "circle; remove one of the includes",
-                                            path));
+        throw InputError(where,
+                         fmt::format("{} includes itself, directly or through other files; "
+                                     "expected no circle of includes; remove one of the includes",
+                                     path));
     }
     if (open_.size() > deepest_include) {
-        throw InputError(where, fmt::format("includes are more than {} deep; expected fewer; "
-                                            "include the file directly in the top file",
+        throw InputError(where, fmt::format("includes are nested more than {} deep; expected fewer "
+                                            "levels; include this file directly in the world file",
                                             deepest_include));
     }
     if (out_.files.size() >= most_files) {

@@ -77,8 +77,8 @@ const WorldToken& Parser::take(std::size_t& at) {
     if (taken.kind != Kind::file_end) ++at;
     constexpr std::size_t most = 2 * most_world_tokens;  // each is also looked at in its macro
     if (++taken_ > most) {
-        fail(taken, fmt::format("macros make more than {} words, values and lines; expected fewer; "
-                                "do macros use each other many times?",
+        fail(taken, fmt::format("the expanded macros have more than {} words, values and lines; "
+                                "expected fewer; do macros use each other many times?",
                                 most_world_tokens));
     }
     return taken;

@@ -232,8 +232,8 @@ void refuse_absurd(std::vector<CalibratedModel>& models, Dbm given_power) {
                     most_db, given_power.value);
             } else if (p.is_constant && p.determined && std::abs(p.value) > most_db) {
                 model.refusal = fmt::format(
-                    "the fitted {} of {} dB is more than {} dB away from 0 dB; is the power in "
-                    "[radio] right?",
+                    "the fitted {} of {} dB is more than {} dB away from 0 dB; check the power in "
+                    "[radio]",
                     p.key, told_apart(p.value, p.value > 0 ? most_db : -most_db, 1), most_db);
             }
         }

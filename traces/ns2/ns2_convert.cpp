@@ -58,8 +58,7 @@ class PlacesByMoves {
 };
 
 constexpr std::string_view no_place =
-    "packets of robots that have no earlier M line, so that the positions of these robots are "
-    "unknown";
+    "packets of robots without an earlier M line: the positions of these robots are unknown";
 
 /// Converts and adds the event. @return reason if that is not possible
 std::string_view convert_event(const Ns2Line& event, std::string_view text, TraceForm form,

@@ -133,7 +133,7 @@ void Ns2File::expect_trace() const {
     if (c.refused == 0 || c.events > 0 || skipped > c.refused) return;
     const Ns2RefusedLine& first = c.refused_lines.front();
     throw InputError(place(first.line, first.column),
-                     first.why + "; no line of this file is one of an ns-2 trace");
+                     first.why + "; no line of this file is a line of an ns-2 trace");
 }
 
 }  // namespace rovernet

@@ -85,8 +85,8 @@ constexpr std::string_view no_network_part =
     "ARP, RTS, CTS, ACK and other frames of the MAC layer: only one of the two formats contains "
     "their type and size";
 constexpr std::string_view other_payload =
-    "packets of routing agents and of other types: only the contents of packets of TCP and of "
-    "constant bit rate can be converted";
+    "packets of routing agents and of other types: only packets of TCP and of constant bit rate "
+    "(CBR) have contents that can be converted";
 
 /// Ethertype of a packet; that of IP if S-MAC gives none, because a reader recognises by it that a
 /// MAC has sent the packet.

@@ -55,7 +55,7 @@ McapReader::McapReader(const std::string& path) : file_(mapped(path)), at_(mcap_
                          kind + "; expected a recorded trace (.mcap), not compressed");
     throw InputError({.source = path},
                      "this file is not a recorded trace; expected a file in the format MCAP, as "
-                     "rovernet run --record writes it");
+                     "\"rovernet run --record\" writes it");
 }
 
 McapReader::~McapReader() { unmap(); }

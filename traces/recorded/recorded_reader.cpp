@@ -93,8 +93,8 @@ RecordedReader::RecordedReader(const std::string& path) : path_(path), file_(pat
     }
     if (!has_metadata)
         fail(
-            "this MCAP file was not recorded by rovernet; expected a trace of rovernet run "
-            "--record");
+            "this MCAP file was not recorded by rovernet; expected a trace of \"rovernet run "
+            "--record\"");
     for (std::size_t i = 0; i < run_.robots.size(); ++i) legs_.add({});
 }
 
@@ -123,7 +123,7 @@ void RecordedReader::read_metadata(std::string_view content) {
         }
     }
     if (!before.empty() && before != run_.scenario) {
-        fail("the file contains two different scenarios; expected one");
+        fail("this trace contains two different scenarios; expected one scenario");
     }
 }
 
@@ -141,7 +141,10 @@ void RecordedReader::read_attachment(std::string_view content) {
         return;
     }
     const auto differ = [&](bool is_so) {
-        if (is_so) fail(fmt::format("the file contains two different files {}", file.name));
+        if (is_so)
+            fail(fmt::format(
+                "this trace contains two different files with the name {}; expected one",
+                file.name));
     };
     if (file.name == names_file) {
         std::vector<std::string> names = lines_of(file.content);
@@ -207,7 +210,8 @@ void RecordedReader::tell_missing_chunks(std::string_view statistics) {
     from.take(8 + 2 + 4 + 4 + 4);  // messages, schemas, channels, attachments, metadata
     const auto chunks = from.fixed<std::uint32_t>();
     if (!from.failed() && chunks > chunks_ && damage().empty()) {
-        file_.tell(fmt::format("{} of {} chunks are missing", chunks - chunks_, chunks));
+        file_.tell(fmt::format("{} of {} chunks (parts of the trace) are missing", chunks - chunks_,
+                               chunks));
     }
 }
 
