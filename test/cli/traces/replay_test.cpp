@@ -144,6 +144,14 @@ TEST_CASE(
     CHECK(alone.err.find("there is no") != std::string::npos);
 }
 
+TEST_CASE("replay --verify of a folder without a log of a live run asks for a trace") {
+    const TemporaryFolder folder;
+    const Ended ended = command(folder, {"replay", run_two(folder, "trace.record=true"), "--verify"});
+    CHECK(ended.exit == 3);
+    CHECK(ended.err.find("expected a trace of this run, such as ") != std::string::npos);
+    CHECK(ended.err.find("out/trace.mcap") != std::string::npos);
+}
+
 TEST_CASE("replay --verify of an ns-2 trace finds additional and missing lines at the end") {
     const TemporaryFolder folder;
     const std::string trace = run_two(folder, "trace.ns2=old") + "/trace.tr";
